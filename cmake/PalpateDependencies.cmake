@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+# Every third-party package, found once. All of them are packages of Debian 12.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
+find_package(CycloneDDS 0.10 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tinyxml2 REQUIRED CONFIG)
+
+# One vendor, so that timings and rounding do not depend on what else a machine has.
+set(BLA_VENDOR OpenBLAS)
+find_package(BLAS REQUIRED)
+
+find_path(SUITESPARSE_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
+add_library(palpate_suitesparse INTERFACE)
+target_include_directories(palpate_suitesparse SYSTEM INTERFACE ${SUITESPARSE_INCLUDE_DIR})
+target_link_libraries(palpate_suitesparse INTERFACE ${CHOLMOD_LIBRARY}
+                      ${SUITESPARSECONFIG_LIBRARY} BLAS::BLAS)
+
+if(PALPATE_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(PALPATE_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

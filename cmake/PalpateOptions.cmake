@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+# Language level, warnings, sanitizers, clang-tidy, output folders and ccache, for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(PALPATE_CCACHE ccache)
+if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER ${PALPATE_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
+endif()
+
+# -Wno-restrict: GCC 12 warns without cause inside std::string's operator+ (GCC bug 105651).
+add_library(palpate_warnings INTERFACE)
+target_compile_options(palpate_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Woverloaded-virtual -Wdouble-promotion
+  $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  $<$<BOOL:${PALPATE_WERROR}>:-Werror>)
+
+set(PALPATE_SANITIZE "" CACHE STRING "Sanitizers, as the compiler names them (address,undefined)")
+if(PALPATE_SANITIZE)
+  add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer
+                      -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PALPATE_SANITIZE})
+endif()
+
+# clang-tidy beside the compiler, for our own targets only (palpate_add_library and its kin turn
+# it on); generated code never sees it.
+if(PALPATE_TIDY)
+  find_program(PALPATE_CLANG_TIDY NAMES clang-tidy REQUIRED)
+endif()
+
+# palpate_own_code(TARGET): the warnings and, in the tidy preset, clang-tidy.
+function(palpate_own_code target)
+  target_link_libraries(${target} PRIVATE palpate_warnings)
+  if(PALPATE_TIDY)
+    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY
+      "${PALPATE_CLANG_TIDY};--quiet;--warnings-as-errors=*;--extra-arg=-Wno-unknown-warning-option")
+  endif()
+endfunction()

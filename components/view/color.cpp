@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/view/color.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palpate::view {
+
+Color Mix(const Color& a, const Color& b, double t) {
+  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
+}
+
+Color SequentialColor(double t) {
+  constexpr std::array<Color, 7> kStops = {FromHex(0x3D3A8C), FromHex(0x38609E), FromHex(0x2F86A0),
+                                           FromHex(0x35A796), FromHex(0x6CC47A), FromHex(0xB5DA56),
+                                           FromHex(0xF8E644)};
+  const double position = std::clamp(t, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
+  const auto lower = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
+  return Mix(kStops[lower], kStops[lower + 1], position - static_cast<double>(lower));
+}
+
+}  // namespace palpate::view

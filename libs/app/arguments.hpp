@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace palpate::app {
+
+/// The words after the program's name.
+std::vector<std::string> CommandLineWords(int argc, const char* const* argv);
+
+enum class Need { kRequired, kOptional };
+
+/// What one program, or one verb of it, takes on the command line. Options are written "--out";
+/// an option that is not given leaves its target as it was. Every program knows --help and
+/// --version. The targets must outlive Parse().
+class Arguments {
+ public:
+  /// `program`: "palpate solve"; `purpose`: one sentence for --help.
+  Arguments(std::string program, std::string purpose);
+  ~Arguments();
+  Arguments(const Arguments&) = delete;
+  Arguments& operator=(const Arguments&) = delete;
+
+  /// An argument without a name; they are taken in the order of these calls.
+  void Positional(const std::string& name, std::filesystem::path* value, const std::string& help,
+                  Need need = Need::kRequired);
+  void Positional(const std::string& name, std::string* value, const std::string& help,
+                  Need need = Need::kRequired);
+  /// Any number of them, after the others.
+  void Positionals(const std::string& name, std::vector<std::string>* values,
+                   const std::string& help, Need need = Need::kRequired);
+
+  void Option(const std::string& name, std::filesystem::path* value, const std::string& help,
+              Need need = Need::kOptional);
+  void Option(const std::string& name, std::string* value, const std::string& help,
+              Need need = Need::kOptional);
+  /// A whole number from `min` to `max`.
+  void Option(const std::string& name, int* value, int min, int max, const std::string& help,
+              Need need = Need::kOptional);
+  /// A finite number.
+  void Option(const std::string& name, double* value, const std::string& help,
+              Need need = Need::kOptional);
+  /// One of `choices`, with "did you mean".
+  void Choice(const std::string& name, std::string* value, std::vector<std::string> choices,
+              const std::string& help, Need need = Need::kOptional);
+  /// May be given many times, one value each.
+  void Repeated(const std::string& name, std::vector<std::string>* values,
+                const std::string& help);
+  void Flag(const std::string& name, bool* value, const std::string& help);
+
+  bool WasGiven(const std::string& name) const;
+
+  /// Reads the words after the program's name. False: --help or --version was asked for and
+  /// printed, nothing is to be done. Throws InputError for anything it cannot read, an unknown
+  /// option with "did you mean".
+  bool Parse(const std::vector<std::string>& words);
+
+  std::string Help() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace palpate::app

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+
+#include "libs/app/node_options.hpp"
+
+namespace palpate::app {
+
+enum class LogLevel { kDebug, kInfo, kWarning, kError };
+
+/// Sets up logging to the standard error output, with time, level and program, and writes the one
+/// line of the start: version, settings file and its hash, domain. Call once, in main().
+void StartLog(const std::string& program, const NodeOptions& options);
+
+/// One line of the log. For nodes and main() only: algorithms return diagnostics. Safe to call
+/// from any thread; before StartLog() only warnings and errors are written.
+void Log(LogLevel level, std::string_view text);
+
+template <typename... Values>
+void LogDebug(fmt::format_string<Values...> format, Values&&... values) {
+  Log(LogLevel::kDebug, fmt::format(format, std::forward<Values>(values)...));
+}
+template <typename... Values>
+void LogInfo(fmt::format_string<Values...> format, Values&&... values) {
+  Log(LogLevel::kInfo, fmt::format(format, std::forward<Values>(values)...));
+}
+template <typename... Values>
+void LogWarning(fmt::format_string<Values...> format, Values&&... values) {
+  Log(LogLevel::kWarning, fmt::format(format, std::forward<Values>(values)...));
+}
+template <typename... Values>
+void LogError(fmt::format_string<Values...> format, Values&&... values) {
+  Log(LogLevel::kError, fmt::format(format, std::forward<Values>(values)...));
+}
+
+}  // namespace palpate::app

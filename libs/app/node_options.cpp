@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/app/node_options.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/sha256.hpp"
+
+namespace palpate::app {
+
+namespace {
+
+// Above 232 the ports that DDS derives from the domain do not exist (RTPS 2.3, section 9.6.1.1).
+constexpr int kMaxDomain = 232;
+constexpr int kDomainNotGiven = -1;
+
+int DomainOfEnvironment() {
+  const char* variable = std::getenv("ROS_DOMAIN_ID");
+  const std::string text = variable == nullptr ? "" : variable;
+  if (text.empty()) return 0;
+  int domain = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), domain);
+  const bool whole = result.ec == std::errc() && result.ptr == text.data() + text.size();
+  if (!whole || domain < 0 || domain > kMaxDomain) {
+    throw InputError("environment variable ROS_DOMAIN_ID: must be 0 to " +
+                     std::to_string(kMaxDomain) + ", not '" + text + "'");
+  }
+  return domain;
+}
+
+}  // namespace
+
+void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
+  options->domain_id = kDomainNotGiven;
+  arguments.Option("--config", &options->config_file, "Settings file (YAML)");
+  arguments.Repeated("--set", &options->overrides, "KEY=VALUE: one setting; wins over the file");
+  arguments.Option("--domain", &options->domain_id, 0, kMaxDomain,
+                   "DDS domain (else ROS_DOMAIN_ID, else 0)");
+  arguments.Choice("--log-level", &options->log_level, {"debug", "info", "warning", "error"},
+                   "Least severity that is logged");
+  arguments.Flag("--print-config", &options->print_config,
+                 "Print all settings as a settings file and exit");
+  arguments.Flag("--markdown", &options->markdown, "With --print-config: as a table");
+}
+
+bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* options) {
+  if (options->markdown && !options->print_config) {
+    throw InputError("--markdown needs --print-config");
+  }
+  if (options->domain_id == kDomainNotGiven) options->domain_id = DomainOfEnvironment();
+  if (!options->config_file.empty()) {
+    const std::string bytes = ReadFile(options->config_file);
+    options->config_sha256 = Sha256Hex(bytes);
+    LoadSettings(ParseYaml(bytes, options->config_file.string()), settings);
+  }
+  for (const std::string& assignment : options->overrides) ApplyOverride(assignment, settings);
+  if (!options->print_config) return true;
+  std::fputs((options->markdown ? PrintMarkdown(settings) : PrintYaml(settings)).c_str(), stdout);
+  return false;
+}
+
+}  // namespace palpate::app

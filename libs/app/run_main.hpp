@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace palpate::app {
+
+enum ExitCode : int {
+  kExitDone = 0,
+  kExitFailed = 1,  ///< while running
+  kExitUsage = 2,   ///< wrong usage, settings or input files
+};
+
+/// Runs the whole of a main(): returns what `work` returns, or the exit code of what it throws,
+/// with one line "program: error: cause" on the standard error output. Standard output that could
+/// not be written (full disk) counts as failed.
+int RunMain(const std::string& program, const std::function<int()>& work);
+
+}  // namespace palpate::app

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/app/yaml.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <optional>
+#include <sstream>
+
+#include "libs/core/file.hpp"
+#include "libs/core/check.hpp"
+
+namespace palpate::app {
+
+namespace {
+
+SourceLocation Locate(const std::string& file, const YAML::Mark& mark) {
+  if (mark.is_null()) return {file};
+  return {file, mark.line + 1, mark.column + 1};
+}
+
+/// Builds the tree from the parser's events. Events rather than YAML::Node, because a Node forgets
+/// which of two equal keys came first and whether a scalar was quoted.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(std::string file) : file_(std::move(file)) { root_.where.file = file_; }
+
+  ConfigNode TakeRoot() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Add(Kind::kNull, mark, "?", anchor);
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw InputError(Locate(file_, mark), "aliases (*name) are not read: write the value out");
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    const bool is_key = !open_.empty() && open_.back()->kind == Kind::kMap && !key_;
+    if (is_key) {
+      TakeKey(mark, tag, anchor, value);
+      return;
+    }
+    ConfigNode* node = Add(Kind::kScalar, mark, tag, anchor);
+    node->text = value;
+    node->quoted = tag == "!";
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open_.push_back(Add(Kind::kList, mark, tag, anchor));
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open_.push_back(Add(Kind::kMap, mark, tag, anchor));
+  }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  using Kind = ConfigNode::Kind;
+
+  void RefuseExtras(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) const {
+    const SourceLocation where = Locate(file_, mark);
+    if (anchor != YAML::NullAnchor) throw InputError(where, "anchors (&name) are not read");
+    if (!tag.empty() && tag != "?" && tag != "!") {
+      throw InputError(where, "tags (" + tag + ") are not read");
+    }
+  }
+
+  void TakeKey(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+               const std::string& key) {
+    RefuseExtras(mark, tag, anchor);
+    if (open_.back()->Find(key) != nullptr) {
+      throw InputError(Locate(file_, mark), "key '" + ChildPath(key) + "' is given twice, first " +
+                                                open_.back()->Find(key)->where.ToString());
+    }
+    key_ = key;
+  }
+
+  std::string ChildPath(const std::string& key) const {
+    const std::string& parent = open_.back()->path;
+    return parent.empty() ? key : parent + "." + key;
+  }
+
+  /// Appends a node to the innermost open list or map. Valid until the next sibling is added,
+  /// which happens only after the node is closed.
+  ConfigNode* Add(Kind kind, const YAML::Mark& mark, const std::string& tag,
+                  YAML::anchor_t anchor) {
+    RefuseExtras(mark, tag, anchor);
+    ConfigNode node;
+    node.kind = kind;
+    node.where = Locate(file_, mark);
+    if (open_.empty()) {
+      root_ = std::move(node);
+      return &root_;
+    }
+    ConfigNode& parent = *open_.back();
+    if (parent.kind == Kind::kList) {
+      node.path = parent.path + "[" + std::to_string(parent.items.size()) + "]";
+      return &parent.items.emplace_back(std::move(node));
+    }
+    if (!key_) throw InputError(node.where, "a key must be a plain word");
+    node.path = ChildPath(*key_);
+    parent.entries.emplace_back(*key_, std::move(node));
+    key_.reset();
+    return &parent.entries.back().second;
+  }
+
+  std::string file_;
+  ConfigNode root_;
+  std::vector<ConfigNode*> open_;   // lists and maps that have not ended, outermost first
+  std::optional<std::string> key_;  // of the innermost map, waiting for its value
+};
+
+}  // namespace
+
+ConfigNode ParseYaml(const std::string& text, const std::string& name) {
+  TreeBuilder builder(name);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) return builder.TakeRoot();
+    TreeBuilder second(name);
+    if (parser.HandleNextDocument(second)) {
+      throw InputError(second.TakeRoot().where, "only one YAML document is read from a file");
+    }
+  } catch (const YAML::Exception& error) {
+    throw InputError(Locate(name, error.mark), "not valid YAML: " + error.msg);
+  }
+  return builder.TakeRoot();
+}
+
+ConfigNode LoadYaml(const std::filesystem::path& file) {
+  return ParseYaml(ReadFile(file), file.string());
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+/// Edit distance with transpositions (optimal string alignment).
+int EditDistance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to `word`, empty where none is near.
+std::string Nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// " (did you mean 'x'?)" for the candidate nearest to `word`, empty where none is near.
+std::string DidYouMean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// The whole of `text` as a finite number, C locale. Returns false for anything else
+/// ("1e3 ", "nan", "inf", "", "1,5").
+bool ParseFinite(std::string_view text, double* value);
+
+/// The shortest decimal text that reads back as exactly `value`.
+std::string FormatNumber(double value);
+
+}  // namespace palpate

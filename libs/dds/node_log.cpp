@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/dds/node_log.hpp"
+
+#include <utility>
+
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::dds {
+
+NodeLog::NodeLog(Participant& participant, ProcessLog process_log)
+    : node_name_(participant.node_name()),
+      process_log_(std::move(process_log)),
+      writer_(participant.CreateWriter(kRosoutTopic)) {}
+
+void NodeLog::Write(Severity severity, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  if (process_log_) process_log_(severity, text);
+  Message<idl::rcl_interfaces::Log> line;
+  line->stamp = TimeFromNs(WallClockNs());
+  line->level = static_cast<uint8_t>(severity);
+  SetText(line->name, node_name_);
+  SetText(line->msg, text);
+  const bool sent = writer_.Write(line);
+  if (!sent && process_log_) process_log_(Severity::kWarning, "/rosout did not take the last line");
+}
+
+}  // namespace palpate::dds

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "libs/dds/participant.hpp"
+
+namespace palpate::dds {
+
+/// Severities of ROS 2 (rcl_interfaces/msg/Log).
+enum class Severity : uint8_t { kDebug = 10, kInfo = 20, kWarning = 30, kError = 40 };
+
+/// The log of a node: each line goes to /rosout and to the log of the process. Safe from any
+/// thread.
+class NodeLog {
+ public:
+  using ProcessLog = std::function<void(Severity, std::string_view)>;
+
+  /// `process_log` may be empty.
+  NodeLog(Participant& participant, ProcessLog process_log);
+
+  void Write(Severity severity, std::string_view text);
+
+ private:
+  std::mutex mutex_;
+  std::string node_name_;
+  ProcessLog process_log_;
+  Writer<idl::rcl_interfaces::Log> writer_;
+};
+
+}  // namespace palpate::dds

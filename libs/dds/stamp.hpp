@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "builtin_interfaces/msg/Time.hpp"
+#include "std_msgs/msg/Header.hpp"
+
+namespace palpate::dds {
+
+/// ns since the epoch of the sender's clock, in [-2^31 s, 2^31 s).
+int64_t StampNs(const idl::builtin_interfaces::Time& time);
+idl::builtin_interfaces::Time TimeFromNs(int64_t stamp_ns);
+
+/// ns since 1970 by the system clock.
+int64_t WallClockNs();
+
+void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns, std::string_view frame_id);
+
+}  // namespace palpate::dds

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libs/core/config_node.hpp"
+
+namespace palpate::dds {
+
+enum class Reliability { kReliable, kBestEffort };
+enum class Durability { kVolatile, kTransientLocal };
+
+/// One row of config/topics.yaml.
+struct TopicSettings {
+  std::string name;  ///< ROS name; "<name>" stands for one part that is known at run time
+  std::string type;  ///< ROS type, package/msg/Name
+  Reliability reliability = Reliability::kReliable;
+  Durability durability = Durability::kVolatile;
+  int depth = 1;                     ///< samples kept, >= 1 (keep-last)
+  std::optional<double> rate_hz;     ///< nominal; absent: now and then
+  std::optional<double> deadline_s;  ///< promised by writers and asked for by readers
+  bool recorded = true;
+};
+
+/// The one table of all topics.
+class TopicTable {
+ public:
+  /// Throws InputError where two rows have one name.
+  explicit TopicTable(std::vector<TopicSettings> topics);
+
+  const std::vector<TopicSettings>& topics() const { return topics_; }
+  /// The row; throws InputError (with "did you mean") where there is none.
+  const TopicSettings& At(std::string_view name) const;
+
+ private:
+  std::vector<TopicSettings> topics_;
+};
+
+/// Reads the parsed config/topics.yaml strictly. Throws InputError with file:line:column.
+TopicTable ReadTopicTable(const ConfigNode& node);
+
+/// Text of config/topics.yaml as it was when this program was built.
+std::string_view BuiltInTopicsYaml();
+
+}  // namespace palpate::dds

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/dds/topics.hpp"
+
+namespace palpate::dds {
+
+namespace {
+
+template <typename T>
+TopicNameAndType NameAndType(const Topic<T>& topic) {
+  return {topic.name, idl::MessageTraits<T>::Descriptor().m_typename};
+}
+
+}  // namespace
+
+std::vector<TopicNameAndType> AllTopics() {
+  return {NameAndType(kMarkersTopic),     NameAndType(kJointStatesTopic),
+          NameAndType(kForcesTopic),      NameAndType(kWrenchTopic),
+          NameAndType(kMeshStateTopic),   NameAndType(kMeshTopic),
+          NameAndType(kModelGapTopic),    NameAndType(kComponentStatusTopic),
+          NameAndType(kDiagnosticsTopic), NameAndType(kRosoutTopic)};
+}
+
+}  // namespace palpate::dds

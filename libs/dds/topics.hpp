@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "diagnostic_msgs/msg/DiagnosticArray.hpp"
+#include "geometry_msgs/msg/WrenchStamped.hpp"
+#include "palpate_msgs/msg/ComponentStatus.hpp"
+#include "palpate_msgs/msg/ForceArray.hpp"
+#include "palpate_msgs/msg/MarkerArray3.hpp"
+#include "palpate_msgs/msg/Mesh.hpp"
+#include "palpate_msgs/msg/MeshState.hpp"
+#include "palpate_msgs/msg/ModelGap.hpp"
+#include "rcl_interfaces/msg/Log.hpp"
+#include "sensor_msgs/msg/JointState.hpp"
+
+namespace palpate::dds {
+
+/// A topic that code may read or write: its ROS name in the topic table and its type. Participant
+/// makes endpoints of these only, so no topic can be used that is not in the table.
+template <typename T>
+struct Topic {
+  std::string_view name;
+};
+
+inline constexpr Topic<idl::palpate_msgs::MarkerArray3> kMarkersTopic{"/perception/markers"};
+inline constexpr Topic<idl::sensor_msgs::JointState> kJointStatesTopic{"/robot/joint_states"};
+inline constexpr Topic<idl::palpate_msgs::ForceArray> kForcesTopic{"/forces"};
+inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kWrenchTopic{"/forces/<name>/wrench"};
+inline constexpr Topic<idl::palpate_msgs::MeshState> kMeshStateTopic{"/robot/mesh_state"};
+inline constexpr Topic<idl::palpate_msgs::Mesh> kMeshTopic{"/robot/mesh"};
+inline constexpr Topic<idl::palpate_msgs::ModelGap> kModelGapTopic{"/model_gap"};
+inline constexpr Topic<idl::palpate_msgs::ComponentStatus> kComponentStatusTopic{
+    "/component_status"};
+inline constexpr Topic<idl::diagnostic_msgs::DiagnosticArray> kDiagnosticsTopic{"/diagnostics"};
+inline constexpr Topic<idl::rcl_interfaces::Log> kRosoutTopic{"/rosout"};
+
+struct TopicNameAndType {
+  std::string_view name;
+  std::string_view dds_type;
+};
+
+/// All of the above.
+std::vector<TopicNameAndType> AllTopics();
+
+}  // namespace palpate::dds

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/experiment/csv_table.hpp"
+
+#include <algorithm>
+
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::experiment {
+
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string_view WithoutBlanks(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view WithoutQuotes(std::string_view text) {
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+// The next line without its end; `rest` moves behind it.
+std::string_view TakeLine(std::string_view& rest) {
+  const std::size_t end = rest.find('\n');
+  std::string_view line = rest.substr(0, end);
+  rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+// Hands out the fields of a line as they stand, quotes and blanks included.
+class FieldSplitter {
+ public:
+  explicit FieldSplitter(std::string_view line) : line_(line) {}
+
+  bool Next(std::string_view& field) {
+    if (done_) return false;
+    const std::size_t end = line_.find(',');
+    field = line_.substr(0, end);
+    done_ = end == std::string_view::npos;
+    if (!done_) line_.remove_prefix(end + 1);
+    return true;
+  }
+
+ private:
+  std::string_view line_;
+  bool done_ = false;
+};
+
+}  // namespace
+
+CsvTable::CsvTable(const std::filesystem::path& file)
+    : file_(file.string()), bytes_(std::make_unique<const std::string>(ReadFile(file))) {}
+
+CsvTable CsvTable::Read(const std::filesystem::path& file) {
+  CsvTable table(file);
+  std::string_view rest = *table.bytes_;
+  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
+  while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r')) rest.remove_suffix(1);
+  if (rest.empty()) {
+    throw InputError(SourceLocation{table.file_, 1, 1}, "the file is empty; a header is expected");
+  }
+  table.ParseHeader(TakeLine(rest));
+  for (int line_number = 2; !rest.empty(); ++line_number) {
+    table.ParseRow(TakeLine(rest), line_number);
+  }
+  return table;
+}
+
+void CsvTable::ParseHeader(std::string_view line) {
+  FieldSplitter fields(line);
+  for (std::string_view field; fields.Next(field);) {
+    const std::string name(WithoutQuotes(WithoutBlanks(field)));
+    const int column = static_cast<int>(field.data() - line.data()) + 1;
+    const SourceLocation where{file_, 1, column};
+    if (name.empty()) throw InputError(where, "a column without a name");
+    if (std::find(header_.begin(), header_.end(), name) != header_.end()) {
+      throw InputError(where, "column '" + name + "' is given twice");
+    }
+    header_.push_back(name);
+    header_columns_.push_back(column);
+  }
+}
+
+void CsvTable::ParseRow(std::string_view line, int line_number) {
+  FieldSplitter fields(line);
+  std::size_t count = 0;
+  for (std::string_view field; fields.Next(field); ++count) {
+    const std::string_view text = WithoutQuotes(WithoutBlanks(field));
+    if (text.find('"') != std::string_view::npos) {
+      const int column = static_cast<int>(field.data() - line.data()) + 1;
+      throw InputError(SourceLocation{file_, line_number, column},
+                       "a quote inside a field, or a comma inside quotes, is not understood");
+    }
+    cells_.push_back(text);
+  }
+  if (count != header_.size()) {
+    throw InputError(SourceLocation{file_, line_number, 1},
+                     "the row has " + std::to_string(count) + " fields, the header has " +
+                         std::to_string(header_.size()));
+  }
+}
+
+std::optional<double> CsvTable::OptionalNumber(std::size_t row, std::size_t column) const {
+  const std::string_view text = Text(row, column);
+  if (text.empty()) return std::nullopt;
+  double value = 0.0;
+  if (!ParseFinite(text, &value)) {
+    Refuse(row, column, "not a finite number (a missing sample is an empty field)");
+  }
+  return value;
+}
+
+double CsvTable::Number(std::size_t row, std::size_t column) const {
+  const std::optional<double> value = OptionalNumber(row, column);
+  if (!value) Refuse(row, column, "must not be empty");
+  return *value;
+}
+
+int CsvTable::ColumnOf(std::string_view field) const {
+  const char* begin = field.data();
+  while (begin != bytes_->data() && *(begin - 1) != '\n') --begin;
+  return static_cast<int>(field.data() - begin) + 1;
+}
+
+SourceLocation CsvTable::Where(std::size_t row, std::size_t column) const {
+  return {file_, Line(row), ColumnOf(Text(row, column))};
+}
+
+SourceLocation CsvTable::HeaderWhere(std::size_t column) const {
+  return {file_, 1, header_columns_[column]};
+}
+
+void CsvTable::Refuse(std::size_t row, std::size_t column, const std::string& message) const {
+  throw InputError(Where(row, column), header_[column] + " '" + std::string(Text(row, column)) +
+                                           "': " + message);
+}
+
+}  // namespace palpate::experiment

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/core/config_node.hpp"
+#include "libs/experiment/actuation.hpp"
+#include "libs/experiment/loads.hpp"
+#include "libs/experiment/markers.hpp"
+
+namespace palpate::experiment {
+
+/// Frame in which markers, depth and clouds were measured.
+enum class MeasurementFrame {
+  kRobot,
+  kCamera,  ///< the depth camera's optical frame
+};
+
+/// What was done, never what happened by itself.
+enum class RecordingKind {
+  kRest, kRamp, kHold, kKnownLoad, kCoContraction, kBaseTilted, kCameraMoved, kSecondSpeed,
+  kRepeat, kFree,
+};
+
+/// The words of recording.yaml, e.g. "known_load", and "robot" | "camera".
+std::string ToString(RecordingKind kind);
+std::string ToString(MeasurementFrame frame);
+RecordingKind ParseRecordingKind(const std::string& word, const SourceLocation& where);
+MeasurementFrame ParseMeasurementFrame(const std::string& word, const SourceLocation& where);
+
+/// The shape in which the body was during a reference window.
+enum class ReferenceShape {
+  kUndeformed,   ///< held in its undeformed shape
+  kEquilibrium,  ///< at rest under its own weight and cables, without contact
+};
+
+/// Marker displacements of this recording count from the mean over this window.
+struct Reference {
+  TimeWindow window_s;
+  ReferenceShape shape = ReferenceShape::kUndeformed;
+};
+
+/// An image or cloud whose name is its time.
+struct StampedFile {
+  std::int64_t t_ns = 0;  ///< on the clock of t_s
+  std::filesystem::path file;
+};
+
+/// One folder of recordings/: recording.yaml and the tables beside it. Missing tables are nullopt
+/// or empty; whatever is there was read and checked as a whole.
+struct Recording {
+  std::string name;  ///< of the folder
+  std::filesystem::path folder;
+  RecordingKind kind = RecordingKind::kFree;
+  std::optional<MeasurementFrame> frame;  ///< `frame`; where given, wins over the experiment's
+  /// `base_tilt_deg: [a, b]`: the base was turned by R = Ry(b) Rx(a).
+  std::optional<Eigen::Vector2d> base_tilt_deg;
+  bool camera_on_base = true;  ///< `camera_on_base`: a tilt moves the camera along
+  std::optional<Eigen::Isometry3d> T_robot_camera;  ///< wins over the experiment's
+  std::optional<Reference> reference;
+  std::optional<TimeWindow> steady_window_s;  ///< the static phase; absent: the whole recording
+  std::string notes;
+
+  std::optional<Actuation> actuation;
+  std::optional<MarkerTracks> markers;  ///< as measured: see RobotFromMarkers
+  std::vector<KnownLoad> loads;
+  std::vector<StampedFile> depth_images;  ///< by rising time, as the next two
+  std::vector<StampedFile> color_images;
+  std::vector<StampedFile> clouds;
+  std::optional<std::filesystem::path> camera_file;  ///< camera.yaml
+};
+
+/// Rotation R = Ry(b) Rx(a) of the base, identity without a tilt. Gravity in the robot frame, which
+/// is fixed to the base, is R' g.
+Eigen::Matrix3d BaseRotation(const Recording& recording);
+
+/// Refuses markers, or cables, that the robot does not have: InputError with file:line and "did you
+/// mean". `names` are the robot's.
+void CheckMarkers(const Recording& recording, const std::vector<std::string>& names);
+void CheckCables(const Recording& recording, const std::vector<std::string>& names);
+
+/// Reads one recording folder. Throws InputError (file:line:column) at the first thing that is
+/// wrong, so that nothing is ever half-read.
+Recording ReadRecording(const std::filesystem::path& folder, const ConfigLoader& load);
+
+/// Writes one recording folder, images copied. Throws InputError where the folder holds one
+/// already, RunError where it cannot be written.
+void WriteRecording(const Recording& recording, const std::filesystem::path& folder);
+
+}  // namespace palpate::experiment

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <system_error>
+
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/folders.hpp"
+#include "libs/experiment/recording.hpp"
+#include "libs/experiment/recording_settings.hpp"
+
+namespace palpate::experiment {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kKnownEntries = {"recording.yaml", "actuation.csv", "markers.csv",
+                                                "loads.csv",      "camera.yaml",   "depth",
+                                                "color",          "clouds"};
+
+// A misspelt table would otherwise be taken for an absent one. Other files are nobody's business.
+void RefuseMisspeltEntries(const fs::path& folder) {
+  for (const fs::path& entry : EntriesOf(folder)) {
+    const std::string name = entry.filename().string();
+    const bool known =
+        std::find(kKnownEntries.begin(), kKnownEntries.end(), name) != kKnownEntries.end();
+    const std::string near = known ? "" : DidYouMean(name, kKnownEntries);
+    if (!near.empty()) {
+      throw InputError(SourceLocation{entry.string()}, "is no part of a recording" + near);
+    }
+  }
+}
+
+StampedFile ParseStampedFile(const fs::path& file, const std::vector<std::string>& extensions) {
+  StampedFile stamped;
+  stamped.file = file;
+  const std::string stem = file.stem().string();
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), stamped.t_ns);
+  const bool known_extension =
+      std::find(extensions.begin(), extensions.end(), file.extension()) != extensions.end();
+  if (error != std::errc() || end != stem.data() + stem.size() || !known_extension) {
+    throw InputError(SourceLocation{file.string()},
+                     "the name must be the time in nanoseconds and end in " + extensions.front());
+  }
+  return stamped;
+}
+
+std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
+                                          const std::vector<std::string>& extensions) {
+  std::vector<StampedFile> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const fs::path& file : EntriesOf(folder)) {
+    files.push_back(ParseStampedFile(file, extensions));
+  }
+  const auto by_time = [](const StampedFile& a, const StampedFile& b) { return a.t_ns < b.t_ns; };
+  std::sort(files.begin(), files.end(), by_time);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    if (files[i].t_ns == files[i - 1].t_ns) {
+      throw InputError(SourceLocation{files[i].file.string()},
+                       "has the same time as " + files[i - 1].file.filename().string());
+    }
+  }
+  return files;
+}
+
+void CheckWindowHoldsFrames(const MarkerTracks& markers, const TimeWindow& window,
+                            const std::string& key, const fs::path& file) {
+  const bool any = std::any_of(markers.frames.begin(), markers.frames.end(),
+                               [&](const MarkerFrame& frame) { return window.Contains(frame.t_s); });
+  if (any) return;
+  throw InputError(SourceLocation{file.string()},
+                   "key '" + key + "': no frame of markers.csv (" +
+                       FormatNumber(markers.frames.front().t_s) + " to " +
+                       FormatNumber(markers.frames.back().t_s) + " s) lies inside the window");
+}
+
+void CheckWindows(const Recording& recording, const fs::path& file) {
+  if (!recording.markers) return;
+  if (recording.reference) {
+    CheckWindowHoldsFrames(*recording.markers, recording.reference->window_s, "reference.window_s",
+                           file);
+  }
+  if (recording.steady_window_s) {
+    CheckWindowHoldsFrames(*recording.markers, *recording.steady_window_s, "steady_window_s", file);
+  }
+}
+
+void CopyFiles(const std::vector<StampedFile>& files, const fs::path& folder) {
+  if (files.empty()) return;
+  CreateFolder(folder);
+  for (const StampedFile& file : files) CopyFile(file.file, folder / file.file.filename());
+}
+
+}  // namespace
+
+Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(SourceLocation{folder.string()}, "is no folder of a recording");
+  }
+  const fs::path settings = folder / "recording.yaml";
+  RefuseMisspeltEntries(folder);
+  Recording recording;
+  recording.folder = folder;
+  recording.name = NameOf(folder);
+  ReadRecordingSettings(settings, load, recording);
+  if (const fs::path file = folder / "actuation.csv"; fs::exists(file)) {
+    recording.actuation = ReadActuation(file);
+  }
+  if (const fs::path file = folder / "markers.csv"; fs::exists(file)) {
+    recording.markers = ReadMarkers(file);
+  }
+  if (const fs::path file = folder / "loads.csv"; fs::exists(file)) {
+    recording.loads = ReadLoads(file);
+  }
+  if (const fs::path file = folder / "camera.yaml"; fs::exists(file)) {
+    recording.camera_file = file;
+  }
+  recording.depth_images = ListStampedFiles(folder / "depth", {".png"});
+  recording.color_images = ListStampedFiles(folder / "color", {".png"});
+  recording.clouds = ListStampedFiles(folder / "clouds", {".pcd", ".ply"});
+  CheckWindows(recording, settings);
+  return recording;
+}
+
+void WriteRecording(const Recording& recording, const fs::path& folder) {
+  if (fs::exists(folder) && !EntriesOf(folder).empty()) {
+    throw InputError(SourceLocation{folder.string()},
+                     "holds files already; a recording is never overwritten");
+  }
+  CreateFolder(folder);
+  if (recording.actuation) WriteActuation(*recording.actuation, folder / "actuation.csv");
+  if (recording.markers) WriteMarkers(*recording.markers, folder / "markers.csv");
+  if (!recording.loads.empty()) WriteLoads(recording.loads, folder / "loads.csv");
+  if (recording.camera_file) CopyFile(*recording.camera_file, folder / "camera.yaml");
+  CopyFiles(recording.depth_images, folder / "depth");
+  CopyFiles(recording.color_images, folder / "color");
+  CopyFiles(recording.clouds, folder / "clouds");
+  // Last, because it is what makes the folder a recording.
+  WriteFile(folder / "recording.yaml", FormatRecordingSettings(recording));
+}
+
+}  // namespace palpate::experiment

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/experiment/recording_settings.hpp"
+
+#include "libs/core/config_reader.hpp"
+#include "libs/experiment/yaml_values.hpp"
+
+namespace palpate::experiment {
+
+namespace {
+
+constexpr double kLargestTilt_deg = 180.0;
+constexpr NumberRule kTiltRule{.min = -kLargestTilt_deg, .max = kLargestTilt_deg};
+
+Eigen::Vector2d ReadTilt(const ConfigNode& node) {
+  const std::vector<double> angles_deg = ReadNumbers(node, kTiltRule);
+  if (angles_deg.size() != 2) Refuse(node, "must be [about x, about y] in degrees");
+  return {angles_deg[0], angles_deg[1]};
+}
+
+Reference ReadReference(const ConfigNode& node) {
+  MapReader reader(node);
+  Reference reference;
+  reference.window_s = ReadWindow(reader.Require("window_s"));
+  const std::string shape = ReadChoice(reader.Require("shape"), {"undeformed", "equilibrium"});
+  reference.shape =
+      shape == "undeformed" ? ReferenceShape::kUndeformed : ReferenceShape::kEquilibrium;
+  reader.Finish();
+  return reference;
+}
+
+}  // namespace
+
+void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader& load,
+                           Recording& recording) {
+  const ConfigNode root = load(file);
+  MapReader reader(root);
+  const ConfigNode& kind = reader.Require("kind");
+  recording.kind = ParseRecordingKind(ReadText(kind), kind.where);
+  if (const ConfigNode* node = reader.Optional("frame")) {
+    recording.frame = ParseMeasurementFrame(ReadText(*node), node->where);
+  }
+  if (const ConfigNode* node = reader.Optional("base_tilt_deg")) {
+    recording.base_tilt_deg = ReadTilt(*node);
+  }
+  if (const ConfigNode* node = reader.Optional("camera_on_base")) {
+    recording.camera_on_base = ReadBool(*node);
+  }
+  if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
+    recording.T_robot_camera = ReadPose(*node);
+  }
+  if (const ConfigNode* node = reader.Optional("reference")) {
+    recording.reference = ReadReference(*node);
+  }
+  if (const ConfigNode* node = reader.Optional("steady_window_s")) {
+    recording.steady_window_s = ReadWindow(*node);
+  }
+  if (const ConfigNode* node = reader.Optional("notes")) recording.notes = ReadText(*node);
+  reader.Finish();
+}
+
+std::string FormatRecordingSettings(const Recording& recording) {
+  std::string text = "kind: " + ToString(recording.kind) + "\n";
+  if (recording.frame) text += "frame: " + ToString(*recording.frame) + "\n";
+  if (recording.base_tilt_deg) {
+    text += "base_tilt_deg: " + FormatVector(*recording.base_tilt_deg) + "\n";
+  }
+  if (!recording.camera_on_base) text += "camera_on_base: false\n";
+  if (recording.T_robot_camera) {
+    text += "T_robot_camera: " + FormatPose(*recording.T_robot_camera) + "\n";
+  }
+  if (recording.reference) {
+    const bool undeformed = recording.reference->shape == ReferenceShape::kUndeformed;
+    text += "reference: {window_s: " + FormatWindow(recording.reference->window_s) +
+            ", shape: " + (undeformed ? "undeformed" : "equilibrium") + "}\n";
+  }
+  if (recording.steady_window_s) {
+    text += "steady_window_s: " + FormatWindow(*recording.steady_window_s) + "\n";
+  }
+  if (!recording.notes.empty()) text += "notes: " + QuoteText(recording.notes) + "\n";
+  return text;
+}
+
+}  // namespace palpate::experiment

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "libs/core/config_node.hpp"
+#include "libs/experiment/recording.hpp"
+
+namespace palpate::experiment {
+
+/// Reads recording.yaml strictly into the settings of `recording`; the tables are left alone.
+/// Throws InputError with file:line:column.
+void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader& load,
+                           Recording& recording);
+
+/// The text of recording.yaml.
+std::string FormatRecordingSettings(const Recording& recording);
+
+}  // namespace palpate::experiment

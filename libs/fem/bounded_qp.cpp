@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/bounded_qp.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::fem {
+
+namespace {
+
+enum class Side : signed char { kFree, kLower, kUpper };
+using Sides = std::array<Side, kMaxQpVariables>;
+
+/// The problem in variables y = x / scale with a unit diagonal.
+struct ScaledQp {
+  BoundedQp qp;
+  QpVector scale;
+  double gradient_scale = 1.0;
+};
+
+ScaledQp Scale(const BoundedQp& qp) {
+  ScaledQp scaled{qp, QpVector::Ones(qp.c.size()), 1.0};
+  for (Eigen::Index i = 0; i < qp.c.size(); ++i) {
+    if (qp.H(i, i) > 0.0) scaled.scale[i] = 1.0 / std::sqrt(qp.H(i, i));
+  }
+  scaled.qp.H = scaled.scale.asDiagonal() * qp.H * scaled.scale.asDiagonal();
+  scaled.qp.c = scaled.scale.cwiseProduct(qp.c);
+  scaled.qp.lower = qp.lower.cwiseQuotient(scaled.scale);
+  scaled.qp.upper = qp.upper.cwiseQuotient(scaled.scale);
+  const double largest = qp.c.size() > 0 ? scaled.qp.c.cwiseAbs().maxCoeff() : 0.0;
+  if (largest > 0.0) scaled.gradient_scale = largest;
+  return scaled;
+}
+
+/// Minimiser of the quadratic over the free variables, the others staying at y; false where the
+/// objective falls without end along a free direction.
+bool FreeStep(const BoundedQp& qp, const Sides& sides, const QpVector& gradient, double tolerance,
+              QpVector* step) {
+  std::array<Eigen::Index, kMaxQpVariables> index{};
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    if (sides[static_cast<size_t>(i)] == Side::kFree) index[static_cast<size_t>(count++)] = i;
+  }
+  *step = QpVector::Zero(gradient.size());
+  if (count == 0) return true;
+  QpMatrix H(count, count);
+  QpVector g(count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    g[a] = gradient[index[static_cast<size_t>(a)]];
+    for (Eigen::Index b = 0; b < count; ++b) {
+      H(a, b) = qp.H(index[static_cast<size_t>(a)], index[static_cast<size_t>(b)]);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<QpMatrix> eigen(H);
+  const QpVector projected = eigen.eigenvectors().transpose() * g;
+  QpVector p = QpVector::Zero(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (eigen.eigenvalues()[k] > 1e-13 * static_cast<double>(count)) {
+      p -= projected[k] / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+    } else if (std::abs(projected[k]) > tolerance) {
+      return false;
+    }
+  }
+  for (Eigen::Index a = 0; a < count; ++a) (*step)[index[static_cast<size_t>(a)]] = p[a];
+  return true;
+}
+
+/// Largest part of `step` that stays within the bounds; `blocking` gets the bound that stops it.
+double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step,
+                    Eigen::Index* blocking) {
+  double length = 1.0;
+  *blocking = -1;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    if (step[i] == 0.0) continue;
+    const double room = (step[i] < 0.0 ? qp.lower[i] : qp.upper[i]) - y[i];
+    if (room / step[i] < length) {
+      length = std::max(0.0, room / step[i]);
+      *blocking = i;
+    }
+  }
+  return length;
+}
+
+/// The active bound whose multiplier has the wrong sign the most, or -1. After many iterations the
+/// first one (Bland's rule), so that degenerate problems cannot cycle.
+Eigen::Index BoundToRelease(const Sides& sides, const QpVector& gradient, double tolerance,
+                            bool first) {
+  Eigen::Index worst = -1;
+  double worst_pull = tolerance;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    const Side side = sides[static_cast<size_t>(i)];
+    if (side == Side::kFree) continue;
+    const double pull = side == Side::kLower ? -gradient[i] : gradient[i];
+    if (pull > worst_pull) {
+      worst = i;
+      worst_pull = pull;
+      if (first) break;
+    }
+  }
+  return worst;
+}
+
+double KktResidual(const BoundedQp& qp, const QpVector& y, const QpVector& gradient) {
+  double residual = 0.0;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double moved = std::min(std::max(y[i] - gradient[i], qp.lower[i]), qp.upper[i]);
+    residual = std::max(residual, std::abs(moved - y[i]));
+  }
+  return residual;
+}
+
+}  // namespace
+
+BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
+  const Eigen::Index n = qp.c.size();
+  PALPATE_CHECK(n <= kMaxQpVariables && qp.H.rows() == n && start.size() == n, n, start.size());
+  BoundedQpResult result;
+  result.x = start;
+  if (!qp.H.allFinite() || !qp.c.allFinite() || (qp.lower.array() > qp.upper.array()).any()) {
+    result.status = Status(StatusCode::kInvalidInput, {});
+    return result;
+  }
+  const ScaledQp scaled = Scale(qp);
+  const BoundedQp& problem = scaled.qp;
+  const double tolerance = 1e-12 * scaled.gradient_scale;
+  QpVector y = start.cwiseQuotient(scaled.scale).cwiseMax(problem.lower).cwiseMin(problem.upper);
+  Sides sides{};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Side& side = sides[static_cast<size_t>(i)];
+    if (y[i] == problem.lower[i]) side = Side::kLower;
+    else if (y[i] == problem.upper[i]) side = Side::kUpper;
+  }
+  const int max_iterations = 50 * static_cast<int>(n) + 50;
+  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
+    const QpVector gradient = problem.H * y + problem.c;
+    QpVector step;
+    if (!FreeStep(problem, sides, gradient, 1e-9 * scaled.gradient_scale, &step)) {
+      result.status = Status(StatusCode::kUnobservable, {});
+      return result;
+    }
+    Eigen::Index blocking = -1;
+    y += StepToBounds(problem, y, step, &blocking) * step;
+    if (blocking >= 0) {
+      const bool lower = step[blocking] < 0.0;
+      y[blocking] = lower ? problem.lower[blocking] : problem.upper[blocking];
+      sides[static_cast<size_t>(blocking)] = lower ? Side::kLower : Side::kUpper;
+      continue;
+    }
+    const QpVector reached = problem.H * y + problem.c;
+    const Eigen::Index release =
+        BoundToRelease(sides, reached, tolerance, result.iterations > 10 * static_cast<int>(n));
+    if (release < 0) {
+      result.x = y.cwiseProduct(scaled.scale);
+      result.kkt_residual = KktResidual(problem, y, reached) / scaled.gradient_scale;
+      result.status = Status::Ok();
+      return result;
+    }
+    sides[static_cast<size_t>(release)] = Side::kFree;
+  }
+  result.status = Status(StatusCode::kNotConverged, {});
+  return result;
+}
+
+}  // namespace palpate::fem

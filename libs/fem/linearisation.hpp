@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/fem/elastic_body.hpp"
+#include "libs/fem/scalar_constraint.hpp"
+#include "libs/fem/sparse/sparse_solver.hpp"
+#include "libs/fem/stiffness_matrix.hpp"
+
+namespace palpate::fem {
+
+using FixedDirections = Eigen::Matrix<bool, 3, Eigen::Dynamic>;  ///< [3 x nodes]
+
+/// Residual and factorised tangent of body and constraints at one state: what eqs. (1) and (2) of
+/// the paper become after sign (elastic_body.hpp),
+///   r(x, lambda) = f_ext - F_int(x) - sum lambda_c dg_c/dx,   K dx = r.
+/// Owns the matrix, its pattern and its factor; nothing is allocated after the first Update.
+class Linearisation {
+ public:
+  /// `body` and `constraints` are bound to this object's matrix and must outlive it.
+  Linearisation(ElasticBody& body, std::vector<ScalarConstraint*> constraints,
+                const FixedDirections& fixed);
+
+  int Size() const { return matrix_.Size(); }  ///< rows of the reduced system
+  const StiffnessMatrix& matrix() const { return matrix_; }
+  const SparseSolver& solver() const { return *solver_; }
+  const std::vector<ScalarConstraint*>& constraints() const { return constraints_; }
+  ElasticBody& body() const { return body_; }
+  const FixedDirections& fixed() const { return fixed_; }
+
+  /// Assembles r and K at the state and factorises K. Where K has no Cholesky factor, a multiple of
+  /// the identity is added if `allow_shift`, so that a descent step exists; shifted() tells.
+  Status Update(const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
+                const Eigen::VectorXd& external_force_N, bool allow_shift = false);
+
+  /// Only r and the smallest det F, without a tangent. kInverted or kInvalidInput on failure.
+  Status UpdateResidual(const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
+                        const Eigen::VectorXd& external_force_N);
+
+  const Eigen::VectorXd& residual_N() const { return residual_; }     ///< [Size()]
+  /// r over all nodes [3n]; in fixed directions minus the support's reaction.
+  const Eigen::VectorXd& nodal_residual_N() const { return nodal_; }
+  double internal_force_norm_N() const { return internal_norm_; }
+  double min_J() const { return min_J_; }
+  bool shifted() const { return shifted_; }
+
+  /// Overwrites each column [Size()] of `columns` with K^-1 column. After a successful Update.
+  void Solve(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->Solve(columns); }
+
+ private:
+  Status Check() const;
+
+  ElasticBody& body_;
+  std::vector<ScalarConstraint*> constraints_;
+  FixedDirections fixed_;
+  StiffnessMatrix matrix_;
+  std::unique_ptr<SparseSolver> solver_;
+  Eigen::VectorXd nodal_;
+  Eigen::VectorXd residual_;
+  double internal_norm_ = 0.0;
+  double min_J_ = 0.0;
+  bool shifted_ = false;
+};
+
+}  // namespace palpate::fem

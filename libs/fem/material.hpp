@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate::fem {
+
+/// The stress that defines each material, with the Lame constants lambda and mu, E the Green
+/// strain, F = R S the polar decomposition, J = det F:
+enum class MaterialModel {
+  kLinear,            ///< small strain: P = 2 mu eps + lambda tr(eps) I
+  kCorotational,      ///< P = 2 mu (F - R) + lambda tr(R'F - I) R, exact tangent
+  kStVenantKirchhoff, ///< S = 2 mu E + lambda tr(E) I
+  kNeoHookean,        ///< S = mu (I - C^-1) + lambda ln(J) C^-1
+  kStableNeoHookean,  ///< S = mu I + (lambda + mu) J (J - alpha) C^-1, alpha = 1 + mu/(lambda + mu)
+};
+
+/// How the volumetric part sees the volume change of an element.
+enum class Volumetric {
+  kPointwise,       ///< J of each integration point
+  kMeanDilatation,  ///< J averaged over the element, against locking of tet10 near nu = 0.5
+};
+
+struct Material {
+  MaterialModel model = MaterialModel::kStableNeoHookean;
+  Volumetric volumetric = Volumetric::kPointwise;
+  double youngs_modulus_Pa = 0.0;  ///< > 0; bound to the mesh and element it was found with
+  double poissons_ratio = 0.0;     ///< in (-1, 0.5)
+
+  double LameLambda_Pa() const {
+    return youngs_modulus_Pa * poissons_ratio /
+           ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio));
+  }
+  double LameMu_Pa() const { return youngs_modulus_Pa / (2.0 * (1.0 + poissons_ratio)); }
+};
+
+/// Names as robot files spell them: linear, corotational, st_venant_kirchhoff, neo_hookean,
+/// stable_neo_hookean.
+std::string_view ToString(MaterialModel model);
+/// The model of that name; false where there is none.
+bool ParseMaterialModel(std::string_view name, MaterialModel* model);
+std::vector<std::string> MaterialModelNames();
+
+}  // namespace palpate::fem

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+
+namespace palpate::fem::mesh_io {
+
+/// What becomes of a cell of a file.
+enum class CellRole {
+  kTet4,
+  kTet10,
+  kLowerDimension,  ///< points, lines, surfaces: passed over
+  kRefused,         ///< other volumes, and types nobody knows
+};
+
+struct CellKind {
+  CellRole role = CellRole::kRefused;
+  int node_count = 0;            ///< 0: any number
+  const char* name = "unknown";  ///< for messages
+};
+
+/// By the numbers of vtkCellType.h.
+CellKind VtkCellKind(int64_t type);
+
+/// By the numbers of Gmsh's GmshDefines.h.
+CellKind GmshCellKind(int64_t type);
+
+}  // namespace palpate::fem::mesh_io

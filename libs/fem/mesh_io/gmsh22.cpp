@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <cstdlib>
+#include <limits>
+
+#include "libs/fem/mesh_io/cell_kinds.hpp"
+#include "libs/fem/mesh_io/gmsh_reader.hpp"
+
+namespace palpate::fem::mesh_io {
+
+namespace {
+
+constexpr int64_t kMaxCount = std::numeric_limits<int>::max();
+
+}  // namespace
+
+void GmshReader::ReadNodes22() {
+  const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of nodes");
+  scanner_.Line("the nodes");
+  CheckRoom(count, sizeof(int32_t) + 3 * sizeof(double), "nodes");
+  for (int64_t k = 0; k < count; ++k) {
+    nodes_.push_back(
+        ReadPosition(scanner_.Integer(ScalarType::kInt32, 1, kMaxCount, "a node tag")));
+  }
+}
+
+void GmshReader::ReadElements22() {
+  const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of elements");
+  scanner_.Line("the elements");
+  for (int64_t left = count; left > 0;) left -= ReadElementBlock22(left);
+}
+
+/// In binary files elements of one type and number of tags follow one header; in text each has its
+/// own, behind its tag. Returns how many were read.
+int64_t GmshReader::ReadElementBlock22(int64_t at_most) {
+  constexpr int64_t kMostTags = 1000;
+  if (!scanner_.binary()) ReadInt("an element tag");
+  const int64_t type = ReadInt("an element type");
+  NodeCountOf(type);
+  const int64_t count = scanner_.binary() ? scanner_.Integer(ScalarType::kInt32, 1, at_most,
+                                                             "the elements of a block")
+                                          : 1;
+  const int64_t tag_count =
+      scanner_.Integer(ScalarType::kInt32, 0, kMostTags, "the number of tags");
+  for (int64_t element = 0; element < count; ++element) {
+    if (scanner_.binary()) ReadInt("an element tag");
+    int64_t physical_tag = 0;
+    for (int64_t k = 0; k < tag_count; ++k) {
+      const int64_t tag = ReadInt("a tag of an element");
+      if (k == 0) physical_tag = std::abs(tag);
+    }
+    const bool is_tet = GmshCellKind(type).role != CellRole::kLowerDimension;
+    ReadElement(type, ScalarType::kInt32, is_tet ? GroupOf(physical_tag) : -1);
+  }
+  return count;
+}
+
+}  // namespace palpate::fem::mesh_io

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/mesh_io/read_mesh.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
+#include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/mesh_builder.hpp"
+
+namespace palpate::fem {
+
+namespace {
+
+std::string LoadBytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw InputError(file.string() + ": mesh file not found");
+  }
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError(file.string() + ": not a regular file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  if (!stream || std::filesystem::file_size(file, error) == 0) {
+    throw InputError(file.string() + (stream ? ": the file is empty" : ": cannot be opened"));
+  }
+  bytes << stream.rdbuf();
+  if (!stream || !bytes) throw InputError(file.string() + ": cannot be read to its end");
+  return std::move(bytes).str();
+}
+
+std::string LowerCaseEnding(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+}  // namespace
+
+TetMesh ReadMesh(const std::filesystem::path& file, double metres_per_unit,
+                 std::vector<std::string>* notes) {
+  PALPATE_CHECK(std::isfinite(metres_per_unit) && metres_per_unit > 0.0, metres_per_unit);
+  const std::string ending = LowerCaseEnding(file);
+  const auto read = ending == ".vtu"   ? mesh_io::ReadVtu
+                    : ending == ".vtk" ? mesh_io::ReadLegacyVtk
+                    : ending == ".msh" ? mesh_io::ReadGmsh
+                                       : nullptr;
+  if (read == nullptr) {
+    throw InputError(file.string() + ": unknown mesh format '" + ending +
+                     "' (known: .vtu, .vtk, .msh)");
+  }
+  mesh_io::MeshBuilder builder(file.string());
+  read(LoadBytes(file), &builder);
+  return std::move(builder).Finish(metres_per_unit, notes);
+}
+
+}  // namespace palpate::fem

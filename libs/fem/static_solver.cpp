@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/static_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::fem {
+
+namespace {
+
+using Mode = ConstraintCommand::Mode;
+
+Eigen::Index Count(const LoadState& loads) {
+  return static_cast<Eigen::Index>(loads.commands.size());
+}
+
+const ConstraintCommand& Command(const LoadState& loads, Eigen::Index c) {
+  return loads.commands[static_cast<size_t>(c)];
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(Linearisation& linearisation, const StaticSettings& settings)
+    : linearisation_(linearisation), settings_(settings) {
+  const auto constraints = static_cast<Eigen::Index>(linearisation.constraints().size());
+  PALPATE_CHECK(constraints <= kMaxQpVariables, constraints);
+  columns_.resize(linearisation.Size(), 1 + constraints);
+  gradients_.resize(linearisation.Size(), constraints);
+  gradient_.resize(3 * linearisation.body().NodeCount());
+  step_.resize(linearisation.Size());
+  new_multipliers_ = penalties_ = trial_multipliers_ = Eigen::VectorXd::Zero(constraints);
+}
+
+StaticState StaticSolver::RestState() const {
+  StaticState state;
+  state.x_m = linearisation_.body().rest_m();
+  state.multipliers_N =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(linearisation_.constraints().size()));
+  state.loads.external_force_N = Eigen::VectorXd::Zero(state.x_m.size());
+  state.loads.commands.resize(linearisation_.constraints().size());
+  state.loads.fixed_position_m = state.x_m;
+  return state;
+}
+
+StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
+  StaticResult result;
+  PALPATE_CHECK(Count(target) == state->multipliers_N.size(), Count(target));
+  StaticState start = *state;
+  StaticState attempt = start;
+  double remaining_fraction = 1.0;
+  Status last = Status(StatusCode::kNotConverged, {});
+  for (int tries = 0; tries < settings_.max_load_steps; ++tries) {
+    // After a failure the rest of the way is taken in smaller pieces.
+    const LoadState loads = remaining_fraction < 1.0
+                                ? Interpolate(start, target, remaining_fraction)
+                                : target;
+    attempt = start;
+    last = SolveLoadStep(loads, &attempt, &result);
+    if (last.ok()) {
+      ++result.load_steps;
+      attempt.loads = loads;
+      start = attempt;
+      result.load_fraction += (1.0 - result.load_fraction) * remaining_fraction;
+      if (remaining_fraction >= 1.0) {
+        *state = std::move(attempt);
+        result.load_fraction = 1.0;
+        result.status = Status::Ok();
+        return result;
+      }
+      remaining_fraction = std::min(1.0, 2.0 * remaining_fraction / (1.0 - remaining_fraction));
+      continue;
+    }
+    if (last.code() == StatusCode::kTensionLimit) break;
+    remaining_fraction *= 0.5;
+    if (remaining_fraction * (1.0 - result.load_fraction) < settings_.smallest_load_step) break;
+  }
+  *state = std::move(start);
+  result.status = last;
+  return result;
+}
+
+LoadState StaticSolver::Interpolate(const StaticState& start, const LoadState& target,
+                                    double fraction) const {
+  LoadState loads = target;
+  loads.external_force_N = (1.0 - fraction) * start.loads.external_force_N +
+                           fraction * target.external_force_N;
+  loads.fixed_position_m = (1.0 - fraction) * start.loads.fixed_position_m +
+                           fraction * target.fixed_position_m;
+  for (Eigen::Index c = 0; c < Count(target); ++c) {
+    ConstraintCommand& command = loads.commands[static_cast<size_t>(c)];
+    double from = start.multipliers_N[c];
+    if (command.mode == Mode::kUpperBound) {
+      from = linearisation_.constraints()[static_cast<size_t>(c)]->Value(start.x_m);
+    } else if (command.mode == Mode::kOff) {
+      command.mode = Mode::kMultiplier;
+      command.value = 0.0;
+    }
+    command.value = (1.0 - fraction) * from + fraction * command.value;
+  }
+  return loads;
+}
+
+void StaticSolver::ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const {
+  const FixedDirections& fixed = linearisation_.fixed();
+  for (Eigen::Index node = 0; node < fixed.cols(); ++node) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      if (fixed(i, node)) (*x_m)[3 * node + i] = loads.fixed_position_m[3 * node + i];
+    }
+  }
+}
+
+Status StaticSolver::SolveLoadStep(const LoadState& loads, StaticState* state,
+                                   StaticResult* result) {
+  ApplyFixedPositions(loads, &state->x_m);
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode == Mode::kMultiplier) state->multipliers_N[c] = command.value;
+    if (command.mode == Mode::kOff) state->multipliers_N[c] = 0.0;
+  }
+  for (int iteration = 0; iteration <= settings_.max_newton_iterations; ++iteration) {
+    if (Status status = ComputeStep(loads, *state); !status.ok()) return status;
+    result->residual_N = linearisation_.residual_N().norm();
+    result->residual_relative = result->residual_N / ForceScale(loads, *state);
+    result->constraint_error_m = ConstraintError(loads, *state);
+    const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
+                          result->residual_N <= RoundingFloor(state->x_m);
+    if (balanced && result->constraint_error_m <= settings_.constraint_tolerance_m) {
+      return CheckTensionLimits(loads, *state);
+    }
+    if (iteration == settings_.max_newton_iterations) break;
+    ++result->iterations;
+    if (!TakeStep(loads, result->residual_relative, state)) {
+      return {StatusCode::kNotConverged, "no step brings the body nearer to equilibrium"};
+    }
+  }
+  return {StatusCode::kNotConverged, "Newton iterations used up"};
+}
+
+/// step_ and new_multipliers_ at the present state: dx = K^-1 r + K^-1 H_a' dlambda (eq. 6), the
+/// multipliers from delta_a = W_aa lambda + delta_a^free (eq. 4) under their bounds.
+Status StaticSolver::ComputeStep(const LoadState& loads, const StaticState& state) {
+  if (Status status = linearisation_.Update(state.x_m, state.multipliers_N, loads.external_force_N,
+                                            /*allow_shift=*/true);
+      !status.ok()) {
+    return status;
+  }
+  const Eigen::Index constraints = Count(loads);
+  columns_.col(0) = linearisation_.residual_N();
+  Eigen::Index bounded = 0;
+  for (Eigen::Index c = 0; c < constraints; ++c) {
+    if (Command(loads, c).mode != Mode::kUpperBound) continue;
+    gradient_.setZero();
+    linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(state.x_m, -1.0, gradient_);
+    linearisation_.matrix().Reduce(gradient_, gradients_.col(bounded));
+    columns_.col(1 + bounded) = gradients_.col(bounded);
+    ++bounded;
+  }
+  linearisation_.Solve(columns_.leftCols(1 + bounded));
+  step_ = columns_.col(0);
+  new_multipliers_ = state.multipliers_N;
+  if (bounded == 0) return Status::Ok();
+
+  BoundedQp qp;
+  qp.H = gradients_.leftCols(bounded).transpose() * columns_.middleCols(1, bounded);
+  qp.c = gradients_.leftCols(bounded).transpose() * columns_.col(0);
+  qp.lower = QpVector::Zero(bounded);
+  qp.upper.resize(bounded);
+  QpVector present(bounded);
+  Eigen::Index k = 0;
+  for (Eigen::Index c = 0; c < constraints; ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m);
+    qp.c[k] += command.value - value;
+    qp.upper[k] = command.max_multiplier_N;
+    present[k++] = state.multipliers_N[c];
+  }
+  qp.c -= qp.H * present;
+  const BoundedQpResult multipliers = SolveBoundedQp(qp, present);
+  if (!multipliers.status.ok()) return multipliers.status;
+  step_ += columns_.middleCols(1, bounded) * (multipliers.x - present);
+  k = 0;
+  for (Eigen::Index c = 0; c < constraints; ++c) {
+    if (Command(loads, c).mode == Mode::kUpperBound) new_multipliers_[c] = multipliers.x[k++];
+  }
+  return Status::Ok();
+}
+
+/// Full Newton steps are taken as long as they bring the residual down; otherwise the step is
+/// halved until the potential energy, with exact penalties for the bounds, falls.
+bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, StaticState* state) {
+  for (Eigen::Index c = 0; c < penalties_.size(); ++c) {
+    const double needed = 2.0 * std::max(new_multipliers_[c], state->multipliers_N[c]);
+    penalties_[c] = std::max(needed, 1e-3);
+  }
+  const double slope = MeritSlope(loads, *state);
+  double min_J = 0.0;
+  const double merit = Merit(loads, state->x_m, &min_J);
+  const double error_before = ConstraintError(loads, *state);
+  constexpr double kShortestStep = 1e-6;
+  for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
+    trial_x_ = state->x_m;
+    linearisation_.matrix().AddExpanded(step_, length, trial_x_);
+    const double trial_merit = Merit(loads, trial_x_, &min_J);
+    if (!(min_J > 0.0) || !std::isfinite(trial_merit)) continue;
+    bool accepted = trial_merit <= merit + 1e-4 * length * slope;
+    trial_multipliers_ = state->multipliers_N + length * (new_multipliers_ - state->multipliers_N);
+    if (!accepted && length == 1.0) {
+      StaticState trial{trial_x_, trial_multipliers_, {}};
+      const Status status = linearisation_.UpdateResidual(trial_x_, trial_multipliers_,
+                                                          loads.external_force_N);
+      const double residual =
+          linearisation_.residual_N().norm() / ForceScale(loads, trial);
+      const double error = ConstraintError(loads, trial);
+      accepted = status.ok() && residual <= 0.5 * residual_before + 1e-12 &&
+                 error <= 0.5 * error_before + settings_.constraint_tolerance_m;
+    }
+    if (accepted) {
+      state->x_m = trial_x_;
+      state->multipliers_N = trial_multipliers_;
+      return true;
+    }
+  }
+  return false;
+}
+
+double StaticSolver::ConstraintError(const LoadState& loads, const StaticState& state) const {
+  double error = 0.0;
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    const double multiplier = state.multipliers_N[c];
+    const double excess =
+        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
+    if (multiplier >= command.max_multiplier_N) continue;  // the drive cannot pull harder
+    error = std::max(error, multiplier > 0.0 ? std::abs(excess) : excess);
+  }
+  return error;
+}
+
+double StaticSolver::ForceScale(const LoadState& loads, const StaticState& state) const {
+  return std::max({loads.external_force_N.norm(), linearisation_.internal_force_norm_N(),
+                   state.multipliers_N.size() > 0 ? state.multipliers_N.cwiseAbs().maxCoeff() : 0.0,
+                   1e-12});
+}
+
+/// Force that rounding of the positions alone makes: eps |x| times a typical stiffness.
+double StaticSolver::RoundingFloor(const Eigen::VectorXd& x_m) const {
+  const double stiffness = linearisation_.matrix().MeanDiagonal();
+  return 4.0 * std::numeric_limits<double>::epsilon() * x_m.cwiseAbs().maxCoeff() * stiffness *
+         std::sqrt(static_cast<double>(x_m.size()));
+}
+
+double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
+                           double* min_J) const {
+  double merit = linearisation_.body().Energy(x_m, min_J) -
+                 loads.external_force_N.dot(x_m - linearisation_.body().rest_m());
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode == Mode::kOff) continue;
+    const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(x_m);
+    merit += command.mode == Mode::kMultiplier
+                 ? command.value * value
+                 : penalties_[c] * std::max(0.0, value - command.value);
+  }
+  return merit;
+}
+
+/// Bound on the merit's directional derivative along step_: the linearised bounds hold after it.
+double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state) const {
+  double slope = -linearisation_.residual_N().dot(step_);
+  Eigen::Index k = 0;
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    // The residual holds lambda dg/dx already; the merit does not.
+    slope += state.multipliers_N[c] * gradients_.col(k++).dot(step_);
+    const double excess =
+        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
+    slope -= penalties_[c] * std::max(0.0, excess);
+  }
+  return std::min(slope, 0.0);
+}
+
+Status StaticSolver::CheckTensionLimits(const LoadState& loads, const StaticState& state) const {
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    const double excess =
+        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
+    if (state.multipliers_N[c] >= command.max_multiplier_N &&
+        excess > settings_.constraint_tolerance_m) {
+      return {StatusCode::kTensionLimit, "constraint " + std::to_string(c) + " needs more than " +
+                                             std::to_string(command.max_multiplier_N) + " N"};
+    }
+  }
+  return Status::Ok();
+}
+
+}  // namespace palpate::fem

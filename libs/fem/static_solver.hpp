@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/fem/bounded_qp.hpp"
+#include "libs/fem/linearisation.hpp"
+
+namespace palpate::fem {
+
+/// What is asked of one constraint.
+struct ConstraintCommand {
+  enum class Mode {
+    kOff,         ///< multiplier 0
+    kMultiplier,  ///< multiplier given (cable tension, N)
+    kUpperBound,  ///< g(x) <= value, 0 <= multiplier <= max_multiplier_N, one of the two equal
+  };
+  Mode mode = Mode::kOff;
+  double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
+  double max_multiplier_N = std::numeric_limits<double>::infinity();
+};
+
+/// Everything that loads the body.
+struct LoadState {
+  Eigen::VectorXd external_force_N;  ///< [3n] dead nodal loads
+  std::vector<ConstraintCommand> commands;
+  /// [3n]; only entries of fixed directions are used.
+  Eigen::VectorXd fixed_position_m;
+};
+
+/// A configuration with the loads it was last brought into balance with.
+struct StaticState {
+  Eigen::VectorXd x_m;            ///< [3n]
+  Eigen::VectorXd multipliers_N;  ///< [constraints]
+  LoadState loads;
+};
+
+struct StaticSettings {
+  /// ||r|| <= relative_tolerance * max(||f_ext||, ||F_int||, |lambda|), or rounding.
+  double relative_tolerance = 1e-10;
+  /// Distance by which g may exceed its bound, m.
+  double constraint_tolerance_m = 1e-10;
+  int max_newton_iterations = 40;  ///< in one load step
+  int max_load_steps = 400;        ///< tried in all
+  double smallest_load_step = 1e-4;
+};
+
+struct StaticResult {
+  Status status;
+  int iterations = 0;          ///< Newton iterations over all load steps
+  int load_steps = 0;          ///< that were accepted
+  double residual_N = 0.0;     ///< Euclidean norm over the free directions
+  double residual_relative = 0.0;
+  double constraint_error_m = 0.0;
+  double load_fraction = 0.0;  ///< of the way from the old loads to the new that was reached
+};
+
+/// Newton's method for r(x, lambda) = 0 (linearisation.hpp) with line search, a guard against
+/// inverted elements, and load stepping. Bounds on constraints are solved through their compliance
+/// W_aa = H_a K^-1 H_a' (paper, eqs. 4 and 5) as a bounded QP in the multipliers.
+class StaticSolver {
+ public:
+  explicit StaticSolver(Linearisation& linearisation, const StaticSettings& settings = {});
+
+  /// Rest shape, no load, every command off.
+  StaticState RestState() const;
+
+  /// Brings `state` into balance with `target`, from where it is. On failure `state` stays what it
+  /// was at the last converged load step.
+  StaticResult Solve(const LoadState& target, StaticState* state);
+
+ private:
+  Status SolveLoadStep(const LoadState& loads, StaticState* state, StaticResult* result);
+  LoadState Interpolate(const StaticState& start, const LoadState& target, double fraction) const;
+  void ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const;
+  Status ComputeStep(const LoadState& loads, const StaticState& state);
+  bool TakeStep(const LoadState& loads, double residual_before, StaticState* state);
+  double ConstraintError(const LoadState& loads, const StaticState& state) const;
+  double ForceScale(const LoadState& loads, const StaticState& state) const;
+  double RoundingFloor(const Eigen::VectorXd& x_m) const;
+  double Merit(const LoadState& loads, const Eigen::VectorXd& x_m, double* min_J) const;
+  double MeritSlope(const LoadState& loads, const StaticState& state) const;
+  Status CheckTensionLimits(const LoadState& loads, const StaticState& state) const;
+
+  Linearisation& linearisation_;
+  StaticSettings settings_;
+  Eigen::MatrixXd columns_;        ///< [Size x (1 + constraints)]: K^-1 r, -K^-1 dg/dx
+  Eigen::VectorXd gradient_;       ///< [3n]
+  Eigen::MatrixXd gradients_;      ///< [Size x constraints], -dg/dx
+  Eigen::VectorXd step_;           ///< [Size]
+  Eigen::VectorXd new_multipliers_;
+  Eigen::VectorXd penalties_;
+  Eigen::VectorXd trial_x_;
+  Eigen::VectorXd trial_multipliers_;
+};
+
+}  // namespace palpate::fem

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "libs/fem/sparse/fill_reducing_order.hpp"
+#include "libs/fem/sparse/sparse_solver.hpp"
+
+namespace palpate::fem {
+
+/// Where the 3x3 block of two nodes lies in the values of a StiffnessMatrix.
+struct BlockSlot {
+  int address = -1;    ///< of its first entry; -1: a node is fixed, the block is not stored
+  int below = 0;       ///< node blocks below the diagonal in this node column
+  bool diagonal = false;
+  bool transposed = false;
+};
+
+/// The stiffness matrix over the free nodes, renumbered once so that its factor is sparse. Lower
+/// triangle, columns compressed, in 3x3 node blocks. Nodes with all three directions fixed are left
+/// out; a node with one or two directions fixed stays, its fixed rows and columns replaced by those
+/// of the identity (FixSingleDirections).
+class StiffnessMatrix {
+ public:
+  /// `fixed` [3 x nodes]: true where a direction is fixed. `pairs`: nodes that are coupled.
+  StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed, const NodePairs& pairs);
+
+  int Size() const { return 3 * free_node_count_; }          ///< rows
+  int FreeIndex(int node) const { return free_index_[static_cast<size_t>(node)]; }  ///< or -1
+  int NodeCount() const { return static_cast<int>(free_index_.size()); }
+  SymmetricPattern Pattern() const { return {column_start_, row_}; }
+  std::span<const double> Values() const { return values_; }
+
+  /// The slot of block (a, b). Checks that the pair was declared.
+  BlockSlot Slot(int node_a, int node_b) const;
+
+  void SetZero();
+  /// Adds `block` = dforce_a/dx_b at slot (a, b); for a == b its symmetric part's lower triangle.
+  /// `block` may be any 3x3 accessor block(row, column).
+  template <typename Block>
+  void Add(const BlockSlot& slot, const Block& block) {
+    if (slot.address < 0) return;
+    double* column0 = values_.data() + slot.address;
+    if (slot.diagonal) {
+      double* column1 = column0 + 3 + 3 * slot.below;
+      double* column2 = column1 + 2 + 3 * slot.below;
+      column0[0] += block(0, 0), column0[1] += block(1, 0), column0[2] += block(2, 0);
+      column1[0] += block(1, 1), column1[1] += block(2, 1);
+      column2[0] += block(2, 2);
+      return;
+    }
+    double* column1 = column0 + 2 + 3 * slot.below;
+    double* column2 = column1 + 1 + 3 * slot.below;
+    if (slot.transposed) {
+      for (int r = 0; r < 3; ++r) {
+        column0[r] += block(0, r), column1[r] += block(1, r), column2[r] += block(2, r);
+      }
+    } else {
+      for (int r = 0; r < 3; ++r) {
+        column0[r] += block(r, 0), column1[r] += block(r, 1), column2[r] += block(r, 2);
+      }
+    }
+  }
+  double MeanDiagonal() const;
+  /// Adds `shift` times the mean of the diagonal to the diagonal.
+  void AddRelativeShift(double shift);
+  void FixSingleDirections();
+
+  /// Nodal vector [3n] to rows of this matrix [Size()], zero in fixed directions; and back, adding.
+  void Reduce(const Eigen::Ref<const Eigen::VectorXd>& nodal,
+              Eigen::Ref<Eigen::VectorXd> reduced) const;
+  void AddExpanded(const Eigen::Ref<const Eigen::VectorXd>& reduced, double factor,
+                   Eigen::Ref<Eigen::VectorXd> nodal) const;
+  /// Product with a reduced vector.
+  Eigen::VectorXd Times(const Eigen::Ref<const Eigen::VectorXd>& reduced) const;
+
+ private:
+  void BuildPattern(const NodePairs& free_pairs);
+
+  int free_node_count_ = 0;
+  std::vector<int> free_index_;     ///< [nodes], place in the order of elimination, or -1
+  std::vector<int> single_fixed_;   ///< reduced rows that are fixed in one direction only
+  std::vector<int> block_start_;    ///< [free nodes + 1] into block_row_
+  std::vector<int> block_row_;      ///< free nodes below the diagonal, ascending
+  std::vector<int> column_start_;   ///< [Size() + 1]
+  std::vector<int> row_;
+  std::vector<double> values_;
+};
+
+}  // namespace palpate::fem

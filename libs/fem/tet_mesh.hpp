@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace palpate::fem {
+
+/// Corner nodes first, then the mid-edge nodes of edges 01, 12, 02, 03, 13, 23 (VTK_QUADRATIC_
+/// TETRA; Gmsh swaps the last two, which the reader mends).
+enum class ElementType { kTet4 = 4, kTet10 = 10 };
+
+/// A volume mesh at rest. Node numbers are those of the file; mid-edge nodes that we make
+/// ourselves follow after the last of them.
+struct TetMesh {
+  Eigen::Matrix3Xd nodes_m;  ///< [3 x n] rest positions, robot frame, m
+  Eigen::MatrixXi cells;     ///< [4 or 10 x m] node indices, positively oriented
+
+  /// Physical group of each cell (Gmsh), as an index into group_names; -1: none. Size m or 0.
+  std::vector<int> group_of_cell;
+  std::vector<std::string> group_names;
+
+  int NodeCount() const { return static_cast<int>(nodes_m.cols()); }
+  int CellCount() const { return static_cast<int>(cells.cols()); }
+  ElementType element_type() const { return static_cast<ElementType>(cells.rows()); }
+};
+
+/// The mesh with a node on the middle of every edge of a tet4 mesh, numbered after the corners in
+/// the order in which the cells name the edges. A tet10 mesh comes back as it is.
+TetMesh MakeQuadratic(const TetMesh& mesh);
+
+}  // namespace palpate::fem

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/cable.hpp"
+
+#include <map>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+/// Pieces shorter than this have no direction; they neither pull nor stiffen.
+constexpr double kShortestPiece_m = 1e-9;
+
+}  // namespace
+
+Eigen::Vector3d Cable::Piece::Vector(const Eigen::VectorXd& x_m) const {
+  Eigen::Vector3d vector = offset_m;
+  for (size_t k = 0; k < nodes.size(); ++k) {
+    vector += coefficients[k] * x_m.segment<3>(3 * nodes[k]);
+  }
+  return vector;
+}
+
+Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> eyelets,
+             const Eigen::VectorXd& rest_x_m)
+    : pull_point_m_(pull_point_m), eyelets_(std::move(eyelets)) {
+  PALPATE_CHECK(!eyelets_.empty());
+  for (size_t e = 0; e < eyelets_.size(); ++e) {
+    Piece piece;
+    std::map<int, double> coefficients;
+    if (e == 0) piece.offset_m = -pull_point_m_;
+    for (size_t k = 0; k < eyelets_[e].nodes.size(); ++k) {
+      coefficients[eyelets_[e].nodes[k]] += eyelets_[e].weights[k];
+    }
+    for (size_t k = 0; e > 0 && k < eyelets_[e - 1].nodes.size(); ++k) {
+      coefficients[eyelets_[e - 1].nodes[k]] -= eyelets_[e - 1].weights[k];
+    }
+    for (const auto& [node, coefficient] : coefficients) {
+      piece.nodes.push_back(node);
+      piece.coefficients.push_back(coefficient);
+    }
+    pieces_.push_back(std::move(piece));
+  }
+  rest_length_m_ = Value(rest_x_m);
+}
+
+Eigen::Matrix3Xd Cable::Path_m(const Eigen::VectorXd& x_m) const {
+  Eigen::Matrix3Xd path(3, static_cast<Eigen::Index>(eyelets_.size()) + 1);
+  path.col(0) = pull_point_m_;
+  for (size_t e = 0; e < eyelets_.size(); ++e) {
+    path.col(static_cast<Eigen::Index>(e) + 1) = eyelets_[e].Position(x_m);
+  }
+  return path;
+}
+
+double Cable::Value(const Eigen::VectorXd& x_m) const {
+  double length = 0.0;
+  for (const Piece& piece : pieces_) length += piece.Vector(x_m).norm();
+  return length;
+}
+
+void Cable::AddGradient(const Eigen::VectorXd& x_m, double factor, Eigen::VectorXd& nodal) const {
+  for (const Piece& piece : pieces_) {
+    const Eigen::Vector3d vector = piece.Vector(x_m);
+    const double length = vector.norm();
+    if (length < kShortestPiece_m) continue;
+    const Eigen::Vector3d direction = factor / length * vector;
+    for (size_t k = 0; k < piece.nodes.size(); ++k) {
+      nodal.segment<3>(3 * piece.nodes[k]) += piece.coefficients[k] * direction;
+    }
+  }
+}
+
+fem::NodePairs Cable::CoupledPairs() const {
+  fem::NodePairs pairs;
+  for (const Piece& piece : pieces_) {
+    for (size_t k = 1; k < piece.nodes.size(); ++k) {
+      for (size_t l = 0; l < k; ++l) pairs.emplace_back(piece.nodes[k], piece.nodes[l]);
+    }
+  }
+  return pairs;
+}
+
+void Cable::BindTo(const fem::StiffnessMatrix& stiffness) {
+  for (Piece& piece : pieces_) {
+    piece.slots.clear();
+    for (size_t k = 0; k < piece.nodes.size(); ++k) {
+      for (size_t l = 0; l <= k; ++l) {
+        piece.slots.push_back(stiffness.Slot(piece.nodes[k], piece.nodes[l]));
+      }
+    }
+  }
+}
+
+void Cable::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
+                         fem::StiffnessMatrix& stiffness) const {
+  for (const Piece& piece : pieces_) {
+    const Eigen::Vector3d vector = piece.Vector(x_m);
+    const double length = vector.norm();
+    if (length < kShortestPiece_m) continue;
+    const Eigen::Vector3d u = vector / length;
+    const Eigen::Matrix3d curvature =
+        multiplier / length * (Eigen::Matrix3d::Identity() - u * u.transpose());
+    size_t slot = 0;
+    for (size_t k = 0; k < piece.nodes.size(); ++k) {
+      for (size_t l = 0; l <= k; ++l) {
+        const Eigen::Matrix3d block =
+            piece.coefficients[k] * piece.coefficients[l] * curvature;
+        stiffness.Add(piece.slots[slot++], block);
+      }
+    }
+  }
+}
+
+}  // namespace palpate::robot

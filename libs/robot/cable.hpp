@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libs/fem/node_weights.hpp"
+#include "libs/fem/scalar_constraint.hpp"
+
+namespace palpate::robot {
+
+/// A cable without friction: from a pull point fixed to the ground through eyelets on the body, in
+/// which it slides, to the last one, where it is attached. Its value is its length outside the
+/// drive, m; its multiplier the tension, N, the same all along. A cable cannot push.
+class Cable final : public fem::ScalarConstraint {
+ public:
+  /// `eyelets`: at least one, weights as in fem/node_weights.hpp; `rest_x_m` [3n] rest positions.
+  Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> eyelets,
+        const Eigen::VectorXd& rest_x_m);
+
+  double rest_length_m() const { return rest_length_m_; }
+  /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body.
+  double Displacement_m(const Eigen::VectorXd& x_m) const { return rest_length_m_ - Value(x_m); }
+  /// [3 x eyelets + 1], pull point first.
+  Eigen::Matrix3Xd Path_m(const Eigen::VectorXd& x_m) const;
+
+  double Value(const Eigen::VectorXd& x_m) const override;
+  void AddGradient(const Eigen::VectorXd& x_m, double factor,
+                   Eigen::VectorXd& nodal) const override;
+  fem::NodePairs CoupledPairs() const override;
+  void BindTo(const fem::StiffnessMatrix& stiffness) override;
+  /// Geometric stiffness lambda / L (I - u u') of each straight piece.
+  void AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
+                    fem::StiffnessMatrix& stiffness) const override;
+
+ private:
+  /// A straight piece: its vector is offset + sum of coefficients[k] x[nodes[k]].
+  struct Piece {
+    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+    std::vector<int> nodes;
+    std::vector<double> coefficients;
+    std::vector<fem::BlockSlot> slots;  ///< of the pairs (k, l), l <= k
+
+    Eigen::Vector3d Vector(const Eigen::VectorXd& x_m) const;
+  };
+
+  Eigen::Vector3d pull_point_m_;
+  std::vector<fem::NodeWeights> eyelets_;
+  std::vector<Piece> pieces_;
+  double rest_length_m_ = 0.0;
+};
+
+}  // namespace palpate::robot

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/core/config_node.hpp"
+#include "libs/fem/material.hpp"
+#include "libs/fem/tet_mesh.hpp"
+
+namespace palpate::robot {
+
+/// Axis-aligned box in the robot frame, bounds included.
+struct Box {
+  Eigen::Vector3d lower_m;
+  Eigen::Vector3d upper_m;
+
+  bool Contains(const Eigen::Vector3d& point_m) const {
+    return (point_m.array() >= lower_m.array()).all() && (point_m.array() <= upper_m.array()).all();
+  }
+};
+
+struct MeshSettings {
+  std::filesystem::path file;                             ///< resolved against the robot file
+  double metres_per_unit = 1.0;                           ///< of `unit: m | cm | mm`
+  Eigen::Vector3d rotate_xyz_deg = Eigen::Vector3d::Zero();  ///< about the fixed x, then y, then z
+  Eigen::Vector3d translate_m = Eigen::Vector3d::Zero();     ///< after the rotation
+};
+
+enum class MassDistribution { kVolume, kPerNode };
+
+struct MassSettings {
+  std::optional<double> total_kg;        ///< one of the two is given
+  std::optional<double> density_kg_m3;
+  MassDistribution distribution = MassDistribution::kVolume;
+};
+
+/// First point: where the cable is pulled from, fixed to the ground. The rest are eyelets on the
+/// body through which it slides; to the last it is attached.
+struct CableSettings {
+  std::string name;
+  Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest
+  double max_tension_N = 1e3;      ///< > 0
+  double guide_radius_m = 0.0015;  ///< >= 0; 0: barycentric points
+  SourceLocation where;
+};
+
+/// A named part of the body; its own modulus where given, else the body's.
+struct RegionSettings {
+  std::string name;
+  Box box;  ///< takes the cells whose centroid lies inside; a later region wins over an earlier
+  std::optional<double> youngs_modulus_Pa;
+  SourceLocation where;
+};
+
+struct MarkerSettings {
+  std::string name;
+  Eigen::Vector3d position_m;  ///< of the undeformed body, before gravity; may stand off
+  SourceLocation where;
+};
+
+/// The robot file (config/robots/*.yaml; format: ARCHITECTURE, "Robot file"), as it was written.
+struct RobotDescription {
+  std::filesystem::path file;
+  std::string name;
+  MeshSettings mesh;
+  fem::ElementType element = fem::ElementType::kTet10;
+  fem::Material material;
+  MassSettings mass;
+  Eigen::Vector3d gravity_m_s2{0.0, 0.0, -9.81};
+  std::vector<Box> fixed;
+  std::vector<SourceLocation> fixed_where;
+  std::vector<CableSettings> cables;
+  std::vector<RegionSettings> regions;
+  std::vector<MarkerSettings> markers;
+  int feature_point_count = 51;          ///< used where no positions are given
+  Eigen::Matrix3Xd feature_points_m;     ///< [3 x k] given positions, or empty
+};
+
+/// Reads a robot file strictly. Throws InputError with file:line:column for an unknown key (with
+/// "did you mean"), a wrong type or unit, NaN, a cable with fewer than two points, a name given
+/// twice.
+RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load);
+
+}  // namespace palpate::robot
