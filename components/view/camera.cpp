@@ -3,6 +3,7 @@
 
 #include "components/view/camera.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,9 +77,9 @@ Camera Camera::Fit(const ViewDirection& view, const std::vector<Extent>& extents
   const Eigen::Array2d size = (bounds.upper - bounds.lower).max(1e-9);
   camera.px_per_m_ = std::min(area.width_px / size.x(), area.height_px / size.y());
   const Eigen::Vector2d middle = (0.5 * (bounds.lower + bounds.upper)).matrix();
-  camera.origin_px_ = Eigen::Vector2d(area.x_px + 0.5 * area.width_px,
-                                      area.y_px + 0.5 * area.height_px) -
-                      camera.px_per_m_ * middle;
+  camera.origin_px_ =
+      Eigen::Vector2d(area.x_px + 0.5 * area.width_px, area.y_px + 0.5 * area.height_px) -
+      camera.px_per_m_ * middle;
   return camera;
 }
 

@@ -14,7 +14,7 @@ Color Mix(const Color& a, const Color& b, double t) {
 }
 
 Color SequentialColor(double t) {
-  constexpr std::array<Color, 7> kStops = {FromHex(0x3D3A8C), FromHex(0x38609E), FromHex(0x2F86A0),
+  constexpr std::array<Color, 7> kStops = {FromHex(0x4A4A9C), FromHex(0x3F6AA8), FromHex(0x328CA6),
                                            FromHex(0x35A796), FromHex(0x6CC47A), FromHex(0xB5DA56),
                                            FromHex(0xF8E644)};
   const double position = std::clamp(t, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);

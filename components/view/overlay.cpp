@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace palpate::view {
 
@@ -90,6 +91,21 @@ void FillRect(const Rect& rect, const Color& color, double opacity, Image* image
       image->Blend(x, y, color, opacity);
     }
   }
+}
+
+void DrawRing(const Eigen::Vector2d& center_px, double radius_px, double width_px,
+              const Color& color, Image* image) {
+  constexpr int kPieces = 48;
+  const auto at = [&](int piece) {
+    const double angle = 2.0 * std::numbers::pi * piece / kPieces;
+    return Eigen::Vector2d(center_px +
+                           radius_px * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  };
+  CoverageMask mask(Around(center_px, center_px, radius_px + width_px + 1.0), *image);
+  for (int piece = 0; piece < kPieces; ++piece) {
+    mask.AddStroke(at(piece), at(piece + 1), 0.5 * width_px);
+  }
+  mask.Paint(color, 1.0, image);
 }
 
 void DrawCross(const Eigen::Vector2d& center_px, double arm_px, double width_px, const Color& color,

@@ -39,6 +39,10 @@ void DrawStroke(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, do
 /// A filled rectangle, its edges rounded to whole pixels, cut to the picture.
 void FillRect(const Rect& rect, const Color& color, double opacity, Image* image);
 
+/// A circle line.
+void DrawRing(const Eigen::Vector2d& center_px, double radius_px, double width_px,
+              const Color& color, Image* image);
+
 /// A cross of two diagonal strokes in a halo, centred at `center_px`.
 void DrawCross(const Eigen::Vector2d& center_px, double arm_px, double width_px, const Color& color,
                Image* image);

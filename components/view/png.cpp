@@ -5,14 +5,12 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <csetjmp>
 #include <string>
-#include <vector>
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
 
 namespace palpate::view {
 
@@ -26,8 +24,8 @@ void CollectError(png_structp png, png_const_charp message) {
 void IgnoreWarning(png_structp, png_const_charp) {}
 
 void AppendBytes(png_structp png, png_bytep data, png_size_t size) {
-  auto* bytes = static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
-  bytes->insert(bytes->end(), data, data + size);
+  auto* bytes = static_cast<std::string*>(png_get_io_ptr(png));
+  bytes->append(data, data + size);
 }
 
 void FlushNothing(png_structp) {}
@@ -49,11 +47,11 @@ bool EncodeRows(png_structp png, png_infop info, const Image& image) {
   return true;
 }
 
-std::vector<unsigned char> Encode(const Image& image) {
+std::string Encode(const Image& image) {
   std::string error;
-  std::vector<unsigned char> bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, CollectError,
-                                            IgnoreWarning);
+  std::string bytes;
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, CollectError, IgnoreWarning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   if (info == nullptr) {
     png_destroy_write_struct(&png, nullptr);
@@ -68,31 +66,11 @@ std::vector<unsigned char> Encode(const Image& image) {
   return bytes;
 }
 
-[[noreturn]] void RefuseWrite(const std::filesystem::path& path, int error_number) {
-  throw RunError("cannot write " + path.string() + ": " + std::strerror(error_number));
-}
-
 }  // namespace
 
 void WritePng(const std::filesystem::path& path, const Image& image) {
   PALPATE_CHECK(image.width_px > 0 && image.height_px > 0, image.width_px, image.height_px);
-  const std::vector<unsigned char> bytes = Encode(image);
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) {
-    RefuseWrite(path, errno);
-  }
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
-                       std::fflush(file) == 0;
-  const int write_error = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written || !closed) {
-    const int error_number = written ? errno : write_error;
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) {
-      std::filesystem::remove(path, ignored);
-    }
-    RefuseWrite(path, error_number);
-  }
+  WriteFile(path, Encode(image));
 }
 
 }  // namespace palpate::view

@@ -27,7 +27,7 @@ Color Shade(const Color& color, const Eigen::Vector3d& direction, const Lighting
   }
   const double key = std::max(0.0, normal.dot(lighting.key));
   const double fill = std::max(0.0, normal.dot(lighting.fill));
-  const double diffuse = 0.50 + 0.46 * key + 0.16 * fill;
+  const double diffuse = 0.60 + 0.38 * key + 0.16 * fill;
   const Eigen::Vector3d halfway = (lighting.key + lighting.toward_viewer).normalized();
   const double gloss = 0.10 * std::pow(std::max(0.0, normal.dot(halfway)), 24.0);
   return {color.r * diffuse + gloss, color.g * diffuse + gloss, color.b * diffuse + gloss};
@@ -78,8 +78,7 @@ void Rasteriser::DrawTriangle(const std::array<Vertex, 3>& vertices, const Light
         continue;
       }
       const auto& [a, b, c] = vertices;
-      const auto nearness =
-          static_cast<float>(w0 * a.seen.z() + w1 * b.seen.z() + w2 * c.seen.z());
+      const auto nearness = static_cast<float>(w0 * a.seen.z() + w1 * b.seen.z() + w2 * c.seen.z());
       Sample& sample = samples_[Index(x, y)];
       if (nearness <= sample.nearness) {
         continue;
@@ -102,8 +101,8 @@ void Rasteriser::DrawLine(const Eigen::Vector3d& from_seen, const Eigen::Vector3
   const double length_squared = std::max(along.squaredNorm(), 1e-12);
   const auto [first_x, last_x] = SampleRange(std::min(from.x(), to.x()) - radius,
                                              std::max(from.x(), to.x()) + radius, columns_);
-  const auto [first_y, last_y] = SampleRange(std::min(from.y(), to.y()) - radius,
-                                             std::max(from.y(), to.y()) + radius, rows_);
+  const auto [first_y, last_y] =
+      SampleRange(std::min(from.y(), to.y()) - radius, std::max(from.y(), to.y()) + radius, rows_);
   const std::array<double, 3> channels = {255.0 * color.r, 255.0 * color.g, 255.0 * color.b};
   for (int y = first_y; y <= last_y; ++y) {
     for (int x = first_x; x <= last_x; ++x) {
@@ -112,8 +111,7 @@ void Rasteriser::DrawLine(const Eigen::Vector3d& from_seen, const Eigen::Vector3
       if ((offset - t * along).squaredNorm() > radius * radius) {
         continue;
       }
-      const auto nearness =
-          static_cast<float>(from_seen.z() + t * (to_seen.z() - from_seen.z()));
+      const auto nearness = static_cast<float>(from_seen.z() + t * (to_seen.z() - from_seen.z()));
       Sample& sample = samples_[Index(x, y)];
       if (nearness <= sample.nearness) {
         continue;
@@ -139,7 +137,8 @@ void Rasteriser::Overlay(const Rasteriser& veil, double opacity) {
     }
     for (std::size_t c = 0; c < 3; ++c) {
       const double old = samples_[i].rgb[c];
-      samples_[i].rgb[c] = static_cast<std::uint8_t>(std::lround(old + (over.rgb[c] - old) * opacity));
+      samples_[i].rgb[c] =
+          static_cast<std::uint8_t>(std::lround(old + (over.rgb[c] - old) * opacity));
     }
   }
 }
@@ -152,6 +151,12 @@ double Rasteriser::Coverage(int x, int y) const {
     }
   }
   return static_cast<double>(covered) / (samples_per_px_ * samples_per_px_);
+}
+
+double Rasteriser::NearnessAt(int x, int y) const {
+  const int middle = samples_per_px_ / 2;
+  return static_cast<double>(
+      samples_[Index(x * samples_per_px_ + middle, y * samples_per_px_ + middle)].nearness);
 }
 
 Image Rasteriser::Resolve() const {

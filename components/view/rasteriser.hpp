@@ -46,6 +46,9 @@ class Rasteriser {
   /// The share of the pixel's samples on which something was drawn, in [0, 1].
   double Coverage(int x, int y) const;
 
+  /// The nearness of what is drawn in the middle of the pixel; -infinity where nothing is.
+  double NearnessAt(int x, int y) const;
+
   /// The picture, each pixel the mean of its samples.
   Image Resolve() const;
 

@@ -18,9 +18,9 @@ namespace palpate::view {
 /// A triangulated surface. With `scalars` it is coloured by them (0 at one end of the colour bar,
 /// Scene::color_bar.maximum at the other), else plain.
 struct Surface {
-  Eigen::Matrix3Xd points_m;     ///< [3 x n]
-  Eigen::Matrix3Xi triangles;    ///< [3 x m] point indices
-  Eigen::VectorXd scalars;       ///< n values, or none
+  Eigen::Matrix3Xd points_m;   ///< [3 x n]
+  Eigen::Matrix3Xi triangles;  ///< [3 x m] point indices
+  Eigen::VectorXd scalars;     ///< n values, or none
   Color color = palette::kSilicone;
   bool show_triangle_edges = true;
 };
@@ -66,8 +66,8 @@ struct LegendEntry {
 };
 
 struct ColorBar {
-  std::string title;        ///< quantity and unit as shown, e.g. "displacement (mm)"
-  double maximum = 0.0;     ///< scalar at the upper end, > 0; the lower end is 0
+  std::string title;            ///< quantity and unit as shown, e.g. "displacement (mm)"
+  double maximum = 0.0;         ///< scalar at the upper end, > 0; the lower end is 0
   double shown_per_unit = 1.0;  ///< 1000 shows metres in mm
 };
 

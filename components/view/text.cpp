@@ -34,14 +34,9 @@ class StrokeWalker {
             GoTo(ReadPoint(), emit);
           }
           break;
-        case 'L':
-          GoTo(ReadPoint(), emit);
-          break;
-        case 'C':
-          Curve(emit);
-          break;
-        default:
-          Arc(emit);
+        case 'L': GoTo(ReadPoint(), emit); break;
+        case 'C': Curve(emit); break;
+        default: Arc(emit);
       }
     }
   }
@@ -131,9 +126,11 @@ std::vector<char32_t> DecodeUtf8(std::string_view text) {
   std::vector<char32_t> letters;
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3
-                               : lead >> 3 == 30                ? 4
-                                                                : 0;
+    const std::size_t length = lead < 0x80       ? 1
+                               : lead >> 5 == 6  ? 2
+                               : lead >> 4 == 14 ? 3
+                               : lead >> 3 == 30 ? 4
+                                                 : 0;
     if (length == 0 || i + length > text.size()) {
       letters.push_back(kReplacement);
       ++i;
@@ -160,7 +157,9 @@ double TextWidth(std::string_view text, const TextStyle& style) {
 void DrawText(std::string_view text, const Eigen::Vector2d& baseline_px, const TextStyle& style,
               Image* image) {
   const double width_px = TextWidth(text, style);
-  const double share = style.align == Align::kLeft ? 0.0 : style.align == Align::kCenter ? 0.5 : 1.0;
+  const double share = style.align == Align::kLeft     ? 0.0
+                       : style.align == Align::kCenter ? 0.5
+                                                       : 1.0;
   const Eigen::Vector2d start_px = baseline_px - Eigen::Vector2d(share * width_px, 0.0);
   const double margin_px = style.halo_px + style.capital_height_px;
   const Rect box{start_px.x() - margin_px, start_px.y() - style.capital_height_px - margin_px,

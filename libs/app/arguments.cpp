@@ -59,14 +59,14 @@ struct Arguments::Impl {
     return names;
   }
 
-  /// CLI11 names the unknown words together; the first of them that looks like an option is the
-  /// one to correct.
-  void RefuseUnknownWord(const std::vector<std::string>& words) const {
-    const auto is_option = [](const std::string& word) { return word.starts_with("-"); };
-    const auto option = std::find_if(words.begin(), words.end(), is_option);
-    if (option == words.end()) Refuse("unexpected argument '" + words.front() + "'");
-    const std::string name = option->substr(0, option->find('='));
-    Refuse("unknown option '" + name + "'" + DidYouMean(name, OptionNames()));
+  /// An option that nobody declared is the likeliest cause of whatever else went wrong (a required
+  /// one misspelt), so that it is named first.
+  void RefuseUnknownOption() const {
+    for (const std::string& word : cli.remaining()) {
+      if (!word.starts_with("-")) continue;
+      const std::string name = word.substr(0, word.find('='));
+      Refuse("unknown option '" + name + "'" + DidYouMean(name, OptionNames()));
+    }
   }
 
   CLI::App cli;
@@ -121,8 +121,7 @@ void Arguments::Option(const std::string& name, int* value, int min, int max,
   Require(option->type_name("N")->check(check), need);
 }
 
-void Arguments::Option(const std::string& name, double* value, const std::string& help,
-                       Need need) {
+void Arguments::Option(const std::string& name, double* value, const std::string& help, Need need) {
   const auto assign = [value](const std::string& text) { ParseFinite(text, value); };
   CLI::Option* option = impl_->cli.add_option_function<std::string>(name, assign, help);
   Require(option->type_name("NUMBER")->check(CheckFinite), need);
@@ -166,9 +165,11 @@ bool Arguments::Parse(const std::vector<std::string>& words) {
   } catch (const CLI::CallForVersion& version) {
     std::printf("%s\n", version.what());
     return false;
-  } catch (const CLI::ExtrasError&) {
-    impl_->RefuseUnknownWord(impl_->cli.remaining());
   } catch (const CLI::ParseError& error) {
+    impl_->RefuseUnknownOption();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+      impl_->Refuse("unexpected argument '" + impl_->cli.remaining().front() + "'");
+    }
     impl_->Refuse(error.what());
   }
   return true;

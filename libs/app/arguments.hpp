@@ -49,8 +49,7 @@ class Arguments {
   void Choice(const std::string& name, std::string* value, std::vector<std::string> choices,
               const std::string& help, Need need = Need::kOptional);
   /// May be given many times, one value each.
-  void Repeated(const std::string& name, std::vector<std::string>* values,
-                const std::string& help);
+  void Repeated(const std::string& name, std::vector<std::string>* values, const std::string& help);
   void Flag(const std::string& name, bool* value, const std::string& help);
 
   bool WasGiven(const std::string& name) const;

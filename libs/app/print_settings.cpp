@@ -94,8 +94,8 @@ std::string PrintYaml(const std::vector<Setting>& settings) {
     const std::string indent = OpenGroups(setting.key, key_before, &yaml);
     const std::string range = DescribeRange(setting);
     yaml += indent + "# " + setting.help + (range.empty() ? "" : " (" + range + ")") + "\n";
-    yaml += indent + setting.key.substr(setting.key.rfind('.') + 1) + ": " +
-            FormatValue(setting) + "\n";
+    yaml += indent + setting.key.substr(setting.key.rfind('.') + 1) + ": " + FormatValue(setting) +
+            "\n";
     key_before = setting.key;
   }
   return yaml;

@@ -88,8 +88,8 @@ std::vector<std::string> KeysBelow(const std::string& prefix,
   std::vector<std::string> keys;
   for (const Setting& setting : settings) {
     if (!setting.key.starts_with(prefix)) continue;
-    keys.push_back(setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) -
-                                                         prefix.size()));
+    keys.push_back(
+        setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) - prefix.size()));
   }
   return keys;
 }
@@ -104,7 +104,8 @@ void LoadMap(const ConfigNode& map, const std::string& prefix,
     } else if (IsGroup(full_key, settings)) {
       LoadMap(entry, full_key + ".", settings);
     } else {
-      Refuse(entry, "unknown key '" + key + "'" + DidYouMean(key, KeysBelow(prefix, settings)));
+      throw InputError(entry.key_where, "unknown key '" + full_key + "'" +
+                                            DidYouMean(key, KeysBelow(prefix, settings)));
     }
   }
 }
@@ -132,8 +133,7 @@ void ApplyOverride(const std::string& assignment, const std::vector<Setting>& se
   if (setting == nullptr) {
     std::vector<std::string> keys;
     for (const Setting& known : settings) keys.push_back(known.key);
-    throw InputError("--set " + assignment + ": unknown key '" + key + "'" +
-                     DidYouMean(key, keys));
+    throw InputError("--set " + assignment + ": unknown key '" + key + "'" + DidYouMean(key, keys));
   }
   ConfigNode node = ParseYaml(assignment.substr(equals + 1), "--set " + assignment);
   node.where = {"--set " + assignment};

@@ -20,9 +20,8 @@ namespace palpate::app {
 /// Where the value of a setting lives: a member of somebody's settings struct. An optional may be
 /// unset (null in the file).
 using SettingValue =
-    std::variant<bool*, int*, double*, std::string*, std::filesystem::path*,
-                 std::optional<double>*, Eigen::Vector3d*, std::vector<double>*,
-                 std::vector<std::string>*>;
+    std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, std::optional<double>*,
+                 Eigen::Vector3d*, std::vector<double>*, std::vector<std::string>*>;
 
 /// One parameter: a single line of a struct's Visit() serves loading, checking, --print-config and
 /// the README table.
@@ -38,8 +37,8 @@ struct Setting {
 ///
 ///   template <typename Visitor>
 ///   void Visit(Visitor&& v) {
-///     v("youngs_modulus_Pa", youngs_modulus_Pa, {.min = 1.0}, "Stiffness of the material at rest");
-///     v("qos", qos, {"reliable", "best_effort"}, "Reliability that is asked for");
+///     v("youngs_modulus_Pa", youngs_modulus_Pa, {.min = 1.0}, "Stiffness of the material at
+///     rest"); v("qos", qos, {"reliable", "best_effort"}, "Reliability that is asked for");
 ///     v("robot_file", robot_file, "Robot description");     // bool, text, path
 ///     v("contact", contact, "How contacts are spread");      // a struct with a Visit of its own
 ///   }

@@ -39,8 +39,8 @@ const Verb& FindVerb(const std::string& program, const std::string& name,
 
 }  // namespace
 
-int RunVerbs(const std::string& program, const std::string& purpose,
-             const std::vector<Verb>& verbs, const std::vector<std::string>& words) {
+int RunVerbs(const std::string& program, const std::string& purpose, const std::vector<Verb>& verbs,
+             const std::vector<std::string>& words) {
   if (words.empty()) {
     throw InputError("a verb is missing; see " + program + " --help");
   }

@@ -25,7 +25,7 @@ struct Verb {
 /// Runs the verb that words[0] names with the rest of the words (those after the program's name);
 /// --help and --version are answered here. Throws InputError for a missing verb or an unknown one,
 /// with "did you mean".
-int RunVerbs(const std::string& program, const std::string& purpose,
-             const std::vector<Verb>& verbs, const std::vector<std::string>& words);
+int RunVerbs(const std::string& program, const std::string& purpose, const std::vector<Verb>& verbs,
+             const std::vector<std::string>& words);
 
 }  // namespace palpate::app

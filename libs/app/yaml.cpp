@@ -10,8 +10,8 @@
 #include <optional>
 #include <sstream>
 
-#include "libs/core/file.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/file.hpp"
 
 namespace palpate::app {
 
@@ -81,9 +81,10 @@ class TreeBuilder : public YAML::EventHandler {
     RefuseExtras(mark, tag, anchor);
     if (open_.back()->Find(key) != nullptr) {
       throw InputError(Locate(file_, mark), "key '" + ChildPath(key) + "' is given twice, first " +
-                                                open_.back()->Find(key)->where.ToString());
+                                                open_.back()->Find(key)->key_where.ToString());
     }
     key_ = key;
+    key_where_ = Locate(file_, mark);
   }
 
   std::string ChildPath(const std::string& key) const {
@@ -110,6 +111,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     if (!key_) throw InputError(node.where, "a key must be a plain word");
     node.path = ChildPath(*key_);
+    node.key_where = key_where_;
     parent.entries.emplace_back(*key_, std::move(node));
     key_.reset();
     return &parent.entries.back().second;
@@ -119,6 +121,7 @@ class TreeBuilder : public YAML::EventHandler {
   ConfigNode root_;
   std::vector<ConfigNode*> open_;   // lists and maps that have not ended, outermost first
   std::optional<std::string> key_;  // of the innermost map, waiting for its value
+  SourceLocation key_where_;
 };
 
 }  // namespace

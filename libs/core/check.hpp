@@ -26,10 +26,10 @@ std::string DescribeValues(const Values&... values) {
 
 /// A broken promise of our own code (never of a user or of data): prints the condition and the
 /// values given, then aborts. Always on, in release builds too.
-#define PALPATE_CHECK(condition, ...)                                                    \
-  do {                                                                                   \
-    if (!(condition)) [[unlikely]] {                                                     \
-      ::palpate::internal::CheckFailed(#condition, __FILE__, __LINE__,                   \
+#define PALPATE_CHECK(condition, ...)                                                     \
+  do {                                                                                    \
+    if (!(condition)) [[unlikely]] {                                                      \
+      ::palpate::internal::CheckFailed(#condition, __FILE__, __LINE__,                    \
                                        ::palpate::internal::DescribeValues(__VA_ARGS__)); \
-    }                                                                                    \
+    }                                                                                     \
   } while (false)

@@ -21,11 +21,12 @@ struct ConfigNode {
 
   Kind kind = Kind::kNull;
   SourceLocation where;
-  std::string path;   ///< e.g. "cables[2].path_m", for messages; empty at the root
-  std::string text;   ///< of a scalar, unquoted
-  bool quoted = false;  ///< a scalar that was quoted is text, never a number
-  std::vector<ConfigNode> items;                             ///< of a list
-  std::vector<std::pair<std::string, ConfigNode>> entries;   ///< of a map, in file order
+  SourceLocation key_where;       ///< of an entry of a map: where its key stands
+  std::string path;               ///< e.g. "cables[2].path_m", for messages; empty at the root
+  std::string text;               ///< of a scalar, unquoted
+  bool quoted = false;            ///< a scalar that was quoted is text, never a number
+  std::vector<ConfigNode> items;  ///< of a list
+  std::vector<std::pair<std::string, ConfigNode>> entries;  ///< of a map, in file order
 
   /// The entry of a map, or nullptr.
   const ConfigNode* Find(const std::string& key) const;

@@ -82,8 +82,7 @@ std::string DescribeRule(const NumberRule& rule) {
 }
 
 void Refuse(const ConfigNode& node, const std::string& message) {
-  throw InputError(node.where,
-                   node.path.empty() ? message : "key '" + node.path + "': " + message);
+  throw InputError(node.where, node.path.empty() ? message : "key '" + node.path + "': " + message);
 }
 
 double ReadNumber(const ConfigNode& node, const NumberRule& rule) {
@@ -104,8 +103,8 @@ int ReadInteger(const ConfigNode& node, int min, int max) {
     RefuseType(node, "a whole number");
   }
   if (too_big || value < min || value > max) {
-    Refuse(node, "must be " + std::to_string(min) + " to " + std::to_string(max) + ", not " +
-                     node.text);
+    Refuse(node,
+           "must be " + std::to_string(min) + " to " + std::to_string(max) + ", not " + node.text);
   }
   return value;
 }
@@ -121,8 +120,8 @@ bool ReadBool(const ConfigNode& node) {
 std::string ReadText(const ConfigNode& node) {
   if (node.kind != Kind::kScalar) RefuseType(node, "text");
   double number = 0.0;
-  const bool ambiguous = IsBooleanWord(node.text) || IsNotFiniteWord(node.text) ||
-                         ParseFinite(node.text, &number);
+  const bool ambiguous =
+      IsBooleanWord(node.text) || IsNotFiniteWord(node.text) || ParseFinite(node.text, &number);
   if (!node.quoted && ambiguous) {
     Refuse(node, "must be text, and YAML reads " + node.text + " as something else: write \"" +
                      node.text + "\"");
@@ -135,8 +134,8 @@ std::string ReadChoice(const ConfigNode& node, const std::vector<std::string>& c
   if (std::find(choices.begin(), choices.end(), node.text) != choices.end()) return node.text;
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-  Refuse(node, "must be one of " + list + ", not '" + node.text + "'" +
-                   DidYouMean(node.text, choices));
+  Refuse(node,
+         "must be one of " + list + ", not '" + node.text + "'" + DidYouMean(node.text, choices));
 }
 
 Eigen::Vector3d ReadVector3(const ConfigNode& node, const NumberRule& rule) {
@@ -166,7 +165,9 @@ MapReader::MapReader(const ConfigNode& node) : node_(node) {
   if (node.kind != Kind::kMap) RefuseType(node, "a map");
   std::set<std::string> seen;
   for (const auto& [key, entry] : node.entries) {
-    if (!seen.insert(key).second) Refuse(entry, "is given twice");
+    if (!seen.insert(key).second) {
+      throw InputError(entry.key_where, "key '" + entry.path + "' is given twice");
+    }
   }
 }
 
@@ -194,7 +195,8 @@ const ConfigNode* MapReader::Optional(const std::string& key) {
 void MapReader::Finish() const {
   for (const auto& [key, entry] : node_.entries) {
     if (std::find(known_keys_.begin(), known_keys_.end(), key) == known_keys_.end()) {
-      Refuse(entry, "unknown key '" + key + "'" + DidYouMean(key, known_keys_));
+      throw InputError(entry.key_where,
+                       "unknown key '" + entry.path + "'" + DidYouMean(key, known_keys_));
     }
   }
 }

@@ -11,20 +11,20 @@ namespace palpate {
 
 /// Why a result may or may not be used.
 enum class StatusCode {
-  kNotRun,                 ///< nothing was computed yet: what every result starts as
-  kOk,                     ///< may be used
-  kNotConverged,           ///< iterations or load steps used up
-  kNotPositiveDefinite,    ///< the stiffness matrix has no Cholesky factor here
-  kInverted,               ///< an element turned inside out
-  kTensionLimit,           ///< a cable's displacement needs more than its max_tension_N
-  kUnobservable,           ///< the measurements do not determine the unknown
-  kTangentialUnobservable, ///< they determine it along the surface normal only
-  kNoContact,              ///< nothing beyond the noise
-  kHidden,                 ///< not seen by the camera
+  kNotRun,                  ///< nothing was computed yet: what every result starts as
+  kOk,                      ///< may be used
+  kNotConverged,            ///< iterations or load steps used up
+  kNotPositiveDefinite,     ///< the stiffness matrix has no Cholesky factor here
+  kInverted,                ///< an element turned inside out
+  kTensionLimit,            ///< a cable's displacement needs more than its max_tension_N
+  kUnobservable,            ///< the measurements do not determine the unknown
+  kTangentialUnobservable,  ///< they determine it along the surface normal only
+  kNoContact,               ///< nothing beyond the noise
+  kHidden,                  ///< not seen by the camera
   kNoCalibration,
-  kStale,                  ///< inputs too old
-  kNoRobotSeen,            ///< no usable measurement in this frame
-  kInvalidInput,           ///< NaN, wrong frame, wrong size
+  kStale,         ///< inputs too old
+  kNoRobotSeen,   ///< no usable measurement in this frame
+  kInvalidInput,  ///< NaN, wrong frame, wrong size
 };
 
 /// The word for `code` in CSV files, messages and logs, e.g. "ok", "not_converged".

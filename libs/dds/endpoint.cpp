@@ -26,6 +26,7 @@ void Changed(const EndpointCounters& counters) {
 
 template <typename Status>
 void OnMatched(dds_entity_t, const Status status, void* argument) {
+  CountersOf(argument).matched_ever = status.total_count;
   CountersOf(argument).matched = status.current_count;
   Changed(CountersOf(argument));
 }

@@ -17,6 +17,7 @@ namespace palpate::dds {
 /// What befell one writer or reader since its start. Written by DDS's own threads.
 struct EndpointCounters {
   std::atomic<uint32_t> matched{0};           ///< partners now
+  std::atomic<uint32_t> matched_ever{0};      ///< partners since the start, each reappearance too
   std::atomic<uint32_t> sample_lost{0};       ///< reader: never came, or overwritten before taken
   std::atomic<uint32_t> incompatible_qos{0};  ///< partners turned away because of their QoS
   std::atomic<uint32_t> deadline_missed{0};

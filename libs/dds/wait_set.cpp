@@ -36,8 +36,8 @@ WaitSet::WaitSet(const Participant& participant)
   AttachTo(wait_set_.handle(), guard_.handle(), nullptr);
 }
 
-void WaitSet::Attach(const Endpoint& reader, std::function<void()> on_data) {
-  Entity condition(dds_create_readcondition(reader.handle(), DDS_ANY_STATE), "a read condition");
+void WaitSet::Attach(dds_entity_t reader, std::function<void()> on_data) {
+  Entity condition(dds_create_readcondition(reader, DDS_ANY_STATE), "a read condition");
   sources_.push_back(
       std::make_unique<Source>(Source{std::move(condition), std::move(on_data)}));
   AttachTo(wait_set_.handle(), sources_.back()->condition.handle(), sources_.back().get());

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "libs/dds/endpoint.hpp"
@@ -25,7 +26,10 @@ class WaitSet {
 
   /// Calls `on_data` while messages wait in `reader`; it must take them. The reader must outlive
   /// this. Throws RunError where DDS refuses.
-  void Attach(const Endpoint& reader, std::function<void()> on_data);
+  void Attach(const Endpoint& reader, std::function<void()> on_data) {
+    Attach(reader.handle(), std::move(on_data));
+  }
+  void Attach(dds_entity_t reader, std::function<void()> on_data);
   /// Calls `on_time` every `period`, first after one period; missed turns are left out.
   void Every(Clock::duration period, std::function<void()> on_time);
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <utility>
 
 #include "idl/message_traits.hpp"
@@ -28,6 +29,11 @@ class Writer : public Endpoint {
     return sent;
   }
   [[nodiscard]] bool Write(const Message<T>& message) { return Write(*message); }
+
+  /// Waits until every reliable reader has all that was sent; false where that takes longer.
+  [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most) {
+    return dds_wait_for_acks(handle(), at_most.count()) == DDS_RETCODE_OK;
+  }
 
   uint64_t sent_count() const { return sent_count_; }
   uint64_t failed_count() const { return failed_count_; }

@@ -54,8 +54,9 @@ void CheckSample(const CsvTable& table, std::size_t row, std::size_t index, Cabl
     table.Refuse(row, index, "a tension is never negative (a cable cannot push)");
   }
   if (quantity == CableQuantity::kDisplacement && std::abs(value) > kLargestDisplacement_m) {
-    table.Refuse(row, index, "more than " + FormatNumber(kLargestDisplacement_m) +
-                                 " m; metres are expected, are these millimetres?");
+    table.Refuse(row, index,
+                 "more than " + FormatNumber(kLargestDisplacement_m) +
+                     " m; metres are expected, are these millimetres?");
   }
 }
 

@@ -19,12 +19,11 @@ struct KnownUnit {
 };
 
 constexpr std::array kUnits = {
-    KnownUnit{"m", "m", 1.0},    KnownUnit{"mm", "m", 1e-3}, KnownUnit{"cm", "m", 1e-2},
-    KnownUnit{"um", "m", 1e-6},  KnownUnit{"km", "m", 1e3},  KnownUnit{"in", "m", 0.0254},
-    KnownUnit{"inch", "m", 0.0254}, KnownUnit{"N", "N", 1.0},
-    KnownUnit{"mN", "N", 1e-3},  KnownUnit{"kN", "N", 1e3},
-    KnownUnit{"s", "s", 1.0},    KnownUnit{"ms", "s", 1e-3}, KnownUnit{"us", "s", 1e-6},
-    KnownUnit{"ns", "s", 1e-9},
+    KnownUnit{"m", "m", 1.0},       KnownUnit{"mm", "m", 1e-3}, KnownUnit{"cm", "m", 1e-2},
+    KnownUnit{"um", "m", 1e-6},     KnownUnit{"km", "m", 1e3},  KnownUnit{"in", "m", 0.0254},
+    KnownUnit{"inch", "m", 0.0254}, KnownUnit{"N", "N", 1.0},   KnownUnit{"mN", "N", 1e-3},
+    KnownUnit{"kN", "N", 1e3},      KnownUnit{"s", "s", 1.0},   KnownUnit{"ms", "s", 1e-3},
+    KnownUnit{"us", "s", 1e-6},     KnownUnit{"ns", "s", 1e-9},
 };
 
 std::string NameOfSi(const std::string& si) {
@@ -90,8 +89,8 @@ void ColumnFinder::Finish() const {
     const std::string& name = table_.header()[column];
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     throw InputError(table_.HeaderWhere(column), "unknown column '" + name + "'" +
-                                                     DidYouMean(name, known_) +
-                                                     "; known are " + Joined(known_));
+                                                     DidYouMean(name, known_) + "; known are " +
+                                                     Joined(known_));
   }
 }
 

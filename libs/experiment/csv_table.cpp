@@ -102,9 +102,9 @@ void CsvTable::ParseRow(std::string_view line, int line_number) {
     cells_.push_back(text);
   }
   if (count != header_.size()) {
-    throw InputError(SourceLocation{file_, line_number, 1},
-                     "the row has " + std::to_string(count) + " fields, the header has " +
-                         std::to_string(header_.size()));
+    throw InputError(SourceLocation{file_, line_number, 1}, "the row has " + std::to_string(count) +
+                                                                " fields, the header has " +
+                                                                std::to_string(header_.size()));
   }
 }
 
@@ -139,8 +139,8 @@ SourceLocation CsvTable::HeaderWhere(std::size_t column) const {
 }
 
 void CsvTable::Refuse(std::size_t row, std::size_t column, const std::string& message) const {
-  throw InputError(Where(row, column), header_[column] + " '" + std::string(Text(row, column)) +
-                                           "': " + message);
+  throw InputError(Where(row, column),
+                   header_[column] + " '" + std::string(Text(row, column)) + "': " + message);
 }
 
 }  // namespace palpate::experiment

@@ -51,7 +51,8 @@ class CsvTable {
   int ColumnOf(std::string_view field) const;
 
   std::string file_;
-  std::unique_ptr<const std::string> bytes_;  // what the fields point into; moving keeps its address
+  std::unique_ptr<const std::string>
+      bytes_;  // what the fields point into; moving keeps its address
   std::vector<std::string> header_;
   std::vector<int> header_columns_;      // in the line, from 1
   std::vector<std::string_view> cells_;  // rows x columns

@@ -18,17 +18,44 @@ namespace {
 namespace fs = std::filesystem;
 
 // The causes of DIAGNOSIS.md, and the tolerances that belong to no single cause.
-const std::vector<std::string> kToleranceKeys = {
-    "youngs_modulus",      "regional_stiffness", "poissons_ratio",       "stiffening",
-    "density",             "viscoelastic_creep", "mullins",              "plastic_set",
-    "geometry_scale",      "temperature",        "rest_twist",           "base_compliance",
-    "gravity_direction",   "payload",            "permanent_force",      "hidden_obstacle",
-    "cable_friction",      "cable_elasticity",   "cable_cutting",        "cable_gain",
-    "cable_offset",        "backlash",           "cable_routing",        "swapped_cables",
-    "drive_coupling",      "lag",                "camera_moved",         "depth_scale",
-    "depth_incidence_bias", "intrinsics",        "lens_distortion",      "flying_pixels",
-    "warm_up_drift",       "marker_misplacement", "discretisation",      "extrinsics_m",
-    "extrinsics_rad",      "marker_bias_m"};
+const std::vector<std::string> kToleranceKeys = {"youngs_modulus",
+                                                 "regional_stiffness",
+                                                 "poissons_ratio",
+                                                 "stiffening",
+                                                 "density",
+                                                 "viscoelastic_creep",
+                                                 "mullins",
+                                                 "plastic_set",
+                                                 "geometry_scale",
+                                                 "temperature",
+                                                 "rest_twist",
+                                                 "base_compliance",
+                                                 "gravity_direction",
+                                                 "payload",
+                                                 "permanent_force",
+                                                 "hidden_obstacle",
+                                                 "cable_friction",
+                                                 "cable_elasticity",
+                                                 "cable_cutting",
+                                                 "cable_gain",
+                                                 "cable_offset",
+                                                 "backlash",
+                                                 "cable_routing",
+                                                 "swapped_cables",
+                                                 "drive_coupling",
+                                                 "lag",
+                                                 "camera_moved",
+                                                 "depth_scale",
+                                                 "depth_incidence_bias",
+                                                 "intrinsics",
+                                                 "lens_distortion",
+                                                 "flying_pixels",
+                                                 "warm_up_drift",
+                                                 "marker_misplacement",
+                                                 "discretisation",
+                                                 "extrinsics_m",
+                                                 "extrinsics_rad",
+                                                 "marker_bias_m"};
 
 Eigen::Vector3d ReadSigma(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::kList) return ReadVector3(node, kPositive);
@@ -62,7 +89,8 @@ fs::path Resolve(const fs::path& file, const std::string& named) {
 
 std::string FormatTolerances(const std::map<std::string, double>& tolerances) {
   std::string text = "tolerances:\n";
-  for (const auto& [key, value] : tolerances) text += "  " + key + ": " + FormatNumber(value) + "\n";
+  for (const auto& [key, value] : tolerances)
+    text += "  " + key + ": " + FormatNumber(value) + "\n";
   return text;
 }
 

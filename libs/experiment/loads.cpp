@@ -40,8 +40,8 @@ struct LoadColumns {
 double ReadPatchRadius(const CsvTable& table, std::size_t row, std::size_t column) {
   const double radius_m = table.OptionalNumber(row, column).value_or(0.0);
   if (radius_m < 0.0 || radius_m > kLargestPatchRadius_m) {
-    table.Refuse(row, column, "must lie between 0 and " + FormatNumber(kLargestPatchRadius_m) +
-                                  " m");
+    table.Refuse(row, column,
+                 "must lie between 0 and " + FormatNumber(kLargestPatchRadius_m) + " m");
   }
   return radius_m;
 }
@@ -105,9 +105,8 @@ std::vector<KnownLoad> LoadsAt(const std::vector<KnownLoad>& loads, double t_s) 
                                 [&](const KnownLoad& load) { return load.t_s > t_s; });
   if (end == loads.begin()) return {};
   const double acting_since_s = std::prev(end)->t_s;
-  const auto begin = std::find_if(loads.begin(), end, [&](const KnownLoad& load) {
-    return load.t_s == acting_since_s;
-  });
+  const auto begin = std::find_if(
+      loads.begin(), end, [&](const KnownLoad& load) { return load.t_s == acting_since_s; });
   return {begin, end};
 }
 

@@ -15,7 +15,7 @@ namespace palpate::experiment {
 
 /// Where a table of one row for each time and marker keeps what, and in which units.
 struct MarkerColumns {
-  std::size_t time = 0;    ///< s
+  std::size_t time = 0;  ///< s
   std::size_t marker = 0;
   std::array<std::size_t, 3> position{};
   std::array<double, 3> metres_per_unit{1.0, 1.0, 1.0};

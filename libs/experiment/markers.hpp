@@ -58,8 +58,8 @@ MarkerTracks Transformed(const MarkerTracks& markers, const Eigen::Isometry3d& T
 
 /// A marker averaged over a time window.
 struct MarkerMean {
-  int count = 0;                                          ///< frames that saw it
-  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();       ///< valid where count > 0
+  int count = 0;                                     ///< frames that saw it
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();  ///< valid where count > 0
   /// Standard deviation of one sample about a straight line in time (so that creep does not count
   /// as noise), for each axis; valid where count > 2.
   Eigen::Vector3d deviation_m = Eigen::Vector3d::Zero();

@@ -66,8 +66,8 @@ std::string Listed(const std::vector<std::string>& names) {
 void CheckName(const std::string& name, const SourceLocation& where, const std::string& what,
                const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  throw InputError(where, "the robot has no " + what + " '" + name + "'" +
-                              DidYouMean(name, names) + "; it has " + Listed(names));
+  throw InputError(where, "the robot has no " + what + " '" + name + "'" + DidYouMean(name, names) +
+                              "; it has " + Listed(names));
 }
 
 }  // namespace

@@ -26,8 +26,16 @@ enum class MeasurementFrame {
 
 /// What was done, never what happened by itself.
 enum class RecordingKind {
-  kRest, kRamp, kHold, kKnownLoad, kCoContraction, kBaseTilted, kCameraMoved, kSecondSpeed,
-  kRepeat, kFree,
+  kRest,
+  kRamp,
+  kHold,
+  kKnownLoad,
+  kCoContraction,
+  kBaseTilted,
+  kCameraMoved,
+  kSecondSpeed,
+  kRepeat,
+  kFree,
 };
 
 /// The words of recording.yaml, e.g. "known_load", and "robot" | "camera".

@@ -69,8 +69,9 @@ std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
 
 void CheckWindowHoldsFrames(const MarkerTracks& markers, const TimeWindow& window,
                             const std::string& key, const fs::path& file) {
-  const bool any = std::any_of(markers.frames.begin(), markers.frames.end(),
-                               [&](const MarkerFrame& frame) { return window.Contains(frame.t_s); });
+  const bool any =
+      std::any_of(markers.frames.begin(), markers.frames.end(),
+                  [&](const MarkerFrame& frame) { return window.Contains(frame.t_s); });
   if (any) return;
   throw InputError(SourceLocation{file.string()},
                    "key '" + key + "': no frame of markers.csv (" +

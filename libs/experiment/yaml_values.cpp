@@ -63,9 +63,10 @@ std::string FormatVector(const Eigen::VectorXd& vector) {
 
 std::string FormatPose(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond rotation(pose.rotation());
-  return "{translation_m: " + FormatVector(pose.translation()) + ", rotation_xyzw: {x: " +
-         FormatNumber(rotation.x()) + ", y: " + FormatNumber(rotation.y()) +
-         ", z: " + FormatNumber(rotation.z()) + ", w: " + FormatNumber(rotation.w()) + "}}";
+  return "{translation_m: " + FormatVector(pose.translation()) +
+         ", rotation_xyzw: {x: " + FormatNumber(rotation.x()) +
+         ", y: " + FormatNumber(rotation.y()) + ", z: " + FormatNumber(rotation.z()) +
+         ", w: " + FormatNumber(rotation.w()) + "}}";
 }
 
 std::string FormatWindow(const TimeWindow& window) {

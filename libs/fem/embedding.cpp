@@ -96,8 +96,7 @@ void PointLocator::BuildGrid() {
   grid_size_.setConstant(std::clamp(static_cast<int>(cells_per_axis), 1, 64));
   grid_origin_m_ = box.lower_m;
   const double tiny_m = 1e-6 * box.Diagonal_m() + 1e-12;
-  grid_step_m_ =
-      ((box.upper_m - box.lower_m).array() + tiny_m) / grid_size_.cast<double>();
+  grid_step_m_ = ((box.upper_m - box.lower_m).array() + tiny_m) / grid_size_.cast<double>();
   grid_.assign(static_cast<size_t>(grid_size_.prod()), {});
   for (int cell = 0; cell < mesh_.CellCount(); ++cell) {
     const geometry::Box cell_box = geometry::BoundingBox(CellNodes_m(mesh_, cell));
@@ -187,8 +186,7 @@ NodeWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) con
   Eigen::Vector3d xi = holder >= 0 ? Eigen::Vector3d(Barycentric(holder, point_m).tail<3>())
                                    : ClosestReferencePoint(*cell, point_m);
   for (int step = 0; holder >= 0 && step < kMaxCurvatureSteps; ++step) {
-    const Eigen::Vector3d gap_m =
-        point_m - nodes_m * ShapeFunctions(mesh_.element_type(), xi);
+    const Eigen::Vector3d gap_m = point_m - nodes_m * ShapeFunctions(mesh_.element_type(), xi);
     if (gap_m.norm() < kCurvatureTolerance * size_m) break;
     const Eigen::Matrix3d jacobian_m =
         nodes_m * ShapeGradients(mesh_.element_type(), xi).transpose();

@@ -62,8 +62,8 @@ class PointLocator {
   TetMesh mesh_;
   BoundarySurface boundary_;
   geometry::SurfaceIndex surface_;
-  Eigen::Matrix3Xd centroids_m_;                ///< [3 x cells]
-  std::vector<Eigen::Matrix3d> to_reference_;   ///< [cells] inverse of the corner edges, 1/m
+  Eigen::Matrix3Xd centroids_m_;               ///< [3 x cells]
+  std::vector<Eigen::Matrix3d> to_reference_;  ///< [cells] inverse of the corner edges, 1/m
   Eigen::Vector3d grid_origin_m_;
   Eigen::Vector3d grid_step_m_;
   Eigen::Array3i grid_size_;

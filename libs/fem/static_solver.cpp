@@ -60,6 +60,7 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
                                 : target;
     attempt = start;
     last = SolveLoadStep(loads, &attempt, &result);
+    result.multipliers_N = attempt.multipliers_N;
     if (last.ok()) {
       ++result.load_steps;
       attempt.loads = loads;

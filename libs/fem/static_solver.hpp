@@ -58,6 +58,8 @@ struct StaticResult {
   double residual_relative = 0.0;
   double constraint_error_m = 0.0;
   double load_fraction = 0.0;  ///< of the way from the old loads to the new that was reached
+  /// Multipliers where the last attempt ended, also where it failed (which cable pulls at its limit).
+  Eigen::VectorXd multipliers_N;
 };
 
 /// Newton's method for r(x, lambda) = 0 (linearisation.hpp) with line search, a guard against

@@ -48,8 +48,8 @@ class FaceIntegral {
 
   void Add(const Piece& piece, int depth) {
     const Eigen::Matrix3d points_m = corners_m_ * piece;
-    const Eigen::Array3d outside_m = (points_m.colwise() - centre_m_).colwise().norm().array() -
-                                     radius_m_;
+    const Eigen::Array3d outside_m =
+        (points_m.colwise() - centre_m_).colwise().norm().array() - radius_m_;
     if ((outside_m <= 0.0).all()) return AddWhole(piece);
     const Eigen::Vector3d nearest = geometry::ClosestPointOnTriangle(
         points_m.col(0), points_m.col(1), points_m.col(2), centre_m_);

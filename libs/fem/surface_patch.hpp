@@ -16,8 +16,9 @@ struct SurfacePatch {
   NodeWeights weights;  ///< nodes in rising order; the weights add up to 1
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< where the resultant acts at rest
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, outward, mean over the area
-  double area_m2 = 0.0;     ///< 0 for a point
-  double distance_m = 0.0;  ///< from the point that was asked for to the surface (0 inside, radius 0)
+  double area_m2 = 0.0;                                ///< 0 for a point
+  double distance_m =
+      0.0;  ///< from the point that was asked for to the surface (0 inside, radius 0)
 };
 
 /// Uniform traction over the rest surface within `radius_m` of the surface point nearest to

@@ -33,8 +33,7 @@ Eigen::Vector3d ClosestPointOnEdges(const std::array<Eigen::Vector3d, 3>& corner
   for (size_t k = 0; k < 3; ++k) {
     const size_t next = (k + 1) % 3;
     const Eigen::Vector3d edge_m = corners_m[next] - corners_m[k];
-    const double t =
-        ClampedFraction((point_m - corners_m[k]).dot(edge_m), edge_m.squaredNorm());
+    const double t = ClampedFraction((point_m - corners_m[k]).dot(edge_m), edge_m.squaredNorm());
     const double squared_m2 = (corners_m[k] + t * edge_m - point_m).squaredNorm();
     if (squared_m2 < best_squared_m2) {
       best_squared_m2 = squared_m2;
@@ -66,7 +65,8 @@ SurfaceIndex::SurfaceIndex(TriangleSurface surface) : surface_(std::move(surface
   PALPATE_CHECK(count > 0, "a surface needs a triangle");
   Eigen::Matrix3Xd centroids_m(3, count);
   for (int t = 0; t < count; ++t) {
-    centroids_m.col(t) = (surface_.Corner(t, 0) + surface_.Corner(t, 1) + surface_.Corner(t, 2)) / 3.0;
+    centroids_m.col(t) =
+        (surface_.Corner(t, 0) + surface_.Corner(t, 1) + surface_.Corner(t, 2)) / 3.0;
   }
   order_.resize(static_cast<size_t>(count));
   std::iota(order_.begin(), order_.end(), 0);

@@ -48,8 +48,8 @@ Registration RegisterRigid(const Eigen::Ref<const Eigen::Matrix3Xd>& source_m,
     return Refusal(StatusCode::kInvalidInput, "a coordinate is not finite");
   }
   if (source_m.cols() < 3) {
-    return Refusal(StatusCode::kUnobservable, "a rigid motion needs 3 points, there are " +
-                                                  std::to_string(source_m.cols()));
+    return Refusal(StatusCode::kUnobservable,
+                   "a rigid motion needs 3 points, there are " + std::to_string(source_m.cols()));
   }
   const Eigen::Vector3d source_mean_m = source_m.rowwise().mean();
   const Eigen::Vector3d target_mean_m = target_m.rowwise().mean();

@@ -11,9 +11,9 @@
 namespace palpate::geometry {
 
 struct Registration {
-  Status status;                ///< kUnobservable: fewer than 3 points, or all on one line
+  Status status;  ///< kUnobservable: fewer than 3 points, or all on one line
   RigidTransform T_target_source;
-  double rms_m = 0.0;           ///< root mean square distance of the pairs after the motion
+  double rms_m = 0.0;  ///< root mean square distance of the pairs after the motion
 };
 
 /// The rigid motion that takes `source_m` to `target_m` (column k to column k, [3 x n] both) with

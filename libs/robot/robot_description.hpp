@@ -12,30 +12,25 @@
 #include "libs/core/config_node.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/tet_mesh.hpp"
+#include "libs/geometry/box.hpp"
 
 namespace palpate::robot {
 
 /// Axis-aligned box in the robot frame, bounds included.
-struct Box {
-  Eigen::Vector3d lower_m;
-  Eigen::Vector3d upper_m;
-
-  bool Contains(const Eigen::Vector3d& point_m) const {
-    return (point_m.array() >= lower_m.array()).all() && (point_m.array() <= upper_m.array()).all();
-  }
-};
+using Box = geometry::Box;
 
 struct MeshSettings {
-  std::filesystem::path file;                             ///< resolved against the robot file
-  double metres_per_unit = 1.0;                           ///< of `unit: m | cm | mm`
+  std::filesystem::path file;                                ///< resolved against the robot file
+  double metres_per_unit = 1.0;                              ///< of `unit: m | cm | mm`
   Eigen::Vector3d rotate_xyz_deg = Eigen::Vector3d::Zero();  ///< about the fixed x, then y, then z
   Eigen::Vector3d translate_m = Eigen::Vector3d::Zero();     ///< after the rotation
+  SourceLocation where;                                      ///< of `file`
 };
 
 enum class MassDistribution { kVolume, kPerNode };
 
 struct MassSettings {
-  std::optional<double> total_kg;        ///< one of the two is given
+  std::optional<double> total_kg;  ///< one of the two is given
   std::optional<double> density_kg_m3;
   MassDistribution distribution = MassDistribution::kVolume;
 };
@@ -78,13 +73,29 @@ struct RobotDescription {
   std::vector<CableSettings> cables;
   std::vector<RegionSettings> regions;
   std::vector<MarkerSettings> markers;
-  int feature_point_count = 51;          ///< used where no positions are given
-  Eigen::Matrix3Xd feature_points_m;     ///< [3 x k] given positions, or empty
+  int feature_point_count = 51;       ///< used where no positions are given
+  Eigen::Matrix3Xd feature_points_m;  ///< [3 x k] given positions, or empty
+  SourceLocation feature_points_where;
 };
 
-/// Reads a robot file strictly. Throws InputError with file:line:column for an unknown key (with
-/// "did you mean"), a wrong type or unit, NaN, a cable with fewer than two points, a name given
-/// twice.
+/// Reads a robot file strictly. Throws InputError with file:line:column for an unknown key or unit
+/// (with what was meant), a wrong type, NaN, a value out of range, a cable with fewer than two
+/// points, a name given twice. Whether mesh, boxes and points fit together is BuildRobotBody's
+/// business.
+///
+/// Lengths are in metres; `mesh.translate_mm` may stand for `mesh.translate_m`. Left out:
+/// element tet10, gravity (0, 0, -9.81), 51 feature points, `material.volumetric` mean_dilatation
+/// for tet10 from a Poisson's ratio of 0.48 on (against locking), else pointwise.
 RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load);
+
+/// Poisson's ratio from which tet10 averages the dilatation over the element unless told otherwise.
+inline constexpr double kNearlyIncompressible = 0.48;
+
+/// The description as the text of a robot file that lies in `folder`: the path of the mesh is
+/// written relative to it. Reading it back gives the same description.
+std::string FormatRobotFile(const RobotDescription& robot, const std::filesystem::path& folder);
+
+/// Writes FormatRobotFile to `file`. Throws RunError where that fails.
+void WriteRobotFile(const RobotDescription& robot, const std::filesystem::path& file);
 
 }  // namespace palpate::robot

@@ -29,26 +29,16 @@ template <typename Use>
 auto Visit(ScalarType type, std::string_view bytes, bool swap, Use use) {
   PALPATE_CHECK(bytes.size() >= SizeInBytes(type), bytes.size());
   switch (type) {
-    case ScalarType::kInt8:
-      return use(Load<int8_t>(bytes, swap));
-    case ScalarType::kUInt8:
-      return use(Load<uint8_t>(bytes, swap));
-    case ScalarType::kInt16:
-      return use(Load<int16_t>(bytes, swap));
-    case ScalarType::kUInt16:
-      return use(Load<uint16_t>(bytes, swap));
-    case ScalarType::kInt32:
-      return use(Load<int32_t>(bytes, swap));
-    case ScalarType::kUInt32:
-      return use(Load<uint32_t>(bytes, swap));
-    case ScalarType::kInt64:
-      return use(Load<int64_t>(bytes, swap));
-    case ScalarType::kUInt64:
-      return use(Load<uint64_t>(bytes, swap));
-    case ScalarType::kFloat32:
-      return use(Load<float>(bytes, swap));
-    case ScalarType::kFloat64:
-      break;
+    case ScalarType::kInt8: return use(Load<int8_t>(bytes, swap));
+    case ScalarType::kUInt8: return use(Load<uint8_t>(bytes, swap));
+    case ScalarType::kInt16: return use(Load<int16_t>(bytes, swap));
+    case ScalarType::kUInt16: return use(Load<uint16_t>(bytes, swap));
+    case ScalarType::kInt32: return use(Load<int32_t>(bytes, swap));
+    case ScalarType::kUInt32: return use(Load<uint32_t>(bytes, swap));
+    case ScalarType::kInt64: return use(Load<int64_t>(bytes, swap));
+    case ScalarType::kUInt64: return use(Load<uint64_t>(bytes, swap));
+    case ScalarType::kFloat32: return use(Load<float>(bytes, swap));
+    case ScalarType::kFloat64: break;
   }
   return use(Load<double>(bytes, swap));
 }
@@ -58,19 +48,15 @@ auto Visit(ScalarType type, std::string_view bytes, bool swap, Use use) {
 size_t SizeInBytes(ScalarType type) {
   switch (type) {
     case ScalarType::kInt8:
-    case ScalarType::kUInt8:
-      return 1;
+    case ScalarType::kUInt8: return 1;
     case ScalarType::kInt16:
-    case ScalarType::kUInt16:
-      return 2;
+    case ScalarType::kUInt16: return 2;
     case ScalarType::kInt32:
     case ScalarType::kUInt32:
-    case ScalarType::kFloat32:
-      return 4;
+    case ScalarType::kFloat32: return 4;
     case ScalarType::kInt64:
     case ScalarType::kUInt64:
-    case ScalarType::kFloat64:
-      break;
+    case ScalarType::kFloat64: break;
   }
   return 8;
 }

@@ -47,28 +47,27 @@ std::string_view AttributeOr(const XMLElement& element, const char* name, const 
   return value == nullptr ? fallback : value;
 }
 
+/// True for `second`, false for `first`, InputError for anything else.
+bool IsSecondOf(const XMLElement& element, const VtuStorage& storage, const char* attribute,
+                const char* first, const char* second) {
+  const std::string_view value = AttributeOr(element, attribute, first);
+  if (value == first || value == second) return value == second;
+  FailAt(element, storage,
+         std::string(attribute) + " '" + std::string(value) + "' is not read (only " +
+             (*first == '\0' ? "none" : first) + " and " + second + ")");
+}
+
 void ReadStorage(const XMLElement& root, VtuStorage* storage) {
-  const auto one_of = [&](const char* name, std::string_view value, std::string_view first,
-                          std::string_view second) {
-    if (value == first || value == second) return value == second;
-    FailAt(root, *storage,
-           std::string(name) + " '" + std::string(value) + "' is not read (only " +
-               std::string(first) + " and " + std::string(second) + ")");
-  };
   if (AttributeOr(root, "type", "") != "UnstructuredGrid") {
     FailAt(root, *storage,
            "is of type '" + std::string(AttributeOr(root, "type", "")) + "', not UnstructuredGrid");
   }
-  const bool big_endian = one_of("byte_order", AttributeOr(root, "byte_order", "LittleEndian"),
-                                 "LittleEndian", "BigEndian");
+  const bool big_endian = IsSecondOf(root, *storage, "byte_order", "LittleEndian", "BigEndian");
   storage->swap = big_endian != (std::endian::native == std::endian::big);
-  storage->wide_header =
-      one_of("header_type", AttributeOr(root, "header_type", "UInt32"), "UInt32", "UInt64");
-  storage->compressed =
-      one_of("compressor", AttributeOr(root, "compressor", ""), "", "vtkZLibDataCompressor");
+  storage->wide_header = IsSecondOf(root, *storage, "header_type", "UInt32", "UInt64");
+  storage->compressed = IsSecondOf(root, *storage, "compressor", "", "vtkZLibDataCompressor");
   if (const XMLElement* appended = root.FirstChildElement("AppendedData")) {
-    storage->appended_base64 =
-        one_of("encoding", AttributeOr(*appended, "encoding", "base64"), "raw", "base64");
+    storage->appended_base64 = !IsSecondOf(*appended, *storage, "encoding", "base64", "raw");
   }
 }
 

@@ -5,13 +5,14 @@
 
 #include <bit>
 #include <cerrno>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <initializer_list>
 #include <span>
 #include <string_view>
+#include <system_error>
+#include <type_traits>
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -61,20 +62,11 @@ std::string EscapedName(std::string_view name) {
   std::string escaped;
   for (const char letter : name) {
     switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += letter;
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      default: escaped += letter;
     }
   }
   return escaped;
@@ -85,21 +77,23 @@ class VtuText {
  public:
   explicit VtuText(VtuEncoding encoding) : encoding_(encoding) {}
 
-  void Line(const std::string& line) { text_ += line + "\n"; }
+  void Line(std::initializer_list<std::string_view> words) {
+    for (const std::string_view word : words) text_ += word;
+    text_ += '\n';
+  }
 
   template <typename Value>
   void Array(const char* type, std::string_view name, int64_t components,
              std::span<const Value> values) {
     const bool ascii = encoding_ == VtuEncoding::kAscii;
-    Line("<DataArray type=\"" + std::string(type) + "\" Name=\"" + EscapedName(name) +
-         "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"" +
-         (ascii ? "ascii" : "binary") + "\">");
-    Line(ascii ? AsciiText(values) : CompressedText(BytesOf(values)));
-    Line("</DataArray>");
+    Line({"<DataArray type=\"", type, "\" Name=\"", EscapedName(name), "\" NumberOfComponents=\"",
+          std::to_string(components), "\" format=\"", ascii ? "ascii" : "binary", "\">"});
+    Line({ascii ? AsciiText(values) : CompressedText(BytesOf(values))});
+    Line({"</DataArray>"});
   }
 
   void Fields(const char* element, const std::vector<VtuField>& fields, int64_t count) {
-    Line("<" + std::string(element) + ">");
+    Line({"<", element, ">"});
     for (const VtuField& field : fields) {
       const auto components = field.values.rows();
       PALPATE_CHECK((components == 1 || components == 3) && field.values.cols() == count,
@@ -107,7 +101,7 @@ class VtuText {
       Array("Float64", field.name, components,
             std::span(field.values.data(), static_cast<size_t>(field.values.size())));
     }
-    Line("</" + std::string(element) + ">");
+    Line({"</", element, ">"});
   }
 
   void Cells(const TetMesh& mesh) {
@@ -115,12 +109,12 @@ class VtuText {
     std::vector<int64_t> offsets;
     for (int cell = 1; cell <= mesh.CellCount(); ++cell) offsets.push_back(cell * nodes_each);
     const std::vector<uint8_t> types(offsets.size(), nodes_each == 4 ? 10 : 24);
-    Line("<Cells>");
+    Line({"<Cells>"});
     Array<int>("Int32", "connectivity", 1,
                std::span(mesh.cells.data(), static_cast<size_t>(mesh.cells.size())));
     Array<int64_t>("Int64", "offsets", 1, offsets);
     Array<uint8_t>("UInt8", "types", 1, types);
-    Line("</Cells>");
+    Line({"</Cells>"});
   }
 
   const std::string& text() const { return text_; }
@@ -130,22 +124,19 @@ class VtuText {
   std::string text_;
 };
 
-[[noreturn]] void FailToWrite(const std::filesystem::path& file) {
-  const std::string reason = std::strerror(errno);
+void WriteChecked(const std::filesystem::path& file, std::string_view text) {
+  const auto fail = [&file](int error) {
+    throw RunError(file.string() + ": cannot be written: " + std::strerror(error));
+  };
+  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  if (stream == nullptr) fail(errno);
+  int error = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stream) != text.size()) error = errno;
+  if (std::fclose(stream) != 0 && error == 0) error = errno;
+  if (error == 0) return;
   std::error_code ignored;
   if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  throw RunError(file.string() + ": cannot be written: " + reason);
-}
-
-void WriteChecked(const std::filesystem::path& file, std::string_view text) {
-  struct Close {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
-  };
-  std::unique_ptr<std::FILE, Close> stream(std::fopen(file.c_str(), "wb"));
-  if (stream == nullptr) FailToWrite(file);
-  const bool written = std::fwrite(text.data(), 1, text.size(), stream.get()) == text.size() &&
-                       std::fflush(stream.get()) == 0;
-  if (!written || std::fclose(stream.release()) != 0) FailToWrite(file);
+  fail(error);
 }
 
 }  // namespace
@@ -157,22 +148,22 @@ void WriteVtu(const std::filesystem::path& file, const TetMesh& mesh,
   VtuText vtu(encoding);
   const char* byte_order =
       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-  vtu.Line("<?xml version=\"1.0\"?>");
-  vtu.Line("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" +
-           std::string(byte_order) + "\" header_type=\"UInt64\"" +
-           (encoding == VtuEncoding::kAscii ? "" : " compressor=\"vtkZLibDataCompressor\"") + ">");
-  vtu.Line("<UnstructuredGrid>");
-  vtu.Line("<Piece NumberOfPoints=\"" + std::to_string(mesh.NodeCount()) + "\" NumberOfCells=\"" +
-           std::to_string(mesh.CellCount()) + "\">");
+  vtu.Line({"<?xml version=\"1.0\"?>"});
+  vtu.Line({"<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"", byte_order,
+            "\" header_type=\"UInt64\"",
+            encoding == VtuEncoding::kAscii ? "" : " compressor=\"vtkZLibDataCompressor\"", ">"});
+  vtu.Line({"<UnstructuredGrid>"});
+  vtu.Line({"<Piece NumberOfPoints=\"", std::to_string(mesh.NodeCount()), "\" NumberOfCells=\"",
+            std::to_string(mesh.CellCount()), "\">"});
   vtu.Fields("PointData", fields.of_nodes, mesh.NodeCount());
   vtu.Fields("CellData", fields.of_cells, mesh.CellCount());
-  vtu.Line("<Points>");
+  vtu.Line({"<Points>"});
   vtu.Array("Float64", "Points", 3, std::span(x_m.data(), static_cast<size_t>(x_m.size())));
-  vtu.Line("</Points>");
+  vtu.Line({"</Points>"});
   vtu.Cells(mesh);
-  vtu.Line("</Piece>");
-  vtu.Line("</UnstructuredGrid>");
-  vtu.Line("</VTKFile>");
+  vtu.Line({"</Piece>"});
+  vtu.Line({"</UnstructuredGrid>"});
+  vtu.Line({"</VTKFile>"});
   WriteChecked(file, vtu.text());
 }
 

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "components/force_estimation/statistics.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// Candidates that are fitted to equilibrium: the first-order ranking errs among neighbours.
+constexpr size_t kFittedCandidates = 5;
+
+double MeanSpacing(const std::vector<fem::SurfacePatch>& candidates) {
+  double sum = 0.0;
+  for (size_t a = 0; a < candidates.size(); ++a) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t b = 0; b < candidates.size(); ++b) {
+      if (a == b) continue;
+      nearest = std::min(nearest, (candidates[a].centre_m - candidates[b].centre_m).norm());
+    }
+    if (candidates.size() > 1) sum += nearest / static_cast<double>(candidates.size());
+  }
+  return sum;
+}
+
+std::vector<size_t> Ranking(const std::vector<double>& chi_squared) {
+  std::vector<size_t> order(chi_squared.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return chi_squared[a] < chi_squared[b]; });
+  order.resize(std::min(order.size(), kFittedCandidates));
+  return order;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, MarkerFitter& fitter)
+    : config_(config), fitter_(fitter) {
+  for (const fem::BodyPoint& point : model.body().feature_points) {
+    candidates_.push_back(model.Patch(point.rest_m, config.candidate_patch_radius_m));
+  }
+  if (candidates_.empty()) throw InputError("the robot file gives no feature points to search");
+  spacing_m_ = MeanSpacing(candidates_);
+}
+
+const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
+                                                 const std::vector<robot::CableCommand>& cables,
+                                                 const fem::StaticState& free_state) {
+  result_.sites.clear();
+  result_.patches.clear();
+  result_.location_ci95_m = 0.0;
+  result_.state = {.valid = true,
+                   .x_m = free_state.x_m,
+                   .lambda_a_N = free_state.multipliers_N,
+                   .lambda_f_N = Eigen::VectorXd::Zero(0)};
+  result_.fit = {};
+  result_.fit.residual_m = Eigen::VectorXd::Zero(targets.position_m.size());
+  result_.fit.chi_squared = fitter_.ChiSquared(targets, result_.state, &result_.fit.residual_m);
+  result_.status = Status(StatusCode::kNoContact, {});
+  const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
+  for (int contact = 0; contact < config_.max_contacts; ++contact) {
+    if (result_.fit.chi_squared <= limit) break;
+    if (targets.rows < 3 * (contact + 1)) {
+      if (contact == 0) result_.status = Status(StatusCode::kUnobservable, "too few markers");
+      break;
+    }
+    Status added = AddContact(targets, cables);
+    if (added.ok() || contact == 0) result_.status = added;
+    if (!added.ok()) break;  // what was found before it stands
+  }
+  return result_;
+}
+
+Status ContactSearch::AddContact(const MarkerTargets& targets,
+                                 const std::vector<robot::CableCommand>& cables) {
+  fitter_.SetSites(result_.patches);
+  std::vector<double> chi_squared;
+  Status status =
+      fitter_.Screen(targets, cables, result_.state, candidates_, &chi_squared);
+  if (!status.ok()) return status;
+  const ModelState start = result_.state;
+  const std::vector<fem::SurfacePatch> known = result_.patches;
+  double best_chi_squared = std::numeric_limits<double>::infinity();
+  size_t best = 0;
+  for (size_t candidate : Ranking(chi_squared)) {
+    std::vector<fem::SurfacePatch> patches = known;
+    patches.push_back(candidates_[candidate]);
+    fitter_.SetSites(patches);
+    ModelState state = start;
+    state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
+    const MarkerFit& fit = fitter_.Fit(targets, cables, &state);
+    if (!fit.status.ok() || fit.chi_squared >= best_chi_squared) continue;
+    best_chi_squared = fit.chi_squared;
+    best = candidate;
+    result_.fit = fit;
+    result_.state = state;
+    result_.patches = patches;
+  }
+  if (!std::isfinite(best_chi_squared)) {
+    return {StatusCode::kNotConverged, "no candidate contact leads to an equilibrium"};
+  }
+  result_.sites.push_back({.name = "contact_" + std::to_string(known.size() + 1),
+                           .position_m = candidates_[best].centre_m,
+                           .patch_radius_m = config_.candidate_patch_radius_m});
+  const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(result_.sites.size()));
+  const double noise_scale = std::max(1.0, best_chi_squared / freedom);
+  result_.location_ci95_m =
+      std::max(result_.location_ci95_m, LocationInterval(chi_squared, best, noise_scale));
+  return Status::Ok();
+}
+
+double ContactSearch::LocationInterval(const std::vector<double>& chi_squared, size_t best,
+                                       double noise_scale) const {
+  const double limit =
+      *std::min_element(chi_squared.begin(), chi_squared.end()) +
+      noise_scale * ChiSquaredQuantile(0.95, 2);
+  double radius = 0.5 * spacing_m_;
+  for (size_t c = 0; c < candidates_.size(); ++c) {
+    if (chi_squared[c] > limit) continue;
+    radius = std::max(radius, (candidates_[c].centre_m - candidates_[best].centre_m).norm());
+  }
+  return radius;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/contact_site.hpp"
+#include "components/force_estimation/marker_fitter.hpp"
+#include "libs/fem/static_solver.hpp"
+
+namespace palpate::force_estimation {
+
+/// Finds where on the surface forces act, from the deformation alone: the feature points are
+/// screened to first order, the most likely are fitted to equilibrium, and another contact joins as
+/// long as the residual is beyond the noise.
+class ContactSearch {
+ public:
+  struct Result {
+    Status status;  ///< kNoContact: the markers lie where the model without contact has them
+    MarkerFit fit;
+    ModelState state;
+    std::vector<ContactSite> sites;
+    std::vector<fem::SurfacePatch> patches;
+    /// Distance within which sites explain the markers as well, at 95 %, and no less than half the
+    /// distance between candidates.
+    double location_ci95_m = 0.0;
+  };
+
+  /// `model` and `fitter` must outlive the search. Throws InputError where the robot has no feature
+  /// points.
+  ContactSearch(robot::RobotModel& model, const Config& config, MarkerFitter& fitter);
+
+  /// `free_state`: the equilibrium without contact under these cable inputs.
+  const Result& Find(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
+                     const fem::StaticState& free_state);
+
+  const Result& result() const { return result_; }
+
+ private:
+  Status AddContact(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables);
+  double LocationInterval(const std::vector<double>& chi_squared, size_t best,
+                          double noise_scale) const;
+
+  Config config_;
+  MarkerFitter& fitter_;
+  std::vector<fem::SurfacePatch> candidates_;
+  double spacing_m_ = 0.0;  ///< mean distance from a candidate to the next
+  Result result_;
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace palpate::force_estimation {
+
+/// A place on the undeformed body where an external force may act.
+struct ContactSite {
+  std::string name;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
+  double patch_radius_m = 0.0;  ///< the force is spread over the surface within; 0: a point
+};
+
+/// Reads Config::contacts, each "name: x, y, z[, patch radius]". Throws InputError for text that is
+/// no site, or a name given twice.
+std::vector<ContactSite> ParseContactSites(const std::vector<std::string>& texts);
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "components/force_estimation/contact_search.hpp"
+#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/marker_tare.hpp"
+#include "components/force_estimation/statistics.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::force_estimation {
+
+class MarkerForceEstimator::Impl {
+ public:
+  Impl(robot::RobotModel& model, const Config& config, double modulus_sigma)
+      : model_(model),
+        config_(config),
+        modulus_sigma_(modulus_sigma),
+        sites_(ParseContactSites(config.contacts)),
+        tare_(model),
+        fitter_(model, config),
+        free_state_(model.RestState()) {
+    if (model.body().markers.empty()) throw InputError("the robot file names no markers");
+    for (const ContactSite& site : sites_) patches_.push_back(PatchOf(site));
+    if (sites_.empty()) search_.emplace(model, config, fitter_);
+    fitter_.SetSites(patches_);
+    const auto rows = static_cast<Eigen::Index>(3 * model.body().markers.size());
+    targets_.position_m = targets_.weight = Eigen::VectorXd::Zero(rows);
+    estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
+    estimate_.x_m = free_state_.x_m;
+    estimate_.cables.resize(static_cast<size_t>(model.CableCount()));
+    estimate_.contacts.reserve(static_cast<size_t>(config.max_contacts) + sites_.size());
+  }
+
+  const ForceEstimate& Update(const MarkerFrame& frame) {
+    estimate_.t_s = frame.t_s;
+    estimate_.iterations = 0;
+    estimate_.status = Process(frame);
+    if (!estimate_.status.ok() && estimate_.status.code() != StatusCode::kNoContact) {
+      estimate_.contacts.clear();
+    }
+    return estimate_;
+  }
+
+  const std::vector<ContactSite>& sites() const { return sites_; }
+
+ private:
+  fem::SurfacePatch PatchOf(const ContactSite& site) const;
+  Status Process(const MarkerFrame& frame);
+  Status CheckFrame(const MarkerFrame& frame) const;
+  Status SetTargets(const MarkerFrame& frame);
+  Status SolveFreeState(const MarkerFrame& frame);
+  Status FitGivenSites(const MarkerFrame& frame);
+  Status SearchSites(const MarkerFrame& frame);
+  void Publish(const MarkerFit& fit, const std::vector<fem::SurfacePatch>& patches,
+               const std::vector<ContactSite>& sites, double location_ci95_m);
+  void PublishFit(const MarkerFit& fit);
+  void PublishState(const ModelState& state);
+  ContactForce MakeContact(const MarkerFit& fit, size_t index, double inflation) const;
+
+  robot::RobotModel& model_;
+  Config config_;
+  double modulus_sigma_;
+  std::vector<ContactSite> sites_;
+  std::vector<fem::SurfacePatch> patches_;
+  MarkerTare tare_;
+  MarkerFitter fitter_;
+  std::optional<ContactSearch> search_;
+  MarkerTargets targets_;
+  fem::StaticState free_state_;  ///< last equilibrium without contact
+  ModelState state_;             ///< last fit
+  ForceEstimate estimate_;
+};
+
+fem::SurfacePatch MarkerForceEstimator::Impl::PatchOf(const ContactSite& site) const {
+  const fem::SurfacePatch patch = model_.Patch(site.position_m, site.patch_radius_m);
+  constexpr double kFarthest_m = 0.02;
+  if (patch.distance_m > kFarthest_m) {
+    throw InputError("contact '" + site.name + "' lies " + std::to_string(patch.distance_m) +
+                     " m from the body's surface; at most " + std::to_string(kFarthest_m) +
+                     " m is allowed");
+  }
+  return patch;
+}
+
+Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
+  if (Status status = CheckFrame(frame); !status.ok()) return status;
+  if (frame.reference != ReferenceShape::kNone) {
+    tare_.Add(frame);
+    return {StatusCode::kNoCalibration, "reference frame: marker offsets are being set"};
+  }
+  if (Status status = tare_.Finish(); !status.ok()) return status;
+  if (Status status = SetTargets(frame); !status.ok()) return status;
+  return sites_.empty() ? SearchSites(frame) : FitGivenSites(frame);
+}
+
+Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
+  PALPATE_CHECK(frame.markers.size() == model_.body().markers.size(), frame.markers.size());
+  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(),
+                frame.cables.size());
+  for (const robot::CableCommand& command : frame.cables) {
+    if (!std::isfinite(command.value)) {
+      return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
+    }
+  }
+  return Status::Ok();
+}
+
+Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
+  targets_.rows = 0;
+  estimate_.noise_rms_m = 0.0;
+  for (size_t m = 0; m < frame.markers.size(); ++m) {
+    const MarkerObservation& marker = frame.markers[m];
+    const auto row = static_cast<Eigen::Index>(3 * m);
+    const bool used = marker.valid && marker.position_m.allFinite() && tare_.Usable(m);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const double given = marker.sigma_m[i];
+      const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
+      const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
+      targets_.weight[row + i] = used ? 1.0 / variance : 0.0;
+      targets_.position_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
+      if (!used) continue;
+      ++targets_.rows;
+      estimate_.noise_rms_m += variance;
+    }
+  }
+  if (targets_.rows == 0) return {StatusCode::kNoRobotSeen, "no marker can be used"};
+  estimate_.noise_rms_m = std::sqrt(estimate_.noise_rms_m / targets_.rows);
+  return Status::Ok();
+}
+
+Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
+  return model_.Solve(frame.cables, {}, &free_state_).status;
+}
+
+/// Goes on from the last frame's state; where that leads nowhere, once more from the equilibrium
+/// without contact.
+Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
+  const MarkerFit* fit = nullptr;
+  if (state_.valid) fit = &fitter_.Fit(targets_, frame.cables, &state_);
+  if (fit == nullptr || !fit->status.ok()) {
+    state_.valid = false;
+    if (Status status = SolveFreeState(frame); !status.ok()) return status;
+    state_.x_m = free_state_.x_m;
+    state_.lambda_a_N = free_state_.multipliers_N;
+    state_.lambda_f_N = Eigen::VectorXd::Zero(3 * fitter_.SiteCount());
+    fit = &fitter_.Fit(targets_, frame.cables, &state_);
+  }
+  PublishFit(*fit);
+  if (!fit->status.ok()) return fit->status;
+  state_.valid = true;
+  PublishState(state_);
+  Publish(*fit, patches_, sites_, 0.0);
+  const bool touched =
+      std::any_of(estimate_.contacts.begin(), estimate_.contacts.end(), [](const ContactForce& c) {
+        return c.status.code() != StatusCode::kNoContact;
+      });
+  return touched ? Status::Ok() : Status(StatusCode::kNoContact, {});
+}
+
+Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
+  if (Status status = SolveFreeState(frame); !status.ok()) return status;
+  const ContactSearch::Result& found = search_->Find(targets_, frame.cables, free_state_);
+  if (found.status.ok() || found.status.code() == StatusCode::kNoContact) {
+    PublishState(found.state);
+    PublishFit(found.fit);
+  }
+  estimate_.contacts.clear();
+  if (found.status.ok()) {
+    Publish(found.fit, found.patches, found.sites, found.location_ci95_m);
+  }
+  return found.status;
+}
+
+void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
+  estimate_.iterations = fit.iterations;
+  estimate_.chi_squared = fit.chi_squared;
+  estimate_.marker_residual_m = fit.residual_m;
+  estimate_.residual_rms_m = fit.residual_m.norm() / std::sqrt(std::max(1, targets_.rows));
+  int unknowns = 0;
+  for (Observability site : fit.observability) {
+    unknowns += site == Observability::kFull ? 3 : (site == Observability::kNormalOnly ? 1 : 0);
+  }
+  estimate_.degrees_of_freedom = targets_.rows - unknowns;
+}
+
+void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
+  estimate_.x_m = state.x_m;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const double length = model_.cable(c).Value(state.x_m);
+    estimate_.cables[static_cast<size_t>(c)] = {
+        .length_m = length,
+        .displacement_m = model_.cable(c).rest_length_m() - length,
+        .tension_N = state.lambda_a_N[c]};
+  }
+}
+
+/// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
+/// by its ratio (Birge), never narrowed.
+void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
+                                         const std::vector<fem::SurfacePatch>& patches,
+                                         const std::vector<ContactSite>& sites,
+                                         double location_ci95_m) {
+  const ModelState& state = search_ ? search_->result().state : state_;
+  const double inflation =
+      estimate_.degrees_of_freedom > 0
+          ? std::max(1.0, fit.chi_squared / estimate_.degrees_of_freedom)
+          : 1.0;
+  estimate_.contacts.resize(sites.size());
+  for (size_t s = 0; s < sites.size(); ++s) {
+    ContactForce& contact = estimate_.contacts[s];
+    contact = MakeContact(fit, s, inflation);
+    contact.name = sites[s].name;
+    contact.position_m = patches[s].weights.Position(state.x_m);
+    contact.location_ci95_m = location_ci95_m;
+  }
+}
+
+ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_t index,
+                                                     double inflation) const {
+  const ModelState& state = search_ ? search_->result().state : state_;
+  const auto row = static_cast<Eigen::Index>(3 * index);
+  ContactForce contact;
+  contact.force_N = state.lambda_f_N.segment<3>(row);
+  const Eigen::Vector3d by_modulus =
+      modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
+  contact.covariance_N2 = inflation * fit.covariance_N2.block<3, 3>(row, row) +
+                          by_modulus * by_modulus.transpose();
+  const double size = contact.force_N.norm();
+  const Eigen::Vector3d direction =
+      size > 0.0 ? Eigen::Vector3d(contact.force_N / size) : Eigen::Vector3d::UnitZ();
+  const double sigma = std::sqrt(direction.dot(contact.covariance_N2 * direction));
+  contact.ci95_N = kSigmas95 * sigma;
+  switch (fit.observability[index]) {
+    case Observability::kNone:
+      contact.status = Status(StatusCode::kUnobservable, {});
+      return contact;
+    case Observability::kNormalOnly:
+      contact.status = Status(StatusCode::kTangentialUnobservable, {});
+      break;
+    case Observability::kFull: contact.status = Status::Ok(); break;
+  }
+  const double threshold = NormalQuantile(1.0 - 0.5 * config_.significance);
+  if (size <= threshold * sigma) contact.status = Status(StatusCode::kNoContact, {});
+  return contact;
+}
+
+MarkerForceEstimator::MarkerForceEstimator(robot::RobotModel& model, const Config& config,
+                                           double youngs_modulus_relative_sigma)
+    : impl_(std::make_unique<Impl>(model, config, youngs_modulus_relative_sigma)) {}
+
+MarkerForceEstimator::~MarkerForceEstimator() = default;
+
+const ForceEstimate& MarkerForceEstimator::Update(const MarkerFrame& frame) {
+  return impl_->Update(frame);
+}
+
+const std::vector<ContactSite>& MarkerForceEstimator::sites() const { return impl_->sites(); }
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+namespace palpate::force_estimation {
+
+/// Quantile of the standard normal distribution, 0 < probability < 1 (Acklam's rational
+/// approximation, 1e-9).
+double NormalQuantile(double probability);
+
+/// Quantile of the chi-squared distribution with `degrees` >= 1 degrees of freedom (Wilson and
+/// Hilferty's cube root, good to about 1 %).
+double ChiSquaredQuantile(double probability, int degrees);
+
+/// Half-width of a 95 % interval in standard deviations.
+inline constexpr double kSigmas95 = 1.959963984540054;
+
+}  // namespace palpate::force_estimation

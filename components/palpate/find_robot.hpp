@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// The folder of the running program.
+std::filesystem::path ProgramFolder();
+
+/// A file that is part of the project, such as "config/robots/beam.yaml": looked for in each folder
+/// above the program's, in the share/palpate folder beside them, and in the sources that the program
+/// was built from. Empty where it is nowhere.
+std::filesystem::path FindProjectFile(const std::filesystem::path& relative);
+
+/// The robot file that `robot` names: a path, or the name of a robot that comes with palpate
+/// ("four_leg"). Throws InputError where neither is there, with "did you mean".
+std::filesystem::path FindRobotFile(const std::filesystem::path& robot);
+
+/// Reads the robot file and its mesh and makes the model ready to solve. Throws InputError.
+std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot);
+
+}  // namespace palpate::command

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/import/import_report.hpp"
+
+#include <fmt/core.h>
+
+#include "libs/experiment/capture_edit.hpp"
+
+namespace palpate::command {
+
+using experiment::CapturedMarkers;
+using experiment::MeasurementFrame;
+using experiment::TimeWindow;
+
+void PrintQuality(const CapturedMarkers& captured, const experiment::Recording& recording,
+                  std::ostream& report) {
+  std::optional<TimeWindow> window = recording.steady_window_s;
+  if (!window && recording.reference) window = recording.reference->window_s;
+  const auto quality = experiment::AssessCapture(captured, window);
+  const auto& frames = captured.tracks.frames;
+  report << fmt::format("{} markers, {} frames at {:g} Hz, {:.2f} s to {:.2f} s, {} missing\n",
+                        quality.markers.size(), frames.size(), captured.rate_Hz, frames.front().t_s,
+                        frames.back().t_s, quality.missing_frames);
+  report << fmt::format("static noise from {:.2f} s to {:.2f} s{}\n",
+                        quality.noise_window_s.begin_s, quality.noise_window_s.end_s,
+                        window ? "" : " (the quietest)");
+  for (const auto& marker : quality.markers) {
+    report << fmt::format("  {:<16} seen {}, gaps {}", marker.name, marker.seen, marker.gaps);
+    if (marker.residual_m) {
+      report << fmt::format(", residual {:.3f} mm", 1e3 * *marker.residual_m);
+    }
+    if (marker.noise_m) {
+      const Eigen::Vector3d noise_um = 1e6 * *marker.noise_m;
+      report << fmt::format(", noise {:.1f} {:.1f} {:.1f} um", noise_um.x(), noise_um.y(),
+                            noise_um.z());
+    }
+    report << '\n';
+  }
+}
+
+void PrintFrame(const ImportOptions& options, const experiment::Recording& recording,
+                std::ostream& report) {
+  if (recording.frame == MeasurementFrame::kCamera) {
+    report << (recording.T_robot_camera ? "frame: camera, with its pose\n"
+                                        : "frame: camera, its pose in the robot's frame is not "
+                                          "known (--axes, --register or --pose give it)\n");
+  } else if (!options.axes.empty()) {
+    report << "frame: robot by its axes; the origin is the file's, so only displacements from a "
+              "rest window have meaning\n";
+  }
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/info_verb.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "components/palpate/find_robot.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/fem/mesh_io/read_mesh.hpp"
+#include "libs/fem/mesh_report.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What is found out, as a document and as lines to read.
+struct Findings {
+  Json json;
+  std::string text;
+};
+
+Json ToJson(const fem::MeshReport& report) {
+  return {{"nodes", report.node_count},
+          {"cells", report.cell_count},
+          {"nodes_per_cell", report.nodes_per_cell},
+          {"volume_m3", report.volume_m3},
+          {"worst_quality", report.worst_quality},
+          {"min_m", {report.min_m.x(), report.min_m.y(), report.min_m.z()}},
+          {"max_m", {report.max_m.x(), report.max_m.y(), report.max_m.z()}},
+          {"boundary_triangles", report.boundary_triangles},
+          {"free_edges", report.free_edges},
+          {"pieces", report.pieces},
+          {"inverted_cells", report.inverted_cells.size()},
+          {"degenerate_cells", report.degenerate_cells.size()},
+          {"duplicate_cells", report.duplicate_cells.size()}};
+}
+
+bool IsMesh(const std::filesystem::path& target) {
+  const std::string extension = target.extension().string();
+  return extension == ".vtu" || extension == ".vtk" || extension == ".msh";
+}
+
+Findings DescribeMesh(const std::filesystem::path& target, const std::string& unit) {
+  const double metres_per_unit = unit == "mm" ? 1e-3 : (unit == "cm" ? 1e-2 : 1.0);
+  const fem::MeshReport report = fem::ReportMesh(fem::ReadMesh(target, metres_per_unit));
+  return {
+      {{"mesh", ToJson(report)}},
+      fmt::format("mesh {}, lengths read as {}\n{}", target.string(), unit, fem::ToText(report))};
+}
+
+Findings DescribeRobot(const std::filesystem::path& target) {
+  const auto description = robot::ReadRobotFile(FindRobotFile(target), app::LoadYaml);
+  const robot::RobotBody body = robot::BuildRobotBody(description);
+  const fem::MeshReport report = fem::ReportMesh(body.mesh);
+  Findings found;
+  found.text =
+      fmt::format("robot {} ({})\n{}", body.name, description.file.string(), fem::ToText(report));
+  found.json = {{"robot", body.name},           {"mesh_hash", body.mesh_hash},
+                {"mesh", ToJson(report)},       {"mass_kg", body.node_mass_kg.sum()},
+                {"cables", Json::array()},      {"markers", Json::array()},
+                {"regions", body.region_names}, {"feature_points", body.feature_points.size()},
+                {"notes", body.notes}};
+  found.text += fmt::format("mass {:.4g} kg, E {:.4g} kPa, nu {:.3g}, mesh {}\n",
+                            body.node_mass_kg.sum(), 1e-3 * body.materials[0].youngs_modulus_Pa,
+                            body.materials[0].poissons_ratio, body.mesh_hash);
+  for (const robot::BodyCable& cable : body.cables) {
+    found.json["cables"].push_back(cable.name);
+    found.text += fmt::format("cable {}: {} point(s) on the body, at most {:g} N\n", cable.name,
+                              cable.eyelets.size(), cable.max_tension_N);
+  }
+  for (const robot::BodyMarker& marker : body.markers) {
+    found.json["markers"].push_back(marker.name);
+    found.text += fmt::format("marker {}: {:.2f} mm off the body\n", marker.name,
+                              1e3 * marker.point.distance_m);
+  }
+  for (const std::string& note : body.notes) {
+    found.text += "note: " + note + "\n";
+  }
+  return found;
+}
+
+Findings DescribeExperiment(const std::filesystem::path& target) {
+  const experiment::Experiment experiment = experiment::ReadExperiment(target, app::LoadYaml);
+  Findings found;
+  found.json = {{"experiment", target.string()}, {"recordings", Json::array()}};
+  found.text = fmt::format("experiment {}: {} recording(s)\n", target.string(),
+                           experiment.recordings.size());
+  for (const experiment::Recording& recording : experiment.recordings) {
+    const std::size_t frames = recording.markers ? recording.markers->frames.size() : 0;
+    const std::size_t markers = recording.markers ? recording.markers->names.size() : 0;
+    const std::size_t rows = recording.actuation ? recording.actuation->t_s.size() : 0;
+    found.json["recordings"].push_back({{"name", recording.name},
+                                        {"kind", experiment::ToString(recording.kind)},
+                                        {"markers", markers},
+                                        {"marker_frames", frames},
+                                        {"actuation_rows", rows},
+                                        {"loads", recording.loads.size()},
+                                        {"depth_images", recording.depth_images.size()},
+                                        {"clouds", recording.clouds.size()}});
+    found.text += fmt::format(
+        "  {}: {}, {} marker(s) in {} frames, {} row(s) of actuation, {} load(s), "
+        "{} depth image(s), {} cloud(s)\n",
+        recording.name, experiment::ToString(recording.kind), markers, frames, rows,
+        recording.loads.size(), recording.depth_images.size(), recording.clouds.size());
+  }
+  return found;
+}
+
+Findings Describe(const InfoOptions& options) {
+  const std::filesystem::path& target = options.target;
+  if (std::filesystem::is_directory(target)) {
+    return DescribeExperiment(target);
+  }
+  return IsMesh(target) ? DescribeMesh(target, options.unit) : DescribeRobot(target);
+}
+
+}  // namespace
+
+int Info(const InfoOptions& options) {
+  const Findings found = Describe(options);
+  fmt::print("{}", options.json ? found.json.dump(2) + "\n" : found.text);
+  return app::kExitDone;
+}
+
+app::Verb InfoVerb() {
+  return {
+      "info", "Tell what a robot file, a mesh or a folder of measured data holds",
+      [](app::Arguments& arguments) -> app::Verb::Action {
+        const auto options = std::make_shared<InfoOptions>();
+        arguments.Positional("TARGET", &options->target,
+                             "robot file or name, mesh (.vtu, .vtk, .msh), or experiment or "
+                             "recording folder");
+        arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"}, "length unit of a mesh file");
+        arguments.Flag("--json", &options->json, "print JSON");
+        return [options] { return Info(*options); };
+      }};
+}
+
+}  // namespace palpate::command

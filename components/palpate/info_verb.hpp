@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+struct InfoOptions {
+  std::filesystem::path target;  ///< robot file or name, mesh file, or folder of measured data
+  std::string unit = "m";        ///< of the lengths in a mesh file: m, cm or mm
+  bool json = false;
+};
+
+/// `palpate info`: what a robot, a mesh or an experiment holds. Throws InputError.
+int Info(const InfoOptions& options);
+
+app::Verb InfoVerb();
+
+}  // namespace palpate::command

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/experiment/actuation.hpp"
+#include "libs/experiment/loads.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// Which column drives a cable that has a displacement and a tension column.
+enum class Drive { kNotSaid, kDisplacement, kTension };
+
+/// One static state that is asked for.
+struct LoadCase {
+  double t_s = 0.0;
+  std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  std::vector<experiment::KnownLoad> loads;
+};
+
+struct LoadCases {
+  std::vector<LoadCase> rows;
+  std::vector<std::string> notes;  ///< cables that nothing drives
+};
+
+/// Reads actuation.csv; here it may also hold times alone (nothing is driven).
+/// Throws InputError as experiment::ReadActuation does.
+experiment::Actuation ReadActuationRows(const std::filesystem::path& file);
+
+/// One case for each row of `actuation`; without it one for each time of `loads`; without either
+/// one under weight alone. A cable without a column is not driven; an empty field is interpolated
+/// in time within its column. Throws InputError at the header for a cable that the robot does not
+/// have (with "did you mean"), and for one with two columns where `drive` does not say which.
+LoadCases MakeLoadCases(const std::optional<experiment::Actuation>& actuation,
+                        const std::vector<experiment::KnownLoad>& loads,
+                        const std::vector<std::string>& cable_names, Drive drive);
+
+}  // namespace palpate::command

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "components/palpate/solve_rows.hpp"
+
+namespace palpate::command {
+
+/// The folder that `palpate solve` fills: nodes_0000.csv (node,x_m,y_m,z_m) and, if asked for,
+/// body_0000.vtu for each row that converged; cables.csv (row,cable,displacement_m,tension_N; the
+/// fields of a row that did not converge are empty) and result.json at the end.
+class SolveOutput {
+ public:
+  /// Creates the folder and removes what an earlier `solve` left in it, so that no old row passes
+  /// for a new one. Throws RunError where that fails.
+  SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, bool vtu);
+
+  /// Writes the row's own files. Throws RunError where they cannot be written.
+  void Add(const RowResult& result);
+
+  /// Writes cables.csv and result.json; returns the text of the latter. Throws RunError.
+  std::string Finish(const std::vector<std::string>& notes);
+
+ private:
+  void AddCables(const RowResult& result);
+  std::filesystem::path RowFile(const char* stem, int row, const char* extension) const;
+
+  struct RowSummary {
+    int row;
+    double t_s;
+    fem::StaticResult solver;
+    double time_s;
+    std::vector<std::string> notes;
+  };
+
+  std::filesystem::path folder_;
+  const robot::RobotModel& model_;
+  bool vtu_;
+  std::string cables_text_;
+  std::vector<RowSummary> rows_;
+};
+
+}  // namespace palpate::command

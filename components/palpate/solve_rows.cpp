@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/solve_rows.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+#include "libs/core/clock.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::KnownLoad;
+using robot::CableCommand;
+
+constexpr double kNotedDistance_m = 1e-3;
+
+double Diagonal_m(const robot::RobotModel& model) {
+  const Eigen::Matrix3Xd& nodes_m = model.body().mesh.nodes_m;
+  return (nodes_m.rowwise().maxCoeff() - nodes_m.rowwise().minCoeff()).norm();
+}
+
+// The patches of all loads, each made once.
+class LoadPatches {
+ public:
+  explicit LoadPatches(const robot::RobotModel& model)
+      : model_(model), farthest_m_(0.5 * Diagonal_m(model)) {}
+
+  const fem::SurfacePatch& Of(const KnownLoad& load) {
+    const Key key{load.position_m.x(), load.position_m.y(), load.position_m.z(),
+                  load.patch_radius_m};
+    const auto [entry, is_new] = patches_.try_emplace(key);
+    if (is_new) {
+      entry->second = model_.Patch(load.position_m, load.patch_radius_m);
+      CheckDistance(load, entry->second.distance_m);
+    }
+    return entry->second;
+  }
+
+ private:
+  using Key = std::tuple<double, double, double, double>;
+
+  void CheckDistance(const KnownLoad& load, double distance_m) const {
+    if (distance_m > farthest_m_) {
+      throw InputError(load.where,
+                       fmt::format("the load at ({:g}, {:g}, {:g}) m is {:.3g} m from the body; at "
+                                   "most {:.3g} m, half its diagonal, are allowed",
+                                   load.position_m.x(), load.position_m.y(), load.position_m.z(),
+                                   distance_m, farthest_m_));
+    }
+  }
+
+  const robot::RobotModel& model_;
+  double farthest_m_;
+  std::map<Key, fem::SurfacePatch> patches_;
+};
+
+std::vector<robot::DeadLoad> DeadLoadsOf(const LoadCase& row, LoadPatches* patches) {
+  std::vector<robot::DeadLoad> loads;
+  for (const KnownLoad& load : row.loads) {
+    loads.push_back({patches->Of(load).weights, load.force_N});
+  }
+  return loads;
+}
+
+void ReadCables(const LoadCase& row, const robot::RobotModel& model, const fem::StaticState& state,
+                RowResult* result) {
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const auto index = static_cast<std::size_t>(c);
+    const robot::CableState cable = model.StateOfCable(c, state);
+    const CableCommand& command = row.cables[index];
+    if (command.kind == CableCommand::Kind::kDisplacement && cable.tension_N <= 0.0) {
+      result->notes.push_back(
+          fmt::format("cable {} is slack: {:.6g} m asked for, the body is at {:.6g} m",
+                      model.body().cables[index].name, command.value, cable.displacement_m));
+    }
+    result->cables.push_back(cable);
+  }
+}
+
+}  // namespace
+
+void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
+               const std::function<void(const RowResult&)>& take) {
+  LoadPatches patches(*model);
+  for (const LoadCase& row : rows) {
+    DeadLoadsOf(row, &patches);  // refuses loads far from the body before anything is solved
+  }
+  fem::StaticState state = model->RestState();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RowResult result;
+    result.row = static_cast<int>(i);
+    result.t_s = rows[i].t_s;
+    const std::int64_t start_ns = MonotonicNow_ns();
+    result.solver = model->Solve(rows[i].cables, DeadLoadsOf(rows[i], &patches), &state);
+    result.time_s = static_cast<double>(MonotonicNow_ns() - start_ns) * 1e-9;
+    if (result.converged()) {
+      result.x_m = state.x_m;
+      ReadCables(rows[i], *model, state, &result);
+    }
+    take(result);
+  }
+}
+
+std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,
+                                      const robot::RobotModel& model) {
+  LoadPatches patches(model);
+  std::map<std::string, bool> said;
+  std::vector<std::string> notes;
+  for (const LoadCase& row : rows) {
+    for (const KnownLoad& load : row.loads) {
+      const double distance_m = patches.Of(load).distance_m;
+      const std::string note = fmt::format(
+          "the load at ({:g}, {:g}, {:g}) m lies {:.2f} mm off the body", load.position_m.x(),
+          load.position_m.y(), load.position_m.z(), 1e3 * distance_m);
+      if (distance_m > kNotedDistance_m && said.try_emplace(note, true).second) {
+        notes.push_back(note);
+      }
+    }
+  }
+  return notes;
+}
+
+}  // namespace palpate::command

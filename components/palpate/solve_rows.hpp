@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "components/palpate/load_cases.hpp"
+#include "libs/fem/static_solver.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// What came of one row.
+struct RowResult {
+  int row = 0;
+  double t_s = 0.0;
+  fem::StaticResult solver;
+  double time_s = 0.0;                    ///< wall clock
+  Eigen::VectorXd x_m;                    ///< [3n]; empty where it did not converge
+  std::vector<robot::CableState> cables;  ///< empty where it did not converge
+  std::vector<std::string> notes;         ///< slack cables
+
+  bool converged() const { return solver.status.ok(); }
+};
+
+/// Solves one row after the other, each from the state before it (the first from rest), and hands
+/// each result to `take`. A row that fails does not stop the others. Throws InputError at the line
+/// of a load that lies farther from the body than half its diagonal, which no load can mean.
+void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
+               const std::function<void(const RowResult&)>& take);
+
+/// What a log should say of loads that do not lie on the surface.
+std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,
+                                      const robot::RobotModel& model);
+
+}  // namespace palpate::command

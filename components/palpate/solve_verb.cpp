@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/solve_verb.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/load_cases.hpp"
+#include "components/palpate/progress_line.hpp"
+#include "components/palpate/solve_output.hpp"
+#include "components/palpate/solve_rows.hpp"
+#include "libs/app/run_main.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+Drive ParseDrive(const std::string& word) {
+  return word.empty() ? Drive::kNotSaid
+                      : (word == "tension" ? Drive::kTension : Drive::kDisplacement);
+}
+
+LoadCases ReadCases(const SolveOptions& options, const robot::RobotModel& model) {
+  std::optional<experiment::Actuation> actuation;
+  if (!options.actuation.empty()) {
+    actuation = ReadActuationRows(options.actuation);
+  }
+  std::vector<experiment::KnownLoad> loads;
+  if (!options.loads.empty()) {
+    loads = experiment::ReadLoads(options.loads);
+  }
+  return MakeLoadCases(actuation, loads, model.CableNames(), ParseDrive(options.drive));
+}
+
+std::vector<std::string> AllNotes(const LoadCases& cases, const robot::RobotModel& model) {
+  std::vector<std::string> notes = model.body().notes;
+  notes.insert(notes.end(), cases.notes.begin(), cases.notes.end());
+  const std::vector<std::string> on_loads = NotesOnLoads(cases.rows, model);
+  notes.insert(notes.end(), on_loads.begin(), on_loads.end());
+  return notes;
+}
+
+void PrintRow(const RowResult& result, const std::vector<std::string>& cable_names) {
+  if (!result.converged()) {
+    fmt::print("row {} (t = {:g} s) failed: {}: {}; {:.0f} % of the way was reached\n", result.row,
+               result.t_s, ToString(result.solver.status.code()), result.solver.status.message(),
+               100.0 * result.solver.load_fraction);
+    return;
+  }
+  fmt::print("row {} (t = {:g} s)  {} iterations, residual {:.1e} N, {:.0f} ms", result.row,
+             result.t_s, result.solver.iterations, result.solver.residual_N, 1e3 * result.time_s);
+  for (std::size_t c = 0; c < cable_names.size(); ++c) {
+    fmt::print("  {} {:.3f} mm {:.3f} N", cable_names[c], 1e3 * result.cables[c].displacement_m,
+               result.cables[c].tension_N);
+  }
+  fmt::print("\n");
+  for (const std::string& note : result.notes) {
+    fmt::print("  note: {}\n", note);
+  }
+}
+
+}  // namespace
+
+int Solve(const SolveOptions& options) {
+  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot);
+  const LoadCases cases = ReadCases(options, *model);
+  const std::vector<std::string> notes = AllNotes(cases, *model);
+  SolveOutput output(options.out, *model, options.vtu);
+  if (!options.json) {
+    for (const std::string& note : notes) {
+      fmt::print("note: {}\n", note);
+    }
+  }
+  const int total = static_cast<int>(cases.rows.size());
+  int converged = 0;
+  ProgressLine progress("rows", total);
+  SolveRows(cases.rows, model.get(), [&](const RowResult& result) {
+    output.Add(result);
+    converged += result.converged() ? 1 : 0;
+    progress.Clear();
+    if (!options.json) {
+      PrintRow(result, model->CableNames());
+    } else if (!result.converged()) {
+      fmt::print(stderr, "palpate solve: row {}: {}\n", result.row, result.solver.status.message());
+    }
+    std::fflush(stdout);
+    progress.Update(result.row + 1);
+  });
+  const std::string json = output.Finish(notes);
+  if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{} of {} rows in equilibrium; written to {}\n", converged, total,
+               options.out.string());
+  }
+  return converged == total ? app::kExitDone : app::kExitFailed;
+}
+
+app::Verb SolveVerb() {
+  return {"solve", "Compute static equilibria of a robot under cables, loads and its weight",
+          [](app::Arguments& arguments) -> app::Verb::Action {
+            const auto options = std::make_shared<SolveOptions>();
+            arguments.Positional("ROBOT", &options->robot,
+                                 "robot file, or the name of a robot that comes with palpate");
+            arguments.Option("--actuation", &options->actuation,
+                             "CSV: t_s,<cable>.displacement_m|<cable>.tension_N,...; each row is "
+                             "one static state");
+            arguments.Option("--loads", &options->loads,
+                             "CSV: t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N[,patch_radius_m]; a row holds "
+                             "until the next, a single one throughout");
+            arguments.Option("--out", &options->out, "folder for the results",
+                             app::Need::kRequired);
+            arguments.Choice("--drive", &options->drive, {"displacement", "tension"},
+                             "what is imposed on cables that have both columns");
+            arguments.Flag("--vtu", &options->vtu, "write body_0000.vtu for ParaView as well");
+            arguments.Flag("--json", &options->json, "print result.json instead of lines to read");
+            return [options] { return Solve(*options); };
+          }};
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+struct SolveOptions {
+  std::filesystem::path robot = "four_leg";
+  std::filesystem::path actuation;  ///< empty: no cable is driven
+  std::filesystem::path loads;      ///< empty: no external load
+  std::filesystem::path out;
+  std::string drive;  ///< "displacement" or "tension", for cables with both columns
+  bool vtu = false;
+  bool json = false;  ///< result.json on the standard output instead of lines to read
+};
+
+/// `palpate solve`: static equilibria, one for each row of the actuation. Returns 0 only if all
+/// rows converged, else 1; throws InputError and RunError.
+int Solve(const SolveOptions& options);
+
+app::Verb SolveVerb();
+
+}  // namespace palpate::command

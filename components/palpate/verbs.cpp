@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/verbs.hpp"
+
+#include "components/palpate/import_verb.hpp"
+#include "components/palpate/info_verb.hpp"
+#include "components/palpate/solve_verb.hpp"
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+int RunCommand(const std::vector<std::string>& words) {
+  const std::vector<app::Verb> verbs = {SolveVerb(), ImportVerb(), InfoVerb()};
+  return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "libs/core/config_reader.hpp"
+
+namespace palpate::player {
+
+/// Settings of ExperimentPlayer and its node.
+struct Config {
+  std::string frame = "robot";
+  double start_time_s = 0.0;
+  bool wait_for_readers = true;
+  double reader_deadline_s = 30.0;
+  double step_deadline_s = 60.0;
+  double resend_s = 2.0;
+  bool rewind_for_new_estimator = true;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("frame", frame, {"robot", "measured"},
+      "Frame of the published markers: the robot's (needs T_robot_camera where a camera measured), "
+      "or as measured");
+    v("start_time_s", start_time_s, {.min = 0.0, .max = 2e9},
+      "Added to t_s of the recording to make the stamps");
+    v("wait_for_readers", wait_for_readers, "Begin only when somebody listens");
+    v("reader_deadline_s", reader_deadline_s, {.min = 0.0, .min_open = true},
+      "Give up where nobody listens for so long");
+    v("step_deadline_s", step_deadline_s, {.min = 0.0, .min_open = true},
+      "With --step: give up where one frame is not answered for so long");
+    v("resend_s", resend_s, {.min = 0.0, .min_open = true},
+      "With --step: send a frame again where it is not answered for so long");
+    v("rewind_for_new_estimator", rewind_for_new_estimator,
+      "Begin the recording again when a force estimator appears, so that it sees the reference");
+  }
+};
+
+}  // namespace palpate::player

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/player/experiment_player.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::player {
+
+namespace {
+
+using experiment::CableQuantity;
+using experiment::MeasurementFrame;
+using experiment::Recording;
+
+/// Times of all marker frames and actuation rows, each once. Rows before the first or after the
+/// last marker frame are left out: nobody can use them.
+std::vector<double> EventTimes(const Recording& recording) {
+  std::vector<double> times_s;
+  for (const auto& frame : recording.markers->frames) times_s.push_back(frame.t_s);
+  if (!recording.actuation) return times_s;
+  const double first_s = times_s.front(), last_s = times_s.back();
+  for (const double t_s : recording.actuation->t_s) {
+    if (t_s >= first_s && t_s <= last_s) times_s.push_back(t_s);
+  }
+  std::sort(times_s.begin(), times_s.end());
+  times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+  return times_s;
+}
+
+std::vector<CableInput> CablesAt(const Recording& recording, double t_s) {
+  std::vector<CableInput> cables;
+  if (!recording.actuation) return cables;
+  for (const experiment::CableColumn& column : recording.actuation->columns) {
+    auto input = std::find_if(cables.begin(), cables.end(), [&](const CableInput& known) {
+      return known.cable == column.cable;
+    });
+    if (input == cables.end()) input = cables.insert(input, {column.cable, {}, {}});
+    auto& value = column.quantity == CableQuantity::kDisplacement ? input->displacement_m
+                                                                  : input->tension_N;
+    value = recording.actuation->ValueAt(column, t_s);
+  }
+  return cables;
+}
+
+MarkerReference ReferenceAt(const Recording& recording, double t_s) {
+  if (!recording.reference || !recording.reference->window_s.Contains(t_s)) {
+    return MarkerReference::kNone;
+  }
+  return recording.reference->shape == experiment::ReferenceShape::kUndeformed
+             ? MarkerReference::kUndeformed
+             : MarkerReference::kEquilibrium;
+}
+
+/// Standard deviations along the axes of a frame turned by R, of noise that is independent along
+/// the axes of the measured frame.
+Eigen::Vector3d TurnedSigma(const Eigen::Matrix3d& R, const Eigen::Vector3d& sigma_m) {
+  return (R.cwiseAbs2() * sigma_m.cwiseAbs2()).cwiseSqrt();
+}
+
+/// Refuses a name that no recording has.
+void CheckRecordingName(const experiment::Experiment& experiment, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Recording& recording : experiment.recordings) names.push_back(recording.name);
+  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw InputError("no recording '" + name + "' in " + experiment.folder.string() +
+                   DidYouMean(name, names));
+}
+
+}  // namespace
+
+ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment,
+                                   const std::string& recording, bool in_robot_frame)
+    : experiment_(std::move(experiment)) {
+  CheckRecordingName(experiment_, recording);
+  for (const Recording& candidate : experiment_.recordings) {
+    if (!candidate.markers || (!recording.empty() && candidate.name != recording)) continue;
+    tracks_.push_back(MakeTrack(candidate, in_robot_frame));
+  }
+  if (tracks_.empty()) {
+    throw InputError((recording.empty() ? "no recording" : "recording '" + recording + "'") +
+                     (recording.empty() ? " in " + experiment_.folder.string() : "") +
+                     " has no markers.csv: nothing to play");
+  }
+}
+
+ExperimentPlayer::Track ExperimentPlayer::MakeTrack(const Recording& recording,
+                                                    bool in_robot_frame) const {
+  Track track{&recording, Eigen::Isometry3d::Identity(), FrameOf(experiment_, recording),
+              experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()),
+              EventTimes(recording)};
+  if (!in_robot_frame || track.frame == MeasurementFrame::kRobot) return track;
+  const auto pose = experiment::RobotFromMarkers(experiment_, recording);
+  if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
+    throw InputError("recording '" + recording.name + "': " + missing->reason +
+                     " (or set frame=measured)");
+  }
+  track.T_frame_measured = std::get<Eigen::Isometry3d>(pose);
+  track.frame = MeasurementFrame::kRobot;
+  track.sigma_m = TurnedSigma(track.T_frame_measured.linear(), track.sigma_m);
+  return track;
+}
+
+std::optional<Event> ExperimentPlayer::Next() {
+  if (track_ < tracks_.size() && event_ == tracks_[track_].times_s.size()) {
+    ++track_;
+    RewindRecording();
+  }
+  if (track_ == tracks_.size()) return std::nullopt;
+  const Track& track = tracks_[track_];
+  const double t_s = track.times_s[event_++];
+  Event event{track.recording->name, t_s, CablesAt(*track.recording, t_s), std::nullopt};
+  const auto& frames = track.recording->markers->frames;
+  if (marker_frame_ < frames.size() && frames[marker_frame_].t_s == t_s) {
+    event.markers = MarkersOf(track, frames[marker_frame_]);
+    event.markers->counter = marker_frame_++;
+  }
+  return event;
+}
+
+MarkerSet ExperimentPlayer::MarkersOf(const Track& track,
+                                      const experiment::MarkerFrame& frame) const {
+  MarkerSet set;
+  set.reference = ReferenceAt(*track.recording, frame.t_s);
+  set.frame = track.frame;
+  const auto& names = track.recording->markers->names;
+  for (size_t i = 0; i < names.size(); ++i) {
+    Marker marker{names[i], std::nullopt, track.sigma_m};
+    if (frame.positions_m[i]) marker.position_m = track.T_frame_measured * *frame.positions_m[i];
+    set.markers.push_back(std::move(marker));
+  }
+  return set;
+}
+
+void ExperimentPlayer::RewindRecording() {
+  event_ = 0;
+  marker_frame_ = 0;
+}
+
+void ExperimentPlayer::RewindAll() {
+  track_ = 0;
+  RewindRecording();
+}
+
+bool ExperimentPlayer::has_cables() const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [](const Track& track) {
+    return track.recording->actuation.has_value();
+  });
+}
+
+}  // namespace palpate::player

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/player/node/command_line.hpp"
+
+#include <limits>
+
+#include "libs/app/log.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::player {
+
+namespace {
+
+/// At most one of --rate, --step, --as-fast-as-possible.
+void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible,
+                    Playback* playback) {
+  const bool rate_given = arguments.WasGiven("--rate");
+  if (int{rate_given} + int{playback->step} + int{as_fast_as_possible} > 1) {
+    throw InputError("only one of --rate, --step and --as-fast-as-possible can be given");
+  }
+  if (playback->rate <= 0.0) {
+    throw InputError("--rate: must be above 0, not " + FormatNumber(playback->rate));
+  }
+  if (as_fast_as_possible) playback->rate = std::numeric_limits<double>::infinity();
+}
+
+app::LogLevel LevelOf(dds::Severity severity) {
+  switch (severity) {
+    case dds::Severity::kDebug: return app::LogLevel::kDebug;
+    case dds::Severity::kInfo: return app::LogLevel::kInfo;
+    case dds::Severity::kWarning: return app::LogLevel::kWarning;
+    case dds::Severity::kError: return app::LogLevel::kError;
+  }
+  return app::LogLevel::kError;
+}
+
+}  // namespace
+
+std::optional<Command> ReadCommand(int argc, const char* const* argv) {
+  Command command;
+  bool as_fast_as_possible = false;
+  app::Arguments arguments("palpate-player", "Plays measured data as if the robot ran now.");
+  arguments.Option("--data", &command.data, "Experiment or recording folder");
+  arguments.Option("--recording", &command.recording, "The only recording to play");
+  arguments.Option("--rate", &command.playback.rate, "So many times real time");
+  arguments.Flag("--step", &command.playback.step,
+                 "The next frame when /forces has answered the last one; loses nothing");
+  arguments.Flag("--as-fast-as-possible", &as_fast_as_possible, "Without waiting");
+  arguments.Flag("--loop", &command.playback.loop, "Begin again at the end");
+  app::DeclareNodeOptions(arguments, &command.options);
+  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
+      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
+    return std::nullopt;
+  }
+  if (command.data.empty()) throw InputError("--data is required: what shall be played?");
+  SettlePlayback(arguments, as_fast_as_possible, &command.playback);
+  return command;
+}
+
+ExperimentPlayer OpenExperiment(const Command& command) {
+  return ExperimentPlayer(experiment::ReadExperiment(command.data, app::LoadYaml),
+                          command.recording, command.config.frame == "robot");
+}
+
+dds::NodeLog::ProcessLog LogOfProcess() {
+  return [](dds::Severity severity, std::string_view text) { app::Log(LevelOf(severity), text); };
+}
+
+}  // namespace palpate::player

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "components/player/node/node.hpp"
+#include "libs/app/node_options.hpp"
+
+namespace palpate::player {
+
+struct Command {
+  NodeConfig config;
+  app::NodeOptions options;
+  Playback playback;
+  std::filesystem::path data;
+  std::string recording;  ///< empty: all
+};
+
+/// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
+std::optional<Command> ReadCommand(int argc, const char* const* argv);
+
+/// Reads the experiment of the command. Throws InputError.
+ExperimentPlayer OpenExperiment(const Command& command);
+
+/// Lines of the node for the log of this process.
+dds::NodeLog::ProcessLog LogOfProcess();
+
+}  // namespace palpate::player

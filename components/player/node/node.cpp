@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/player/node/node.hpp"
+
+#include <utility>
+
+#include "components/player/node/convert.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::player {
+
+namespace {
+
+using Clock = dds::WaitSet::Clock;
+
+Clock::duration Seconds(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kLastMessagesWait = std::chrono::seconds(2);
+
+}  // namespace
+
+PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback,
+                       ExperimentPlayer player, int domain_id, dds::TopicTable table,
+                       dds::NodeLog::ProcessLog process_log)
+    : config_(config),
+      playback_(playback),
+      player_(std::move(player)),
+      participant_(dds::ParticipantOf(config.dds, "palpate_player", domain_id), std::move(table)),
+      loop_(participant_),
+      log_(participant_, std::move(process_log)),
+      health_(participant_, "player", Clock::now()),
+      markers_(participant_.CreateWriter(dds::kMarkersTopic, [this] { loop_.Wake(); })),
+      joint_states_(participant_.CreateWriter(dds::kJointStatesTopic, [this] { loop_.Wake(); })),
+      forces_(participant_.CreateReader(dds::kForcesTopic, [this] { loop_.Wake(); })),
+      pacer_(playback.rate, [] { return Clock::now().time_since_epoch(); }) {
+  loop_.Attach(forces_, [this] { TakeForces(); });
+  loop_.Every(kReportPeriod, [this] { ReportHealth(); });
+}
+
+void PlayerNode::Run() {
+  if (config_.wait_for_readers) WaitForReaders();
+  known_estimators_ = forces_.counters().matched_ever;
+  do {
+    PlayAll();
+    player_.RewindAll();
+  } while (playback_.loop && !loop_.stopped());
+  ReportHealth();
+  if (loop_.stopped()) return;
+  if (!markers_.WaitUntilReceived(kLastMessagesWait)) {
+    log_.Write(dds::Severity::kWarning, "a reader has not confirmed the last markers");
+  }
+}
+
+void PlayerNode::WaitForReaders() {
+  log_.Write(dds::Severity::kInfo, "waiting for readers of /perception/markers");
+  const Clock::time_point deadline = Clock::now() + Seconds(config_.reader_deadline_s);
+  if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
+  if (loop_.stopped()) return;
+  throw RunError("nobody reads /perception/markers" +
+                 std::string(playback_.step ? " and answers on /forces" : "") + " within " +
+                 FormatNumber(config_.reader_deadline_s) +
+                 " s: is the force estimation running, in this domain? (reader_deadline_s, "
+                 "wait_for_readers)");
+}
+
+bool PlayerNode::ReadersAreThere() const {
+  return markers_.matched() > 0 && (!player_.has_cables() || joint_states_.matched() > 0) &&
+         (!playback_.step || forces_.matched() > 0);
+}
+
+void PlayerNode::PlayAll() {
+  pacer_.Restart();
+  while (const std::optional<Event> event = player_.Next()) {
+    Play(*event);
+    if (loop_.stopped()) return;
+    if (NewEstimator()) Rewind();
+  }
+}
+
+void PlayerNode::Play(const Event& event) {
+  if (playback_.step) {
+    Publish(event);
+    WaitForAnswer(event);
+    return;
+  }
+  const Clock::time_point due =
+      Clock::now() + pacer_.TimeUntil(event.recording, event.t_s);
+  loop_.DispatchUntil([this] { return NewEstimator(); }, due);
+  if (!loop_.stopped() && !NewEstimator()) Publish(event);
+}
+
+void PlayerNode::WaitForAnswer(const Event& event) {
+  if (!event.markers) return;
+  const Clock::time_point deadline = Clock::now() + Seconds(config_.step_deadline_s);
+  const auto done = [&] { return Answered(event) || NewEstimator(); };
+  while (Clock::now() < deadline) {
+    const auto resend = std::min(deadline, Clock::now() + Seconds(config_.resend_s));
+    if (loop_.DispatchUntil(done, resend) || loop_.stopped()) return;
+    Publish(event);
+  }
+  throw RunError("no answer on /forces to the frame at " + FormatNumber(event.t_s) +
+                 " s of recording '" + event.recording + "' within " +
+                 FormatNumber(config_.step_deadline_s) + " s (step_deadline_s)");
+}
+
+bool PlayerNode::Answered(const Event& event) const {
+  return answered_stamp_ns_ == StampOf(event, config_.start_time_s) &&
+         answered_recording_ == event.recording;
+}
+
+void PlayerNode::Publish(const Event& event) {
+  const int64_t stamp_ns = StampOf(event, config_.start_time_s);
+  // Commands first: whoever takes the markers shall find those of the same stamp.
+  bool sent = event.cables.empty() || joint_states_.Write(ToJointState(event, stamp_ns));
+  if (event.markers) {
+    sent = markers_.Write(ToMarkerArray(event, stamp_ns)) && sent;
+    ++counts_.published;
+  }
+  if (!sent) ++counts_.dropped;
+}
+
+void PlayerNode::TakeForces() {
+  for (const idl::palpate_msgs::ForceArray& forces : forces_.Take()) {
+    ++counts_.received;
+    answered_stamp_ns_ = dds::StampNs(forces.header.stamp);
+    answered_recording_ = dds::Text(forces.recording);
+  }
+}
+
+bool PlayerNode::NewEstimator() const {
+  return config_.rewind_for_new_estimator &&
+         forces_.counters().matched_ever > known_estimators_;
+}
+
+void PlayerNode::Rewind() {
+  log_.Write(dds::Severity::kInfo, "a force estimator appeared: the recording begins again");
+  if (config_.wait_for_readers) WaitForReaders();
+  known_estimators_ = forces_.counters().matched_ever;
+  answered_stamp_ns_.reset();
+  player_.RewindRecording();
+  pacer_.Restart();
+}
+
+void PlayerNode::ReportHealth() {
+  const Status status = counts_.dropped == 0
+                            ? Status::Ok()
+                            : Status(StatusCode::kStale, "DDS did not take all frames");
+  health_.Report(status, counts_, {{"readers", std::to_string(markers_.matched())}}, Clock::now());
+}
+
+}  // namespace palpate::player

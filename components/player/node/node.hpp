@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "components/player/config.hpp"
+#include "components/player/experiment_player.hpp"
+#include "components/player/pacer.hpp"
+#include "libs/dds/health.hpp"
+#include "libs/dds/node_log.hpp"
+#include "libs/dds/node_settings.hpp"
+#include "libs/dds/wait_set.hpp"
+
+namespace palpate::player {
+
+/// Settings of the process: those of the player, and those of its DDS side.
+struct NodeConfig : Config {
+  dds::NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    Config::Visit(v);
+    v("dds", dds, "DDS side");
+  }
+};
+
+/// How the events follow each other.
+struct Playback {
+  double rate = 1.0;  ///< 1: real time; infinity: as fast as possible
+  bool step = false;  ///< the next frame when /forces answered the last one: nothing is lost
+  bool loop = false;  ///< begin again at the end
+};
+
+/// Publishes an experiment on /perception/markers and /robot/joint_states.
+class PlayerNode {
+ public:
+  /// Throws InputError for bad settings, RunError where DDS refuses.
+  PlayerNode(const NodeConfig& config, const Playback& playback, ExperimentPlayer player,
+             int domain_id, dds::TopicTable table, dds::NodeLog::ProcessLog process_log);
+
+  /// Plays to the end, or until Stop(). Throws RunError where nobody listens, or with --step nobody
+  /// answers, within the deadlines.
+  void Run();
+  /// From any thread.
+  void Stop() { loop_.Stop(); }
+
+  uint64_t frames_played() const { return counts_.published; }
+
+ private:
+  using Time = dds::WaitSet::Clock::time_point;
+
+  void WaitForReaders();
+  bool ReadersAreThere() const;
+  void PlayAll();
+  void Play(const Event& event);
+  void WaitForAnswer(const Event& event);
+  bool Answered(const Event& event) const;
+  void Publish(const Event& event);
+  void TakeForces();
+  bool NewEstimator() const;
+  void Rewind();
+  void ReportHealth();
+
+  NodeConfig config_;
+  Playback playback_;
+  ExperimentPlayer player_;
+  dds::Participant participant_;
+  dds::WaitSet loop_;
+  dds::NodeLog log_;
+  dds::HealthReporter health_;
+  dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;
+  dds::Writer<idl::sensor_msgs::JointState> joint_states_;
+  dds::Reader<idl::palpate_msgs::ForceArray> forces_;
+  Pacer pacer_;
+  dds::HealthCounts counts_;
+  uint32_t known_estimators_ = 0;
+  std::string answered_recording_;
+  std::optional<int64_t> answered_stamp_ns_;
+};
+
+}  // namespace palpate::player

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/experiment/c3d/c3d_layout.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "libs/core/text.hpp"
+
+namespace palpate::experiment {
+
+namespace {
+
+// Offsets of the header's 16-bit words, counted from 1 in the format's description.
+constexpr std::size_t Word(std::size_t number) { return 2 * (number - 1); }
+constexpr std::size_t kPointCount = Word(2);
+constexpr std::size_t kAnalogPerFrame = Word(3);
+constexpr std::size_t kFirstFrame = Word(4);
+constexpr std::size_t kLastFrame = Word(5);
+constexpr std::size_t kScale = Word(7);
+constexpr std::size_t kDataBlock = Word(9);
+constexpr std::size_t kRate = Word(11);
+constexpr std::uint8_t kMagic = 0x50;
+constexpr std::uint16_t kLargestFrameNumber = 65535;
+
+std::size_t OffsetOfBlock(std::size_t number) { return (number - 1) * kC3dBlockSize; }
+
+std::size_t FindParameters(const C3dBytes& bytes) {
+  bytes.Require(0, kC3dBlockSize, "the header");
+  if (bytes.Byte(1) != kMagic) bytes.Refuse(1, "this is no C3D file (80 is expected here)");
+  const std::size_t block = bytes.Byte(0);
+  if (block < 2) bytes.Refuse(0, "the parameters cannot begin in block " + std::to_string(block));
+  return OffsetOfBlock(block);
+}
+
+// A count that header and parameters both hold; where both do they must agree.
+std::size_t AgreedCount(const C3dBytes& bytes, const C3dParameters& parameters,
+                        const std::string& name, std::size_t header_offset) {
+  const std::size_t in_header = bytes.Uint16(header_offset);
+  const std::optional<double> in_parameters = parameters.Number(name);
+  if (in_parameters && *in_parameters != static_cast<double>(in_header)) {
+    bytes.Refuse(parameters.OffsetOf(name), name + " is " + FormatNumber(*in_parameters) +
+                                                ", the header has " + std::to_string(in_header));
+  }
+  return in_header;
+}
+
+// A frame number written as two 16-bit halves, low first.
+std::optional<double> WideFrameNumber(const C3dParameters& parameters, const std::string& name) {
+  const std::vector<double> halves = parameters.Numbers(name);
+  if (halves.size() != 2) return std::nullopt;
+  return halves[0] + 65536.0 * halves[1];
+}
+
+// More frames than the header's 16 bits can count, where a parameter says so.
+std::optional<double> WideFrameCount(const C3dParameters& parameters) {
+  const auto first = WideFrameNumber(parameters, "TRIAL:ACTUAL_START_FIELD");
+  const auto last = WideFrameNumber(parameters, "TRIAL:ACTUAL_END_FIELD");
+  if (first && last && *last - *first + 1.0 > kLargestFrameNumber) return *last - *first + 1.0;
+  for (const std::string name : {"POINT:LONG_FRAMES", "POINT:FRAMES"}) {
+    const std::optional<double> count = parameters.Number(name);
+    if (count && *count > kLargestFrameNumber) return count;
+  }
+  return std::nullopt;
+}
+
+std::size_t CountFrames(const C3dBytes& bytes, const C3dParameters& parameters) {
+  if (const std::optional<double> wide = WideFrameCount(parameters)) {
+    if (*wide > static_cast<double>(bytes.size()) || *wide != std::floor(*wide)) {
+      bytes.Refuse(kLastFrame, "there cannot be " + FormatNumber(*wide) + " frames in this file");
+    }
+    return static_cast<std::size_t>(*wide);
+  }
+  const int first = bytes.Uint16(kFirstFrame);
+  const int last = bytes.Uint16(kLastFrame);
+  const int count = last - first + 1;
+  if (count <= 0) {
+    bytes.Refuse(kFirstFrame,
+                 "frames " + std::to_string(first) + " to " + std::to_string(last) + " are none");
+  }
+  const std::optional<double> in_parameters = parameters.Number("POINT:FRAMES");
+  if (in_parameters && *in_parameters != count && last != kLargestFrameNumber) {
+    bytes.Refuse(parameters.OffsetOf("POINT:FRAMES"),
+                 "POINT:FRAMES is " + FormatNumber(*in_parameters) + ", the header has " +
+                     std::to_string(count) + " frames");
+  }
+  if (last == kLargestFrameNumber && in_parameters.value_or(0.0) >= 1.0) {
+    return static_cast<std::size_t>(*in_parameters);
+  }
+  return static_cast<std::size_t>(count);
+}
+
+double ReadScale(const C3dBytes& bytes, const C3dParameters& parameters) {
+  const double in_header = bytes.Real(kScale);
+  const double scale = parameters.Number("POINT:SCALE").value_or(in_header);
+  if (!std::isfinite(scale) || scale == 0.0)
+    bytes.Refuse(kScale, "the scale of points is unusable");
+  if (std::signbit(scale) != std::signbit(in_header)) {
+    bytes.Refuse(kScale, "header and POINT:SCALE disagree whether points are integers");
+  }
+  return scale;
+}
+
+double ReadRate(const C3dBytes& bytes, const C3dParameters& parameters) {
+  const double rate_Hz = parameters.Number("POINT:RATE").value_or(bytes.Real(kRate));
+  if (!std::isfinite(rate_Hz) || rate_Hz <= 0.0) bytes.Refuse(kRate, "the frame rate is unusable");
+  return rate_Hz;
+}
+
+double ReadUnit(const C3dBytes& bytes, const C3dParameters& parameters, const C3dOptions& options) {
+  const std::vector<std::string> units = parameters.Texts("POINT:UNITS");
+  const bool named = !units.empty() && !units.front().empty();
+  if (!named && !options.unit_if_absent) {
+    bytes.Refuse(0, "the file does not say its unit of length (POINT:UNITS); give it");
+  }
+  const std::string unit = named ? units.front() : *options.unit_if_absent;
+  if (unit == "m" || unit == "meter" || unit == "meters") return 1.0;
+  if (unit == "cm") return 1e-2;
+  if (unit == "mm") return 1e-3;
+  bytes.Refuse(parameters.OffsetOf("POINT:UNITS"),
+               "unit of length '" + unit + "' is not known (m, cm or mm)");
+}
+
+std::string WithoutBlanks(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+  return text;
+}
+
+std::vector<std::string> ReadLabels(const C3dBytes& bytes, const C3dParameters& parameters,
+                                    std::size_t count) {
+  std::vector<std::string> labels = parameters.Texts("POINT:LABELS");
+  for (int part = 2; parameters.Has("POINT:LABELS" + std::to_string(part)); ++part) {
+    const auto more = parameters.Texts("POINT:LABELS" + std::to_string(part));
+    labels.insert(labels.end(), more.begin(), more.end());
+  }
+  labels.resize(count);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < count; ++i) {
+    labels[i] = WithoutBlanks(labels[i]);
+    if (labels[i].empty()) labels[i] = "unlabelled_" + std::to_string(i + 1);
+    if (!seen.insert(labels[i]).second) {
+      bytes.Refuse(parameters.OffsetOf("POINT:LABELS"),
+                   "label '" + labels[i] + "' is given to two points");
+    }
+  }
+  return labels;
+}
+
+std::size_t FindData(const C3dBytes& bytes, const C3dParameters& parameters) {
+  const std::size_t block = AgreedCount(bytes, parameters, "POINT:DATA_START", kDataBlock);
+  if (block < 3) bytes.Refuse(kDataBlock, "points cannot begin in block " + std::to_string(block));
+  return OffsetOfBlock(block);
+}
+
+}  // namespace
+
+C3dLayout ReadC3dLayout(C3dBytes& bytes, const C3dOptions& options) {
+  const C3dParameters parameters(bytes, FindParameters(bytes));
+  C3dLayout layout;
+  layout.point_count = AgreedCount(bytes, parameters, "POINT:USED", kPointCount);
+  if (layout.point_count == 0) bytes.Refuse(kPointCount, "the file holds no points");
+  layout.frame_count = CountFrames(bytes, parameters);
+  layout.analog_values_per_frame = bytes.Uint16(kAnalogPerFrame);
+  layout.data_offset = FindData(bytes, parameters);
+  const double scale = ReadScale(bytes, parameters);
+  layout.real_points = scale < 0.0;
+  layout.scale = std::abs(scale);
+  layout.rate_Hz = ReadRate(bytes, parameters);
+  layout.metres_per_unit = ReadUnit(bytes, parameters, options);
+  layout.labels = ReadLabels(bytes, parameters, layout.point_count);
+  bytes.Require(layout.data_offset, layout.frame_count * layout.frame_size(),
+                std::to_string(layout.frame_count) + " frames");
+  return layout;
+}
+
+}  // namespace palpate::experiment

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/experiment/marker_table.hpp"
+#include "libs/experiment/markers.hpp"
+
+namespace palpate::experiment {
+
+/// Markers as a motion-capture system saw them: metres, the laboratory's frame, time from 0 at the
+/// first frame of the file (C3D) or as the file has it (CSV).
+struct CapturedMarkers {
+  MarkerTracks tracks;
+  double rate_Hz = 0.0;   ///< frames a second, > 0 (0: a single frame of a CSV file)
+  Residuals residuals_m;  ///< of the reconstruction, [frame][marker]; empty where not known
+  /// Bit i: camera i saw the marker, [frame][marker]; empty where not known.
+  std::vector<std::vector<std::uint8_t>> cameras;
+};
+
+struct C3dOptions {
+  /// "m", "cm" or "mm", for files without POINT:UNITS; such files are refused without it.
+  std::optional<std::string> unit_if_absent;
+};
+
+/// Reads the 3-D points of a C3D file (https://www.c3d.org/docs/C3D_User_Guide.pdf): Intel, DEC and
+/// SGI/MIPS numbers, integer or real points, more than 65535 frames (TRIAL:ACTUAL_END_FIELD,
+/// POINT:LONG_FRAMES) and more than 255 labels (LABELS2, ...). Analog samples are skipped. A
+/// negative residual is a gap. Labels lose their blanks ("Tip - 1" becomes "Tip-1"); points without
+/// a label are called unlabelled_<number from 1>.
+/// Throws InputError with the byte offset for a file that is cut short, contradicts itself, names a
+/// label twice or holds what is no finite number.
+CapturedMarkers ReadC3d(const std::filesystem::path& file, const C3dOptions& options = {});
+
+/// Reads a plain table of one row for each time and marker: time_s or t_s, marker, x, y, z and
+/// optionally residual, lengths as _m, _cm or _mm columns, in any order. Throws InputError as
+/// ReadMarkers does. The rate is that of the median time step, 0 for a single frame.
+CapturedMarkers ReadCapturedCsv(const std::filesystem::path& file);
+
+}  // namespace palpate::experiment

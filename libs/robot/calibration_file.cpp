@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/calibration_file.hpp"
+
+#include <algorithm>
+
+#include "libs/core/config_reader.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+std::string ElementName(fem::ElementType element) {
+  return element == fem::ElementType::kTet4 ? "tet4" : "tet10";
+}
+
+void RequireSame(const char* what, const std::string& calibrated, const std::string& present) {
+  if (calibrated == present) return;
+  throw InputError(std::string("the calibration is for ") + what + " '" + calibrated +
+                   "', the robot file gives '" + present +
+                   "': calibrate again with this robot file");
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+CalibratedModulus ReadModulus(const ConfigNode& node) {
+  MapReader map(node);
+  CalibratedModulus modulus;
+  modulus.part = ReadText(map.Require("part"));
+  modulus.youngs_modulus_Pa = ReadNumber(map.Require("youngs_modulus_Pa"), kPositive);
+  modulus.standard_error_Pa = ReadNumber(map.Require("standard_error_Pa"), kNonNegative);
+  map.Finish();
+  return modulus;
+}
+
+int MaterialIndex(const RobotBody& body, const std::string& part) {
+  if (part == "body") return 0;
+  const auto& names = body.region_names;
+  const auto found = std::find(names.begin(), names.end(), part);
+  if (found == names.end()) {
+    throw InputError("the calibration holds a modulus of region '" + part +
+                     "', which the robot file does not have" + DidYouMean(part, names));
+  }
+  return static_cast<int>(found - names.begin()) + 1;
+}
+
+}  // namespace
+
+CalibrationFile DescribeForCalibration(const RobotModel& model) {
+  const RobotBody& body = model.body();
+  CalibrationFile calibration;
+  calibration.robot = body.name;
+  calibration.mesh_hash = body.mesh_hash;
+  calibration.element = ElementName(body.mesh.element_type());
+  calibration.model = fem::ToString(body.materials.front().model);
+  calibration.poissons_ratio = body.materials.front().poissons_ratio;
+  return calibration;
+}
+
+CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const ConfigLoader& load) {
+  const ConfigNode root = load(file);
+  MapReader map(root);
+  CalibrationFile calibration;
+  calibration.robot = ReadText(map.Require("robot"));
+  calibration.mesh_hash = ReadText(map.Require("mesh_hash"));
+  calibration.element = ReadChoice(map.Require("element"), {"tet4", "tet10"});
+  calibration.model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
+  calibration.poissons_ratio =
+      ReadNumber(map.Require("poissons_ratio"), {.min = -1.0, .max = 0.5, .max_open = true});
+  calibration.date_utc = ReadText(map.Require("date_utc"));
+  calibration.data = ReadText(map.Require("data"));
+  calibration.data_hash = ReadText(map.Require("data_hash"));
+  const ConfigNode& moduli = map.Require("moduli");
+  if (moduli.kind != ConfigNode::Kind::kList || moduli.items.empty()) {
+    Refuse(moduli, "must be a list with at least one modulus");
+  }
+  for (const ConfigNode& node : moduli.items) calibration.moduli.push_back(ReadModulus(node));
+  calibration.residual_rms_m = ReadNumber(map.Require("residual_rms_m"), kNonNegative);
+  calibration.chi_squared = ReadNumber(map.Require("chi_squared"), kNonNegative);
+  calibration.degrees_of_freedom = ReadInteger(map.Require("degrees_of_freedom"), 0, 1 << 30);
+  map.Finish();
+  return calibration;
+}
+
+void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesystem::path& file) {
+  std::string text = "# Made by palpate calibrate. Moduli hold for this mesh and element only.\n";
+  text += "robot: " + Quoted(calibration.robot) + "\n";
+  text += "mesh_hash: " + Quoted(calibration.mesh_hash) + "\n";
+  text += "element: " + calibration.element + "\n";
+  text += "model: " + calibration.model + "\n";
+  text += "poissons_ratio: " + FormatNumber(calibration.poissons_ratio) + "\n";
+  text += "date_utc: " + Quoted(calibration.date_utc) + "\n";
+  text += "data: " + Quoted(calibration.data) + "\n";
+  text += "data_hash: " + Quoted(calibration.data_hash) + "\n";
+  text += "moduli:\n";
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    text += "  - {part: " + Quoted(modulus.part) +
+            ", youngs_modulus_Pa: " + FormatNumber(modulus.youngs_modulus_Pa) +
+            ", standard_error_Pa: " + FormatNumber(modulus.standard_error_Pa) + "}\n";
+  }
+  text += "residual_rms_m: " + FormatNumber(calibration.residual_rms_m) + "\n";
+  text += "chi_squared: " + FormatNumber(calibration.chi_squared) + "\n";
+  text += "degrees_of_freedom: " + std::to_string(calibration.degrees_of_freedom) + "\n";
+  WriteFile(file, text);
+}
+
+void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
+  const CalibrationFile present = DescribeForCalibration(*model);
+  RequireSame("robot", calibration.robot, present.robot);
+  RequireSame("element", calibration.element, present.element);
+  RequireSame("mesh", calibration.mesh_hash, present.mesh_hash);
+  RequireSame("material", calibration.model, present.model);
+  RequireSame("Poisson's ratio", FormatNumber(calibration.poissons_ratio),
+              FormatNumber(present.poissons_ratio));
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    model->SetYoungsModulus(MaterialIndex(model->body(), modulus.part),
+                            modulus.youngs_modulus_Pa);
+  }
+}
+
+double RelativeModulusError(const CalibrationFile& calibration) {
+  double largest = 0.0;
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    largest = std::max(largest, modulus.standard_error_Pa / modulus.youngs_modulus_Pa);
+  }
+  return largest;
+}
+
+}  // namespace palpate::robot

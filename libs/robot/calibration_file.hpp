@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libs/core/config_node.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::robot {
+
+/// A modulus found from data. `part` is "body" or the name of a region.
+struct CalibratedModulus {
+  std::string part;
+  double youngs_modulus_Pa = 0.0;
+  double standard_error_Pa = 0.0;
+};
+
+/// What `palpate calibrate` finds and `palpate estimate` and the processes use. A modulus is bound
+/// to the mesh and element it was found with: coarse linear meshes are too stiff, and the fit makes
+/// up for it.
+struct CalibrationFile {
+  std::string robot;       ///< name in the robot file
+  std::string mesh_hash;   ///< RobotBody::mesh_hash: mesh and element
+  std::string element;     ///< "tet4" | "tet10"
+  std::string model;       ///< material model
+  double poissons_ratio = 0.0;
+  std::string date_utc;    ///< "2026-01-31T12:00:00Z"
+  std::string data;        ///< what it was fitted to, for people
+  std::string data_hash;
+  std::vector<CalibratedModulus> moduli;
+  double residual_rms_m = 0.0;
+  double chi_squared = 0.0;
+  int degrees_of_freedom = 0;
+};
+
+/// The file's head for this robot, without moduli and fit.
+CalibrationFile DescribeForCalibration(const RobotModel& model);
+
+/// Throws InputError with file:line:column for what is no calibration file.
+CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const ConfigLoader& load);
+
+/// Throws RunError where it cannot be written.
+void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesystem::path& file);
+
+/// Gives the model the calibrated moduli. Throws InputError, naming both sides, where the
+/// calibration is another robot's, another mesh's, element's or material's, or names a region that
+/// the robot does not have.
+void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
+
+/// Largest relative standard error of the moduli; 0 without moduli.
+double RelativeModulusError(const CalibrationFile& calibration);
+
+}  // namespace palpate::robot

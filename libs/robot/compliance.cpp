@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/compliance.hpp"
+
+#include "libs/core/check.hpp"
+
+namespace palpate::robot {
+
+void ForceDirection::AddForce(double force_N, Eigen::VectorXd& nodal_force_N) const {
+  for (size_t k = 0; k < weights.nodes.size(); ++k) {
+    nodal_force_N.segment<3>(3 * weights.nodes[k]) += weights.weights[k] * force_N * direction;
+  }
+}
+
+Compliance::Compliance(fem::Linearisation& linearisation, std::vector<fem::NodeWeights> effectors)
+    : linearisation_(linearisation),
+      effectors_(std::move(effectors)),
+      nodal_(3 * linearisation.body().NodeCount()),
+      step_(linearisation.Size()) {
+  SetForces({});
+}
+
+void Compliance::SetForces(std::vector<ForceDirection> forces) {
+  forces_ = std::move(forces);
+  const auto a = static_cast<Eigen::Index>(linearisation_.constraints().size());
+  const auto f = static_cast<Eigen::Index>(forces_.size());
+  const auto e = static_cast<Eigen::Index>(3 * effectors_.size());
+  directions_.resize(linearisation_.Size(), a + f);
+  columns_.resize(linearisation_.Size(), 1 + a + f);
+  W_ea_.resize(e, a);
+  W_ef_.resize(e, f);
+  W_aa_.resize(a, a);
+  W_af_.resize(a, f);
+  delta_e_free_.resize(e);
+  delta_a_free_.resize(a);
+  lambda_a_.resize(a);
+  lambda_f_.resize(f);
+}
+
+void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+                         const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N) {
+  PALPATE_CHECK(lambda_a_N.size() == lambda_a_.size(), lambda_a_N.size());
+  PALPATE_CHECK(lambda_f_N.size() == lambda_f_.size(), lambda_f_N.size());
+  lambda_a_ = lambda_a_N;
+  lambda_f_ = lambda_f_N;
+  FillColumns(x_m);
+  linearisation_.Solve(columns_);
+  ObserveColumns();
+  for (size_t e = 0; e < effectors_.size(); ++e) {
+    delta_e_free_.segment<3>(static_cast<Eigen::Index>(3 * e)) += effectors_[e].Position(x_m);
+  }
+  const auto& cables = linearisation_.constraints();
+  for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
+    delta_a_free_[c] +=
+        cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m);
+  }
+  // The free values are those without cable and contact forces; the residual holds both.
+  delta_e_free_.noalias() -= W_ea_ * lambda_a_;
+  delta_e_free_.noalias() -= W_ef_ * lambda_f_;
+  delta_a_free_.noalias() -= W_aa_ * lambda_a_;
+  delta_a_free_.noalias() -= W_af_ * lambda_f_;
+}
+
+void Compliance::FillColumns(const Eigen::VectorXd& x_m) {
+  const auto& cables = linearisation_.constraints();
+  for (size_t c = 0; c < cables.size(); ++c) {
+    nodal_.setZero();
+    cables[c]->AddGradient(x_m, -1.0, nodal_);
+    linearisation_.matrix().Reduce(nodal_, directions_.col(static_cast<Eigen::Index>(c)));
+  }
+  for (size_t f = 0; f < forces_.size(); ++f) {
+    nodal_.setZero();
+    forces_[f].AddForce(1.0, nodal_);
+    linearisation_.matrix().Reduce(nodal_,
+                                   directions_.col(static_cast<Eigen::Index>(cables.size() + f)));
+  }
+  columns_.col(0) = linearisation_.residual_N();
+  columns_.rightCols(directions_.cols()) = directions_;
+}
+
+/// Rows of H_e and H_a times the solved columns.
+void Compliance::ObserveColumns() {
+  const Eigen::Index a = lambda_a_.size();
+  const Eigen::Index f = lambda_f_.size();
+  const fem::StiffnessMatrix& matrix = linearisation_.matrix();
+  delta_e_free_.setZero();
+  W_ea_.setZero();
+  W_ef_.setZero();
+  for (size_t e = 0; e < effectors_.size(); ++e) {
+    const auto row = static_cast<Eigen::Index>(3 * e);
+    for (size_t k = 0; k < effectors_[e].nodes.size(); ++k) {
+      const int free_node = matrix.FreeIndex(effectors_[e].nodes[k]);
+      if (free_node < 0) continue;
+      const double weight = effectors_[e].weights[k];
+      const auto moved = columns_.middleRows<3>(3 * free_node);
+      delta_e_free_.segment<3>(row) += weight * moved.col(0);
+      W_ea_.middleRows<3>(row) += weight * moved.middleCols(1, a);
+      W_ef_.middleRows<3>(row) += weight * moved.middleCols(1 + a, f);
+    }
+  }
+  // Dot products, not a matrix product: Eigen's would take its blocking buffers from the heap.
+  for (Eigen::Index i = 0; i < a; ++i) {
+    const auto H_a = directions_.col(i);
+    delta_a_free_[i] = H_a.dot(columns_.col(0));
+    for (Eigen::Index j = 0; j < a; ++j) W_aa_(i, j) = H_a.dot(columns_.col(1 + j));
+    for (Eigen::Index j = 0; j < f; ++j) W_af_(i, j) = H_a.dot(columns_.col(1 + a + j));
+  }
+}
+
+void Compliance::EffectorPositions(const Eigen::VectorXd& lambda_a_N,
+                                   const Eigen::VectorXd& lambda_f_N,
+                                   Eigen::VectorXd* delta_e_m) const {
+  *delta_e_m = delta_e_free_;
+  delta_e_m->noalias() += W_ea_ * lambda_a_N;
+  delta_e_m->noalias() += W_ef_ * lambda_f_N;
+}
+
+void Compliance::CableDisplacements(const Eigen::VectorXd& lambda_a_N,
+                                    const Eigen::VectorXd& lambda_f_N,
+                                    Eigen::VectorXd* delta_a_m) const {
+  *delta_a_m = delta_a_free_;
+  delta_a_m->noalias() += W_aa_ * lambda_a_N;
+  delta_a_m->noalias() += W_af_ * lambda_f_N;
+}
+
+void Compliance::UpdateConfiguration(const Eigen::VectorXd& lambda_a_N,
+                                     const Eigen::VectorXd& lambda_f_N, double fraction,
+                                     Eigen::VectorXd* x_m) {
+  step_ = columns_.col(0);
+  for (Eigen::Index c = 0; c < lambda_a_.size(); ++c) {
+    step_ += (lambda_a_N[c] - lambda_a_[c]) * columns_.col(1 + c);
+  }
+  for (Eigen::Index f = 0; f < lambda_f_.size(); ++f) {
+    step_ += (lambda_f_N[f] - lambda_f_[f]) * columns_.col(1 + lambda_a_.size() + f);
+  }
+  linearisation_.matrix().AddExpanded(step_, fraction, *x_m);
+}
+
+}  // namespace palpate::robot

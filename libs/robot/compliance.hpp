@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libs/fem/linearisation.hpp"
+#include "libs/fem/node_weights.hpp"
+
+namespace palpate::robot {
+
+/// A direction in which an external force may act: one row of the paper's H_f. The force f on it
+/// gives node k the force weights[k] * f * direction.
+struct ForceDirection {
+  fem::NodeWeights weights;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, robot frame
+
+  void AddForce(double force_N, Eigen::VectorXd& nodal_force_N) const;
+};
+
+/// The compliance matrices of the paper's eq. (5), W_ij = H_i K^-1 H_j', about one linearised state,
+/// for effectors e (observed points), cables a and external forces f. Columns are computed for
+/// forces and cables only, from one factorisation: effectors are rows, so many cost what few cost.
+///
+/// Cables are the linearisation's constraints. Their displacement delta_a is counted as pulled in,
+/// so dell/dx = -H_a. After the first Compute of a set of force directions nothing is allocated.
+class Compliance {
+ public:
+  Compliance(fem::Linearisation& linearisation, std::vector<fem::NodeWeights> effectors);
+
+  /// Sets the rows of H_f. Positions of the directions in `forces` index lambda_f.
+  void SetForces(std::vector<ForceDirection> forces);
+  const std::vector<ForceDirection>& forces() const { return forces_; }
+
+  /// Computes everything about the state, at which `linearisation` was updated last.
+  /// `cable_rest_length_m` [a]; lambda_a [a] and lambda_f [f] are the forces that the state's
+  /// residual was computed with, N.
+  void Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+               const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
+
+  const Eigen::MatrixXd& W_ea() const { return W_ea_; }  ///< [3e x a] m/N
+  const Eigen::MatrixXd& W_ef() const { return W_ef_; }  ///< [3e x f] m/N
+  const Eigen::MatrixXd& W_aa() const { return W_aa_; }  ///< [a x a] m/N
+  const Eigen::MatrixXd& W_af() const { return W_af_; }  ///< [a x f] m/N
+  const Eigen::VectorXd& delta_e_free_m() const { return delta_e_free_; }  ///< [3e]
+  const Eigen::VectorXd& delta_a_free_m() const { return delta_a_free_; }  ///< [a]
+
+  /// Eq. (3): delta_e = W_ea lambda_a + W_ef lambda_f + delta_e^free, positions of the effectors.
+  void EffectorPositions(const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N,
+                         Eigen::VectorXd* delta_e_m) const;
+  /// Eq. (4): delta_a = W_aa lambda_a + W_af lambda_f + delta_a^free, displacements of the cables.
+  void CableDisplacements(const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N,
+                          Eigen::VectorXd* delta_a_m) const;
+  /// Eq. (6): moves `x_m` [3n] by fraction * (K^-1 r + K^-1 H_a' dlambda_a + K^-1 H_f' dlambda_f).
+  void UpdateConfiguration(const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N,
+                           double fraction, Eigen::VectorXd* x_m);
+
+ private:
+  void FillColumns(const Eigen::VectorXd& x_m);
+  void ObserveColumns();
+
+  fem::Linearisation& linearisation_;
+  std::vector<fem::NodeWeights> effectors_;
+  std::vector<ForceDirection> forces_;
+  Eigen::MatrixXd directions_;  ///< [reduced x a + f], H_a' and H_f'
+  Eigen::MatrixXd columns_;     ///< [reduced x 1 + a + f], K^-1 of r, H_a', H_f'
+  Eigen::VectorXd nodal_;       ///< [3n]
+  Eigen::VectorXd step_;        ///< [reduced]
+  Eigen::VectorXd lambda_a_, lambda_f_;
+  Eigen::MatrixXd W_ea_, W_ef_, W_aa_, W_af_;
+  Eigen::VectorXd delta_e_free_, delta_a_free_;
+};
+
+}  // namespace palpate::robot

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/robot_body.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "libs/core/error.hpp"
+#include "libs/fem/shape_functions.hpp"
+#include "libs/geometry/box.hpp"
+#include "libs/geometry/surface_sampling.hpp"
+#include "libs/robot/body_mesh.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+constexpr double kCableReach_m = 0.020;
+constexpr double kCableReachOfDiagonal = 0.05;
+
+std::string Millimetres(double length_m) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.3g mm", length_m * 1e3);
+  return text.data();
+}
+
+/// Places points of the robot file on the body, and says where they lie off it.
+class PointPlacer {
+ public:
+  PointPlacer(const fem::PointLocator& locator, std::vector<std::string>* notes)
+      : locator_(locator),
+        notes_(notes),
+        diagonal_m_(geometry::BoundingBox(locator.mesh().nodes_m).Diagonal_m()) {}
+
+  fem::BodyPoint Eyelet(const CableSettings& cable, Eigen::Index index) const {
+    const bool is_last = index + 1 == cable.path_m.cols();
+    const std::string name = "cable " + cable.name + ": " +
+                             (is_last ? "attachment" : "point " + std::to_string(index + 1));
+    const fem::BodyPoint point = locator_.EmbedBall(cable.path_m.col(index), cable.guide_radius_m);
+    const double reach_m = std::min(kCableReach_m, kCableReachOfDiagonal * diagonal_m_);
+    if (point.distance_m > reach_m) {
+      throw InputError(cable.where, name + " lies " + Millimetres(point.distance_m) +
+                                        " from the body; allowed are " + Millimetres(reach_m) +
+                                        " (20 mm, or 5 % of the body's diagonal where that is "
+                                        "less); is the path in metres?");
+    }
+    NoteDistance(name, point);
+    return point;
+  }
+
+  fem::BodyPoint StandOff(const std::string& name, const Eigen::Vector3d& position_m,
+                          const SourceLocation& where) const {
+    const fem::BodyPoint point = locator_.Embed(position_m);
+    if (point.distance_m > diagonal_m_) {
+      throw InputError(where, name + " lies " + Millimetres(point.distance_m) +
+                                  " from the body; allowed is its diagonal, " +
+                                  Millimetres(diagonal_m_) + "; is the position in metres?");
+    }
+    NoteDistance(name, point);
+    return point;
+  }
+
+ private:
+  void NoteDistance(const std::string& name, const fem::BodyPoint& point) const {
+    if (point.distance_m <= 0.0) return;
+    notes_->push_back(name + " " + Millimetres(point.distance_m) +
+                      " outside the mesh, extrapolated in cell " + std::to_string(point.cell));
+  }
+
+  const fem::PointLocator& locator_;
+  std::vector<std::string>* notes_;
+  double diagonal_m_;
+};
+
+Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 4; ++corner) sum_m += mesh.nodes_m.col(mesh.cells(corner, cell));
+  return sum_m / 4.0;
+}
+
+void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
+  body->materials.push_back(robot.material);
+  body->material_of_cell.assign(static_cast<size_t>(body->mesh.CellCount()), 0);
+  for (const RegionSettings& region : robot.regions) {
+    const int index = static_cast<int>(body->materials.size());
+    fem::Material material = robot.material;
+    if (region.youngs_modulus_Pa) material.youngs_modulus_Pa = *region.youngs_modulus_Pa;
+    body->materials.push_back(material);
+    body->region_names.push_back(region.name);
+    for (int cell = 0; cell < body->mesh.CellCount(); ++cell) {
+      if (region.box.Contains(Centroid_m(body->mesh, cell))) {
+        body->material_of_cell[static_cast<size_t>(cell)] = index;
+      }
+    }
+  }
+  for (size_t k = 0; k < robot.regions.size(); ++k) {
+    const auto& of_cell = body->material_of_cell;
+    if (std::find(of_cell.begin(), of_cell.end(), static_cast<int>(k) + 1) == of_cell.end()) {
+      throw InputError(robot.regions[k].where,
+                       "region '" + robot.regions[k].name +
+                           "' has no cell: no centroid lies in its box, or later regions take all");
+    }
+  }
+}
+
+Eigen::VectorXd NodeMass_kg(const MassSettings& mass, const BodyMesh& body) {
+  const Eigen::VectorXd unit_density = Eigen::VectorXd::Ones(body.mesh.CellCount());
+  const Eigen::VectorXd node_volume_m3 = fem::ConsistentNodalMass_kg(body.mesh, unit_density);
+  const double volume_m3 = node_volume_m3.sum();
+  const double total_kg = mass.total_kg ? *mass.total_kg : mass.density_kg_m3.value() * volume_m3;
+  if (mass.distribution == MassDistribution::kVolume)
+    return node_volume_m3 * (total_kg / volume_m3);
+  const auto used_count = std::count(body.used.begin(), body.used.end(), true);
+  Eigen::VectorXd equal_kg = Eigen::VectorXd::Zero(body.mesh.NodeCount());
+  for (int node = 0; node < body.mesh.NodeCount(); ++node) {
+    if (body.used[static_cast<size_t>(node)]) {
+      equal_kg(node) = total_kg / static_cast<double>(used_count);
+    }
+  }
+  return equal_kg;
+}
+
+void PlaceFeaturePoints(const RobotDescription& robot, const fem::PointLocator& locator,
+                        const PointPlacer& placer, RobotBody* body) {
+  const geometry::TriangleSurface& surface = locator.surface().surface();
+  if (robot.feature_points_m.cols() == 0) {
+    const geometry::SurfaceSamples spread =
+        geometry::SpreadEvenly(surface, robot.feature_point_count);
+    for (const auto& position_m : spread.positions_m.colwise()) {
+      body->feature_points.push_back(locator.Embed(position_m));
+    }
+    body->feature_normals = spread.normals;
+    return;
+  }
+  body->feature_normals.resize(3, robot.feature_points_m.cols());
+  for (Eigen::Index k = 0; k < robot.feature_points_m.cols(); ++k) {
+    const Eigen::Vector3d position_m = robot.feature_points_m.col(k);
+    body->feature_points.push_back(placer.StandOff("feature point " + std::to_string(k + 1),
+                                                   position_m, robot.feature_points_where));
+    body->feature_normals.col(k) =
+        geometry::TriangleNormal(surface, locator.surface().Closest(position_m).triangle);
+  }
+}
+
+void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator, RobotBody* body) {
+  const PointPlacer placer(locator, &body->notes);
+  for (const CableSettings& settings : robot.cables) {
+    BodyCable cable{settings.name, settings.path_m.col(0), {}, settings.max_tension_N};
+    for (Eigen::Index k = 1; k < settings.path_m.cols(); ++k) {
+      cable.eyelets.push_back(placer.Eyelet(settings, k));
+    }
+    body->cables.push_back(std::move(cable));
+  }
+  for (const MarkerSettings& marker : robot.markers) {
+    body->markers.push_back(
+        {marker.name, placer.StandOff("marker " + marker.name, marker.position_m, marker.where)});
+  }
+  PlaceFeaturePoints(robot, locator, placer, body);
+}
+
+}  // namespace
+
+RobotBody BuildRobotBody(const RobotDescription& robot) {
+  RobotBody body;
+  body.name = robot.name;
+  const BodyMesh read = ReadBodyMesh(robot, &body.notes);
+  body.mesh_hash = read.hash;
+  body.mesh = read.mesh;
+  body.fixed = HoldNodes(robot, read, &body.notes);
+  AssignMaterials(robot, &body);
+  body.node_mass_kg = NodeMass_kg(robot.mass, read);
+  body.gravity_m_s2 = robot.gravity_m_s2;
+  const fem::PointLocator locator(read.mesh);
+  body.boundary = locator.boundary();
+  PlacePoints(robot, locator, &body);
+  return body;
+}
+
+}  // namespace palpate::robot

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "libs/fem/boundary_surface.hpp"
+#include "libs/fem/embedding.hpp"
+#include "libs/fem/material.hpp"
+#include "libs/fem/tet_mesh.hpp"
+#include "libs/robot/robot_description.hpp"
+
+namespace palpate::robot {
+
+struct BodyCable {
+  std::string name;
+  Eigen::Vector3d pull_point_m;         ///< fixed to the ground
+  std::vector<fem::BodyPoint> eyelets;  ///< at least one; the cable is attached to the last
+  double max_tension_N = 0.0;
+};
+
+struct BodyMarker {
+  std::string name;
+  fem::BodyPoint point;
+};
+
+/// A robot file put together with its mesh: everything that an FE model is made from, at rest, in
+/// the robot frame. Plain data; nothing is solved here.
+struct RobotBody {
+  std::string name;
+  fem::TetMesh mesh;              ///< placed, of the element that the robot file names
+  fem::BoundarySurface boundary;  ///< of `mesh`
+
+  /// Name of the mesh as it lies in the file, and of the element: 64-bit FNV-1a over the nodes (in
+  /// metres, before the placement), the cells and the number of nodes per cell, as
+  /// "fnv1a-<16 hex digits>". A calibrated modulus holds for one mesh and element only.
+  std::string mesh_hash;
+
+  std::vector<fem::Material> materials;   ///< 0: the body's; k + 1: of region k
+  std::vector<int> material_of_cell;      ///< [cells] index into materials
+  std::vector<std::string> region_names;  ///< in the order of the robot file
+
+  /// [3 x n] directions that are held; nodes that no cell uses are held too.
+  Eigen::Matrix<bool, 3, Eigen::Dynamic> fixed;
+  /// [n] Share of each node in the weight. By volume: integral of rho N_i, for tet10 negative on
+  /// most corners. Per node: the total mass shared equally by the nodes that cells use.
+  Eigen::VectorXd node_mass_kg;
+  Eigen::Vector3d gravity_m_s2;
+
+  std::vector<BodyCable> cables;
+  std::vector<BodyMarker> markers;
+  std::vector<fem::BodyPoint> feature_points;
+  Eigen::Matrix3Xd feature_normals;  ///< [3 x feature_points] unit, outward, of the nearest face
+
+  /// What a log should say: the mesh, fixed nodes, points that lie off the mesh.
+  std::vector<std::string> notes;
+};
+
+/// Reads the mesh that `robot` names, places it and puts everything on it. Throws InputError: a
+/// mesh that cannot be read or solved, or is of another element; a fixed box without a node; a
+/// piece of the mesh that is not held against every rigid motion; a region without a cell; a point
+/// of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less; a
+/// marker or a given feature point farther from it than that diagonal.
+RobotBody BuildRobotBody(const RobotDescription& robot);
+
+}  // namespace palpate::robot

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/robot_description.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "libs/core/config_reader.hpp"
+#include "libs/core/text.hpp"
+#include "libs/robot/unit_keys.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+constexpr int kMaxFeaturePoints = 100000;
+constexpr NumberRule kPoissonsRatio{.min = -1.0, .max = 0.5, .min_open = true, .max_open = true};
+
+/// Names become columns of CSV files and parts of topic names.
+std::string ReadName(const ConfigNode& node) {
+  const std::string name = ReadText(node);
+  const bool has_bad_character = std::any_of(name.begin(), name.end(), [](char c) {
+    return c == ',' || c == ';' || c == '"' || c == '\'' || static_cast<unsigned char>(c) < 0x20;
+  });
+  if (name.empty() || has_bad_character || name.front() == ' ' || name.back() == ' ') {
+    Refuse(node,
+           "must be a name without commas, semicolons, quotes, control characters or blanks "
+           "at its ends, not '" +
+               name + "'");
+  }
+  return name;
+}
+
+/// Reads the name of one item of a list; refuses one that stands there already.
+std::string ReadUniqueName(const ConfigNode& node, std::set<std::string>* seen) {
+  const std::string name = ReadName(node);
+  if (!seen->insert(name).second) Refuse(node, "the name '" + name + "' is given twice");
+  return name;
+}
+
+const std::vector<ConfigNode>& Items(const ConfigNode& node, const std::string& of_what) {
+  if (node.kind != ConfigNode::Kind::kList) Refuse(node, "must be a list of " + of_what);
+  return node.items;
+}
+
+Box ReadBox(const ConfigNode& node) {
+  const Eigen::Matrix3Xd corners_m = ReadPoints(node);
+  if (corners_m.cols() != 2) {
+    Refuse(node,
+           "must be two corners [[x, y, z], [x, y, z]], not " + std::to_string(corners_m.cols()));
+  }
+  if ((corners_m.col(0).array() > corners_m.col(1).array()).any()) {
+    Refuse(node, "the first corner must be the lower one in x, y and z");
+  }
+  return {corners_m.col(0), corners_m.col(1)};
+}
+
+MeshSettings ReadMeshSettings(const ConfigNode& node, const std::filesystem::path& folder) {
+  static const std::map<std::string, double> units{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}};
+  MapReader map(node);
+  MeshSettings mesh;
+  const ConfigNode& file = map.Require("file");
+  mesh.file = (folder / ReadText(file)).lexically_normal();
+  mesh.where = file.where;
+  mesh.metres_per_unit = units.at(ReadChoice(map.Require("unit"), {"m", "cm", "mm"}));
+  if (const ConfigNode* angles = map.Optional("rotate_xyz_deg")) {
+    mesh.rotate_xyz_deg = ReadVector3(*angles);
+  }
+  const ConfigNode* metres = map.Optional("translate_m");
+  const ConfigNode* millimetres = map.Optional("translate_mm");
+  if (metres != nullptr && millimetres != nullptr) {
+    Refuse(*millimetres, "translate_m is given too: give one of them");
+  }
+  RefuseForeignUnits(node, {"translate_m", "translate_mm", "rotate_xyz_deg"});
+  map.Finish();
+  if (metres != nullptr) mesh.translate_m = ReadVector3(*metres);
+  if (millimetres != nullptr) mesh.translate_m = ReadVector3(*millimetres) / 1000.0;
+  return mesh;
+}
+
+fem::Material ReadMaterial(const ConfigNode& node, fem::ElementType element) {
+  RefuseForeignUnits(node, {"youngs_modulus_Pa"});
+  MapReader map(node);
+  fem::Material material;
+  const std::string model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
+  fem::ParseMaterialModel(model, &material.model);
+  material.youngs_modulus_Pa = ReadNumber(map.Require("youngs_modulus_Pa"), kPositive);
+  material.poissons_ratio = ReadNumber(map.Require("poissons_ratio"), kPoissonsRatio);
+  const bool locks =
+      element == fem::ElementType::kTet10 && material.poissons_ratio >= kNearlyIncompressible;
+  material.volumetric = locks ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
+  if (const ConfigNode* volumetric = map.Optional("volumetric")) {
+    const bool mean = ReadChoice(*volumetric, {"pointwise", "mean_dilatation"}) != "pointwise";
+    material.volumetric = mean ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
+  }
+  map.Finish();
+  return material;
+}
+
+MassSettings ReadMass(const ConfigNode& node) {
+  RefuseForeignUnits(node, {"total_kg", "density_kg_m3"});
+  MapReader map(node);
+  MassSettings mass;
+  const ConfigNode* total = map.Optional("total_kg");
+  const ConfigNode* density = map.Optional("density_kg_m3");
+  if (total != nullptr && density != nullptr) {
+    Refuse(*density, "total_kg is given too: give one of them");
+  }
+  if (const ConfigNode* distribution = map.Optional("distribution")) {
+    const bool per_node = ReadChoice(*distribution, {"volume", "per_node"}) == "per_node";
+    mass.distribution = per_node ? MassDistribution::kPerNode : MassDistribution::kVolume;
+  }
+  map.Finish();
+  if (total == nullptr && density == nullptr) Refuse(node, "needs total_kg or density_kg_m3");
+  if (total != nullptr) mass.total_kg = ReadNumber(*total, kPositive);
+  if (density != nullptr) mass.density_kg_m3 = ReadNumber(*density, kPositive);
+  return mass;
+}
+
+void ReadFixed(const ConfigNode& node, RobotDescription* robot) {
+  for (const ConfigNode& item : Items(node, "boxes")) {
+    RefuseForeignUnits(item, {"box_m"});
+    MapReader map(item);
+    const ConfigNode& box = map.Require("box_m");
+    map.Finish();
+    robot->fixed.push_back(ReadBox(box));
+    robot->fixed_where.push_back(box.where);
+  }
+  if (robot->fixed.empty())
+    Refuse(node, "a body that nothing holds has no equilibrium: give a box");
+}
+
+Eigen::Matrix3Xd ReadCablePath(const ConfigNode& node) {
+  const Eigen::Matrix3Xd path_m = ReadPoints(node);
+  if (path_m.cols() < 2) {
+    Refuse(node,
+           "a cable needs at least 2 points (where it is pulled from, and points on the "
+           "body), not " +
+               std::to_string(path_m.cols()));
+  }
+  for (Eigen::Index k = 1; k < path_m.cols(); ++k) {
+    if (path_m.col(k) == path_m.col(k - 1)) {
+      Refuse(node.items[static_cast<size_t>(k)], "is the same point as the one before it");
+    }
+  }
+  return path_m;
+}
+
+CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
+  RefuseForeignUnits(node, {"path_m", "max_tension_N", "guide_radius_m"});
+  MapReader map(node);
+  CableSettings cable;
+  cable.where = node.where;
+  cable.name = ReadUniqueName(map.Require("name"), names);
+  cable.path_m = ReadCablePath(map.Require("path_m"));
+  cable.max_tension_N = map.Number("max_tension_N", cable.max_tension_N, kPositive);
+  cable.guide_radius_m = map.Number("guide_radius_m", cable.guide_radius_m, kNonNegative);
+  map.Finish();
+  return cable;
+}
+
+RegionSettings ReadRegion(const ConfigNode& node, std::set<std::string>* names) {
+  RefuseForeignUnits(node, {"box_m", "youngs_modulus_Pa"});
+  MapReader map(node);
+  RegionSettings region;
+  region.where = node.where;
+  region.name = ReadUniqueName(map.Require("name"), names);
+  region.box = ReadBox(map.Require("box_m"));
+  if (const ConfigNode* modulus = map.Optional("youngs_modulus_Pa")) {
+    region.youngs_modulus_Pa = ReadNumber(*modulus, kPositive);
+  }
+  map.Finish();
+  return region;
+}
+
+MarkerSettings ReadMarker(const ConfigNode& node, std::set<std::string>* names) {
+  RefuseForeignUnits(node, {"position_m"});
+  MapReader map(node);
+  MarkerSettings marker;
+  marker.where = node.where;
+  marker.name = ReadUniqueName(map.Require("name"), names);
+  marker.position_m = ReadVector3(map.Require("position_m"));
+  map.Finish();
+  return marker;
+}
+
+void ReadFeaturePoints(const ConfigNode& node, RobotDescription* robot) {
+  robot->feature_points_where = node.where;
+  const ConfigNode* positions = &node;
+  if (node.kind == ConfigNode::Kind::kMap) {
+    RefuseForeignUnits(node, {"positions_m"});
+    MapReader map(node);
+    const ConfigNode* count = map.Optional("count");
+    positions = map.Optional("positions_m");
+    map.Finish();
+    if ((count == nullptr) == (positions == nullptr)) {
+      Refuse(node, "needs either count or positions_m");
+    }
+    if (count != nullptr) robot->feature_point_count = ReadInteger(*count, 1, kMaxFeaturePoints);
+  }
+  if (positions == nullptr) return;
+  robot->feature_points_m = ReadPoints(*positions);
+  if (robot->feature_points_m.cols() == 0) Refuse(*positions, "needs at least one point");
+  robot->feature_point_count = static_cast<int>(robot->feature_points_m.cols());
+}
+
+/// Reads every item of an optional list by `read_item(item, names seen so far)`.
+template <typename Item, typename ReadItem>
+std::vector<Item> ReadList(MapReader* map, const std::string& key, ReadItem read_item) {
+  std::vector<Item> list;
+  std::set<std::string> names;
+  const ConfigNode* node = map->Optional(key);
+  if (node == nullptr) return list;
+  for (const ConfigNode& item : Items(*node, key)) list.push_back(read_item(item, &names));
+  return list;
+}
+
+}  // namespace
+
+RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load) {
+  const ConfigNode root = load(file);
+  RefuseForeignUnits(root, {"gravity_m_s2"});
+  MapReader map(root);
+  RobotDescription robot;
+  robot.file = file;
+  robot.name = ReadName(map.Require("name"));
+  robot.mesh = ReadMeshSettings(map.Require("mesh"), file.parent_path());
+  if (const ConfigNode* element = map.Optional("element")) {
+    const bool linear = ReadChoice(*element, {"tet4", "tet10"}) == "tet4";
+    robot.element = linear ? fem::ElementType::kTet4 : fem::ElementType::kTet10;
+  }
+  robot.material = ReadMaterial(map.Require("material"), robot.element);
+  robot.mass = ReadMass(map.Require("mass"));
+  if (const ConfigNode* gravity = map.Optional("gravity_m_s2")) {
+    robot.gravity_m_s2 = ReadVector3(*gravity);
+  }
+  ReadFixed(map.Require("fixed"), &robot);
+  robot.cables = ReadList<CableSettings>(&map, "cables", ReadCable);
+  robot.regions = ReadList<RegionSettings>(&map, "regions", ReadRegion);
+  robot.markers = ReadList<MarkerSettings>(&map, "markers", ReadMarker);
+  if (const ConfigNode* points = map.Optional("feature_points")) ReadFeaturePoints(*points, &robot);
+  map.Finish();
+  return robot;
+}
+
+}  // namespace palpate::robot

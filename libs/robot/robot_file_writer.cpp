@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <string>
+
+#include "libs/core/check.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+#include "libs/robot/robot_description.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string Point(const Eigen::Vector3d& point) {
+  return "[" + FormatNumber(point.x()) + ", " + FormatNumber(point.y()) + ", " +
+         FormatNumber(point.z()) + "]";
+}
+
+std::string Points(const Eigen::Matrix3Xd& points) {
+  std::string text;
+  for (const auto& point : points.colwise()) text += (text.empty() ? "" : ", ") + Point(point);
+  return "[" + text + "]";
+}
+
+std::string BoxText(const Box& box) {
+  return "box_m: [" + Point(box.lower_m) + ", " + Point(box.upper_m) + "]";
+}
+
+std::string UnitOf(double metres_per_unit) {
+  if (metres_per_unit == 1.0) return "m";
+  if (metres_per_unit == 1e-2) return "cm";
+  PALPATE_CHECK(metres_per_unit == 1e-3, metres_per_unit);
+  return "mm";
+}
+
+std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& folder) {
+  const std::filesystem::path base = folder.empty() ? "." : folder;
+  const std::filesystem::path file =
+      std::filesystem::absolute(mesh.file).lexically_normal().lexically_proximate(
+          std::filesystem::absolute(base).lexically_normal());
+  return "mesh:\n  file: " + Quoted(file.generic_string()) +
+         "\n  unit: " + UnitOf(mesh.metres_per_unit) +
+         "\n  rotate_xyz_deg: " + Point(mesh.rotate_xyz_deg) +
+         "\n  translate_m: " + Point(mesh.translate_m) + "\n";
+}
+
+std::string MaterialText(const fem::Material& material) {
+  const bool mean = material.volumetric == fem::Volumetric::kMeanDilatation;
+  return "material:\n  model: " + std::string(fem::ToString(material.model)) +
+         "\n  youngs_modulus_Pa: " + FormatNumber(material.youngs_modulus_Pa) +
+         "\n  poissons_ratio: " + FormatNumber(material.poissons_ratio) +
+         "\n  volumetric: " + (mean ? "mean_dilatation" : "pointwise") + "\n";
+}
+
+std::string MassText(const MassSettings& mass) {
+  PALPATE_CHECK(mass.total_kg.has_value() != mass.density_kg_m3.has_value());
+  const std::string amount = mass.total_kg ? "total_kg: " + FormatNumber(*mass.total_kg)
+                                           : "density_kg_m3: " + FormatNumber(*mass.density_kg_m3);
+  const bool per_node = mass.distribution == MassDistribution::kPerNode;
+  return "mass: {" + amount + ", distribution: " + (per_node ? "per_node" : "volume") + "}\n";
+}
+
+std::string CableText(const CableSettings& cable) {
+  return "  - name: " + Quoted(cable.name) + "\n    path_m: " + Points(cable.path_m) +
+         "\n    max_tension_N: " + FormatNumber(cable.max_tension_N) +
+         "\n    guide_radius_m: " + FormatNumber(cable.guide_radius_m) + "\n";
+}
+
+std::string RegionText(const RegionSettings& region) {
+  std::string text = "  - {name: " + Quoted(region.name) + ", " + BoxText(region.box);
+  if (region.youngs_modulus_Pa) {
+    text += ", youngs_modulus_Pa: " + FormatNumber(*region.youngs_modulus_Pa);
+  }
+  return text + "}\n";
+}
+
+std::string FeaturePointsText(const RobotDescription& robot) {
+  if (robot.feature_points_m.cols() > 0) {
+    return "feature_points: {positions_m: " + Points(robot.feature_points_m) + "}\n";
+  }
+  return "feature_points: {count: " + std::to_string(robot.feature_point_count) + "}\n";
+}
+
+}  // namespace
+
+std::string FormatRobotFile(const RobotDescription& robot, const std::filesystem::path& folder) {
+  std::string text = "name: " + Quoted(robot.name) + "\n" + MeshText(robot.mesh, folder);
+  text += robot.element == fem::ElementType::kTet4 ? "element: tet4\n" : "element: tet10\n";
+  text += MaterialText(robot.material) + MassText(robot.mass);
+  text += "gravity_m_s2: " + Point(robot.gravity_m_s2) + "\nfixed:\n";
+  for (const Box& box : robot.fixed) text += "  - {" + BoxText(box) + "}\n";
+  if (!robot.cables.empty()) text += "cables:\n";
+  for (const CableSettings& cable : robot.cables) text += CableText(cable);
+  if (!robot.regions.empty()) text += "regions:\n";
+  for (const RegionSettings& region : robot.regions) text += RegionText(region);
+  if (!robot.markers.empty()) text += "markers:\n";
+  for (const MarkerSettings& marker : robot.markers) {
+    text +=
+        "  - {name: " + Quoted(marker.name) + ", position_m: " + Point(marker.position_m) + "}\n";
+  }
+  return text + FeaturePointsText(robot);
+}
+
+void WriteRobotFile(const RobotDescription& robot, const std::filesystem::path& file) {
+  WriteFile(file, FormatRobotFile(robot, file.parent_path()));
+}
+
+}  // namespace palpate::robot

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/robot_model.hpp"
+
+#include "libs/core/check.hpp"
+#include "libs/core/text.hpp"
+#include "libs/fem/surface_patch.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+using Mode = fem::ConstraintCommand::Mode;
+
+std::vector<Cable> MakeCables(const RobotBody& body, const Eigen::VectorXd& rest_m) {
+  std::vector<Cable> cables;
+  for (const BodyCable& cable : body.cables) {
+    std::vector<fem::NodeWeights> eyelets;
+    for (const fem::BodyPoint& point : cable.eyelets) eyelets.push_back(point.weights);
+    cables.emplace_back(cable.pull_point_m, std::move(eyelets), rest_m);
+  }
+  return cables;
+}
+
+}  // namespace
+
+CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
+                           CableInput preferred) {
+  const bool by_tension =
+      tension_N.has_value() && (preferred == CableInput::kTension || !displacement_m.has_value());
+  if (by_tension) return {CableCommand::Kind::kTension, *tension_N};
+  if (displacement_m.has_value()) return {CableCommand::Kind::kDisplacement, *displacement_m};
+  return {};
+}
+
+RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings)
+    : body_(std::move(body)),
+      locator_(body_.mesh),
+      elastic_body_(body_.mesh, body_.materials, body_.material_of_cell),
+      cables_(MakeCables(body_, elastic_body_.rest_m())),
+      linearisation_(elastic_body_, Constraints(), body_.fixed),
+      static_solver_(linearisation_, settings),
+      cable_rest_length_m_(static_cast<Eigen::Index>(cables_.size())),
+      gravity_m_s2_(body_.gravity_m_s2) {
+  for (int c = 0; c < CableCount(); ++c) cable_rest_length_m_[c] = cable(c).rest_length_m();
+}
+
+std::vector<fem::ScalarConstraint*> RobotModel::Constraints() {
+  std::vector<fem::ScalarConstraint*> constraints;
+  for (Cable& cable : cables_) constraints.push_back(&cable);
+  return constraints;
+}
+
+std::vector<std::string> RobotModel::CableNames() const {
+  std::vector<std::string> names;
+  for (const BodyCable& cable : body_.cables) names.push_back(cable.name);
+  return names;
+}
+
+std::vector<std::string> RobotModel::MarkerNames() const {
+  std::vector<std::string> names;
+  for (const BodyMarker& marker : body_.markers) names.push_back(marker.name);
+  return names;
+}
+
+fem::SurfacePatch RobotModel::Patch(const Eigen::Vector3d& position_m, double radius_m) const {
+  return fem::MakeSurfacePatch(locator_, position_m, radius_m);
+}
+
+void RobotModel::SetYoungsModulus(int material, double youngs_modulus_Pa) {
+  elastic_body_.SetYoungsModulus(material, youngs_modulus_Pa);
+  body_.materials.at(static_cast<size_t>(material)).youngs_modulus_Pa = youngs_modulus_Pa;
+}
+
+void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {
+  for (Eigen::Index node = 0; node < body_.node_mass_kg.size(); ++node) {
+    force_N.segment<3>(3 * node) += body_.node_mass_kg[node] * gravity_m_s2_;
+  }
+}
+
+fem::ConstraintCommand RobotModel::ToConstraint(int cable_index,
+                                                const CableCommand& command) const {
+  const double limit = body_.cables[static_cast<size_t>(cable_index)].max_tension_N;
+  switch (command.kind) {
+    case CableCommand::Kind::kNone: return {};
+    case CableCommand::Kind::kTension:
+      return {.mode = Mode::kMultiplier, .value = command.value, .max_multiplier_N = limit};
+    case CableCommand::Kind::kDisplacement:
+      return {.mode = Mode::kUpperBound,
+              .value = cable(cable_index).rest_length_m() - command.value,
+              .max_multiplier_N = limit};
+  }
+  PALPATE_CHECK(false, static_cast<int>(command.kind));
+  return {};
+}
+
+fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
+                                 const std::vector<DeadLoad>& loads) const {
+  PALPATE_CHECK(static_cast<int>(cables.size()) == CableCount(), cables.size(), CableCount());
+  fem::LoadState state;
+  state.fixed_position_m = elastic_body_.rest_m();
+  state.external_force_N = Eigen::VectorXd::Zero(state.fixed_position_m.size());
+  AddWeight(state.external_force_N);
+  for (const DeadLoad& load : loads) {
+    for (size_t k = 0; k < load.weights.nodes.size(); ++k) {
+      state.external_force_N.segment<3>(3 * load.weights.nodes[k]) +=
+          load.weights.weights[k] * load.force_N;
+    }
+  }
+  for (int c = 0; c < CableCount(); ++c) {
+    state.commands.push_back(ToConstraint(c, cables[static_cast<size_t>(c)]));
+  }
+  return state;
+}
+
+fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
+                                    const std::vector<DeadLoad>& loads, fem::StaticState* state) {
+  for (int c = 0; c < CableCount(); ++c) {
+    const CableCommand& command = cables[static_cast<size_t>(c)];
+    const BodyCable& driven = body_.cables[static_cast<size_t>(c)];
+    if (command.kind == CableCommand::Kind::kTension &&
+        !(command.value >= 0.0 && command.value <= driven.max_tension_N)) {
+      fem::StaticResult refused;
+      refused.status = Status(StatusCode::kTensionLimit,
+                              "cable " + driven.name + ": tension " +
+                                  FormatNumber(command.value) + " N is not within 0 to " +
+                                  FormatNumber(driven.max_tension_N) + " N");
+      return refused;
+    }
+  }
+  fem::StaticResult result = static_solver_.Solve(Loads(cables, loads), state);
+  if (result.status.code() != StatusCode::kTensionLimit) return result;
+  for (int c = 0; c < CableCount(); ++c) {
+    const CableCommand& command = cables[static_cast<size_t>(c)];
+    const BodyCable& driven = body_.cables[static_cast<size_t>(c)];
+    if (command.kind != CableCommand::Kind::kDisplacement ||
+        result.multipliers_N[c] < driven.max_tension_N) {
+      continue;
+    }
+    result.status = Status(StatusCode::kTensionLimit,
+                           "cable " + driven.name + ": a displacement of " +
+                               FormatNumber(command.value) + " m needs more than max_tension_N (" +
+                               FormatNumber(driven.max_tension_N) + " N)");
+  }
+  return result;
+}
+
+CableState RobotModel::StateOfCable(int cable_index, const fem::StaticState& state) const {
+  const Cable& one = cable(cable_index);
+  const double length = one.Value(state.x_m);
+  return {.length_m = length,
+          .displacement_m = one.rest_length_m() - length,
+          .tension_N = state.multipliers_N[cable_index]};
+}
+
+}  // namespace palpate::robot

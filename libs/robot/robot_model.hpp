@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/fem/elastic_body.hpp"
+#include "libs/fem/linearisation.hpp"
+#include "libs/fem/static_solver.hpp"
+#include "libs/fem/surface_patch.hpp"
+#include "libs/robot/cable.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::robot {
+
+/// What is asked of one cable.
+struct CableCommand {
+  enum class Kind {
+    kNone,          ///< not driven: no tension
+    kDisplacement,  ///< m pulled in, counted from the undeformed body; the cable may be slack
+    kTension,       ///< N, >= 0
+  };
+  Kind kind = Kind::kNone;
+  double value = 0.0;
+};
+
+/// Which input of a cable is imposed where both its displacement and its tension are known.
+enum class CableInput { kDisplacement, kTension };
+
+/// The command for what is known of one cable; kNone where nothing is.
+CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
+                           CableInput preferred);
+
+/// What one cable does in a state.
+struct CableState {
+  double length_m = 0.0;
+  double displacement_m = 0.0;  ///< of the body: rest length - length; slack: more than commanded
+  double tension_N = 0.0;
+};
+
+/// A dead load on the body: the same in size and direction however the body moves.
+struct DeadLoad {
+  fem::NodeWeights weights;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+};
+
+/// A robot to compute with: body, cables and solvers, put together from a RobotBody. Static
+/// equilibria of the paper's eq. (1). Not copied or moved: its parts point at each other.
+class RobotModel {
+ public:
+  explicit RobotModel(RobotBody body, const fem::StaticSettings& settings = {});
+  RobotModel(const RobotModel&) = delete;
+  RobotModel& operator=(const RobotModel&) = delete;
+
+  const RobotBody& body() const { return body_; }
+  fem::ElasticBody& elastic_body() { return elastic_body_; }
+  fem::Linearisation& linearisation() { return linearisation_; }
+  fem::StaticSolver& static_solver() { return static_solver_; }
+  int CableCount() const { return static_cast<int>(cables_.size()); }
+  const Cable& cable(int index) const { return cables_[static_cast<size_t>(index)]; }
+  const Eigen::VectorXd& cable_rest_length_m() const { return cable_rest_length_m_; }  ///< [a]
+
+  std::vector<std::string> CableNames() const;
+  std::vector<std::string> MarkerNames() const;
+  /// A patch of the surface for loads and contacts (fem/surface_patch.hpp).
+  fem::SurfacePatch Patch(const Eigen::Vector3d& position_m, double radius_m) const;
+
+  /// Moduli of body (0) and regions (k + 1); see RobotBody::materials.
+  void SetYoungsModulus(int material, double youngs_modulus_Pa);
+  /// Gravity in the robot frame; at first the robot file's.
+  void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
+  const Eigen::Vector3d& gravity_m_s2() const { return gravity_m_s2_; }
+
+  /// Adds each node's weight to `force_N` [3n].
+  void AddWeight(Eigen::VectorXd& force_N) const;
+  /// Loads of weight, cables and `loads` for the static solver. Checks the number of commands.
+  fem::LoadState Loads(const std::vector<CableCommand>& cables,
+                       const std::vector<DeadLoad>& loads) const;
+  fem::ConstraintCommand ToConstraint(int cable, const CableCommand& command) const;
+
+  fem::StaticState RestState() const { return static_solver_.RestState(); }
+  /// The balance of weight, cables and loads, reached from `state` on. Failures name the cable.
+  fem::StaticResult Solve(const std::vector<CableCommand>& cables,
+                          const std::vector<DeadLoad>& loads, fem::StaticState* state);
+
+  CableState StateOfCable(int cable, const fem::StaticState& state) const;
+
+ private:
+  std::vector<fem::ScalarConstraint*> Constraints();
+
+  RobotBody body_;
+  fem::PointLocator locator_;
+  fem::ElasticBody elastic_body_;
+  std::vector<Cable> cables_;
+  fem::Linearisation linearisation_;
+  fem::StaticSolver static_solver_;
+  Eigen::VectorXd cable_rest_length_m_;
+  Eigen::Vector3d gravity_m_s2_;
+};
+
+}  // namespace palpate::robot

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <dds/dds.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "libs/core/error.hpp"
+#include "libs/dds/stamp.hpp"
+#include "tests/libs/dds/test_participant.hpp"
+
+namespace palpate::dds {
+namespace {
+
+using idl::palpate_msgs::ForceArray;
+using idl::palpate_msgs::Mesh;
+
+Message<Mesh> BigMesh(size_t node_count) {
+  Message<Mesh> mesh;
+  SetHeader(mesh->header, 5, "robot");
+  SetText(mesh->robot, "diamond");
+  std::vector<double> nodes_m(3 * node_count);
+  for (size_t i = 0; i < nodes_m.size(); ++i) nodes_m[i] = 0.001 * static_cast<double>(i);
+  SetNumbers(mesh->nodes_m, nodes_m.data(), nodes_m.size());
+  return mesh;
+}
+
+Message<ForceArray> Forces(uint64_t counter) {
+  Message<ForceArray> forces;
+  SetHeader(forces->header, 1'500'000'000, "robot");
+  forces->counter = counter;
+  SetText(forces->status, "ok");
+  Resize(forces->forces, 1);
+  SetText(forces->forces._buffer[0].name, "tip");
+  forces->forces._buffer[0].force_n = {0.1, -0.2, 0.3};
+  return forces;
+}
+
+TEST(Publish, AMessageArrivesAsItWasSent) {
+  TestNode sender("sender"), receiver("receiver");
+  auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
+  auto reader = receiver.participant.CreateReader(kForcesTopic);
+  ASSERT_TRUE(sender.WaitFor([&] { return writer.matched() == 1; }));
+  ASSERT_TRUE(writer.Write(Forces(42)));
+
+  uint64_t counter = 0;
+  int64_t stamp_ns = 0;
+  std::string name;
+  double force_z_N = 0.0;
+  receiver.loop.Attach(reader, [&] {
+    for (const ForceArray& forces : reader.Take()) {
+      counter = forces.counter;
+      stamp_ns = StampNs(forces.header.stamp);
+      name = Text(forces.forces._buffer[0].name);
+      force_z_N = forces.forces._buffer[0].force_n.z;
+    }
+  });
+  ASSERT_TRUE(receiver.WaitFor([&] { return counter == 42; }));
+  EXPECT_EQ(stamp_ns, 1'500'000'000);
+  EXPECT_EQ(name, "tip");
+  EXPECT_EQ(force_z_N, 0.3);
+  EXPECT_EQ(writer.sent_count(), 1u);
+}
+
+TEST(Publish, ALateJoinerGetsTheBigLatchedMesh) {
+  constexpr size_t kNodeCount = 100'000;  // 2.4 MB
+  TestNode sender("sender");
+  auto writer = sender.participant.CreateWriter(kMeshTopic);
+  ASSERT_TRUE(writer.Write(BigMesh(kNodeCount)));
+
+  TestNode late("late");
+  auto reader = late.participant.CreateReader(kMeshTopic);
+  size_t node_count = 0;
+  double last_m = 0.0;
+  late.loop.Attach(reader, [&] {
+    for (const Mesh& mesh : reader.Take()) {
+      node_count = mesh.nodes_m._length / 3;
+      last_m = mesh.nodes_m._buffer[mesh.nodes_m._length - 1];
+    }
+  });
+  ASSERT_TRUE(late.WaitFor([&] { return node_count > 0; }));
+  EXPECT_EQ(node_count, kNodeCount);
+  EXPECT_EQ(last_m, 0.001 * static_cast<double>(3 * kNodeCount - 1));
+}
+
+TEST(Publish, PartnersWithIncompatibleQosAreTurnedAwayAndCounted) {
+  TestNode sender("sender", TableWith("/forces", [](TopicSettings& topic) {
+                    topic.reliability = Reliability::kBestEffort;
+                  }));
+  TestNode receiver("receiver");
+  auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
+  auto reader = receiver.participant.CreateReader(kForcesTopic, receiver.Waker());
+  ASSERT_TRUE(sender.WaitFor([&] { return writer.counters().incompatible_qos == 1; }));
+  ASSERT_TRUE(receiver.WaitFor([&] { return reader.counters().incompatible_qos == 1; }));
+  EXPECT_EQ(writer.counters().last_incompatible_policy, uint32_t{DDS_RELIABILITY_QOS_POLICY_ID});
+  EXPECT_EQ(writer.matched(), 0u);
+}
+
+TEST(Publish, AMissedDeadlineIsCountedOnBothSides) {
+  const TopicTable table = TableWith(
+      "/forces", [](TopicSettings& topic) { topic.deadline_s = 0.05; });
+  TestNode sender("sender", table), receiver("receiver", table);
+  auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
+  auto reader = receiver.participant.CreateReader(kForcesTopic, receiver.Waker());
+  ASSERT_TRUE(sender.WaitFor([&] { return writer.matched() == 1; }));
+  ASSERT_TRUE(writer.Write(Forces(0)));
+  EXPECT_TRUE(sender.WaitFor([&] { return writer.counters().deadline_missed >= 1; }));
+  EXPECT_TRUE(receiver.WaitFor([&] { return reader.counters().deadline_missed >= 1; }));
+}
+
+TEST(Publish, AReaderThatLeavesIsNoLongerMatched) {
+  TestNode sender("sender");
+  auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
+  {
+    TestNode receiver("receiver");
+    auto reader = receiver.participant.CreateReader(kForcesTopic);
+    ASSERT_TRUE(sender.WaitFor([&] { return writer.matched() == 1; }));
+  }
+  EXPECT_TRUE(sender.WaitFor([&] { return writer.matched() == 0; }));
+}
+
+TEST(Publish, ShutdownInMidMessageIsClean) {
+  TestNode sender("sender");
+  auto writer = sender.participant.CreateWriter(kMeshTopic);
+  std::atomic<bool> stop = false;
+  std::atomic<int> sent = 0;
+  const auto mesh = BigMesh(20'000);
+  std::thread sending([&] {
+    while (!stop) sent += writer.Write(mesh) ? 1 : 0;
+  });
+  for (int round = 0; round < 5; ++round) {
+    TestNode receiver("receiver");
+    auto reader = receiver.participant.CreateReader(kMeshTopic);
+    int taken = 0;
+    receiver.loop.Attach(reader, [&] {
+      for (const Mesh& message : reader.Take()) taken += message.nodes_m._length > 0 ? 1 : 0;
+    });
+    EXPECT_TRUE(receiver.WaitFor([&] { return taken > 0; }));
+  }
+  stop = true;
+  sending.join();
+  EXPECT_GT(sent, 0);
+}
+
+TEST(Publish, RefusesATopicWhoseTypeTheTableGivesDifferently) {
+  TestNode node("node", TableWith("/forces", [](TopicSettings& topic) {
+                  topic.type = "palpate_msgs/msg/Force";
+                }));
+  EXPECT_THROW(node.participant.CreateWriter(kForcesTopic), InputError);
+}
+
+/// CYCLONEDDS_URI as long as this lives.
+class CycloneUri {
+ public:
+  explicit CycloneUri(const char* uri) {
+    if (const char* old = std::getenv("CYCLONEDDS_URI")) old_ = old;
+    setenv("CYCLONEDDS_URI", uri, 1);
+  }
+  ~CycloneUri() {
+    old_ ? setenv("CYCLONEDDS_URI", old_->c_str(), 1) : unsetenv("CYCLONEDDS_URI");
+  }
+
+ private:
+  std::optional<std::string> old_;
+};
+
+std::string StartFailure(const char* cyclone_uri, uint32_t domain) {
+  const CycloneUri uri(cyclone_uri);
+  try {
+    Participant participant({.domain_id = domain, .node_name = "node"}, BuiltInTable());
+    return "started";
+  } catch (const RunError& error) {
+    return error.what();
+  }
+}
+
+TEST(Publish, SaysWhyAParticipantCannotBeMade) {
+  EXPECT_THAT(StartFailure("<NoSuchElement/>", 199), testing::HasSubstr("domain 199"));
+}
+
+TEST(Publish, TheConfigurationsThatWeShipAreUnderstood) {
+  const std::string folder = "file://" PALPATE_SOURCE_DIR "/config/cyclonedds/";
+  EXPECT_EQ(StartFailure((folder + "one_host.xml").c_str(), 198), "started");
+  EXPECT_EQ(StartFailure((folder + "two_hosts.xml").c_str(), 197), "started");
+}
+
+}  // namespace
+}  // namespace palpate::dds

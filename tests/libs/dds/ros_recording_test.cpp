@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <dds/dds.h>
+#include <dds/ddsi/ddsi_serdata.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "libs/dds/qos.hpp"
+#include "libs/dds/stamp.hpp"
+#include "rmw_dds_common/msg/ParticipantEntitiesInfo.hpp"
+#include "tests/libs/dds/test_participant.hpp"
+
+/// Decodes, with our IDL, what a real ROS 2 Humble node put on the wire.
+namespace palpate::dds {
+namespace {
+
+using Bytes = std::string;
+
+std::filesystem::path RecordingFile() {
+  const char* folder = std::getenv("PALPATE_DATA_DIR");
+  return (folder ? std::filesystem::path(folder)
+                 : std::filesystem::path(PALPATE_SOURCE_DIR) / "../shared/data") /
+         "ros2/ros2_humble_image_wrench.mcap";
+}
+
+Bytes ReadBytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(stream), {});
+}
+
+template <typename Number>
+Number NumberAt(const Bytes& bytes, size_t offset) {
+  Number number;
+  std::memcpy(&number, bytes.data() + offset, sizeof(number));
+  return number;
+}
+
+/// Calls `visit(opcode, content)` for each MCAP record from `offset` on.
+template <typename Visit>
+void ForEachRecord(const Bytes& bytes, size_t offset, const Visit& visit) {
+  constexpr size_t kPrefix = 1 + sizeof(uint64_t);
+  while (offset + kPrefix <= bytes.size()) {
+    const size_t length = NumberAt<uint64_t>(bytes, offset + 1);
+    if (length > bytes.size() - offset - kPrefix) return;
+    visit(bytes[offset], bytes.substr(offset + kPrefix, length));
+    offset += kPrefix + length;
+  }
+}
+
+/// The records in a chunk, decompressed by the program zstd.
+Bytes Unpacked(const Bytes& chunk) {
+  constexpr size_t kName = 8 + 8 + 8 + 4;  // start, end, size, checksum
+  const size_t content = kName + 4 + NumberAt<uint32_t>(chunk, kName) + 8;
+  const auto packed = std::filesystem::path(testing::TempDir()) /
+                      ("palpate_chunk_" + std::to_string(getpid()) + ".zst");
+  auto unpacked = packed;
+  unpacked.replace_extension(".bin");
+  std::ofstream(packed, std::ios::binary) << chunk.substr(content);
+  const std::string command = "zstd -q -d -f -o " + unpacked.string() + " " + packed.string();
+  const int exit_code = std::system(command.c_str());
+  const Bytes bytes = exit_code == 0 ? ReadBytes(unpacked) : Bytes();
+  std::filesystem::remove(packed);
+  std::filesystem::remove(unpacked);
+  return bytes;
+}
+
+/// CDR of every message of the topic, in file order.
+std::vector<Bytes> PayloadsOf(const std::string& topic) {
+  constexpr char kChannel = 4, kMessage = 5, kChunk = 6;
+  constexpr size_t kMessageHeader = 2 + 4 + 8 + 8;
+  const Bytes file = ReadBytes(RecordingFile());
+  int channel = -1;
+  ForEachRecord(file, 8, [&](char opcode, const Bytes& record) {
+    const bool found = opcode == kChannel && record.substr(8, topic.size()) == topic &&
+                       NumberAt<uint32_t>(record, 4) == topic.size();
+    if (found) channel = NumberAt<uint16_t>(record, 0);
+  });
+  std::vector<Bytes> payloads;
+  ForEachRecord(file, 8, [&](char opcode, const Bytes& chunk) {
+    if (opcode != kChunk) return;
+    ForEachRecord(Unpacked(chunk), 0, [&](char inner, const Bytes& message) {
+      if (inner == kMessage && NumberAt<uint16_t>(message, 0) == channel) {
+        payloads.push_back(message.substr(kMessageHeader));
+      }
+    });
+  });
+  return payloads;
+}
+
+/// Reads CDR (with its 4-byte header) as T, by the same code that reads it off the wire.
+template <typename T>
+Message<T> Decode(const Bytes& cdr) {
+  TestNode node("decoder");
+  const Entity topic(dds_create_topic(node.participant.handle(),
+                                      &idl::MessageTraits<T>::Descriptor(), "rt/decoded", nullptr,
+                                      nullptr), "topic");
+  const Entity writer(dds_create_writer(node.participant.handle(), topic.handle(),
+                                        WriterQos({}).get(), nullptr), "writer");
+  const Entity reader(dds_create_reader(node.participant.handle(), topic.handle(),
+                                        ReaderQos({}).get(), nullptr), "reader");
+  // A sample of our own, for its type only.
+  EXPECT_EQ(dds_write(writer.handle(), &*Message<T>()), DDS_RETCODE_OK);
+  ddsi_serdata* own = nullptr;
+  dds_sample_info_t info;
+  EXPECT_EQ(dds_takecdr(reader.handle(), &own, 1, &info, DDS_ANY_STATE), 1);
+  Bytes padded = cdr;
+  padded.resize((cdr.size() + 3) / 4 * 4);
+  const ddsrt_iovec_t whole{padded.data(), padded.size()};
+  ddsi_serdata* foreign =
+      ddsi_serdata_from_ser_iov(own->type, SDK_DATA, 1, &whole, padded.size());
+  Message<T> message;
+  EXPECT_TRUE(foreign && ddsi_serdata_to_sample(foreign, &*message, nullptr, nullptr));
+  if (foreign) ddsi_serdata_unref(foreign);
+  ddsi_serdata_unref(own);
+  return message;
+}
+
+class RosRecording : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(RecordingFile())) {
+      GTEST_SKIP() << "no " << RecordingFile() << " (set PALPATE_DATA_DIR)";
+    }
+    if (std::system("zstd --version > /dev/null 2>&1") != 0) {
+      GTEST_SKIP() << "the program zstd is not installed";
+    }
+  }
+};
+
+TEST_F(RosRecording, EveryWrenchOfHumbleIsReadWithOurIdl) {
+  const std::vector<Bytes> payloads = PayloadsOf("rt/force");
+  ASSERT_GT(payloads.size(), 10u);
+  int64_t last_stamp_ns = 0;
+  for (const Bytes& cdr : payloads) {
+    const auto wrench = Decode<idl::geometry_msgs::WrenchStamped>(cdr);
+    EXPECT_FALSE(Text(wrench->header.frame_id).empty());
+    EXPECT_GE(StampNs(wrench->header.stamp), last_stamp_ns);
+    last_stamp_ns = StampNs(wrench->header.stamp);
+    for (const double value : {wrench->wrench.force.x, wrench->wrench.force.z,
+                               wrench->wrench.torque.x, wrench->wrench.torque.z}) {
+      EXPECT_LT(std::abs(value), 1e4);
+    }
+  }
+}
+
+TEST_F(RosRecording, NodeNamesOfHumbleAreReadWithOurIdl) {
+  const std::vector<Bytes> payloads = PayloadsOf("ros_discovery_info");
+  ASSERT_FALSE(payloads.empty());
+  size_t named_count = 0;
+  for (const Bytes& cdr : payloads) {
+    const auto info = Decode<idl::rmw_dds_common::ParticipantEntitiesInfo>(cdr);
+    for (const auto& node : Elements(info->node_entities_info_seq)) {
+      EXPECT_EQ(Text(node.node_namespace).substr(0, 1), "/");
+      named_count += Text(node.node_name).empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GE(named_count, 1u);
+}
+
+}  // namespace
+}  // namespace palpate::dds

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/experiment/csv_table.hpp"
+
+#include "tests/libs/experiment/test_folder.hpp"
+
+namespace palpate::experiment {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+CsvTable Parse(const std::string& content) {
+  const TestFolder folder;
+  return CsvTable::Read(folder.Write("t.csv", content));
+}
+
+TEST(CsvTable, UnderstandsByteOrderMarksWindowsLinesBlanksAndQuotes) {
+  const CsvTable table = Parse("\xEF\xBB\xBF\"a\", b \r\n 1 ,\"x\"\r\n2,\r\n\r\n");
+  EXPECT_EQ(table.header(), (std::vector<std::string>{"a", "b"}));
+  ASSERT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.Number(0, 0), 1.0);
+  EXPECT_EQ(table.Text(0, 1), "x");
+  EXPECT_EQ(table.OptionalNumber(1, 1), std::nullopt);
+}
+
+TEST(CsvTable, KnowsLineAndColumnOfEachField) {
+  const CsvTable table = Parse("a,b\n10,20\n300,x");
+  EXPECT_EQ(table.Where(0, 1).line, 2);
+  EXPECT_EQ(table.Where(0, 1).column, 4);
+  EXPECT_EQ(table.Where(1, 1).line, 3);
+  EXPECT_EQ(table.Where(1, 1).column, 5);
+  EXPECT_THAT(MessageOf([&] { static_cast<void>(table.Number(1, 1)); }),
+              AllOf(HasSubstr("t.csv:3:5"), HasSubstr("b 'x'")));
+}
+
+TEST(CsvTable, KeepsItsFieldsWhenMoved) {
+  CsvTable first = Parse("a\n7");
+  const CsvTable second = std::move(first);
+  EXPECT_EQ(second.Number(0, 0), 7.0);
+}
+
+TEST(CsvTable, RefusesAnEmptyLineInTheMiddle) {
+  EXPECT_THAT(MessageOf([] { Parse("a,b\n1,2\n\n3,4\n"); }), HasSubstr("t.csv:3:1"));
+}
+
+TEST(CsvTable, RefusesQuotesThatItCannotTakeApart) {
+  EXPECT_THAT(MessageOf([] { Parse("a,b\n\"1,5\",2\n"); }), HasSubstr("t.csv:2:1"));
+}
+
+TEST(CsvTable, RefusesAFolder) {
+  const TestFolder folder;
+  EXPECT_THAT(MessageOf([&] { CsvTable::Read(folder.path()); }), HasSubstr("cannot be read"));
+}
+
+}  // namespace
+}  // namespace palpate::experiment

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/mesh_io/write_vtu.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "libs/core/error.hpp"
+#include "libs/fem/mesh_io/read_mesh.hpp"
+#include "tests/libs/fem/mesh/mesh_files.hpp"
+
+namespace palpate::fem {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string TextOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string FailureToWrite(const std::filesystem::path& file) {
+  const TetMesh mesh = test::CubeMesh(8);
+  try {
+    WriteVtu(file, mesh, mesh.nodes_m.reshaped());
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(WriteVtu, WritesWhatReadMeshReadsBackExactly) {
+  const test::TemporaryFolder folder;
+  // The large one has more bytes of coordinates than one block of the compressor.
+  for (const TetMesh& mesh :
+       {test::CubeMesh(3), MakeQuadratic(test::CubeMesh(3)), test::CubeMesh(36)}) {
+    TetMesh deformed = mesh;
+    deformed.nodes_m = (mesh.nodes_m.array() + 0.1 * mesh.nodes_m.array().square()).matrix() / 3.0;
+    for (const VtuEncoding encoding : {VtuEncoding::kCompressed, VtuEncoding::kAscii}) {
+      const auto file = folder.path() / "out.vtu";
+      WriteVtu(file, mesh, deformed.nodes_m.reshaped(), {}, encoding);
+      EXPECT_TRUE(test::SameMesh(ReadMesh(file, 1.0), deformed));
+    }
+  }
+}
+
+TEST(WriteVtu, WritesFieldsOfNodesAndCells) {
+  const test::TemporaryFolder folder;
+  const TetMesh mesh = test::CubeMesh(1);
+  const VtuFields fields = {.of_nodes = {{"displacement_m", Eigen::MatrixXd::Constant(3, 8, 0.125)},
+                                         {"a<b & \"c\"", Eigen::RowVectorXd::LinSpaced(8, 0, 7)}},
+                            .of_cells = {{"stress_Pa", Eigen::RowVectorXd::LinSpaced(6, 0, 5)}}};
+  const auto file = folder.path() / "out.vtu";
+  WriteVtu(file, mesh, mesh.nodes_m.reshaped(), fields, VtuEncoding::kAscii);
+  const std::string text = TextOf(file);
+  const auto point_data = text.substr(text.find("<PointData>"), text.find("<CellData>"));
+  EXPECT_THAT(point_data, AllOf(HasSubstr("Name=\"displacement_m\" NumberOfComponents=\"3\""),
+                                HasSubstr("Name=\"a&lt;b &amp; &quot;c&quot;\""),
+                                HasSubstr("\n0 1 2 3 4 5 6 7 \n")));
+  EXPECT_THAT(text.substr(text.find("<CellData>")),
+              AllOf(HasSubstr("Name=\"stress_Pa\" NumberOfComponents=\"1\""),
+                    HasSubstr("\n0 1 2 3 4 5 \n")));
+  WriteVtu(file, mesh, mesh.nodes_m.reshaped(), fields);
+  EXPECT_TRUE(test::SameMesh(ReadMesh(file, 1.0), mesh));
+}
+
+TEST(WriteVtu, SaysWhereItCannotWrite) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(FailureToWrite(folder.path() / "none" / "out.vtu"),
+              AllOf(HasSubstr("none/out.vtu: cannot be written"), HasSubstr("No such file")));
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THAT(FailureToWrite("/dev/full"), HasSubstr("No space left"));
+}
+
+}  // namespace
+}  // namespace palpate::fem

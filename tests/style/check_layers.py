@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who may include whom (ARCHITECTURE, "Who may include whom"), checked on every #include line."""
+
+import dataclasses
+import pathlib
+import re
+import sys
+
+import source_tree
+from source_tree import Violation
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
+
+# Which libraries of ours each library may include, besides itself.
+LIBRARIES = {
+    "core": set(),
+    "app": {"core"},
+    "geometry": {"core"},
+    "experiment": {"core", "geometry"},
+    "fem": {"core", "geometry"},
+    "robot": {"core", "geometry", "fem"},
+    "dds": {"core"},
+}
+NOT_FOR_ALGORITHMS = {"app", "dds"}
+
+# Third-party headers that stay behind one library: pattern, libraries, what to use instead.
+THIRD_PARTY = [
+    (re.compile(r"yaml-cpp/"), {"app"}, "yaml-cpp only in libs/app: take a ConfigLoader"),
+    (re.compile(r"CLI/"), {"app"}, "CLI11 only in libs/app: use app::Arguments"),
+    (re.compile(r"spdlog/"), {"app"}, "spdlog only in libs/app: nodes use libs/app/log.hpp"),
+    (re.compile(r"(?:suitesparse/|SuiteSparse|cholmod|umfpack|amd\.h|colamd\.h|camd\.h|ccolamd|spqr"
+                r"|klu\.h|Eigen/(?:Cholmod|UmfPack|KLU|SPQR)Support)"),
+     {"fem"}, "SuiteSparse only in libs/fem: use fem::SparseSolver"),
+    (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
+]
+DDS_HEADER = re.compile(r"(?:dds|ddsc)/")
+
+
+@dataclasses.dataclass(frozen=True)
+class Place:
+    """Where a file stands: libs/fem, components/view, components/view/node, idl, tests."""
+    kind: str  # library | algorithm | node | idl | tests | other
+    name: str = ""
+
+
+def place_of(path):
+    parts = pathlib.PurePosixPath(path).parts
+    if parts[0] == "libs" and len(parts) > 2:
+        return Place("library", parts[1])
+    if parts[0] == "components" and len(parts) > 2:
+        return Place("node" if parts[2] == "node" else "algorithm", parts[1])
+    if parts[0] in ("idl", "tests"):
+        return Place(parts[0])
+    return Place("other")
+
+
+def check_library(source, target):
+    if target == source.name:
+        return ""
+    if source.kind == "library":
+        if source.name not in LIBRARIES:
+            return f"libs/{source.name} is not in the table of tests/style/check_layers.py"
+        if target not in LIBRARIES[source.name]:
+            allowed = ", ".join(sorted(LIBRARIES[source.name])) or "nothing"
+            return f"libs/{source.name} may include {allowed}, not libs/{target}"
+    if source.kind == "algorithm" and target in NOT_FOR_ALGORITHMS:
+        if source.name == "palpate" and target == "app":
+            return ""
+        return f"libs/{target} only in node/ of a component, not in the algorithm"
+    return ""
+
+
+def check_component(source, target):
+    if source.kind == "library":
+        return "a library includes no component"
+    own = source.name == target.name
+    if not own and source.name != "palpate":
+        return "no component includes another (components/palpate excepted)"
+    if source.kind == "algorithm" and target.kind == "node":
+        return "an algorithm does not include a node"
+    return ""
+
+
+def check_dds(source):
+    if source.kind in ("node", "idl") or source == Place("library", "dds"):
+        return ""
+    return "DDS and IDL only in libs/dds and node/ of a component"
+
+
+def check_third_party(source, header):
+    for pattern, libraries, rule in THIRD_PARTY:
+        inside = source.kind == "library" and source.name in libraries
+        if pattern.match(header) and not inside:
+            return rule
+    return ""
+
+
+def check_include(source, header, quoted, messages):
+    """The rule that `source` breaks by including `header`, or ""."""
+    if source.kind in ("tests", "other"):
+        return ""
+    if DDS_HEADER.match(header) or header.startswith("idl/") or header in messages:
+        return check_dds(source)
+    target = place_of(header)
+    if quoted and target.kind == "library":
+        return check_library(source, target.name)
+    if quoted and target.kind in ("algorithm", "node"):
+        return check_component(source, target)
+    if quoted and target.kind == "tests":
+        return "only tests include tests"
+    third_party = check_third_party(source, header)
+    if third_party or not quoted or source.kind == "idl":
+        return third_party
+    return 'our headers are included from the root ("libs/..."), others in angle brackets'
+
+
+def message_headers(files):
+    """What idlc and idl/CMakeLists.txt make of idl/<package>/msg/<Name>.idl."""
+    stems = [path.relative_to("idl").with_suffix("") for path in files
+             if path.parts[0] == "idl" and path.suffix == ".idl"]
+    return {f"{stem.as_posix()}{suffix}" for stem in stems for suffix in (".h", ".hpp")}
+
+
+def check_tree(root):
+    files = source_tree.list_files(root)
+    messages = message_headers(files)
+    sources = [path for path in files
+               if path.suffix in source_tree.CPP_SUFFIXES | {".c", ".h", ".in"}]
+    violations = []
+    for path in sources:
+        source = place_of(path.as_posix())
+        for number, line in enumerate(source_tree.read_lines(root / path), start=1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            header = match[1] or match[2]
+            rule = check_include(source, header, match[2] is not None, messages)
+            if rule:
+                violations.append(Violation(path.as_posix(), number, f'"{header}": {rule}'))
+    return violations, len(sources)
+
+
+def main():
+    arguments = source_tree.parse_root(__doc__).parse_args()
+    return source_tree.report("check_layers", *check_tree(arguments.root))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

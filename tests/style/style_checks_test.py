@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The palpate authors
+# SPDX-License-Identifier: Apache-2.0
+"""A planted violation of each rule is found, and sound code passes."""
+
+import pathlib
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import check_format
+import check_layers
+import check_readmes
+import check_sizes
+import check_spdx
+import check_yaml
+import source_tree
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+class TreeTest(unittest.TestCase):
+    """Each test plants files in a tree of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def plant(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        return file
+
+    def rules(self, violations):
+        return "\n".join(map(str, violations))
+
+
+class CheckLayers(TreeTest):
+    def broken(self, path, include):
+        """The violations of a tree whose one source holds one include, as text."""
+        self.plant("idl/sensor_msgs/msg/JointState.idl", "")
+        file = self.plant(path, f"// head\n#include {include}\n")
+        violations, _ = check_layers.check_tree(self.root)
+        file.unlink()
+        return self.rules(violations)
+
+    def assert_broken(self, path, include, words):
+        found = self.broken(path, include)
+        self.assertIn(f"{path}:2: ", found, (path, include))
+        self.assertIn(words, found)
+
+    def test_libraries_include_only_what_comes_before_them(self):
+        self.assertEqual(self.broken("libs/fem/a.cpp", '"libs/geometry/b.hpp"'), "")
+        self.assertEqual(self.broken("libs/robot/a.cpp", '"libs/fem/mesh_io/b.hpp"'), "")
+        self.assert_broken("libs/fem/a.cpp", '"libs/robot/b.hpp"', "not libs/robot")
+        self.assert_broken("libs/core/a.hpp", '"libs/geometry/b.hpp"', "may include nothing")
+        self.assert_broken("libs/robot/a.cpp", '"libs/app/yaml.hpp"', "not libs/app")
+        self.assert_broken("libs/new/a.cpp", '"libs/core/b.hpp"', "not in the table")
+        self.assert_broken("libs/core/a.cpp", '"components/view/b.hpp"', "no component")
+
+    def test_algorithms_know_neither_app_nor_dds_nor_messages(self):
+        algorithm = "components/view/a.cpp"
+        self.assertEqual(self.broken(algorithm, '"libs/robot/b.hpp"'), "")
+        self.assertEqual(self.broken(algorithm, '"components/view/b.hpp"'), "")
+        self.assert_broken(algorithm, '"libs/app/log.hpp"', "only in node/")
+        self.assert_broken(algorithm, '"libs/dds/b.hpp"', "only in node/")
+        self.assert_broken(algorithm, "<dds/dds.h>", "only in libs/dds and node/")
+        self.assert_broken(algorithm, '"sensor_msgs/msg/JointState.hpp"', "only in libs/dds")
+        self.assert_broken(algorithm, '"components/view/node/b.hpp"', "does not include a node")
+        self.assert_broken(algorithm, '"components/player/b.hpp"', "no component includes another")
+
+    def test_nodes_may(self):
+        node = "components/view/node/a.cpp"
+        for include in ('"libs/app/log.hpp"', '"libs/dds/b.hpp"', '"components/view/b.hpp"',
+                        '"sensor_msgs/msg/JointState.hpp"', "<dds/dds.h>"):
+            self.assertEqual(self.broken(node, include), "", include)
+        self.assert_broken(node, '"components/player/node/b.hpp"', "no component includes another")
+
+    def test_the_command_may_use_every_algorithm(self):
+        command = "components/palpate/solve.cpp"
+        self.assertEqual(self.broken(command, '"components/view/b.hpp"'), "")
+        self.assertEqual(self.broken(command, '"libs/app/verbs.hpp"'), "")
+        self.assert_broken(command, '"libs/dds/b.hpp"', "only in node/")
+
+    def test_third_party_stays_behind_its_library(self):
+        for library, include in (("app", "<yaml-cpp/yaml.h>"), ("app", "<CLI/App.hpp>"),
+                                 ("app", "<spdlog/spdlog.h>"), ("fem", "<cholmod.h>"),
+                                 ("fem", "<suitesparse/cholmod.h>"), ("fem", "<tinyxml2.h>"),
+                                 ("fem", "<Eigen/CholmodSupport>"), ("dds", "<dds/dds.h>")):
+            self.assertEqual(self.broken(f"libs/{library}/a.cpp", include), "", include)
+            self.assert_broken("libs/robot/a.cpp", include, "only in libs/")
+        self.assert_broken("components/view/node/a.cpp", "<spdlog/spdlog.h>", "only in libs/app")
+        self.assertEqual(self.broken("tests/libs/fem/a.cpp", "<cholmod.h>"), "")
+
+    def test_our_headers_are_included_from_the_root(self):
+        self.assert_broken("libs/fem/a.cpp", '"tet_mesh.hpp"', "from the root")
+        self.assert_broken("libs/fem/a.cpp", '"tests/libs/fem/b.hpp"', "only tests include tests")
+
+    def test_comments_are_no_includes(self):
+        self.plant("libs/core/a.cpp", '// #include "libs/robot/b.hpp"\n')
+        self.assertEqual(check_layers.check_tree(self.root), ([], 1))
+
+    def test_the_program_prints_file_line_and_rule_and_fails(self):
+        self.plant("libs/core/a.cpp", '#include "libs/robot/b.hpp"\n')
+        run = subprocess.run([sys.executable, "-B", HERE / "check_layers.py", "--root", self.root],
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('libs/core/a.cpp:1: "libs/robot/b.hpp": libs/core may include', run.stdout)
+
+    def test_an_empty_tree_is_a_failure(self):
+        self.assertEqual(source_tree.report("check", [], 0), 1)
+
+
+class CheckSpdx(TreeTest):
+    def test_finds_files_without_the_two_lines(self):
+        head = "\n".join(f"# {line}" for line in check_spdx.LINES) + "\n"
+        self.plant("good.py", head)
+        self.plant("script.sh", "#!/bin/sh\n" + head)
+        self.plant("good.xml", '<?xml version="1.0"?>\n' + head.replace("# ", "<!-- ")
+                   .replace("\n", " -->\n"))
+        self.plant("libs/a.hpp", "#pragma once\n" + head)
+        self.plant("b.yaml", head.replace("Apache-2.0", "MIT"))
+        violations, checked = check_spdx.check_tree(self.root)
+        self.assertEqual([violation.file for violation in violations], ["b.yaml", "libs/a.hpp"])
+        self.assertEqual(checked, 5)
+
+
+class CheckSizes(TreeTest):
+    def found(self):
+        return self.rules(check_sizes.check_tree(self.root)[0])
+
+    def test_files_of_400_lines_and_no_more(self):
+        self.plant("a.cpp", "int a;\n" * 400)
+        self.assertEqual(self.found(), "")
+        self.plant("a.cpp", "int a;\n" * 401)
+        self.assertIn("a.cpp: 401 lines", self.found())
+
+    def test_functions_of_60_lines_and_no_more(self):
+        self.plant("a.cpp", "int F(int a) const {\n" + "  a;\n" * 58 + "}\n")
+        self.assertEqual(self.found(), "")
+        self.plant("a.cpp", "int b;\nint F(int a) const {\n" + "  a;\n" * 59 + "}\n")
+        self.assertIn("a.cpp:2: function of 61 lines", self.found())
+
+    def test_columns_and_white_space(self):
+        self.plant("a.py", "a = 1\n" + "#" * 101 + "\n")
+        self.assertIn("a.py:2: 101 columns", self.found())
+        self.plant("a.py", "a = 1 \n")
+        self.assertIn("a.py:1: trailing white space", self.found())
+
+    def test_big_files_and_long_readmes(self):
+        self.plant("a.png", "x" * 1_000_000)
+        self.plant("components/view/README.md", "x\n" * 81)
+        self.assertIn("a.png: 1000000 bytes", self.found())
+        self.assertIn("README.md: 81 lines", self.found())
+
+
+class CheckYaml(TreeTest):
+    def test_finds_what_cannot_be_read(self):
+        self.plant("good.yaml", "a: 1\nb: {a: 2}\n")
+        self.plant("bad.yaml", "a: 1\nb: [1\n")
+        self.plant("twice.yaml", "a: 1\nb: 2\na: 3\n")
+        self.plant("bad.json", '{"a": 1,\n}')
+        found = self.rules(check_yaml.check_tree(self.root)[0])
+        self.assertIn("bad.yaml:", found)
+        self.assertIn("twice.yaml:3: key 'a' is given twice", found)
+        self.assertIn("bad.json:2:", found)
+        self.assertNotIn("good.yaml", found)
+
+
+class CheckFormat(TreeTest):
+    def test_finds_what_is_not_formatted(self):
+        program, reason = check_format.find_clang_format()
+        if not program:
+            self.skipTest(reason)
+        self.plant(".clang-format", (HERE.parents[1] / ".clang-format").read_text())
+        self.plant("good.cpp", "int* F(int a) { return nullptr; }\n")
+        self.plant("bad.cpp", "int a;\nint *F( int a )\n{ return nullptr; }\n")
+        violations, checked = check_format.check_tree(self.root, program)
+        self.assertEqual([violation.file for violation in violations], ["bad.cpp"])
+        self.assertEqual((violations[0].line, checked), (2, 2))
+
+
+TOPICS = """topics:
+  - {name: /forces, type: palpate_msgs/msg/ForceArray, reliability: reliable,
+     durability: volatile, depth: 100, rate_hz: 30}
+  - {name: /robot/mesh, type: palpate_msgs/msg/Mesh, reliability: reliable,
+     durability: transient_local, depth: 1}
+"""
+PARAMETERS = """| parameter | default | range | meaning |
+|---|---|---|---|
+| `a_m` | `1` | > 0 | A |
+"""
+README = """# view
+## Purpose
+## Inputs
+| topic | type | frame and units | QoS | rate |
+|---|---|---|---|---|
+| `/forces` | palpate_msgs/ForceArray | robot, N | reliable, volatile, keep 100 | 30 Hz |
+## Outputs
+| topic | type | frame and units | QoS | rate |
+|---|---|---|---|---|
+| `/robot/mesh` | `palpate_msgs/msg/Mesh` | robot, m | reliable, transient-local, 1 | once |
+## Parameters
+""" + PARAMETERS + "## Limits\n## Run\n## Test\n"
+
+
+class CheckReadmes(TreeTest):
+    def setUp(self):
+        super().setUp()
+        self.plant("config/topics.yaml", TOPICS)
+        self.plant("components/view/node/main.cpp", "")
+        program = self.plant("bin/palpate-view", f"#!/bin/sh\ncat <<'END'\n{PARAMETERS}END\n")
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+
+    def found(self, readme, fix=False):
+        self.plant("components/view/README.md", readme)
+        return self.rules(check_readmes.check_tree(self.root, self.root / "bin", fix)[0])
+
+    def test_a_true_readme_passes(self):
+        self.assertEqual(self.found(README), "")
+
+    def test_a_missing_readme_and_missing_headings_are_found(self):
+        found = self.rules(check_readmes.check_tree(self.root, None)[0])
+        self.assertIn("components/view/README.md: is missing", found)
+        self.assertIn("headings must be Purpose", self.found(README.replace("## Limits\n", "")))
+
+    def test_untrue_topics_are_found_with_their_line(self):
+        self.assertIn("README.md:6: topic /force is not in", self.found(
+            README.replace("`/forces`", "`/force`")))
+        self.assertIn("type of /forces must be palpate_msgs/msg/ForceArray", self.found(
+            README.replace("palpate_msgs/ForceArray", "palpate_msgs/Force")))
+        self.assertIn("QoS of /robot/mesh must say transient_local", self.found(
+            README.replace("transient-local", "volatile")))
+        self.assertIn("QoS of /forces must say reliable", self.found(
+            README.replace("reliable, volatile, keep", "volatile, keep")))
+        self.assertIn("must say depth 100", self.found(README.replace("keep 100", "keep 10")))
+
+    def test_an_untrue_parameter_table_is_found_and_mended(self):
+        stale = README.replace("`1` | > 0", "`2` | > 0")
+        self.assertIn("README.md:14: differs from --print-config", self.found(stale))
+        self.assertEqual(self.found(stale, fix=True), "")
+        self.assertEqual((self.root / "components/view/README.md").read_text(), README)
+        self.assertIn("parameter table is missing", self.found(README.replace(PARAMETERS, "")))
+
+
+if __name__ == "__main__":
+    unittest.main()
