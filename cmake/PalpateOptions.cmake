@@ -35,9 +35,18 @@ if(PALPATE_TIDY)
   find_program(PALPATE_CLANG_TIDY NAMES clang-tidy REQUIRED)
 endif()
 
-# palpate_own_code(TARGET): the warnings and, in the tidy preset, clang-tidy.
+# palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,
+# in the tidy preset, clang-tidy.
 function(palpate_own_code target)
+  cmake_parse_arguments(ARG "" "PCH" "" ${ARGN})
   target_link_libraries(${target} PRIVATE palpate_warnings)
+  if(NOT ARG_PCH)
+    set(ARG_PCH palpate_pch)
+  endif()
+  if(PALPATE_PCH)
+    target_precompile_headers(${target} REUSE_FROM ${ARG_PCH})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
   if(PALPATE_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY
       "${PALPATE_CLANG_TIDY};--quiet;--extra-arg=-Wno-unknown-warning-option")

@@ -87,7 +87,7 @@ function(add_component_test name)
   add_executable(${name}_test ${sources})
   target_link_libraries(${name}_test PRIVATE ${ARG_LIBS} ${ARG_PRIVATE} GTest::gmock
                         GTest::gtest_main)
-  palpate_own_code(${name}_test)
+  palpate_own_code(${name}_test PCH palpate_test_pch)
   target_compile_definitions(${name}_test PRIVATE
     PALPATE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PALPATE_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name}_test PROPERTIES

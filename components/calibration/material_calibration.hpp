@@ -35,7 +35,7 @@ struct MaterialCalibrationSettings {
   /// Materials to fit: RobotBody::materials, 0 the body, k + 1 region k. The others stay.
   std::vector<int> materials = {0};
   int max_iterations = 50;
-  double tolerance = 1e-9;  ///< largest change of any ln E at which the fit stops
+  double tolerance = 1e-7;  ///< largest change of any ln E at which the fit stops
   /// ln E known no better than this (one sigma) counts as not determined by the data.
   double undetermined_sigma = 0.5;
 };

@@ -12,8 +12,9 @@ namespace palpate::force_estimation {
 
 /// Settings of MarkerForceEstimator.
 struct Config {
-  /// Where contacts may be: each "name: x, y, z" or "name: x, y, z, patch_radius" (m, undeformed
-  /// body, robot frame). Empty: the robot's feature points are searched.
+  /// Where contacts may be: each "name: x, y, z[, patch radius][ along dx, dy, dz]" (m, undeformed
+  /// body, robot frame; the direction where it is known, as of a hung weight). Empty: the robot's
+  /// feature points are searched.
   std::vector<std::string> contacts;
   double candidate_patch_radius_m = 0.005;
   int max_contacts = 1;
@@ -27,7 +28,8 @@ struct Config {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("contacts", contacts,
-      "Contacts as \"name: x, y, z[, patch radius]\" in m on the undeformed body; empty: search");
+      "Contacts as \"name: x, y, z[, patch radius][ along dx, dy, dz]\", m, undeformed body; empty: "
+      "search");
     v("candidate_patch_radius_m", candidate_patch_radius_m, {.min = 0.0},
       "Patch over which a contact found by search is spread");
     v("max_contacts", max_contacts, {.min = 1.0, .max = 5.0},

@@ -9,14 +9,14 @@ namespace palpate::force_estimation {
 Status MarkerFitter::Screen(const MarkerTargets& targets,
                             const std::vector<robot::CableCommand>& cables,
                             const ModelState& state,
-                            const std::vector<fem::SurfacePatch>& candidates,
+                            const std::vector<FitSite>& candidates,
                             std::vector<double>* chi_squared) {
-  const std::vector<fem::SurfacePatch> sites = sites_;
+  const std::vector<FitSite> sites = sites_;
   ModelState extended = state;
   chi_squared->clear();
   Status status = Status::Ok();
   for (size_t c = 0; c < candidates.size() && status.ok(); ++c) {
-    std::vector<fem::SurfacePatch> with_candidate = sites;
+    std::vector<FitSite> with_candidate = sites;
     with_candidate.push_back(candidates[c]);
     SetSites(with_candidate);
     extended.lambda_f_N.setZero(3 * SiteCount());
@@ -30,7 +30,6 @@ Status MarkerFitter::Screen(const MarkerTargets& targets,
     }
     if (status.ok()) status = elimination_.Eliminate(compliance_, cables);
     if (!status.ok()) break;
-    BuildBasis();
     status = SolveQp(targets, cables, extended);
     const Eigen::VectorXd residual =
         targets.position_m - elimination_.e0_m() - elimination_.G() * new_lambda_f_;

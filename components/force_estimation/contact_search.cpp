@@ -18,13 +18,13 @@ namespace {
 /// Candidates that are fitted to equilibrium: the first-order ranking errs among neighbours.
 constexpr size_t kFittedCandidates = 5;
 
-double MeanSpacing(const std::vector<fem::SurfacePatch>& candidates) {
+double MeanSpacing(const std::vector<FitSite>& candidates) {
   double sum = 0.0;
   for (size_t a = 0; a < candidates.size(); ++a) {
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t b = 0; b < candidates.size(); ++b) {
       if (a == b) continue;
-      nearest = std::min(nearest, (candidates[a].centre_m - candidates[b].centre_m).norm());
+      nearest = std::min(nearest, (candidates[a].patch.centre_m - candidates[b].patch.centre_m).norm());
     }
     if (candidates.size() > 1) sum += nearest / static_cast<double>(candidates.size());
   }
@@ -45,7 +45,7 @@ std::vector<size_t> Ranking(const std::vector<double>& chi_squared) {
 ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, MarkerFitter& fitter)
     : config_(config), fitter_(fitter) {
   for (const fem::BodyPoint& point : model.body().feature_points) {
-    candidates_.push_back(model.Patch(point.rest_m, config.candidate_patch_radius_m));
+    candidates_.push_back({.patch = model.Patch(point.rest_m, config.candidate_patch_radius_m)});
   }
   if (candidates_.empty()) throw InputError("the robot file gives no feature points to search");
   spacing_m_ = MeanSpacing(candidates_);
@@ -55,9 +55,10 @@ const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
                                                  const std::vector<robot::CableCommand>& cables,
                                                  const fem::StaticState& free_state) {
   result_.sites.clear();
-  result_.patches.clear();
+  result_.fit_sites.clear();
   result_.location_ci95_m = 0.0;
   result_.state = {.valid = true,
+                   .balanced = true,
                    .x_m = free_state.x_m,
                    .lambda_a_N = free_state.multipliers_N,
                    .lambda_f_N = Eigen::VectorXd::Zero(0)};
@@ -81,19 +82,19 @@ const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
 
 Status ContactSearch::AddContact(const MarkerTargets& targets,
                                  const std::vector<robot::CableCommand>& cables) {
-  fitter_.SetSites(result_.patches);
+  fitter_.SetSites(result_.fit_sites);
   std::vector<double> chi_squared;
   Status status =
       fitter_.Screen(targets, cables, result_.state, candidates_, &chi_squared);
   if (!status.ok()) return status;
   const ModelState start = result_.state;
-  const std::vector<fem::SurfacePatch> known = result_.patches;
+  const std::vector<FitSite> known = result_.fit_sites;
   double best_chi_squared = std::numeric_limits<double>::infinity();
   size_t best = 0;
   for (size_t candidate : Ranking(chi_squared)) {
-    std::vector<fem::SurfacePatch> patches = known;
-    patches.push_back(candidates_[candidate]);
-    fitter_.SetSites(patches);
+    std::vector<FitSite> sites = known;
+    sites.push_back(candidates_[candidate]);
+    fitter_.SetSites(sites);
     ModelState state = start;
     state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
     const MarkerFit& fit = fitter_.Fit(targets, cables, &state);
@@ -102,13 +103,13 @@ Status ContactSearch::AddContact(const MarkerTargets& targets,
     best = candidate;
     result_.fit = fit;
     result_.state = state;
-    result_.patches = patches;
+    result_.fit_sites = sites;
   }
   if (!std::isfinite(best_chi_squared)) {
     return {StatusCode::kNotConverged, "no candidate contact leads to an equilibrium"};
   }
   result_.sites.push_back({.name = "contact_" + std::to_string(known.size() + 1),
-                           .position_m = candidates_[best].centre_m,
+                           .position_m = candidates_[best].patch.centre_m,
                            .patch_radius_m = config_.candidate_patch_radius_m});
   const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(result_.sites.size()));
   const double noise_scale = std::max(1.0, best_chi_squared / freedom);
@@ -125,7 +126,7 @@ double ContactSearch::LocationInterval(const std::vector<double>& chi_squared, s
   double radius = 0.5 * spacing_m_;
   for (size_t c = 0; c < candidates_.size(); ++c) {
     if (chi_squared[c] > limit) continue;
-    radius = std::max(radius, (candidates_[c].centre_m - candidates_[best].centre_m).norm());
+    radius = std::max(radius, (candidates_[c].patch.centre_m - candidates_[best].patch.centre_m).norm());
   }
   return radius;
 }

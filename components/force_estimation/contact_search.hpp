@@ -22,7 +22,7 @@ class ContactSearch {
     MarkerFit fit;
     ModelState state;
     std::vector<ContactSite> sites;
-    std::vector<fem::SurfacePatch> patches;
+    std::vector<FitSite> fit_sites;
     /// Distance within which sites explain the markers as well, at 95 %, and no less than half the
     /// distance between candidates.
     double location_ci95_m = 0.0;
@@ -45,7 +45,7 @@ class ContactSearch {
 
   Config config_;
   MarkerFitter& fitter_;
-  std::vector<fem::SurfacePatch> candidates_;
+  std::vector<FitSite> candidates_;
   double spacing_m_ = 0.0;  ///< mean distance from a candidate to the next
   Result result_;
 };

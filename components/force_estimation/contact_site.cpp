@@ -19,40 +19,56 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::vector<double> ParseNumbers(std::string_view text, const std::string& whole) {
+constexpr std::string_view kForm =
+    "the form is \"name: x, y, z[, patch radius][ along dx, dy, dz]\", in m";
+
+[[noreturn]] void RefuseSite(const std::string& text, const std::string& cause) {
+  throw InputError("contact '" + text + "' " + cause + "; " + std::string(kForm));
+}
+
+std::vector<double> ParseNumbers(std::string_view numbers_text, const std::string& whole) {
   std::vector<double> numbers;
   while (true) {
-    const size_t comma = text.find(',');
+    const size_t comma = numbers_text.find(',');
+    const std::string_view field = Trim(numbers_text.substr(0, comma));
     double number = 0.0;
-    if (!ParseFinite(Trim(text.substr(0, comma)), &number)) {
-      throw InputError("contact '" + whole + "': '" + std::string(Trim(text.substr(0, comma))) +
-                       "' is not a finite number; the form is \"name: x, y, z[, patch radius]\" "
-                       "in m");
+    if (!ParseFinite(field, &number)) {
+      RefuseSite(whole, "holds '" + std::string(field) + "', which is not a finite number");
     }
     numbers.push_back(number);
     if (comma == std::string_view::npos) return numbers;
-    text.remove_prefix(comma + 1);
+    numbers_text.remove_prefix(comma + 1);
   }
+}
+
+Eigen::Vector3d ParseDirection(std::string_view direction_text, const std::string& whole) {
+  const std::vector<double> numbers = ParseNumbers(direction_text, whole);
+  if (numbers.size() != 3) RefuseSite(whole, "has a direction without three components");
+  const Eigen::Vector3d direction(numbers[0], numbers[1], numbers[2]);
+  if (!(direction.norm() > 1e-9)) RefuseSite(whole, "has a direction of length zero");
+  return direction.normalized();
 }
 
 ContactSite ParseContactSite(const std::string& text) {
   const size_t colon = text.find(':');
   if (colon == std::string::npos || Trim(std::string_view(text).substr(0, colon)).empty()) {
-    throw InputError("contact '" + text +
-                     "' has no name; the form is \"name: x, y, z[, patch radius]\" in m");
-  }
-  const std::vector<double> numbers = ParseNumbers(std::string_view(text).substr(colon + 1), text);
-  if (numbers.size() != 3 && numbers.size() != 4) {
-    throw InputError("contact '" + text + "' has " + std::to_string(numbers.size()) +
-                     " numbers; it takes x, y, z and, if wanted, the patch radius");
+    RefuseSite(text, "has no name");
   }
   ContactSite site;
   site.name = Trim(std::string_view(text).substr(0, colon));
+  std::string_view place = std::string_view(text).substr(colon + 1);
+  constexpr std::string_view kAlong = " along ";
+  if (const size_t along = place.find(kAlong); along != std::string_view::npos) {
+    site.direction = ParseDirection(place.substr(along + kAlong.size()), text);
+    place = place.substr(0, along);
+  }
+  const std::vector<double> numbers = ParseNumbers(place, text);
+  if (numbers.size() != 3 && numbers.size() != 4) {
+    RefuseSite(text, "has " + std::to_string(numbers.size()) + " numbers for its place");
+  }
   site.position_m = {numbers[0], numbers[1], numbers[2]};
   if (numbers.size() == 4) site.patch_radius_m = numbers[3];
-  if (site.patch_radius_m < 0.0) {
-    throw InputError("contact '" + text + "': the patch radius must be >= 0");
-  }
+  if (site.patch_radius_m < 0.0) RefuseSite(text, "has a negative patch radius");
   return site;
 }
 

@@ -14,9 +14,12 @@ struct ContactSite {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
   double patch_radius_m = 0.0;  ///< the force is spread over the surface within; 0: a point
+  /// Unit vector, robot frame, along which the force acts (a hung weight: gravity); zero: unknown.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// Reads Config::contacts, each "name: x, y, z[, patch radius]". Throws InputError for text that is
+/// Reads Config::contacts, each "name: x, y, z[, patch radius][ along dx, dy, dz]".
+/// Throws InputError for text that is
 /// no site, or a name given twice.
 std::vector<ContactSite> ParseContactSites(const std::vector<std::string>& texts);
 

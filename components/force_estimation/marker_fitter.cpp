@@ -16,6 +16,12 @@ namespace {
 
 constexpr double kBalanceTolerance = 1e-9;  ///< residual over internal forces
 constexpr int kMaxSetChanges = 12;          ///< of taut and slack cables in one linearisation
+/// Residual over internal forces up to which a linear step may be taken as it is: from there on
+/// Newton's steps converge by themselves.
+constexpr double kLinearStepTolerance = 1e-3;
+
+/// A step that needs more load steps than these is halved instead.
+constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
 
 std::vector<fem::NodeWeights> MarkerRows(const robot::RobotModel& model) {
   std::vector<fem::NodeWeights> rows;
@@ -23,11 +29,11 @@ std::vector<fem::NodeWeights> MarkerRows(const robot::RobotModel& model) {
   return rows;
 }
 
-std::vector<robot::ForceDirection> Directions(const std::vector<fem::SurfacePatch>& sites) {
+std::vector<robot::ForceDirection> Directions(const std::vector<FitSite>& sites) {
   std::vector<robot::ForceDirection> directions;
-  for (const fem::SurfacePatch& site : sites) {
+  for (const FitSite& site : sites) {
     for (int i = 0; i < 3; ++i) {
-      directions.push_back({site.weights, Eigen::Vector3d::Unit(i)});
+      directions.push_back({site.patch.weights, Eigen::Vector3d::Unit(i)});
     }
   }
   return directions;
@@ -51,6 +57,7 @@ MarkerFitter::MarkerFitter(robot::RobotModel& model, const Config& config)
     : model_(model),
       config_(config),
       compliance_(model.linearisation(), MarkerRows(model)),
+      equilibrium_(model.linearisation(), kFollowSettings),
       elimination_(static_cast<int>(3 * model.body().markers.size()), model.CableCount()),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
@@ -64,15 +71,18 @@ MarkerFitter::MarkerFitter(robot::RobotModel& model, const Config& config)
   fit_.residual_m = Eigen::VectorXd::Zero(effector_motion_.size());
 }
 
-void MarkerFitter::SetSites(const std::vector<fem::SurfacePatch>& sites) {
+void MarkerFitter::SetSites(const std::vector<FitSite>& sites) {
   PALPATE_CHECK(3 * sites.size() <= static_cast<size_t>(fem::kMaxQpVariables), sites.size());
   sites_ = sites;
   compliance_.SetForces(Directions(sites));
   const auto forces = static_cast<Eigen::Index>(3 * sites.size());
-  new_lambda_f_ = mixed_lambda_f_ = Eigen::VectorXd::Zero(forces);
+  new_lambda_f_ = Eigen::VectorXd::Zero(forces);
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
   fit_.observability.assign(sites.size(), Observability::kFull);
+  fit_.unknowns.assign(sites.size(), 3);
+  directions_.assign(sites.size(), Eigen::Matrix3d::Identity());
+  AskForEverything();
 }
 
 const MarkerFit& MarkerFitter::Fit(const MarkerTargets& targets,
@@ -81,22 +91,20 @@ const MarkerFit& MarkerFitter::Fit(const MarkerTargets& targets,
   PALPATE_CHECK(SiteCount() > 0);
   weight_N_.setZero();
   model_.AddWeight(weight_N_);
-  std::fill(fit_.observability.begin(), fit_.observability.end(), Observability::kFull);
-  BuildBasis();
+  AskForEverything();
   elimination_.Start(cables, state->lambda_a_N);
   for (fit_.iterations = 0; fit_.iterations <= config_.max_iterations; ++fit_.iterations) {
     fit_.status = Linearise(*state);
     if (fit_.status.ok()) fit_.status = SolveQp(targets, cables, *state);
     if (!fit_.status.ok()) return fit_;
     if (fit_.iterations == 0) {
-      ClassifySites(targets);
-      BuildBasis();
+      KeepObservable(targets);
       fit_.status = SolveQp(targets, cables, *state);
       if (!fit_.status.ok()) return fit_;
     }
-    double change = 0.0;
+    const double change = LargestChange(*state);
     const bool balanced = Balanced(*state);
-    if (!Step(state, &change)) {
+    if (!Step(targets, cables, state)) {
       fit_.status = Status(StatusCode::kNotConverged, {});
       return fit_;
     }
@@ -167,79 +175,137 @@ Status MarkerFitter::SolveQp(const MarkerTargets& targets,
   return Status::Ok();
 }
 
-/// A contact whose force has a standard deviation above the limit in some direction is fitted along
-/// the surface normal only, and not at all where that is uncertain too.
-void MarkerFitter::ClassifySites(const MarkerTargets& targets) {
-  const double limit = config_.unobservable_sigma_N * config_.unobservable_sigma_N;
-  const fem::QpMatrix information = Information(targets);
-  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
+/// Every direction, or the given one, of every site.
+void MarkerFitter::AskForEverything() {
   for (size_t s = 0; s < sites_.size(); ++s) {
-    const auto row = static_cast<Eigen::Index>(3 * s);
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (Eigen::Index k = 0; k < information.rows(); ++k) {
-      const Eigen::Vector3d part = eigen.eigenvectors().col(k).segment<3>(row);
-      const double smallest = std::numeric_limits<double>::min();
-      covariance += part * part.transpose() / std::max(eigen.eigenvalues()[k], smallest);
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(covariance);
-    if (own.eigenvalues()[2] <= limit) continue;
-    const Eigen::Matrix3d block = information.block<3, 3>(row, row);
-    const double normal_information = sites_[s].normal.dot(block * sites_[s].normal);
-    fit_.observability[s] =
-        normal_information * limit >= 1.0 ? Observability::kNormalOnly : Observability::kNone;
+    const bool free = sites_[s].direction.isZero();
+    fit_.observability[s] = Observability::kFull;
+    fit_.unknowns[s] = free ? 3 : 1;
+    directions_[s].setIdentity();
+    if (!free) directions_[s].col(0) = sites_[s].direction;
   }
+  BuildBasis();
 }
 
 void MarkerFitter::BuildBasis() {
   Eigen::Index columns = 0;
-  for (Observability site : fit_.observability) {
-    columns += site == Observability::kFull ? 3 : (site == Observability::kNormalOnly ? 1 : 0);
-  }
+  for (const int unknowns : fit_.unknowns) columns += unknowns;
   basis_ = fem::QpMatrix::Zero(static_cast<Eigen::Index>(3 * sites_.size()), columns);
   Eigen::Index column = 0;
   for (size_t s = 0; s < sites_.size(); ++s) {
+    const Eigen::Index unknowns = fit_.unknowns[s];
+    basis_.block(static_cast<Eigen::Index>(3 * s), column, 3, unknowns) =
+        directions_[s].leftCols(unknowns);
+    column += unknowns;
+  }
+}
+
+/// Leaves out the directions in which a force is uncertain by more than the limit, taking the
+/// other contacts' uncertainty into account.
+void MarkerFitter::KeepObservable(const MarkerTargets& targets) {
+  const double limit = config_.unobservable_sigma_N * config_.unobservable_sigma_N;
+  const fem::QpMatrix information = basis_.transpose() * Information(targets) * basis_;
+  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
+  // What the markers do not see at all gets a variance that is large, yet a number.
+  const fem::QpVector variances =
+      eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
+  const fem::QpMatrix covariance =
+      basis_ * eigen.eigenvectors() * variances.asDiagonal() * eigen.eigenvectors().transpose() *
+      basis_.transpose();
+  for (size_t s = 0; s < sites_.size(); ++s) {
     const auto row = static_cast<Eigen::Index>(3 * s);
-    if (fit_.observability[s] == Observability::kFull) {
-      basis_.block<3, 3>(row, column).setIdentity();
-      column += 3;
-    } else if (fit_.observability[s] == Observability::kNormalOnly) {
-      basis_.block<3, 1>(row, column) = sites_[s].normal;
-      column += 1;
+    const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);
+    if (!sites_[s].direction.isZero()) {
+      if (own_covariance.trace() <= limit) continue;
+      fit_.observability[s] = Observability::kNone;
+      fit_.unknowns[s] = 0;
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(own_covariance);
+    if (own.eigenvalues()[2] <= limit) continue;
+    const Eigen::Vector3d normal = sites_[s].patch.normal;
+    const bool normal_known = normal.dot(own_covariance * normal) <= limit;
+    fit_.observability[s] = normal_known ? Observability::kNormal : Observability::kNone;
+    directions_[s] = own.eigenvectors();
+    fit_.unknowns[s] = 0;
+    while (fit_.unknowns[s] < 3 && own.eigenvalues()[fit_.unknowns[s]] <= limit) {
+      ++fit_.unknowns[s];
     }
   }
+  BuildBasis();
+}
+
+double MarkerFitter::ForceScale(const ModelState& state) const {
+  return std::max({model_.linearisation().internal_force_norm_N(), weight_N_.norm(),
+                   state.lambda_f_N.norm(), 1e-9});
 }
 
 bool MarkerFitter::Balanced(const ModelState& state) const {
   const fem::Linearisation& linearisation = model_.linearisation();
-  const double scale = std::max({linearisation.internal_force_norm_N(), weight_N_.norm(),
-                                 state.lambda_f_N.norm(), 1e-9});
   return !linearisation.shifted() &&
-         linearisation.residual_N().norm() <= kBalanceTolerance * scale;
+         linearisation.residual_N().norm() <= kBalanceTolerance * ForceScale(state);
 }
 
-/// Takes the step, or the largest of its halves that leaves no element inverted.
-bool MarkerFitter::Step(ModelState* state, double* change) {
-  *change = std::max((new_lambda_f_ - state->lambda_f_N).cwiseAbs().maxCoeff(),
-                     state->lambda_a_N.size() > 0
-                         ? (new_lambda_a_ - state->lambda_a_N).cwiseAbs().maxCoeff()
-                         : 0.0);
-  const double scale = std::max(1.0, new_lambda_f_.cwiseAbs().maxCoeff());
-  *change /= scale;
-  constexpr int kHalvings = 12;
+/// Largest change of a force that the QP asks for, relative where forces are above 1 N.
+double MarkerFitter::LargestChange(const ModelState& state) const {
+  double change = (new_lambda_f_ - state.lambda_f_N).cwiseAbs().maxCoeff();
+  if (state.lambda_a_N.size() > 0) {
+    change = std::max(change, (new_lambda_a_ - state.lambda_a_N).cwiseAbs().maxCoeff());
+  }
+  return change / std::max(1.0, new_lambda_f_.cwiseAbs().maxCoeff());
+}
+
+/// The linear step where it is short enough; else the forces are changed as far as the residual of
+/// the markers falls, the model following in equilibrium.
+bool MarkerFitter::Step(const MarkerTargets& targets,
+                        const std::vector<robot::CableCommand>& cables, ModelState* state) {
+  if (StepByLinearResponse(state)) return true;
+  constexpr int kHalvings = 8;
   double fraction = 1.0;
   for (int k = 0; k < kHalvings; ++k, fraction *= 0.5) {
-    trial_x_ = state->x_m;
-    compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, fraction, &trial_x_);
-    double min_J = 0.0;
-    const double energy = model_.elastic_body().Energy(trial_x_, &min_J);
-    if (!(min_J > 0.0) || !std::isfinite(energy)) continue;
-    state->x_m = trial_x_;
-    state->lambda_f_N += fraction * (new_lambda_f_ - state->lambda_f_N);
-    state->lambda_a_N += fraction * (new_lambda_a_ - state->lambda_a_N);
-    if (fraction < 1.0) *change = std::numeric_limits<double>::infinity();
-    return true;
+    if (StepToEquilibrium(targets, cables, fraction, state)) return true;
   }
   return false;
+}
+
+bool MarkerFitter::StepByLinearResponse(ModelState* state) {
+  if (model_.linearisation().shifted()) return false;
+  trial_x_ = state->x_m;
+  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, 1.0, &trial_x_);
+  UpdateExternalForce(new_lambda_f_);
+  const Status status =
+      model_.linearisation().UpdateResidual(trial_x_, new_lambda_a_, external_force_N_);
+  if (!status.ok() || model_.linearisation().residual_N().norm() >
+                          kLinearStepTolerance * ForceScale(*state)) {
+    return false;
+  }
+  state->x_m = trial_x_;
+  state->lambda_f_N = new_lambda_f_;
+  state->lambda_a_N = new_lambda_a_;
+  return true;
+}
+
+bool MarkerFitter::StepToEquilibrium(const MarkerTargets& targets,
+                                     const std::vector<robot::CableCommand>& cables,
+                                     double fraction, ModelState* state) {
+  ModelState trial = *state;
+  trial.lambda_f_N += fraction * (new_lambda_f_ - state->lambda_f_N);
+  fem::LoadState loads = model_.Loads(cables, {});
+  fem::StaticState body{state->x_m, state->lambda_a_N, loads};
+  UpdateExternalForce(state->lambda_f_N);
+  body.loads.external_force_N = external_force_N_;
+  UpdateExternalForce(trial.lambda_f_N);
+  loads.external_force_N = external_force_N_;
+  if (!equilibrium_.Solve(loads, &body).status.ok()) return false;
+  trial.x_m = body.x_m;
+  trial.lambda_a_N = body.multipliers_N;
+  // The residual before counts only where the state before was an equilibrium.
+  const double before = ChiSquared(targets, *state, &fit_.residual_m);
+  const double after = ChiSquared(targets, trial, &fit_.residual_m);
+  if (state->balanced && after > before * (1.0 + 1e-9)) return false;
+  *state = std::move(trial);
+  state->balanced = true;
+  return true;
 }
 
 double MarkerFitter::ChiSquared(const MarkerTargets& targets, const ModelState& state,

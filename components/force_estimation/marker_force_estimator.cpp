@@ -4,7 +4,10 @@
 #include "components/force_estimation/marker_force_estimator.hpp"
 
 #include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #include "components/force_estimation/contact_search.hpp"
@@ -15,6 +18,23 @@
 #include "libs/core/error.hpp"
 
 namespace palpate::force_estimation {
+
+namespace {
+
+/// F' C^-1 F in the directions that were fitted.
+double SquaredDistanceFromZero(const ContactForce& contact) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.covariance_N2);
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double variance = eigen.eigenvalues()[k];
+    if (variance <= 1e-12 * eigen.eigenvalues()[2]) continue;
+    const double component = eigen.eigenvectors().col(k).dot(contact.force_N);
+    sum += component * component / variance;
+  }
+  return sum;
+}
+
+}  // namespace
 
 class MarkerForceEstimator::Impl {
  public:
@@ -27,9 +47,11 @@ class MarkerForceEstimator::Impl {
         fitter_(model, config),
         free_state_(model.RestState()) {
     if (model.body().markers.empty()) throw InputError("the robot file names no markers");
-    for (const ContactSite& site : sites_) patches_.push_back(PatchOf(site));
+    for (const ContactSite& site : sites_) {
+      fit_sites_.push_back({.patch = PatchOf(site), .direction = site.direction});
+    }
     if (sites_.empty()) search_.emplace(model, config, fitter_);
-    fitter_.SetSites(patches_);
+    fitter_.SetSites(fit_sites_);
     const auto rows = static_cast<Eigen::Index>(3 * model.body().markers.size());
     targets_.position_m = targets_.weight = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
@@ -58,7 +80,7 @@ class MarkerForceEstimator::Impl {
   Status SolveFreeState(const MarkerFrame& frame);
   Status FitGivenSites(const MarkerFrame& frame);
   Status SearchSites(const MarkerFrame& frame);
-  void Publish(const MarkerFit& fit, const std::vector<fem::SurfacePatch>& patches,
+  void Publish(const MarkerFit& fit, const std::vector<FitSite>& fit_sites,
                const std::vector<ContactSite>& sites, double location_ci95_m);
   void PublishFit(const MarkerFit& fit);
   void PublishState(const ModelState& state);
@@ -68,7 +90,7 @@ class MarkerForceEstimator::Impl {
   Config config_;
   double modulus_sigma_;
   std::vector<ContactSite> sites_;
-  std::vector<fem::SurfacePatch> patches_;
+  std::vector<FitSite> fit_sites_;
   MarkerTare tare_;
   MarkerFitter fitter_;
   std::optional<ContactSearch> search_;
@@ -143,10 +165,12 @@ Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
 /// without contact.
 Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
   const MarkerFit* fit = nullptr;
+  state_.balanced = false;
   if (state_.valid) fit = &fitter_.Fit(targets_, frame.cables, &state_);
   if (fit == nullptr || !fit->status.ok()) {
     state_.valid = false;
     if (Status status = SolveFreeState(frame); !status.ok()) return status;
+    state_.balanced = true;
     state_.x_m = free_state_.x_m;
     state_.lambda_a_N = free_state_.multipliers_N;
     state_.lambda_f_N = Eigen::VectorXd::Zero(3 * fitter_.SiteCount());
@@ -156,7 +180,7 @@ Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
   if (!fit->status.ok()) return fit->status;
   state_.valid = true;
   PublishState(state_);
-  Publish(*fit, patches_, sites_, 0.0);
+  Publish(*fit, fit_sites_, sites_, 0.0);
   const bool touched =
       std::any_of(estimate_.contacts.begin(), estimate_.contacts.end(), [](const ContactForce& c) {
         return c.status.code() != StatusCode::kNoContact;
@@ -173,7 +197,7 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
   }
   estimate_.contacts.clear();
   if (found.status.ok()) {
-    Publish(found.fit, found.patches, found.sites, found.location_ci95_m);
+    Publish(found.fit, found.fit_sites, found.sites, found.location_ci95_m);
   }
   return found.status;
 }
@@ -183,11 +207,8 @@ void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
   estimate_.chi_squared = fit.chi_squared;
   estimate_.marker_residual_m = fit.residual_m;
   estimate_.residual_rms_m = fit.residual_m.norm() / std::sqrt(std::max(1, targets_.rows));
-  int unknowns = 0;
-  for (Observability site : fit.observability) {
-    unknowns += site == Observability::kFull ? 3 : (site == Observability::kNormalOnly ? 1 : 0);
-  }
-  estimate_.degrees_of_freedom = targets_.rows - unknowns;
+  estimate_.degrees_of_freedom =
+      targets_.rows - std::accumulate(fit.unknowns.begin(), fit.unknowns.end(), 0);
 }
 
 void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
@@ -204,7 +225,7 @@ void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
 /// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
 /// by its ratio (Birge), never narrowed.
 void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
-                                         const std::vector<fem::SurfacePatch>& patches,
+                                         const std::vector<FitSite>& fit_sites,
                                          const std::vector<ContactSite>& sites,
                                          double location_ci95_m) {
   const ModelState& state = search_ ? search_->result().state : state_;
@@ -217,7 +238,7 @@ void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
     ContactForce& contact = estimate_.contacts[s];
     contact = MakeContact(fit, s, inflation);
     contact.name = sites[s].name;
-    contact.position_m = patches[s].weights.Position(state.x_m);
+    contact.position_m = fit_sites[s].patch.weights.Position(state.x_m);
     contact.location_ci95_m = location_ci95_m;
   }
 }
@@ -240,14 +261,19 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_
   switch (fit.observability[index]) {
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});
+      contact.force_N.setConstant(std::numeric_limits<double>::quiet_NaN());
+      contact.ci95_N = std::numeric_limits<double>::quiet_NaN();
       return contact;
-    case Observability::kNormalOnly:
+    case Observability::kNormal:
       contact.status = Status(StatusCode::kTangentialUnobservable, {});
       break;
     case Observability::kFull: contact.status = Status::Ok(); break;
   }
-  const double threshold = NormalQuantile(1.0 - 0.5 * config_.significance);
-  if (size <= threshold * sigma) contact.status = Status(StatusCode::kNoContact, {});
+  const int unknowns = fit.unknowns[index];
+  if (SquaredDistanceFromZero(contact) <=
+      ChiSquaredQuantile(1.0 - config_.significance, unknowns)) {
+    contact.status = Status(StatusCode::kNoContact, {});
+  }
   return contact;
 }
 

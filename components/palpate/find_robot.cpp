@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/app/yaml.hpp"
+#include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/robot/robot_body.hpp"
@@ -73,6 +74,11 @@ std::filesystem::path FindRobotFile(const std::filesystem::path& robot) {
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot) {
   const auto description = robot::ReadRobotFile(FindRobotFile(robot), app::LoadYaml);
   return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description));
+}
+
+robot::CableInput ParseCableInput(const std::string& word) {
+  PALPATE_CHECK(word == "displacement" || word == "tension", word);
+  return word == "tension" ? robot::CableInput::kTension : robot::CableInput::kDisplacement;
 }
 
 }  // namespace palpate::command

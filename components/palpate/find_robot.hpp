@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "libs/robot/robot_model.hpp"
 
@@ -14,8 +15,8 @@ namespace palpate::command {
 std::filesystem::path ProgramFolder();
 
 /// A file that is part of the project, such as "config/robots/beam.yaml": looked for in each folder
-/// above the program's, in the share/palpate folder beside them, and in the sources that the program
-/// was built from. Empty where it is nowhere.
+/// above the program's, in the share/palpate folder beside them, and in the sources that the
+/// program was built from. Empty where it is nowhere.
 std::filesystem::path FindProjectFile(const std::filesystem::path& relative);
 
 /// The robot file that `robot` names: a path, or the name of a robot that comes with palpate
@@ -24,5 +25,8 @@ std::filesystem::path FindRobotFile(const std::filesystem::path& robot);
 
 /// Reads the robot file and its mesh and makes the model ready to solve. Throws InputError.
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot);
+
+/// "displacement" or "tension", as the options offer them.
+robot::CableInput ParseCableInput(const std::string& word);
 
 }  // namespace palpate::command

@@ -74,6 +74,22 @@ std::vector<std::string> MarkerNames(const robot::RobotDescription& robot) {
   return names;
 }
 
+// An experiment that is there is extended, never changed.
+void CheckFits(const ImportOptions& options, const std::optional<robot::RobotDescription>& robot,
+               const fs::path& experiment_file) {
+  const auto settings = experiment::ReadExperimentSettings(experiment_file, app::LoadYaml);
+  const SourceLocation where{experiment_file.string()};
+  if (options.markers_sigma_m > 0.0) {
+    throw InputError(where,
+                     "is there already: write markers_sigma_m there instead of giving "
+                     "--markers-sigma");
+  }
+  if (robot && settings.robot &&
+      fs::weakly_canonical(*settings.robot) != fs::weakly_canonical(robot->file)) {
+    throw InputError(where, "is about another robot, " + settings.robot->string());
+  }
+}
+
 void DeclareTarget(app::Arguments& arguments, ImportOptions& options) {
   arguments.Positional("FILE", &options.file,
                        ".c3d, or .csv with time_s, marker, x_m, y_m, z_m[, residual_m] (or _mm, "
@@ -124,15 +140,16 @@ void DeclareFrame(app::Arguments& arguments, ImportOptions& options) {
 }  // namespace
 
 int RunImport(const ImportOptions& options, std::ostream& report) {
+  if (options.markers_sigma_m < 0.0) throw InputError("--markers-sigma must be > 0");
   const Target target = FindTarget(options);
   const bool is_new_experiment =
       !target.experiment_file.empty() && !fs::exists(target.experiment_file);
-  if (!target.experiment_file.empty() && !is_new_experiment) {
-    experiment::ReadExperimentSettings(target.experiment_file, app::LoadYaml);
-  }
   const experiment::CapturedMarkers captured = ReadAndEdit(options);
   experiment::Recording recording = MakeRecording(options, captured);
   const std::optional<robot::RobotDescription> robot = ReadRobot(options);
+  if (!target.experiment_file.empty() && !is_new_experiment) {
+    CheckFits(options, robot, target.experiment_file);
+  }
   if (robot) experiment::CheckMarkers(recording, MarkerNames(*robot));
   PrintQuality(captured, recording, report);
   if (options.register_to_robot) {

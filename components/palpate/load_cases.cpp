@@ -28,26 +28,35 @@ void CheckCables(const Actuation& actuation, const std::vector<std::string>& cab
   }
 }
 
-// The column that drives the cable, or nullptr.
-const CableColumn* DrivingColumn(const Actuation& actuation, const std::string& cable,
-                                 Drive drive) {
-  const CableColumn* displacement = actuation.Find(cable, CableQuantity::kDisplacement);
-  const CableColumn* tension = actuation.Find(cable, CableQuantity::kTension);
-  if (displacement == nullptr || tension == nullptr) {
-    return displacement != nullptr ? displacement : tension;
-  }
-  if (drive == Drive::kNotSaid) {
-    throw InputError(tension->where, "cable '" + cable +
-                                         "' has a displacement and a tension column; say with "
-                                         "--drive displacement|tension which of them is imposed");
-  }
-  return drive == Drive::kDisplacement ? displacement : tension;
+// The columns of one cable; nullptr where the file has none.
+struct CableColumns {
+  const CableColumn* displacement = nullptr;
+  const CableColumn* tension = nullptr;
+};
+
+CableColumns ColumnsOf(const Actuation& actuation, const std::string& cable) {
+  return {actuation.Find(cable, CableQuantity::kDisplacement),
+          actuation.Find(cable, CableQuantity::kTension)};
 }
 
-CableCommand CommandAt(const Actuation& actuation, const CableColumn& column, double t_s) {
-  const bool displacement = column.quantity == CableQuantity::kDisplacement;
-  return {displacement ? CableCommand::Kind::kDisplacement : CableCommand::Kind::kTension,
-          actuation.ValueAt(column, t_s)};
+CableCommand CommandAt(const Actuation& actuation, const CableColumns& columns, double t_s,
+                       robot::CableInput preferred) {
+  const auto value = [&](const CableColumn* column) {
+    return column == nullptr ? std::nullopt
+                             : std::optional<double>(actuation.ValueAt(*column, t_s));
+  };
+  return robot::ChooseCommand(value(columns.displacement), value(columns.tension), preferred);
+}
+
+void NoteChoice(const std::string& cable, const CableColumns& columns, robot::CableInput preferred,
+                std::vector<std::string>* notes) {
+  if (columns.displacement == nullptr && columns.tension == nullptr) {
+    notes->push_back("cable " + cable + " is not driven: no tension");
+  } else if (columns.displacement != nullptr && columns.tension != nullptr) {
+    const bool displacement = preferred == robot::CableInput::kDisplacement;
+    notes->push_back("cable " + cable + " has a displacement and a tension: the " +
+                     (displacement ? "displacement" : "tension") + " is imposed");
+  }
 }
 
 std::vector<double> TimesOf(const std::vector<experiment::KnownLoad>& loads) {
@@ -79,21 +88,19 @@ Actuation ReadActuationRows(const std::filesystem::path& file) {
 
 LoadCases MakeLoadCases(const std::optional<Actuation>& actuation,
                         const std::vector<experiment::KnownLoad>& loads,
-                        const std::vector<std::string>& cable_names, Drive drive) {
+                        const std::vector<std::string>& cable_names, robot::CableInput preferred) {
   const Actuation driven = actuation.value_or(Actuation{});
   CheckCables(driven, cable_names);
   LoadCases cases;
-  std::vector<const CableColumn*> columns;
+  std::vector<CableColumns> columns;
   for (const std::string& cable : cable_names) {
-    columns.push_back(DrivingColumn(driven, cable, drive));
-    if (columns.back() == nullptr) {
-      cases.notes.push_back("cable " + cable + " is not driven: no tension");
-    }
+    columns.push_back(ColumnsOf(driven, cable));
+    NoteChoice(cable, columns.back(), preferred, &cases.notes);
   }
   for (const double t_s : actuation ? driven.t_s : TimesOf(loads)) {
     LoadCase row{t_s, {}, experiment::LoadsAt(loads, t_s)};
-    for (const CableColumn* column : columns) {
-      row.cables.push_back(column == nullptr ? CableCommand{} : CommandAt(driven, *column, t_s));
+    for (const CableColumns& of_cable : columns) {
+      row.cables.push_back(CommandAt(driven, of_cable, t_s, preferred));
     }
     cases.rows.push_back(std::move(row));
   }

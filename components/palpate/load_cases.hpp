@@ -14,9 +14,6 @@
 
 namespace palpate::command {
 
-/// Which column drives a cable that has a displacement and a tension column.
-enum class Drive { kNotSaid, kDisplacement, kTension };
-
 /// One static state that is asked for.
 struct LoadCase {
   double t_s = 0.0;
@@ -26,7 +23,7 @@ struct LoadCase {
 
 struct LoadCases {
   std::vector<LoadCase> rows;
-  std::vector<std::string> notes;  ///< cables that nothing drives
+  std::vector<std::string> notes;  ///< cables that nothing drives, or for which a choice was made
 };
 
 /// Reads actuation.csv; here it may also hold times alone (nothing is driven).
@@ -34,11 +31,11 @@ struct LoadCases {
 experiment::Actuation ReadActuationRows(const std::filesystem::path& file);
 
 /// One case for each row of `actuation`; without it one for each time of `loads`; without either
-/// one under weight alone. A cable without a column is not driven; an empty field is interpolated
-/// in time within its column. Throws InputError at the header for a cable that the robot does not
-/// have (with "did you mean"), and for one with two columns where `drive` does not say which.
+/// one under weight alone. A cable without a column is not driven; one with two is driven by the
+/// `preferred`; an empty field is interpolated in time within its column. Throws InputError at the
+/// header for a cable that the robot does not have (with "did you mean").
 LoadCases MakeLoadCases(const std::optional<experiment::Actuation>& actuation,
                         const std::vector<experiment::KnownLoad>& loads,
-                        const std::vector<std::string>& cable_names, Drive drive);
+                        const std::vector<std::string>& cable_names, robot::CableInput preferred);
 
 }  // namespace palpate::command

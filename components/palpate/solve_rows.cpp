@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <tuple>
 
 #include "libs/core/clock.hpp"
@@ -84,6 +86,59 @@ void ReadCables(const LoadCase& row, const robot::RobotModel& model, const fem::
   }
 }
 
+// A failure as the user should read it: which cable stood furthest from what was asked of it.
+void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
+                    const fem::StaticState& state, fem::StaticResult* result) {
+  if (result->status.code() == StatusCode::kTensionLimit) {
+    return;  // names its cable already
+  }
+  double largest_gap_m = 1e-6;
+  std::string culprit;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const CableCommand& command = row.cables[static_cast<std::size_t>(c)];
+    const double reached_m = model.StateOfCable(c, state).displacement_m;
+    if (command.kind == CableCommand::Kind::kDisplacement &&
+        command.value - reached_m > largest_gap_m) {
+      largest_gap_m = command.value - reached_m;
+      culprit = fmt::format(
+          "cable {}: no equilibrium found beyond a displacement of {:.6g} m of "
+          "the {:.6g} m asked for: ",
+          model.body().cables[static_cast<std::size_t>(c)].name, reached_m, command.value);
+    }
+  }
+  result->status = Status(result->status.code(), culprit + result->status.message());
+}
+
+// A cable cannot take in more than its whole length; nullopt where none is asked to.
+std::optional<Status> RefuseImpossible(const LoadCase& row, const robot::RobotModel& model) {
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const CableCommand& command = row.cables[static_cast<std::size_t>(c)];
+    const double length_m = model.cable(c).rest_length_m();
+    if (command.kind == CableCommand::Kind::kDisplacement && command.value >= length_m) {
+      return Status(StatusCode::kNotConverged,
+                    fmt::format("cable {}: no equilibrium reaches a displacement of {:.6g} m: the "
+                                "cable is {:.6g} m long at rest",
+                                model.body().cables[static_cast<std::size_t>(c)].name,
+                                command.value, length_m));
+    }
+  }
+  return std::nullopt;
+}
+
+fem::StaticResult SolveRow(const LoadCase& row, const std::vector<robot::DeadLoad>& loads,
+                           robot::RobotModel* model, fem::StaticState* state) {
+  fem::StaticResult result;
+  if (const auto impossible = RefuseImpossible(row, *model)) {
+    result.status = *impossible;
+    return result;
+  }
+  result = model->Solve(row.cables, loads, state);
+  if (!result.status.ok()) {
+    ExplainFailure(row, *model, *state, &result);
+  }
+  return result;
+}
+
 }  // namespace
 
 void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
@@ -98,7 +153,7 @@ void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
     result.row = static_cast<int>(i);
     result.t_s = rows[i].t_s;
     const std::int64_t start_ns = MonotonicNow_ns();
-    result.solver = model->Solve(rows[i].cables, DeadLoadsOf(rows[i], &patches), &state);
+    result.solver = SolveRow(rows[i], DeadLoadsOf(rows[i], &patches), model, &state);
     result.time_s = static_cast<double>(MonotonicNow_ns() - start_ns) * 1e-9;
     if (result.converged()) {
       result.x_m = state.x_m;
@@ -111,7 +166,7 @@ void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
 std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,
                                       const robot::RobotModel& model) {
   LoadPatches patches(model);
-  std::map<std::string, bool> said;
+  std::set<std::string> said;
   std::vector<std::string> notes;
   for (const LoadCase& row : rows) {
     for (const KnownLoad& load : row.loads) {
@@ -119,7 +174,7 @@ std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,
       const std::string note = fmt::format(
           "the load at ({:g}, {:g}, {:g}) m lies {:.2f} mm off the body", load.position_m.x(),
           load.position_m.y(), load.position_m.z(), 1e3 * distance_m);
-      if (distance_m > kNotedDistance_m && said.try_emplace(note, true).second) {
+      if (distance_m > kNotedDistance_m && said.insert(note).second) {
         notes.push_back(note);
       }
     }

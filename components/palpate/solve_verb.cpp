@@ -20,11 +20,6 @@ namespace palpate::command {
 
 namespace {
 
-Drive ParseDrive(const std::string& word) {
-  return word.empty() ? Drive::kNotSaid
-                      : (word == "tension" ? Drive::kTension : Drive::kDisplacement);
-}
-
 LoadCases ReadCases(const SolveOptions& options, const robot::RobotModel& model) {
   std::optional<experiment::Actuation> actuation;
   if (!options.actuation.empty()) {
@@ -34,7 +29,7 @@ LoadCases ReadCases(const SolveOptions& options, const robot::RobotModel& model)
   if (!options.loads.empty()) {
     loads = experiment::ReadLoads(options.loads);
   }
-  return MakeLoadCases(actuation, loads, model.CableNames(), ParseDrive(options.drive));
+  return MakeLoadCases(actuation, loads, model.CableNames(), ParseCableInput(options.cable_input));
 }
 
 std::vector<std::string> AllNotes(const LoadCases& cases, const robot::RobotModel& model) {
@@ -115,8 +110,8 @@ app::Verb SolveVerb() {
                              "until the next, a single one throughout");
             arguments.Option("--out", &options->out, "folder for the results",
                              app::Need::kRequired);
-            arguments.Choice("--drive", &options->drive, {"displacement", "tension"},
-                             "what is imposed on cables that have both columns");
+            arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
+                             "what is imposed on a cable that has both columns");
             arguments.Flag("--vtu", &options->vtu, "write body_0000.vtu for ParaView as well");
             arguments.Flag("--json", &options->json, "print result.json instead of lines to read");
             return [options] { return Solve(*options); };

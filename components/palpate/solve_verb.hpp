@@ -15,7 +15,7 @@ struct SolveOptions {
   std::filesystem::path actuation;  ///< empty: no cable is driven
   std::filesystem::path loads;      ///< empty: no external load
   std::filesystem::path out;
-  std::string drive;  ///< "displacement" or "tension", for cables with both columns
+  std::string cable_input = "displacement";  ///< or "tension": what drives a cable with both
   bool vtu = false;
   bool json = false;  ///< result.json on the standard output instead of lines to read
 };

@@ -3,6 +3,8 @@
 
 #include "components/palpate/verbs.hpp"
 
+#include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/solve_verb.hpp"
@@ -11,7 +13,8 @@
 namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
-  const std::vector<app::Verb> verbs = {SolveVerb(), ImportVerb(), InfoVerb()};
+  const std::vector<app::Verb> verbs = {SolveVerb(), CalibrateVerb(), EstimateVerb(), ImportVerb(),
+                                        InfoVerb()};
   return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
 }
 

@@ -37,12 +37,11 @@ std::vector<CableInput> CablesAt(const Recording& recording, double t_s) {
   std::vector<CableInput> cables;
   if (!recording.actuation) return cables;
   for (const experiment::CableColumn& column : recording.actuation->columns) {
-    auto input = std::find_if(cables.begin(), cables.end(), [&](const CableInput& known) {
-      return known.cable == column.cable;
-    });
+    auto input = std::find_if(cables.begin(), cables.end(),
+                              [&](const CableInput& known) { return known.cable == column.cable; });
     if (input == cables.end()) input = cables.insert(input, {column.cable, {}, {}});
-    auto& value = column.quantity == CableQuantity::kDisplacement ? input->displacement_m
-                                                                  : input->tension_N;
+    auto& value =
+        column.quantity == CableQuantity::kDisplacement ? input->displacement_m : input->tension_N;
     value = recording.actuation->ValueAt(column, t_s);
   }
   return cables;
@@ -74,8 +73,8 @@ void CheckRecordingName(const experiment::Experiment& experiment, const std::str
 
 }  // namespace
 
-ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment,
-                                   const std::string& recording, bool in_robot_frame)
+ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment, const std::string& recording,
+                                   bool in_robot_frame)
     : experiment_(std::move(experiment)) {
   CheckRecordingName(experiment_, recording);
   for (const Recording& candidate : experiment_.recordings) {
@@ -92,8 +91,7 @@ ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment,
 ExperimentPlayer::Track ExperimentPlayer::MakeTrack(const Recording& recording,
                                                     bool in_robot_frame) const {
   Track track{&recording, Eigen::Isometry3d::Identity(), FrameOf(experiment_, recording),
-              experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()),
-              EventTimes(recording)};
+              experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()), EventTimes(recording)};
   if (!in_robot_frame || track.frame == MeasurementFrame::kRobot) return track;
   const auto pose = experiment::RobotFromMarkers(experiment_, recording);
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
@@ -148,9 +146,8 @@ void ExperimentPlayer::RewindAll() {
 }
 
 bool ExperimentPlayer::has_cables() const {
-  return std::any_of(tracks_.begin(), tracks_.end(), [](const Track& track) {
-    return track.recording->actuation.has_value();
-  });
+  return std::any_of(tracks_.begin(), tracks_.end(),
+                     [](const Track& track) { return track.recording->actuation.has_value(); });
 }
 
 }  // namespace palpate::player

@@ -22,7 +22,7 @@ struct CableInput {
 
 struct Marker {
   std::string name;
-  std::optional<Eigen::Vector3d> position_m;  ///< absent: not seen
+  std::optional<Eigen::Vector3d> position_m;          ///< absent: not seen
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();  ///< along the frame's axes; 0: unknown
 };
 

@@ -72,7 +72,7 @@ struct Arguments::Impl {
   CLI::App cli;
 };
 
-Arguments::Arguments(std::string program, std::string purpose)
+Arguments::Arguments(const std::string& program, const std::string& purpose)
     : impl_(std::make_unique<Impl>(program, purpose)) {}
 
 Arguments::~Arguments() = default;

@@ -21,7 +21,7 @@ enum class Need { kRequired, kOptional };
 class Arguments {
  public:
   /// `program`: "palpate solve"; `purpose`: one sentence for --help.
-  Arguments(std::string program, std::string purpose);
+  Arguments(const std::string& program, const std::string& purpose);
   ~Arguments();
   Arguments(const Arguments&) = delete;
   Arguments& operator=(const Arguments&) = delete;

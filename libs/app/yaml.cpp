@@ -112,9 +112,9 @@ class TreeBuilder : public YAML::EventHandler {
     if (!key_) throw InputError(node.where, "a key must be a plain word");
     node.path = ChildPath(*key_);
     node.key_where = key_where_;
-    parent.entries.emplace_back(*key_, std::move(node));
+    parent.entries.push_back({*key_, std::move(node)});
     key_.reset();
-    return &parent.entries.back().second;
+    return &parent.entries.back().value;
   }
 
   std::string file_;

@@ -7,8 +7,8 @@ namespace palpate {
 
 std::string SourceLocation::ToString() const {
   std::string text = file;
-  if (line > 0) text += ":" + std::to_string(line);
-  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  if (line > 0) text.append(":").append(std::to_string(line));
+  if (line > 0 && column > 0) text.append(":").append(std::to_string(column));
   return text;
 }
 

@@ -96,9 +96,9 @@ Endpoint::Endpoint(Kind kind, dds_entity_t participant, const TopicSettings& top
     : ros_name_(ros_name), counters_(std::make_unique<EndpointCounters>()) {
   CheckType(topic, descriptor);
   counters_->on_change = std::move(on_change);
-  topic_ = Entity(dds_create_topic(participant, &descriptor, DdsTopicName(ros_name).c_str(),
-                                   nullptr, nullptr),
-                  "topic " + ros_name);
+  topic_ = Entity(
+      dds_create_topic(participant, &descriptor, DdsTopicName(ros_name).c_str(), nullptr, nullptr),
+      "topic " + ros_name);
   entity_ = CreateEndpoint(kind, participant, topic_.handle(), topic, counters_.get());
 }
 

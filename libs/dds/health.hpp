@@ -18,8 +18,8 @@ namespace palpate::dds {
 struct HealthCounts {
   uint64_t received = 0;
   uint64_t published = 0;
-  uint64_t dropped = 0;  ///< lost on the way, or overtaken by a newer message
-  uint64_t refused = 0;  ///< taken but not usable
+  uint64_t dropped = 0;             ///< lost on the way, or overtaken by a newer message
+  uint64_t refused = 0;             ///< taken but not usable
   std::vector<double> latencies_s;  ///< of the messages since the last report
 };
 
@@ -33,15 +33,13 @@ class HealthReporter {
 
   /// `extra`: further values for /diagnostics. Rates are counted since the last report.
   void Report(const Status& status, const HealthCounts& counts,
-              const std::vector<std::pair<std::string, std::string>>& extra,
-              Clock::time_point now);
+              const std::vector<std::pair<std::string, std::string>>& extra, Clock::time_point now);
 
   /// Reports that DDS did not take.
   uint64_t failed_count() const { return status_.failed_count() + diagnostics_.failed_count(); }
 
  private:
-  Message<idl::palpate_msgs::ComponentStatus> Fill(const Status& status,
-                                                   const HealthCounts& counts,
+  Message<idl::palpate_msgs::ComponentStatus> Fill(const Status& status, const HealthCounts& counts,
                                                    Clock::time_point now) const;
   Message<idl::diagnostic_msgs::DiagnosticArray> Translate(
       const idl::palpate_msgs::ComponentStatus& status, bool ok,

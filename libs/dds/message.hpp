@@ -26,9 +26,7 @@ class Message {
     std::swap(value_, other.value_);
     return *this;
   }
-  ~Message() {
-    dds_sample_free(&value_, &idl::MessageTraits<T>::Descriptor(), DDS_FREE_CONTENTS);
-  }
+  ~Message() { dds_sample_free(&value_, &idl::MessageTraits<T>::Descriptor(), DDS_FREE_CONTENTS); }
 
   T& operator*() { return value_; }
   const T& operator*() const { return value_; }
@@ -69,7 +67,8 @@ template <typename Sequence, typename Number>
 void SetNumbers(Sequence& sequence, const Number* numbers, size_t size) {
   Resize(sequence, size);
   for (size_t i = 0; i < size; ++i) {
-    sequence._buffer[i] = static_cast<std::remove_pointer_t<decltype(sequence._buffer)>>(numbers[i]);
+    sequence._buffer[i] =
+        static_cast<std::remove_pointer_t<decltype(sequence._buffer)>>(numbers[i]);
   }
 }
 

@@ -16,11 +16,11 @@ TopicTable LoadTopicTable(const NodeSettings& settings, const ConfigLoader& load
 
 ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node_name,
                                   int domain_id) {
-  return {.domain_id = static_cast<uint32_t>(domain_id),
-          .node_name = std::move(node_name),
-          .node_namespace = settings.node_namespace,
-          .gid_layout = settings.ros_distribution == "humble" ? GidLayout::kHumble
-                                                              : GidLayout::kIron};
+  return {
+      .domain_id = static_cast<uint32_t>(domain_id),
+      .node_name = std::move(node_name),
+      .node_namespace = settings.node_namespace,
+      .gid_layout = settings.ros_distribution == "humble" ? GidLayout::kHumble : GidLayout::kIron};
 }
 
 }  // namespace palpate::dds

@@ -22,7 +22,8 @@ Qos EndpointQos(const TopicSettings& topic) {
   dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        kMaxBlocking);
   const bool latched = topic.durability == Durability::kTransientLocal;
-  dds_qset_durability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_durability(qos.get(),
+                      latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, topic.depth);
   if (topic.deadline_s) dds_qset_deadline(qos.get(), Nanoseconds(*topic.deadline_s));
   const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;

@@ -13,7 +13,9 @@ namespace palpate::dds {
 namespace {
 
 bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool IsNameCharacter(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
+bool IsNameCharacter(char c) {
+  return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
 
 bool IsNamePart(std::string_view part) {
   return !part.empty() && !IsDigit(part.front()) && part.find("__") == part.npos &&

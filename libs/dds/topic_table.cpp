@@ -55,10 +55,10 @@ TopicSettings ReadTopic(const ConfigNode& node) {
       ReadChoice(map.Require("reliability"), {"reliable", "best_effort"}) == "reliable"
           ? Reliability::kReliable
           : Reliability::kBestEffort;
-  topic.durability = ReadChoice(map.Require("durability"), {"volatile", "transient_local"}) ==
-                             "transient_local"
-                         ? Durability::kTransientLocal
-                         : Durability::kVolatile;
+  topic.durability =
+      ReadChoice(map.Require("durability"), {"volatile", "transient_local"}) == "transient_local"
+          ? Durability::kTransientLocal
+          : Durability::kVolatile;
   topic.depth = ReadInteger(map.Require("depth"), 1, kMaxDepth);
   topic.rate_hz = OptionalPositive(map, "rate_hz");
   topic.deadline_s = OptionalPositive(map, "deadline_s");

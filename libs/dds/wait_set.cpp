@@ -38,8 +38,7 @@ WaitSet::WaitSet(const Participant& participant)
 
 void WaitSet::Attach(dds_entity_t reader, std::function<void()> on_data) {
   Entity condition(dds_create_readcondition(reader, DDS_ANY_STATE), "a read condition");
-  sources_.push_back(
-      std::make_unique<Source>(Source{std::move(condition), std::move(on_data)}));
+  sources_.push_back(std::make_unique<Source>(Source{std::move(condition), std::move(on_data)}));
   AttachTo(wait_set_.handle(), sources_.back()->condition.handle(), sources_.back().get());
 }
 
@@ -64,8 +63,8 @@ bool WaitSet::DispatchUntil(const std::function<bool()>& done, Clock::time_point
 
 void WaitSet::WaitForEvent(Clock::time_point deadline) {
   std::array<dds_attach_t, 16> triggered;
-  const dds_return_t count = dds_waitset_wait(wait_set_.handle(), triggered.data(),
-                                              triggered.size(), TimeLeft(deadline));
+  const dds_return_t count =
+      dds_waitset_wait(wait_set_.handle(), triggered.data(), triggered.size(), TimeLeft(deadline));
   if (count < 0) {
     throw RunError(std::string("cannot wait for messages: ") + dds_strretcode(-count));
   }
@@ -76,6 +75,7 @@ void WaitSet::WaitForEvent(Clock::time_point deadline) {
       source->on_data();
     } else {
       dds_set_guardcondition(guard_.handle(), false);
+      if (on_wake_) on_wake_();
     }
   }
 }

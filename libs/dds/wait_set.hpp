@@ -33,6 +33,9 @@ class WaitSet {
   /// Calls `on_time` every `period`, first after one period; missed turns are left out.
   void Every(Clock::duration period, std::function<void()> on_time);
 
+  /// Calls `on_wake` after every Wake().
+  void OnWake(std::function<void()> on_wake) { on_wake_ = std::move(on_wake); }
+
   /// Dispatches until Stop().
   void Run();
   /// Dispatches until `done()` holds, then true; false once `deadline` is reached or after Stop().
@@ -62,6 +65,7 @@ class WaitSet {
   Entity guard_;
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<Timer> timers_;
+  std::function<void()> on_wake_;
   Entity wait_set_;  // goes first: it refers to the conditions above
   std::atomic<bool> stopped_ = false;
 };

@@ -12,8 +12,8 @@
 
 namespace palpate::experiment {
 
-/// The rotation that "z,-y,x" stands for: model x is laboratory z, model y is laboratory -y, model z
-/// is laboratory x; p_model = R * p_laboratory. Throws InputError where an axis is missing or
+/// The rotation that "z,-y,x" stands for: model x is laboratory z, model y is laboratory -y, model
+/// z is laboratory x; p_model = R * p_laboratory. Throws InputError where an axis is missing or
 /// doubled, or where the three would mirror the data.
 Eigen::Matrix3d ParseAxes(const std::string& axes);
 
@@ -31,8 +31,8 @@ void KeepMarkers(const std::vector<std::string>& names, CapturedMarkers& capture
 /// Keeps the frames inside the window. Throws InputError where none is left.
 void CropTime(const TimeWindow& window, CapturedMarkers& captured);
 
-/// Keeps every k-th frame so that `rate_Hz` are left. Throws InputError unless the present rate is a
-/// whole multiple of it, within 1 %.
+/// Keeps every k-th frame so that `rate_Hz` are left. Throws InputError unless the present rate is
+/// a whole multiple of it, within 1 %.
 void ThinFrames(double rate_Hz, CapturedMarkers& captured);
 
 /// Adds to every time.
@@ -41,10 +41,10 @@ void ShiftTime(double offset_s, CapturedMarkers& captured);
 /// What is known of one marker's quality.
 struct MarkerQuality {
   std::string name;
-  int seen = 0;                           ///< frames
-  int gaps = 0;                           ///< runs of frames that did not see it
-  std::optional<double> residual_m;       ///< median
-  std::optional<Eigen::Vector3d> noise_m; ///< MarkerMean::deviation_m over the noise window
+  int seen = 0;                            ///< frames
+  int gaps = 0;                            ///< runs of frames that did not see it
+  std::optional<double> residual_m;        ///< median
+  std::optional<Eigen::Vector3d> noise_m;  ///< MarkerMean::deviation_m over the noise window
 };
 
 struct CaptureQuality {

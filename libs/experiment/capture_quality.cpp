@@ -69,8 +69,7 @@ MarkerQuality AssessMarker(const CapturedMarkers& captured, std::size_t marker,
 
 int CountMissingFrames(const CapturedMarkers& captured) {
   const std::vector<MarkerFrame>& frames = captured.tracks.frames;
-  const double promised =
-      (frames.back().t_s - frames.front().t_s) * captured.rate_Hz + 1.0;
+  const double promised = (frames.back().t_s - frames.front().t_s) * captured.rate_Hz + 1.0;
   return std::max(0, static_cast<int>(std::lround(promised)) - static_cast<int>(frames.size()));
 }
 

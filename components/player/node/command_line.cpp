@@ -15,8 +15,7 @@ namespace palpate::player {
 namespace {
 
 /// At most one of --rate, --step, --as-fast-as-possible.
-void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible,
-                    Playback* playback) {
+void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible, Playback* playback) {
   const bool rate_given = arguments.WasGiven("--rate");
   if (int{rate_given} + int{playback->step} + int{as_fast_as_possible} > 1) {
     throw InputError("only one of --rate, --step and --as-fast-as-possible can be given");

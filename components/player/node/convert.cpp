@@ -23,8 +23,7 @@ std::string_view FrameId(experiment::MeasurementFrame frame) {
 
 uint8_t ReferenceCode(MarkerReference reference) {
   switch (reference) {
-    case MarkerReference::kNone:
-      return palpate_msgs_msg_MarkerArray3_Constants_REFERENCE_NONE;
+    case MarkerReference::kNone: return palpate_msgs_msg_MarkerArray3_Constants_REFERENCE_NONE;
     case MarkerReference::kUndeformed:
       return palpate_msgs_msg_MarkerArray3_Constants_REFERENCE_UNDEFORMED;
     case MarkerReference::kEquilibrium:
@@ -37,10 +36,9 @@ uint8_t ReferenceCode(MarkerReference reference) {
 /// One number for each cable, NaN where it has none; nothing where no cable has any.
 template <typename Sequence>
 void SetInputs(Sequence& sequence, const std::vector<CableInput>& cables,
-               std::optional<double> CableInput::* input) {
-  const bool any = std::any_of(cables.begin(), cables.end(), [&](const CableInput& cable) {
-    return (cable.*input).has_value();
-  });
+               std::optional<double> CableInput::*input) {
+  const bool any = std::any_of(cables.begin(), cables.end(),
+                               [&](const CableInput& cable) { return (cable.*input).has_value(); });
   if (!any) return;
   std::vector<double> values;
   for (const CableInput& cable : cables) {

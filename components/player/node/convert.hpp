@@ -18,6 +18,7 @@ dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const Event& event, 
 
 /// name = cable, position = displacement in m, effort = tension in N. Position is empty where no
 /// cable has a displacement, effort where none has a tension; where some have, the others are NaN.
+/// No names at all say that no cable was driven.
 dds::Message<idl::sensor_msgs::JointState> ToJointState(const Event& event, int64_t stamp_ns);
 
 }  // namespace palpate::player

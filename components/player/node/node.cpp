@@ -25,9 +25,8 @@ constexpr auto kLastMessagesWait = std::chrono::seconds(2);
 
 }  // namespace
 
-PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback,
-                       ExperimentPlayer player, int domain_id, dds::TopicTable table,
-                       dds::NodeLog::ProcessLog process_log)
+PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback, ExperimentPlayer player,
+                       int domain_id, dds::TopicTable table, dds::NodeLog::ProcessLog process_log)
     : config_(config),
       playback_(playback),
       player_(std::move(player)),
@@ -89,8 +88,7 @@ void PlayerNode::Play(const Event& event) {
     WaitForAnswer(event);
     return;
   }
-  const Clock::time_point due =
-      Clock::now() + pacer_.TimeUntil(event.recording, event.t_s);
+  const Clock::time_point due = Clock::now() + pacer_.TimeUntil(event.recording, event.t_s);
   loop_.DispatchUntil([this] { return NewEstimator(); }, due);
   if (!loop_.stopped() && !NewEstimator()) Publish(event);
 }
@@ -117,7 +115,7 @@ bool PlayerNode::Answered(const Event& event) const {
 void PlayerNode::Publish(const Event& event) {
   const int64_t stamp_ns = StampOf(event, config_.start_time_s);
   // Commands first: whoever takes the markers shall find those of the same stamp.
-  bool sent = event.cables.empty() || joint_states_.Write(ToJointState(event, stamp_ns));
+  bool sent = joint_states_.Write(ToJointState(event, stamp_ns));
   if (event.markers) {
     sent = markers_.Write(ToMarkerArray(event, stamp_ns)) && sent;
     ++counts_.published;
@@ -134,8 +132,7 @@ void PlayerNode::TakeForces() {
 }
 
 bool PlayerNode::NewEstimator() const {
-  return config_.rewind_for_new_estimator &&
-         forces_.counters().matched_ever > known_estimators_;
+  return config_.rewind_for_new_estimator && forces_.counters().matched_ever > known_estimators_;
 }
 
 void PlayerNode::Rewind() {

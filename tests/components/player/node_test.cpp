@@ -42,7 +42,7 @@ class FakeEstimator {
 
   TestNode& node() { return node_; }
   const std::vector<std::string>& frames() const { return frames_; }
-  /// Frames of recording "a" that came without a joint state of the same stamp before them.
+  /// Frames that came without a joint state of the same stamp before them.
   int frames_without_cables() const { return frames_without_cables_; }
   /// Leaves every so many-th frame unanswered when it comes first.
   void Ignore(uint64_t counter) { ignored_ = counter; }
@@ -60,7 +60,7 @@ class FakeEstimator {
       const std::string recording(dds::Text(markers.recording));
       frames_.push_back(recording + std::to_string(markers.counter));
       const int64_t stamp_ns = dds::StampNs(markers.header.stamp);
-      if (recording == "a" && last_cables_ns_ != stamp_ns) ++frames_without_cables_;
+      if (last_cables_ns_ != stamp_ns) ++frames_without_cables_;
       if (!answers || ignored_ == markers.counter) {
         ignored_.reset();
         continue;

@@ -23,7 +23,9 @@ GRAVITY_M_S2 = 9.81
 WEIGHT_KG = 0.052
 LOWER = (-0.1, 0.0, 0.0)
 SIZE = (0.1, 0.03, 0.03)
-CELLS = (20, 8, 8)
+# Cell boundaries along x, counted from the clamp, whose edges need small cells; then y and z.
+STATIONS_M = [1e-3 * v for v in (0, 0.5, 1.2, 2.2, 4, 7, 12, 20, 30, 42, 54, 66, 77, 87, 95, 100)]
+CELLS = (len(STATIONS_M) - 1, 8, 8)
 STRIP_M = (0.005, 0.00375)  # of the weight's band: on the top face, and down the tip face
 STEPS = 10  # equal steps from the held to the hanging shape
 RATE_HZ = 20
@@ -56,20 +58,22 @@ class Grid:
 
     @staticmethod
     def position(lattice):
-        return tuple(LOWER[a] + SIZE[a] * lattice[a] / (2 * CELLS[a]) for a in range(3))
+        cell, odd = divmod(lattice[0], 2)
+        along = 0.5 * (STATIONS_M[cell] + STATIONS_M[cell + odd])
+        return (LOWER[0] + along,) + tuple(LOWER[a] + SIZE[a] * lattice[a] / (2 * CELLS[a])
+                                           for a in (1, 2))
 
     @staticmethod
     def band():
         """Faces that carry the weight, as (origin, lattice directions, area in m2)."""
-        width = SIZE[1] / CELLS[1]
-        cells = [round(STRIP_M[n] * CELLS[2 * n] / SIZE[2 * n]) for n in range(2)]
+        width, height = SIZE[1] / CELLS[1], SIZE[2] / CELLS[2]
         for j in range(CELLS[1]):
-            for n in range(cells[0]):
-                yield ((2 * (CELLS[0] - 1 - n), 2 * j, 2 * CELLS[2]), (0, 1),
-                       width * SIZE[0] / CELLS[0])
-            for n in range(cells[1]):
-                yield ((2 * CELLS[0], 2 * j, 2 * (CELLS[2] - 1 - n)), (2, 1),
-                       width * SIZE[2] / CELLS[2])
+            for i in range(CELLS[0]):
+                if STATIONS_M[i] >= SIZE[0] - STRIP_M[0] - 1e-9:
+                    yield (2 * i, 2 * j, 2 * CELLS[2]), (0, 1), width * (STATIONS_M[i + 1]
+                                                                         - STATIONS_M[i])
+            for k in range(CELLS[2] - round(STRIP_M[1] / height), CELLS[2]):
+                yield (2 * CELLS[0], 2 * j, 2 * k), (2, 1), width * height
 
     def weight_forces(self, force_N):
         """{node: downward force} of a uniform dead traction (8-node faces: -1/12 and 1/3)."""
@@ -170,7 +174,7 @@ def rotation_of(rest, moved):
 
 def edge_weights(grid, foot):
     """{node: weight} of a point on an edge of the tip face (three nodes, quadratic)."""
-    lattice = [2 * CELLS[a] * (foot[a] - LOWER[a]) / SIZE[a] for a in range(3)]
+    lattice = [2 * CELLS[0]] + [2 * CELLS[a] * (foot[a] - LOWER[a]) / SIZE[a] for a in (1, 2)]
     along = next(a for a in (1, 2) if 1e-9 < lattice[a] < 2 * CELLS[a] - 1e-9)
     first = min(int(lattice[along] / 2), CELLS[along] - 1) * 2
     s = lattice[along] - first - 1.0

@@ -35,7 +35,7 @@ TEST(Yaml, KeepsOrderKindsAndPlaces) {
       "a.yaml");
   ASSERT_EQ(root.kind, Kind::kMap);
   ASSERT_EQ(root.entries.size(), 3u);
-  EXPECT_EQ(root.entries[0].first, "name");
+  EXPECT_EQ(root.entries[0].key, "name");
   EXPECT_EQ(root.Find("name")->text, "diamond");
   EXPECT_EQ(root.Find("name")->where.ToString(), "a.yaml:1:7");
   EXPECT_EQ(root.Find("nothing")->kind, Kind::kNull);

@@ -39,7 +39,7 @@ ConfigNode Map(const std::vector<std::string>& keys) {
     ConfigNode entry = Scalar("1");
     entry.path = key;
     entry.key_where = {"robot.yaml", 7, 1};
-    node.entries.emplace_back(key, entry);
+    node.entries.push_back({key, entry});
   }
   return node;
 }
@@ -192,7 +192,7 @@ TEST(MapReader, RefusesKeysGivenTwiceEmptyKeysAndWhatIsNoMap) {
   EXPECT_THAT(Refusal([] { MapReader reader(Map({"mesh", "mesh"})); }), HasSubstr("given twice"));
   EXPECT_THAT(Refusal([] { MapReader reader(List({"1"})); }), HasSubstr("must be a map"));
   ConfigNode node = Map({"mesh"});
-  node.entries[0].second.kind = ConfigNode::Kind::kNull;
+  node.entries[0].value.kind = ConfigNode::Kind::kNull;
   MapReader reader(node);
   EXPECT_EQ(reader.Optional("mesh"), nullptr);
   EXPECT_THAT(Refusal([&] { reader.Require("mesh"); }), HasSubstr("must have a value"));

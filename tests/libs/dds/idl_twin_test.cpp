@@ -34,11 +34,9 @@ Lines CodeLines(const std::filesystem::path& file, const std::string& comment) {
 /// IDL's word for a type of a .msg file, after the mapping of DDS.md.
 std::string IdlType(const std::string& type) {
   static const std::map<std::string, std::string> kPrimitive{
-      {"bool", "boolean"},   {"byte", "octet"},
-      {"uint8", "octet"},    {"uint32", "unsigned long"},
-      {"int32", "long"},     {"uint64", "unsigned long long"},
-      {"float32", "float"},  {"float64", "double"},
-      {"string", "string"}};
+      {"bool", "boolean"},         {"byte", "octet"},     {"uint8", "octet"},
+      {"uint32", "unsigned long"}, {"int32", "long"},     {"uint64", "unsigned long long"},
+      {"float32", "float"},        {"float64", "double"}, {"string", "string"}};
   if (const auto found = kPrimitive.find(type); found != kPrimitive.end()) return found->second;
   const size_t slash = type.find('/');
   const std::string package = slash == type.npos ? "palpate_msgs" : type.substr(0, slash);
@@ -96,8 +94,8 @@ TEST(IdlTwins, EachMessageOfOursHasATwin) {
 }
 
 TEST(IdlTwins, EveryStructIsFinal) {
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::filesystem::path(PALPATE_SOURCE_DIR) / "idl")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(PALPATE_SOURCE_DIR) / "idl")) {
     if (entry.path().extension() != ".idl") continue;
     const Lines lines = CodeLines(entry.path(), "//");
     EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {

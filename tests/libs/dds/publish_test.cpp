@@ -102,8 +102,8 @@ TEST(Publish, PartnersWithIncompatibleQosAreTurnedAwayAndCounted) {
 }
 
 TEST(Publish, AMissedDeadlineIsCountedOnBothSides) {
-  const TopicTable table = TableWith(
-      "/forces", [](TopicSettings& topic) { topic.deadline_s = 0.05; });
+  const TopicTable table =
+      TableWith("/forces", [](TopicSettings& topic) { topic.deadline_s = 0.05; });
   TestNode sender("sender", table), receiver("receiver", table);
   auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
   auto reader = receiver.participant.CreateReader(kForcesTopic, receiver.Waker());
@@ -161,9 +161,7 @@ class CycloneUri {
     if (const char* old = std::getenv("CYCLONEDDS_URI")) old_ = old;
     setenv("CYCLONEDDS_URI", uri, 1);
   }
-  ~CycloneUri() {
-    old_ ? setenv("CYCLONEDDS_URI", old_->c_str(), 1) : unsetenv("CYCLONEDDS_URI");
-  }
+  ~CycloneUri() { old_ ? setenv("CYCLONEDDS_URI", old_->c_str(), 1) : unsetenv("CYCLONEDDS_URI"); }
 
  private:
   std::optional<std::string> old_;

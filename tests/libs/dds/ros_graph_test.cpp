@@ -39,13 +39,15 @@ void ExpectAnnounced(GidLayout layout) {
   TestNode other("observer", BuiltInTable(), layout);
   dds_topic_descriptor_t descriptor = idl::MessageTraits<Info>::Descriptor();
   descriptor.m_typename = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
-  const Entity topic(dds_create_topic(other.participant.handle(), &descriptor,
-                                      "ros_discovery_info", nullptr, nullptr), "topic");
+  const Entity topic(dds_create_topic(other.participant.handle(), &descriptor, "ros_discovery_info",
+                                      nullptr, nullptr),
+                     "topic");
   TopicSettings latched;
   latched.durability = Durability::kTransientLocal;
   latched.depth = 100;  // without a key, all nodes share one history
   const Entity observer(dds_create_reader(other.participant.handle(), topic.handle(),
-                                          ReaderQos(latched).get(), nullptr), "reader");
+                                          ReaderQos(latched).get(), nullptr),
+                        "reader");
   bool seen = false;
   other.loop.Attach(observer.handle(), [&] {
     for (const Info& info : Samples<Info>(observer.handle())) {

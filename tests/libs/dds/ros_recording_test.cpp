@@ -102,13 +102,16 @@ std::vector<Bytes> PayloadsOf(const std::string& topic) {
 template <typename T>
 Message<T> Decode(const Bytes& cdr) {
   TestNode node("decoder");
-  const Entity topic(dds_create_topic(node.participant.handle(),
-                                      &idl::MessageTraits<T>::Descriptor(), "rt/decoded", nullptr,
-                                      nullptr), "topic");
-  const Entity writer(dds_create_writer(node.participant.handle(), topic.handle(),
-                                        WriterQos({}).get(), nullptr), "writer");
-  const Entity reader(dds_create_reader(node.participant.handle(), topic.handle(),
-                                        ReaderQos({}).get(), nullptr), "reader");
+  const Entity topic(
+      dds_create_topic(node.participant.handle(), &idl::MessageTraits<T>::Descriptor(),
+                       "rt/decoded", nullptr, nullptr),
+      "topic");
+  const Entity writer(
+      dds_create_writer(node.participant.handle(), topic.handle(), WriterQos({}).get(), nullptr),
+      "writer");
+  const Entity reader(
+      dds_create_reader(node.participant.handle(), topic.handle(), ReaderQos({}).get(), nullptr),
+      "reader");
   // A sample of our own, for its type only.
   EXPECT_EQ(dds_write(writer.handle(), &*Message<T>()), DDS_RETCODE_OK);
   ddsi_serdata* own = nullptr;
@@ -117,8 +120,7 @@ Message<T> Decode(const Bytes& cdr) {
   Bytes padded = cdr;
   padded.resize((cdr.size() + 3) / 4 * 4);
   const ddsrt_iovec_t whole{padded.data(), padded.size()};
-  ddsi_serdata* foreign =
-      ddsi_serdata_from_ser_iov(own->type, SDK_DATA, 1, &whole, padded.size());
+  ddsi_serdata* foreign = ddsi_serdata_from_ser_iov(own->type, SDK_DATA, 1, &whole, padded.size());
   Message<T> message;
   EXPECT_TRUE(foreign && ddsi_serdata_to_sample(foreign, &*message, nullptr, nullptr));
   if (foreign) ddsi_serdata_unref(foreign);

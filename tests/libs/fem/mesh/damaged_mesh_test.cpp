@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <exception>
+#include <limits>
 #include <random>
 
 #include "libs/core/error.hpp"
@@ -63,6 +64,19 @@ TEST(DamagedMesh, IsRefusedOrReadButNeverCrashes) {
       } catch (const std::exception& error) {
         FAIL() << file.name << " trial " << trial << ": " << error.what();
       }
+    }
+  }
+}
+
+TEST(DamagedMesh, NaNInACoordinateIsRefusedInEveryFormat) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    TetMesh mesh = CubeMesh(1);
+    mesh.nodes_m(1, 5) = bad;
+    for (const MeshFile& file : test::AllFiles(mesh, {})) {
+      const char* where = file.name.ends_with(".vtu") ? "array 'Points': " : "a coordinate";
+      EXPECT_THAT(RefusalOf(file),
+                  AllOf(StartsWith(file.name), HasSubstr(where), HasSubstr("finite")));
     }
   }
 }

@@ -177,7 +177,8 @@ TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {
     EXPECT_EQ(reference.cells.rows(), order == "1" ? 4 : 10);
     EXPECT_THAT(reference.group_names, ElementsAre("lower part", "upper"));
     EXPECT_NEAR(ReportMesh(reference).volume_m3, 9e-5, 1e-12);
-    for (const std::string format : {"msh22", "msh22 -bin", "msh41 -bin", "vtk", "vtk -bin"}) {
+    for (const std::string format :
+         {"msh22", "msh22 -bin", "msh41 -bin", "msh41 -save_parametric", "vtk", "vtk -bin"}) {
       SCOPED_TRACE("order " + order + " " + format);
       const TetMesh mesh = MeshedBy("-order " + order + " -format " + format,
                                     format.starts_with("vtk") ? "mesh.vtk" : "mesh.msh");

@@ -24,6 +24,22 @@ TEST(ExtractBoundary, ClosesABoxOfKnownAreaAndVolume) {
               1e-16);
 }
 
+TEST(ExtractBoundary, ASingleCellShowsAllItsFacesOutward) {
+  TetMesh cell{Eigen::Matrix3Xd::Zero(3, 4), Eigen::MatrixXi(4, 1), {}, {}};
+  cell.nodes_m.rightCols<3>().setIdentity();
+  cell.cells << 0, 1, 2, 3;
+  for (const TetMesh& mesh : {cell, MakeQuadratic(cell)}) {
+    const BoundarySurface boundary = ExtractBoundary(mesh);
+    const geometry::TriangleSurface drawn{mesh.nodes_m, boundary.DrawnTriangles()};
+    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.25);
+    EXPECT_EQ(boundary.FaceCount(), 4);
+    EXPECT_NEAR(geometry::EnclosedVolume_m3(drawn), 1.0 / 6.0, 1e-15);
+    for (int t = 0; t < drawn.TriangleCount(); ++t) {
+      EXPECT_GT(geometry::TriangleNormal(drawn, t).dot(drawn.Corner(t, 0) - middle), 0.1) << t;
+    }
+  }
+}
+
 TEST(ExtractBoundary, FacesBelongToTheirCells) {
   const TetMesh mesh = MakeQuadratic(BoxMesh(kSize_m, {3, 2, 2}));
   const BoundarySurface boundary = ExtractBoundary(mesh);

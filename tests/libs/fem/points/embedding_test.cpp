@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "libs/fem/shape_functions.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
 
 namespace palpate::fem {
@@ -179,6 +180,24 @@ TEST(PointLocator, CurvedCellsReproduceRestPositionsToo) {
     const BodyPoint point = locator.Embed(point_m);
     EXPECT_NEAR(WeightSum(point.weights), 1.0, 1e-12);
     EXPECT_LT((point.weights.Position(Flat(mesh.nodes_m)) - point_m).norm(), 1e-14);
+  }
+}
+
+TEST(PointLocator, InsideACurvedCellTheWeightsAreItsShapeFunctions) {
+  const TetMesh mesh = CurvedMesh();
+  const PointLocator locator(mesh);
+  const Eigen::Vector3d xi(0.22, 0.27, 0.24);
+  const Eigen::VectorXd shape = ShapeFunctions(ElementType::kTet10, xi);
+  for (int cell = 0; cell < mesh.CellCount(); ++cell) {
+    const Eigen::Matrix3Xd nodes_m = mesh.nodes_m(Eigen::all, mesh.cells.col(cell));
+    const BodyPoint point = locator.Embed(nodes_m * shape);
+    ASSERT_EQ(point.cell, cell);
+    for (int k = 0; k < 10; ++k) {
+      const auto found =
+          std::find(point.weights.nodes.begin(), point.weights.nodes.end(), mesh.cells(k, cell));
+      const auto index = static_cast<size_t>(found - point.weights.nodes.begin());
+      EXPECT_NEAR(point.weights.weights[index], shape(k), 1e-10);
+    }
   }
 }
 

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/node/cable_history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "libs/core/check.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+std::optional<double> Between(const std::optional<double>& before,
+                              const std::optional<double>& after, double share) {
+  if (!before || !after) return before;
+  return share == 0.0 ? *before : *before + share * (*after - *before);
+}
+
+}  // namespace
+
+void CableHistory::Add(CableSample sample) {
+  PALPATE_CHECK(sample.cables.size() == cable_count_, sample.cables.size(), cable_count_);
+  if (!samples_.empty() && sample.stamp_ns < samples_.back().stamp_ns) {
+    samples_.clear();
+    went_back_ = true;
+  }
+  if (!samples_.empty() && sample.stamp_ns == samples_.back().stamp_ns) samples_.pop_back();
+  if (samples_.size() == kCapacity) samples_.pop_front();
+  samples_.push_back(std::move(sample));
+}
+
+void CableHistory::BeginSequence(bool time_went_back) {
+  // Cable inputs of the new sequence may have come before its first markers, or may come after.
+  if (time_went_back && !went_back_) samples_.clear();
+  went_back_ = false;
+}
+
+std::optional<std::vector<robot::CableCommand>> CableHistory::At(int64_t stamp_ns) const {
+  if (cable_count_ == 0) return std::vector<robot::CableCommand>();
+  const auto after = std::lower_bound(
+      samples_.begin(), samples_.end(), stamp_ns,
+      [](const CableSample& sample, int64_t stamp) { return sample.stamp_ns < stamp; });
+  if (after == samples_.end()) return std::nullopt;
+  if (after->stamp_ns == stamp_ns) return Commands(*after, *after, 0.0);
+  if (after == samples_.begin()) return std::nullopt;
+  const auto before = std::prev(after);
+  const double share = static_cast<double>(stamp_ns - before->stamp_ns) /
+                       static_cast<double>(after->stamp_ns - before->stamp_ns);
+  return Commands(*before, *after, share);
+}
+
+Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
+                                std::vector<robot::CableCommand>* commands) const {
+  const auto after = std::upper_bound(
+      samples_.begin(), samples_.end(), stamp_ns,
+      [](int64_t stamp, const CableSample& sample) { return stamp < sample.stamp_ns; });
+  if (after == samples_.begin()) {
+    return {StatusCode::kStale,
+            "no cable inputs on /robot/joint_states for the time of the markers"};
+  }
+  const CableSample& last = *std::prev(after);
+  const double age_s = 1e-9 * static_cast<double>(stamp_ns - last.stamp_ns);
+  if (age_s > max_age_s) {
+    return {StatusCode::kStale,
+            "the cable inputs are " + FormatNumber(age_s) +
+                " s older than the markers (max_cable_age_s: " + FormatNumber(max_age_s) + ")"};
+  }
+  *commands = Commands(last, last, 0.0);
+  return Status::Ok();
+}
+
+std::vector<robot::CableCommand> CableHistory::Commands(const CableSample& before,
+                                                        const CableSample& after,
+                                                        double share) const {
+  std::vector<robot::CableCommand> commands;
+  for (size_t i = 0; i < cable_count_; ++i) {
+    const auto& first = before.cables[i];
+    const auto& second = after.cables[i];
+    commands.push_back(
+        robot::ChooseCommand(Between(first.displacement_m, second.displacement_m, share),
+                             Between(first.tension_N, second.tension_N, share), preferred_));
+  }
+  return commands;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// What is known of each of the robot's cables at one time.
+struct CableSample {
+  struct Inputs {
+    std::optional<double> displacement_m;
+    std::optional<double> tension_N;
+  };
+  int64_t stamp_ns = 0;
+  std::vector<Inputs> cables;  ///< in the order of the robot's cables
+};
+
+/// The last cable inputs, to find those of the time of a marker frame.
+class CableHistory {
+ public:
+  CableHistory(size_t cable_count, robot::CableInput preferred)
+      : cable_count_(cable_count), preferred_(preferred) {}
+
+  /// A stamp below the last one says that time went back: what was before is forgotten.
+  void Add(CableSample sample);
+  /// A marker sequence began. `time_went_back`: before the end of the one before.
+  void BeginSequence(bool time_went_back);
+
+  /// Commands at `stamp_ns`: those of that very stamp, or linear between the neighbours; nothing
+  /// where the time is not covered (yet).
+  std::optional<std::vector<robot::CableCommand>> At(int64_t stamp_ns) const;
+  /// The last commands at or before `stamp_ns`, where they are not older than `max_age_s`; else a
+  /// kStale status that says how old they are.
+  Status LastBefore(int64_t stamp_ns, double max_age_s,
+                    std::vector<robot::CableCommand>* commands) const;
+
+ private:
+  std::vector<robot::CableCommand> Commands(const CableSample& before, const CableSample& after,
+                                            double share) const;
+
+  static constexpr size_t kCapacity = 1000;
+
+  size_t cable_count_;
+  robot::CableInput preferred_;
+  std::deque<CableSample> samples_;  ///< rising stamps
+  bool went_back_ = true;            ///< since the last sequence began
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/node/command_line.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libs/app/log.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+app::LogLevel LevelOf(dds::Severity severity) {
+  switch (severity) {
+    case dds::Severity::kDebug: return app::LogLevel::kDebug;
+    case dds::Severity::kInfo: return app::LogLevel::kInfo;
+    case dds::Severity::kWarning: return app::LogLevel::kWarning;
+    case dds::Severity::kError: return app::LogLevel::kError;
+  }
+  return app::LogLevel::kError;
+}
+
+std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file) {
+  auto body = robot::BuildRobotBody(robot::ReadRobotFile(file, app::LoadYaml));
+  for (const std::string& note : body.notes) app::LogInfo("{}", note);
+  return std::make_unique<robot::RobotModel>(std::move(body));
+}
+
+/// Gives the model the calibrated moduli; returns their relative standard error.
+double Calibrate(const std::filesystem::path& file, robot::RobotModel* model) {
+  if (file.empty()) {
+    app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
+    return 0.0;
+  }
+  const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
+  robot::ApplyCalibration(calibration, model);
+  return robot::RelativeModulusError(calibration);
+}
+
+}  // namespace
+
+std::optional<Command> ReadCommand(int argc, const char* const* argv) {
+  Command command;
+  app::Arguments arguments("palpate-force-estimation",
+                           "Estimates the forces on a robot from its markers and cables.");
+  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
+  arguments.Option("--calibration", &command.calibration,
+                   "What `palpate calibrate` found for this robot");
+  std::vector<std::string> contacts;
+  arguments.Repeated("--contact", &contacts,
+                     "Where a force may act, \"name: x, y, z[, patch radius]\" in m on the "
+                     "undeformed body; else the contact is searched");
+  app::DeclareNodeOptions(arguments, &command.options);
+  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
+      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
+    return std::nullopt;
+  }
+  auto& sites = command.config.contacts;
+  sites.insert(sites.end(), contacts.begin(), contacts.end());
+  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
+  return command;
+}
+
+std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
+  auto model = LoadRobot(command.robot);
+  const double modulus_error = Calibrate(command.calibration, model.get());
+  return std::make_unique<ForceEstimationNode>(
+      command.config, std::move(model), modulus_error, command.options.domain_id,
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml),
+      [](dds::Severity severity, std::string_view text) { app::Log(LevelOf(severity), text); });
+}
+
+}  // namespace palpate::force_estimation

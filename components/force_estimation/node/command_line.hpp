@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "components/force_estimation/node/node.hpp"
+#include "libs/app/node_options.hpp"
+
+namespace palpate::force_estimation {
+
+struct Command {
+  NodeConfig config;
+  app::NodeOptions options;
+  std::filesystem::path robot;
+  std::filesystem::path calibration;  ///< empty: the moduli of the robot file
+};
+
+/// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
+std::optional<Command> ReadCommand(int argc, const char* const* argv);
+
+/// Reads robot, mesh and calibration and makes the node. Throws InputError, RunError.
+std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command);
+
+}  // namespace palpate::force_estimation

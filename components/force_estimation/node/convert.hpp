@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/node/cable_history.hpp"
+#include "components/force_estimation/node/frame_input.hpp"
+#include "libs/dds/message.hpp"
+#include "libs/dds/topics.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::force_estimation {
+
+FrameHead HeadOf(const idl::palpate_msgs::MarkerArray3& message,
+                 std::chrono::steady_clock::time_point taken);
+
+/// Markers in the order of `names`, those that the message does not hold as not seen; the cables
+/// stay empty. kInvalidInput, with the reason, for another frame than the robot's, a marker that
+/// is not among `names` (with "did you mean") or comes twice, a position that is not finite, an
+/// unknown reference shape.
+Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
+                       const std::vector<std::string>& names, MarkerFrame* frame);
+
+/// Inputs in the order of `names`; NaN and cables that are not named count as not known.
+/// kInvalidInput for a cable that is not among `names` (with "did you mean"), or numbers that do
+/// not go with the names.
+Status FromJointState(const idl::sensor_msgs::JointState& message,
+                      const std::vector<std::string>& names, CableSample* sample);
+
+/// Counters and latency are left to whoever sends it. The numbers of an unobservable force are NaN.
+dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
+                                                         const Status& status,
+                                                         const std::vector<ContactForce>& contacts);
+
+/// Torque about the origin of the robot frame.
+dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
+                                                         const ContactForce& contact);
+
+/// Without positions where the estimate may not be used.
+dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
+                                                       const std::string& mesh_hash);
+
+dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64_t stamp_ns);
+
+dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result);
+
+/// Whether the model's state stands: forces were found, or none were needed.
+bool IsUsable(const Status& status);
+
+}  // namespace palpate::force_estimation

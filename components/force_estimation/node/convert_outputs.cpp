@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <limits>
+
+#include "components/force_estimation/node/convert.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/frames.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+const Eigen::Vector3d kUnknown =
+    Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+
+template <typename Target>
+void Set(Target& target, const Eigen::Vector3d& source) {
+  target.x = source.x();
+  target.y = source.y();
+  target.z = source.z();
+}
+
+void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns) {
+  dds::SetHeader(header, stamp_ns, geometry::kRobotFrame);
+}
+
+void Fill(const ModelGapPart& part, palpate_msgs_msg_dds__ModelGapPart_& target) {
+  dds::SetText(target.name, part.name);
+  target.residual_rms_m = part.residual_rms_m;
+  target.noise_rms_m = part.noise_rms_m;
+  target.sample_count = static_cast<uint32_t>(part.marker_count);
+}
+
+template <typename Sequence>
+void Fill(const std::vector<ModelGapPart>& parts, Sequence& target) {
+  dds::Resize(target, parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) Fill(parts[i], target._buffer[i]);
+}
+
+}  // namespace
+
+bool IsUsable(const Status& status) {
+  return status.ok() || status.code() == StatusCode::kNoContact;
+}
+
+dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(
+    const FrameHead& head, const Status& status, const std::vector<ContactForce>& contacts) {
+  dds::Message<idl::palpate_msgs::ForceArray> message;
+  SetHeader(message->header, head.stamp_ns);
+  dds::SetText(message->recording, head.recording);
+  message->marker_counter = head.counter;
+  dds::SetText(message->status, ToString(status.code()));
+  dds::SetText(message->reason, status.message());
+  dds::Resize(message->forces, contacts.size());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ContactForce& contact = contacts[i];
+    auto& force = message->forces._buffer[i];
+    dds::SetText(force.name, contact.name);
+    Set(force.position_m, contact.position_m);
+    const bool known = contact.status.code() != StatusCode::kUnobservable;
+    Set(force.force_n, known ? contact.force_N : kUnknown);
+    force.ci95_n = known ? contact.ci95_N : kUnknown.x();
+    force.location_ci95_m = contact.location_ci95_m;
+    dds::SetText(force.status, ToString(contact.status.code()));
+    dds::SetText(force.reason, contact.status.message());
+  }
+  return message;
+}
+
+dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
+                                                         const ContactForce& contact) {
+  dds::Message<idl::geometry_msgs::WrenchStamped> message;
+  SetHeader(message->header, stamp_ns);
+  Set(message->wrench.force, contact.force_N);
+  Set(message->wrench.torque, contact.position_m.cross(contact.force_N));
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
+                                                       const std::string& mesh_hash) {
+  dds::Message<idl::palpate_msgs::MeshState> message;
+  SetHeader(message->header, result.head.stamp_ns);
+  dds::SetText(message->mesh_hash, mesh_hash);
+  const bool usable = IsUsable(result.estimate.status);
+  const StatusCode code = usable ? StatusCode::kOk : result.estimate.status.code();
+  dds::SetText(message->status, ToString(code));
+  const Eigen::VectorXd& x_m = result.estimate.x_m;
+  if (usable) dds::SetNumbers(message->positions_m, x_m.data(), static_cast<size_t>(x_m.size()));
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64_t stamp_ns) {
+  dds::Message<idl::palpate_msgs::Mesh> message;
+  SetHeader(message->header, stamp_ns);
+  dds::SetText(message->robot, body.name);
+  dds::SetText(message->mesh_hash, body.mesh_hash);
+  message->nodes_per_cell = static_cast<uint8_t>(body.mesh.cells.rows());
+  dds::SetText(message->element, body.mesh.cells.rows() == 4 ? "tet4" : "tet10");
+  const auto& nodes_m = body.mesh.nodes_m;
+  dds::SetNumbers(message->nodes_m, nodes_m.data(), static_cast<size_t>(nodes_m.size()));
+  const auto& cells = body.mesh.cells;
+  dds::SetNumbers(message->cells, cells.data(), static_cast<size_t>(cells.size()));
+  const Eigen::Matrix3Xi triangles = body.boundary.DrawnTriangles();
+  dds::SetNumbers(message->surface_triangles, triangles.data(),
+                  static_cast<size_t>(triangles.size()));
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result) {
+  dds::Message<idl::palpate_msgs::ModelGap> message;
+  SetHeader(message->header, result.head.stamp_ns);
+  message->residual_rms_m = result.gap.whole.residual_rms_m;
+  message->noise_rms_m = result.gap.whole.noise_rms_m;
+  message->sample_count = static_cast<uint32_t>(result.gap.whole.marker_count);
+  Fill(result.gap.regions, message->regions);
+  Fill(result.gap.cables, message->cables);
+  return message;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/node/cable_history.hpp"
+#include "components/force_estimation/node/frame_gate.hpp"
+#include "components/force_estimation/node/node_config.hpp"
+#include "components/force_estimation/node/outputs.hpp"
+#include "components/force_estimation/node/worker.hpp"
+#include "libs/dds/health.hpp"
+#include "libs/dds/node_log.hpp"
+#include "libs/dds/wait_set.hpp"
+
+namespace palpate::force_estimation {
+
+/// Takes markers and cable inputs, runs the estimator, publishes forces and the model's state.
+/// Each marker frame that the estimator took, or that was refused, is answered on /forces.
+class ForceEstimationNode {
+ public:
+  /// Throws InputError for bad settings, RunError where DDS refuses.
+  ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
+                      double youngs_modulus_relative_sigma, int domain_id, dds::TopicTable table,
+                      dds::NodeLog::ProcessLog process_log);
+
+  /// Works until Stop().
+  void Run() { loop_.Run(); }
+  /// From any thread.
+  void Stop() { loop_.Stop(); }
+
+ private:
+  using Clock = dds::WaitSet::Clock;
+
+  void TakeJointStates();
+  void TakeMarkers();
+  void Accept(const idl::palpate_msgs::MarkerArray3& message);
+  void Refuse(const FrameHead& head, const Status& status);
+  void MatchWithCables();
+  void PassOnNewSequence();
+  bool FindCables(FrameInput& input, Status* status) const;
+  void PublishResults();
+  void ReportHealth();
+  Status CurrentStatus() const;
+
+  NodeConfig config_;
+  dds::Participant participant_;
+  dds::WaitSet loop_;
+  dds::NodeLog log_;
+  dds::HealthReporter health_;
+  Worker worker_;
+  std::vector<std::string> marker_names_;
+  std::vector<std::string> cable_names_;
+  CableHistory cables_;
+  Outputs outputs_;
+  dds::Reader<idl::sensor_msgs::JointState> joint_states_;
+  dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
+  FrameGate gate_;
+  std::deque<FrameInput> pending_;  ///< wait for the cable inputs of their time
+  bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
+  dds::HealthCounts counts_;
+  Status last_status_{StatusCode::kNotRun, "no markers on /perception/markers yet"};
+  Clock::time_point last_frame_;
+  std::string last_refusal_;
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "components/force_estimation/config.hpp"
+#include "libs/dds/node_settings.hpp"
+
+namespace palpate::force_estimation {
+
+/// Settings of the process: those of the estimator, and those of its inputs and its DDS side.
+struct NodeConfig : Config {
+  std::string cable_input = "displacement";
+  double max_age_s = 0.0;
+  double cable_wait_s = 0.2;
+  double max_cable_age_s = 0.5;
+  double silence_s = 2.0;
+  dds::NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    Config::Visit(v);
+    v("cable_input", cable_input, {"displacement", "tension"},
+      "Which input of a cable is imposed where both are known");
+    v("max_age_s", max_age_s, {.min = 0.0},
+      "Marker frames older than this by the system clock are refused; 0: stamps are not compared "
+      "with it (recordings)");
+    v("cable_wait_s", cable_wait_s, {.min = 0.0},
+      "How long a marker frame waits for the cable inputs of its time");
+    v("max_cable_age_s", max_cable_age_s, {.min = 0.0},
+      "After that wait, cable inputs may be older than the markers by so much");
+    v("silence_s", silence_s, {.min = 0.0, .min_open = true},
+      "Without markers for so long the component reports itself stale");
+    v("dds", dds, "DDS side");
+  }
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "components/force_estimation/node/frame_input.hpp"
+#include "libs/dds/participant.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::force_estimation {
+
+/// The writers of the node. All calls come from the node's loop.
+class Outputs {
+ public:
+  /// Sends the mesh, which stays there for late joiners. `body` must outlive this.
+  Outputs(dds::Participant& participant, const robot::RobotBody& body);
+
+  void Publish(const FrameResult& result);
+  /// Says on /forces why there is no estimate for a frame.
+  void PublishRefusal(const FrameHead& head, const Status& status);
+  /// Sends the last answer again where it is the one to `head`.
+  void Repeat(const FrameHead& head);
+
+  uint64_t published() const { return forces_.sent_count(); }
+  /// Messages that DDS did not take, and wrenches of contacts beyond the first 64 names.
+  uint64_t failed() const;
+  uint32_t readers() const { return forces_.matched(); }
+  /// From taking a frame to publishing, s; the list starts anew with each call.
+  std::vector<double> TakeLatencies();
+
+ private:
+  void Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray> message);
+  void PublishWrench(int64_t stamp_ns, const ContactForce& contact);
+
+  dds::Participant& participant_;
+  const robot::RobotBody& body_;
+  dds::Writer<idl::palpate_msgs::ForceArray> forces_;
+  dds::Writer<idl::palpate_msgs::MeshState> mesh_state_;
+  dds::Writer<idl::palpate_msgs::Mesh> mesh_;
+  dds::Writer<idl::palpate_msgs::ModelGap> model_gap_;
+  std::map<std::string, dds::Writer<idl::geometry_msgs::WrenchStamped>> wrenches_;
+  FrameHead last_head_;
+  dds::Message<idl::palpate_msgs::ForceArray> last_forces_;
+  bool answered_ = false;
+  uint64_t failed_ = 0;
+  uint64_t mesh_state_counter_ = 0;
+  uint64_t model_gap_counter_ = 0;
+  uint64_t forces_counter_ = 0;
+  std::vector<double> latencies_s_;
+};
+
+}  // namespace palpate::force_estimation

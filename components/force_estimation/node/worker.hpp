@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "components/force_estimation/node/frame_input.hpp"
+#include "components/force_estimation/node/hand_over.hpp"
+#include "components/force_estimation/node/node_config.hpp"
+
+namespace palpate::force_estimation {
+
+/// Runs the estimator in a thread of its own. Frames wait in a bounded queue in which a newer frame
+/// overtakes older ones, except those with a reference shape.
+class Worker {
+ public:
+  /// `on_result` is called from that thread when a result waits. Throws InputError for settings
+  /// that do not fit the robot.
+  Worker(std::unique_ptr<robot::RobotModel> model, const NodeConfig& config,
+         double youngs_modulus_relative_sigma, std::function<void()> on_result);
+  ~Worker();
+
+  const robot::RobotModel& model() const { return *model_; }
+  void Push(FrameInput input);
+  std::optional<FrameResult> TakeResult() { return results_.TryPop(); }
+  uint64_t dropped() const { return frames_.dropped() + results_.dropped(); }
+
+ private:
+  void Run();
+  void MakeEstimator();
+
+  std::unique_ptr<robot::RobotModel> model_;
+  NodeConfig config_;
+  double modulus_sigma_;
+  std::function<void()> on_result_;
+  ModelGapMeter gap_meter_;
+  std::unique_ptr<MarkerForceEstimator> estimator_;
+  HandOver<FrameInput> frames_;
+  HandOver<FrameResult> results_;
+  std::thread thread_;
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/choose_recordings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/sha256.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::Recording;
+using experiment::RecordingKind;
+
+bool IsStaticThroughout(RecordingKind kind) {
+  return kind == RecordingKind::kRest || kind == RecordingKind::kHold ||
+         kind == RecordingKind::kKnownLoad || kind == RecordingKind::kBaseTilted;
+}
+
+bool HasKnownLoads(const Recording& recording) {
+  return recording.markers && recording.kind != RecordingKind::kFree &&
+         (recording.steady_window_s || IsStaticThroughout(recording.kind));
+}
+
+}  // namespace
+
+std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& experiment,
+                                               const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Recording& recording : experiment.recordings) {
+    known.push_back(recording.name);
+  }
+  std::vector<const Recording*> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      throw InputError("--recording " + name + ": the experiment has none of that name" +
+                       DidYouMean(name, known));
+    }
+    chosen.push_back(&experiment.recordings[static_cast<std::size_t>(found - known.begin())]);
+  }
+  return chosen;
+}
+
+std::vector<const Recording*> RecordingsWithKnownLoads(const experiment::Experiment& experiment) {
+  std::vector<const Recording*> chosen;
+  for (const Recording& recording : experiment.recordings) {
+    if (HasKnownLoads(recording)) {
+      chosen.push_back(&recording);
+    }
+  }
+  if (chosen.empty()) {
+    throw InputError(experiment.folder.string() +
+                     ": no recording with markers, a static phase and known loads (kind 'free' "
+                     "may hold unknown contacts); name one with --recording");
+  }
+  return chosen;
+}
+
+std::string HashRecordings(const std::vector<const Recording*>& recordings) {
+  std::string digests;
+  for (const Recording* recording : recordings) {
+    for (const char* name : {"recording.yaml", "actuation.csv", "markers.csv", "loads.csv"}) {
+      const std::filesystem::path file = recording->folder / name;
+      if (std::filesystem::exists(file)) {
+        digests += std::string(name) + " " + Sha256Hex(ReadFile(file)) + "\n";
+      }
+    }
+  }
+  return "sha256-" + Sha256Hex(digests);
+}
+
+}  // namespace palpate::command

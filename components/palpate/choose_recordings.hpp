@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libs/experiment/experiment.hpp"
+
+namespace palpate::command {
+
+/// The recordings of these names, in this order. Throws InputError for one that is not there, with
+/// "did you mean".
+std::vector<const experiment::Recording*> ChooseRecordings(const experiment::Experiment& experiment,
+                                                           const std::vector<std::string>& names);
+
+/// Those that a material can be fitted to: with markers and without unknown contacts (any kind but
+/// `free`), and static: a steady window, or a kind that is static throughout. Throws InputError
+/// where there is none.
+std::vector<const experiment::Recording*> RecordingsWithKnownLoads(
+    const experiment::Experiment& experiment);
+
+/// "sha256-<64 hex digits>" over the settings and tables of these recordings.
+std::string HashRecordings(const std::vector<const experiment::Recording*>& recordings);
+
+}  // namespace palpate::command

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/libs/fem/verification/static_problem.hpp"
+
+namespace palpate::fem::verification {
+namespace {
+
+/// A material with an element, as the laws below go over all of them.
+struct Kind {
+  MaterialModel model;
+  Volumetric volumetric;
+  ElementType element;
+
+  Material MaterialOf() const {
+    return {.model = model,
+            .volumetric = volumetric,
+            .youngs_modulus_Pa = 180e3,
+            .poissons_ratio = 0.45};
+  }
+};
+
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << ToString(kind.model) << (kind.element == ElementType::kTet4 ? ", tet4" : ", tet10")
+       << (kind.volumetric == Volumetric::kMeanDilatation ? ", mean dilatation" : "");
+}
+
+std::vector<Kind> AllKinds() {
+  std::vector<Kind> kinds;
+  for (ElementType element : {ElementType::kTet4, ElementType::kTet10}) {
+    for (MaterialModel model :
+         {MaterialModel::kLinear, MaterialModel::kCorotational, MaterialModel::kStVenantKirchhoff,
+          MaterialModel::kNeoHookean, MaterialModel::kStableNeoHookean}) {
+      kinds.push_back({model, Volumetric::kPointwise, element});
+    }
+  }
+  for (MaterialModel model : {MaterialModel::kLinear, MaterialModel::kNeoHookean,
+                              MaterialModel::kStableNeoHookean}) {
+    kinds.push_back({model, Volumetric::kMeanDilatation, ElementType::kTet10});
+  }
+  return kinds;
+}
+
+const Eigen::Array3i kCells(3, 3, 3);
+const Eigen::Vector3d kSize_m(0.1, 0.08, 0.06);
+
+TetMesh MakeMesh(const Kind& kind) { return MakeDistortedBox(kCells, kind.element, kSize_m, 0.2); }
+
+ElasticBody MakeBody(const Kind& kind, const TetMesh& mesh) {
+  return {mesh, {kind.MaterialOf()}, std::vector<int>(static_cast<size_t>(mesh.CellCount()), 0)};
+}
+
+bool OnBoxSurface(const Eigen::Vector3d& p) {
+  return (p.array() < 1e-9).any() || (p.array() > kSize_m.array() - 1e-9).any();
+}
+
+class ElementLaw : public testing::TestWithParam<Kind> {};
+
+TEST_P(ElementLaw, RigidMotionCausesNoForce) {
+  if (GetParam().model == MaterialModel::kLinear) {
+    GTEST_SKIP() << "small-strain elasticity does not know rotations";
+  }
+  const TetMesh mesh = MakeMesh(GetParam());
+  const ElasticBody body = MakeBody(GetParam(), mesh);
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                      Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, -2, 0.5)}) {
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(2.1, axis.normalized()).toRotationMatrix();
+    const Eigen::Matrix3Xd x_m = (R * mesh.nodes_m).colwise() + Eigen::Vector3d(0.2, -0.1, 0.05);
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m.size());
+    const double min_J = body.AddForces(x_m.reshaped(), force_N);
+    EXPECT_NEAR(min_J, 1.0, 1e-12);
+    EXPECT_LT(force_N.reshaped(3, mesh.NodeCount()).colwise().norm().maxCoeff(), 1e-12)
+        << "axis " << axis.transpose();
+  }
+}
+
+TEST_P(ElementLaw, PatchUnderAffineStrainStaysAffine) {
+  Eigen::Matrix3d F;
+  F << 1.08, 0.05, -0.03, -0.04, 0.92, 0.06, 0.02, -0.05, 1.10;
+  StaticProblem patch(MakeMesh(GetParam()), GetParam().MaterialOf());
+  patch.Prescribe(OnBoxSurface, [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(F * p); });
+  ASSERT_LT(patch.fixed.row(0).count(), patch.fixed.cols()) << "no free node";
+  StaticSettings settings;
+  settings.relative_tolerance = 1e-14;
+  const Solution solution = Solve(patch, settings);
+  ASSERT_TRUE(solution.result.status.ok()) << solution.result.status.message();
+  const Eigen::Matrix3Xd expected_m = F * patch.mesh.nodes_m;
+  EXPECT_LT((solution.x_m - expected_m.reshaped()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST_P(ElementLaw, TangentIsDerivativeOfForces) {
+  const TetMesh mesh = MakeMesh(GetParam());
+  ElasticBody body = MakeBody(GetParam(), mesh);
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> noise(-1.0, 1.0);
+  const auto random = [&] {
+    return Eigen::VectorXd::NullaryExpr(3 * mesh.NodeCount(), [&] { return noise(engine); }).eval();
+  };
+  Eigen::Matrix3d F;
+  F << 1.2, 0.3, -0.1, -0.2, 0.9, 0.1, 0.1, -0.2, 1.1;
+  const Eigen::Matrix3Xd moved_m = F * mesh.nodes_m;
+  const Eigen::VectorXd x_m = moved_m.reshaped() + 0.001 * random();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x_m.size());
+  StiffnessMatrix tangent(FixedDirections::Constant(3, mesh.NodeCount(), false),
+                          body.CoupledPairs());
+  body.BindTo(tangent);
+  Eigen::VectorXd force_N = zero;
+  ASSERT_GT(body.AddForcesAndTangent(x_m, force_N, tangent), 0.0);
+
+  const Eigen::VectorXd direction = random();
+  const auto forces_at = [&](double step_m) {
+    Eigen::VectorXd force = zero;
+    EXPECT_GT(body.AddForces(x_m + step_m * direction, force), 0.0);
+    return force;
+  };
+  const double h_m = 1e-5;
+  const Eigen::VectorXd near = (forces_at(h_m) - forces_at(-h_m)) / (2.0 * h_m);
+  const Eigen::VectorXd far = (forces_at(2.0 * h_m) - forces_at(-2.0 * h_m)) / (4.0 * h_m);
+  const Eigen::VectorXd difference = (4.0 * near - far) / 3.0;
+  Eigen::VectorXd reduced(tangent.Size());
+  tangent.Reduce(direction, reduced);
+  Eigen::VectorXd product = zero;
+  tangent.AddExpanded(tangent.Times(reduced), 1.0, product);
+  EXPECT_LT((product - difference).norm(), 1e-8 * difference.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(AllKinds, ElementLaw, testing::ValuesIn(AllKinds()),
+                         [](const testing::TestParamInfo<Kind>& info) {
+                           const Kind& kind = info.param;
+                           return std::string(ToString(kind.model)) +
+                                  (kind.element == ElementType::kTet4 ? "_tet4" : "_tet10") +
+                                  (kind.volumetric == Volumetric::kMeanDilatation ? "_mean" : "");
+                         });
+
+}  // namespace
+}  // namespace palpate::fem::verification

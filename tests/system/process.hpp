@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpate::system_test {
+
+/// A program of the build, running. Killed when this goes out of scope.
+class Process {
+ public:
+  /// `name`: of a program in the bin folder of the build. Both its outputs go to `log`.
+  Process(const std::string& name, const std::vector<std::string>& arguments,
+          const std::filesystem::path& log);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void Signal(int signal);
+  /// Waits for its end, at most so long: its exit code, or minus the signal that ended it.
+  /// nullopt: it still runs.
+  std::optional<int> Wait(std::chrono::seconds at_most);
+  /// What it has written until now.
+  std::string Output() const;
+
+ private:
+  pid_t pid_ = -1;
+  std::filesystem::path log_;
+};
+
+/// Runs a program to its end, at most two minutes; its exit code as Wait() has it.
+std::optional<int> RunProgram(const std::string& name, const std::vector<std::string>& arguments,
+                              const std::filesystem::path& log);
+
+}  // namespace palpate::system_test
