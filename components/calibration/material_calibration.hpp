@@ -21,11 +21,11 @@ enum class ReferenceShape {
 
 /// One static phase with known loads.
 struct StaticObservation {
-  std::string name;                            ///< for messages
-  Eigen::VectorXd position_m;                  ///< [3m] mean marker positions, robot frame
-  Eigen::VectorXd variance_m2;                 ///< [3m] of them; <= 0: marker not seen
+  std::string name;             ///< for messages
+  Eigen::VectorXd position_m;   ///< [3m] mean marker positions, robot frame
+  Eigen::VectorXd variance_m2;  ///< [3m] of them; <= 0: marker not seen
   ReferenceShape reference = ReferenceShape::kNone;
-  Eigen::VectorXd reference_position_m;        ///< [3m] where there is a reference shape
+  Eigen::VectorXd reference_position_m;  ///< [3m] where there is a reference shape
   std::vector<robot::CableCommand> cables;
   std::vector<robot::DeadLoad> loads;
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
@@ -49,7 +49,7 @@ struct FittedModulus {
 struct MaterialCalibration {
   Status status;
   std::vector<FittedModulus> moduli;
-  Eigen::MatrixXd correlation;          ///< [p x p] of the fitted ln E
+  Eigen::MatrixXd correlation;  ///< [p x p] of the fitted ln E
   double residual_rms_m = 0.0;
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;

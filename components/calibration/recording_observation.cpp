@@ -4,22 +4,14 @@
 #include "components/calibration/recording_observation.hpp"
 
 #include <optional>
-#include <variant>
 
 #include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::calibration {
 
 namespace {
-
-Eigen::Isometry3d MeasurementPose(const experiment::Experiment& experiment,
-                                  const experiment::Recording& recording) {
-  const auto pose = experiment::RobotFromMarkers(experiment, recording);
-  if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
-    throw InputError(recording.folder.string() + ": " + missing->reason);
-  }
-  return std::get<Eigen::Isometry3d>(pose);
-}
 
 /// Mean position of each robot marker over `window` and its variance, both in the robot frame; a
 /// variance of -1 where the marker was not seen.
@@ -40,8 +32,7 @@ void AverageMarkers(const experiment::Experiment& experiment,
     if (!column || means[*column].count == 0) continue;
     const experiment::MarkerMean& mean = means[*column];
     const Eigen::Vector3d noise = mean.deviation_m.cwiseMax(sigma);
-    const Eigen::Matrix3d covariance = T_robot.linear() *
-                                       noise.cwiseAbs2().asDiagonal() *
+    const Eigen::Matrix3d covariance = T_robot.linear() * noise.cwiseAbs2().asDiagonal() *
                                        T_robot.linear().transpose() / mean.count;
     const auto row = static_cast<Eigen::Index>(3 * m);
     position_m->segment<3>(row) = T_robot * mean.mean_m;
@@ -58,12 +49,45 @@ void AverageMarkers(const experiment::Experiment& experiment,
   }
 }
 
-std::optional<double> InputAt(const experiment::Recording& recording, const std::string& cable,
-                              experiment::CableQuantity quantity, double t_s) {
-  if (!recording.actuation) return std::nullopt;
-  const experiment::CableColumn* column = recording.actuation->Find(cable, quantity);
-  if (column == nullptr) return std::nullopt;
-  return recording.actuation->ValueAt(*column, t_s);
+/// Displacements of this recording count from its reference window.
+void ObserveReference(const experiment::Experiment& experiment,
+                      const experiment::Recording& recording, const Eigen::Isometry3d& T_robot,
+                      const robot::RobotModel& model, StaticObservation* observation) {
+  observation->reference = recording.reference->shape == experiment::ReferenceShape::kUndeformed
+                               ? ReferenceShape::kUndeformed
+                               : ReferenceShape::kEquilibrium;
+  Eigen::VectorXd reference_variance;
+  AverageMarkers(experiment, recording, T_robot, recording.reference->window_s, model, 0.0,
+                 &observation->reference_position_m, &reference_variance);
+  for (Eigen::Index i = 0; i < reference_variance.size(); ++i) {
+    double& variance = observation->variance_m2[i];
+    const bool seen_twice = variance > 0.0 && reference_variance[i] > 0.0;
+    variance = seen_twice ? variance + reference_variance[i] : -1.0;
+  }
+}
+
+std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
+                                          const robot::RobotModel& model,
+                                          robot::CableInput preferred, double t_s) {
+  using Quantity = experiment::CableQuantity;
+  std::vector<robot::CableCommand> commands;
+  for (const std::string& cable : model.CableNames()) {
+    commands.push_back(robot::ChooseCommand(
+        experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
+        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
+  }
+  return commands;
+}
+
+robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
+  const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
+  constexpr double kFarthest_m = 0.02;
+  if (patch.distance_m > kFarthest_m) {
+    throw InputError(load.where, "the load lies " + FormatNumber(patch.distance_m) +
+                                     " m from the body's surface; at most " +
+                                     FormatNumber(kFarthest_m) + " m is allowed");
+  }
+  return {patch.weights, load.force_N};
 }
 
 }  // namespace
@@ -72,13 +96,10 @@ StaticObservation ObserveRecording(const experiment::Experiment& experiment,
                                    const experiment::Recording& recording,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    double marker_bias_m) {
-  if (!recording.markers) {
-    throw InputError(recording.folder.string() + ": the recording has no markers.csv");
-  }
+  const auto& frames = experiment::RequireMarkers(recording).frames;
   experiment::CheckMarkers(recording, model.MarkerNames());
   experiment::CheckCables(recording, model.CableNames());
-  const Eigen::Isometry3d T_robot = MeasurementPose(experiment, recording);
-  const auto& frames = recording.markers->frames;
+  const Eigen::Isometry3d T_robot = experiment::RequireRobotFromMarkers(experiment, recording);
   const experiment::TimeWindow window = recording.steady_window_s.value_or(
       experiment::TimeWindow{frames.front().t_s, frames.back().t_s});
   const double middle_s = 0.5 * (window.begin_s + window.end_s);
@@ -87,32 +108,12 @@ StaticObservation ObserveRecording(const experiment::Experiment& experiment,
   observation.name = recording.name;
   AverageMarkers(experiment, recording, T_robot, window, model, marker_bias_m,
                  &observation.position_m, &observation.variance_m2);
-  if (recording.reference) {
-    observation.reference =
-        recording.reference->shape == experiment::ReferenceShape::kUndeformed
-            ? ReferenceShape::kUndeformed
-            : ReferenceShape::kEquilibrium;
-    Eigen::VectorXd reference_variance;
-    AverageMarkers(experiment, recording, T_robot, recording.reference->window_s, model, 0.0,
-                   &observation.reference_position_m, &reference_variance);
-    for (Eigen::Index i = 0; i < reference_variance.size(); ++i) {
-      double& variance = observation.variance_m2[i];
-      variance = reference_variance[i] > 0.0 && variance > 0.0 ? variance + reference_variance[i]
-                                                               : -1.0;
-    }
-  }
-  for (const std::string& cable : model.CableNames()) {
-    using Quantity = experiment::CableQuantity;
-    observation.cables.push_back(
-        robot::ChooseCommand(InputAt(recording, cable, Quantity::kDisplacement, middle_s),
-                             InputAt(recording, cable, Quantity::kTension, middle_s), preferred));
-  }
+  if (recording.reference) ObserveReference(experiment, recording, T_robot, model, &observation);
+  observation.cables = CablesAt(recording, model, preferred, middle_s);
   for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, middle_s)) {
-    observation.loads.push_back(
-        {model.Patch(load.position_m, load.patch_radius_m).weights, load.force_N});
+    observation.loads.push_back(ToDeadLoad(load, model));
   }
-  observation.gravity_m_s2 =
-      experiment::BaseRotation(recording).transpose() * model.gravity_m_s2();
+  observation.gravity_m_s2 = experiment::BaseRotation(recording).transpose() * model.gravity_m_s2();
   return observation;
 }
 

@@ -60,8 +60,8 @@ Status CableElimination::Eliminate(const robot::Compliance& compliance,
       W_TT(i, j) = compliance.W_aa()(cable, taut_[static_cast<size_t>(j)]);
     }
     T_taut_.row(i) = -compliance.W_af().row(cable);
-    t0_taut_[i] = commands[static_cast<size_t>(cable)].value -
-                  compliance.delta_a_free_m()[cable] - compliance.W_aa().row(cable).dot(fixed_);
+    t0_taut_[i] = commands[static_cast<size_t>(cable)].value - compliance.delta_a_free_m()[cable] -
+                  compliance.W_aa().row(cable).dot(fixed_);
   }
   const Eigen::LLT<fem::QpMatrix> factor(W_TT);
   if (factor.info() != Eigen::Success) return {StatusCode::kUnobservable, {}};

@@ -32,11 +32,11 @@ class CableElimination {
 
   /// Whether lambda_f leaves every cable as it was assumed; otherwise changes the set, and
   /// Eliminate must be called again. A cable is changed at most a few times, so this ends.
-  bool Settle(const robot::Compliance& compliance,
-              const std::vector<robot::CableCommand>& commands, const Eigen::VectorXd& lambda_f_N);
+  bool Settle(const robot::Compliance& compliance, const std::vector<robot::CableCommand>& commands,
+              const Eigen::VectorXd& lambda_f_N);
 
-  const Eigen::MatrixXd& G() const { return G_; }        ///< [3e x f] m/N
-  const Eigen::VectorXd& e0_m() const { return e0_; }    ///< [3e]
+  const Eigen::MatrixXd& G() const { return G_; }      ///< [3e x f] m/N
+  const Eigen::VectorXd& e0_m() const { return e0_; }  ///< [3e]
   /// lambda_a for these contact forces, N.
   void CableForces(const Eigen::VectorXd& lambda_f_N, Eigen::VectorXd* lambda_a_N) const;
   /// How an additional motion of the effectors, and of the cables, arrives at the effectors when
@@ -45,12 +45,12 @@ class CableElimination {
                       Eigen::VectorXd* effector_motion_m) const;
 
  private:
-  Eigen::VectorXd fixed_;   ///< [a] imposed tensions, N; 0 for cables under displacement control
-  std::vector<int> taut_;   ///< cables whose displacement is imposed
+  Eigen::VectorXd fixed_;  ///< [a] imposed tensions, N; 0 for cables under displacement control
+  std::vector<int> taut_;  ///< cables whose displacement is imposed
   std::vector<int> changes_;
   fem::QpMatrix inverse_TT_;
-  fem::QpMatrix T_taut_;    ///< [taut x f]
-  fem::QpVector t0_taut_;   ///< [taut]
+  fem::QpMatrix T_taut_;   ///< [taut x f]
+  fem::QpVector t0_taut_;  ///< [taut]
   Eigen::MatrixXd G_;
   Eigen::VectorXd e0_;
   Eigen::VectorXd lambda_a_, delta_a_;

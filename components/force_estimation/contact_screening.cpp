@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <limits>
+
 #include "components/force_estimation/marker_fitter.hpp"
 
 namespace palpate::force_estimation {
 
 /// One candidate after the other over the same factor: three more columns each.
 Status MarkerFitter::Screen(const MarkerTargets& targets,
-                            const std::vector<robot::CableCommand>& cables,
-                            const ModelState& state,
+                            const std::vector<robot::CableCommand>& cables, const ModelState& state,
                             const std::vector<FitSite>& candidates,
                             std::vector<double>* chi_squared) {
   const std::vector<FitSite> sites = sites_;
@@ -30,7 +31,10 @@ Status MarkerFitter::Screen(const MarkerTargets& targets,
     }
     if (status.ok()) status = elimination_.Eliminate(compliance_, cables);
     if (!status.ok()) break;
-    status = SolveQp(targets, cables, extended);
+    if (!SolveQp(targets, cables, extended).ok()) {
+      chi_squared->push_back(std::numeric_limits<double>::infinity());
+      continue;
+    }
     const Eigen::VectorXd residual =
         targets.position_m - elimination_.e0_m() - elimination_.G() * new_lambda_f_;
     chi_squared->push_back((residual.array().square() * targets.weight.array()).sum());

@@ -16,7 +16,9 @@ namespace palpate::force_estimation {
 namespace {
 
 /// Candidates that are fitted to equilibrium: the first-order ranking errs among neighbours.
-constexpr size_t kFittedCandidates = 5;
+constexpr size_t kFittedCandidates = 3;
+/// A fit at the old places counts as good up to this times the residual that the search left.
+constexpr double kKeepFactor = 2.0;
 
 double MeanSpacing(const std::vector<FitSite>& candidates) {
   double sum = 0.0;
@@ -24,7 +26,8 @@ double MeanSpacing(const std::vector<FitSite>& candidates) {
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t b = 0; b < candidates.size(); ++b) {
       if (a == b) continue;
-      nearest = std::min(nearest, (candidates[a].patch.centre_m - candidates[b].patch.centre_m).norm());
+      nearest =
+          std::min(nearest, (candidates[a].patch.centre_m - candidates[b].patch.centre_m).norm());
     }
     if (candidates.size() > 1) sum += nearest / static_cast<double>(candidates.size());
   }
@@ -54,19 +57,23 @@ ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, Mar
 const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
                                                  const std::vector<robot::CableCommand>& cables,
                                                  const fem::StaticState& free_state) {
-  result_.sites.clear();
-  result_.fit_sites.clear();
-  result_.location_ci95_m = 0.0;
-  result_.state = {.valid = true,
+  const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
+  ModelState start{.valid = true,
                    .balanced = true,
                    .x_m = free_state.x_m,
                    .lambda_a_N = free_state.multipliers_N,
                    .lambda_f_N = Eigen::VectorXd::Zero(0)};
-  result_.fit = {};
-  result_.fit.residual_m = Eigen::VectorXd::Zero(targets.position_m.size());
-  result_.fit.chi_squared = fitter_.ChiSquared(targets, result_.state, &result_.fit.residual_m);
-  result_.status = Status(StatusCode::kNoContact, {});
-  const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
+  MarkerFit untouched;
+  untouched.residual_m = Eigen::VectorXd::Zero(targets.position_m.size());
+  untouched.chi_squared = fitter_.ChiSquared(targets, start, &untouched.residual_m);
+  if (untouched.chi_squared > limit && KeepContacts(targets, cables, limit)) return result_;
+
+  result_ = {.status = Status(StatusCode::kNoContact, {}),
+             .fit = std::move(untouched),
+             .state = std::move(start),
+             .sites = {},
+             .fit_sites = {},
+             .location_ci95_m = 0.0};
   for (int contact = 0; contact < config_.max_contacts; ++contact) {
     if (result_.fit.chi_squared <= limit) break;
     if (targets.rows < 3 * (contact + 1)) {
@@ -77,21 +84,45 @@ const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
     if (added.ok() || contact == 0) result_.status = added;
     if (!added.ok()) break;  // what was found before it stands
   }
+  searched_chi_squared_ = result_.fit.chi_squared;
+  searched_force_N_ = result_.state.lambda_f_N.norm();
   return result_;
+}
+
+/// Fits the forces at the places of the last frame. Model errors grow with the forces, so what
+/// counts as a good fit does too.
+bool ContactSearch::KeepContacts(const MarkerTargets& targets,
+                                 const std::vector<robot::CableCommand>& cables,
+                                 double noise_limit) {
+  if (!result_.status.ok() || result_.sites.empty()) return false;
+  fitter_.SetSites(result_.fit_sites);
+  ModelState state = result_.state;
+  state.balanced = false;
+  const MarkerFit& fit = fitter_.Fit(targets, cables, &state);
+  if (!fit.status.ok()) return false;
+  const double growth = state.lambda_f_N.squaredNorm() / (searched_force_N_ * searched_force_N_);
+  const double searched = kKeepFactor * searched_chi_squared_ * std::max(1.0, growth);
+  if (fit.chi_squared > std::max(noise_limit, searched)) return false;
+  result_.fit = fit;
+  result_.state = std::move(state);
+  return true;
 }
 
 Status ContactSearch::AddContact(const MarkerTargets& targets,
                                  const std::vector<robot::CableCommand>& cables) {
   fitter_.SetSites(result_.fit_sites);
   std::vector<double> chi_squared;
-  Status status =
-      fitter_.Screen(targets, cables, result_.state, candidates_, &chi_squared);
+  Status status = fitter_.Screen(targets, cables, result_.state, candidates_, &chi_squared);
   if (!status.ok()) return status;
+  for (const size_t taken : chosen_) {
+    chi_squared[taken] = std::numeric_limits<double>::infinity();
+  }
   const ModelState start = result_.state;
   const std::vector<FitSite> known = result_.fit_sites;
   double best_chi_squared = std::numeric_limits<double>::infinity();
   size_t best = 0;
-  for (size_t candidate : Ranking(chi_squared)) {
+  for (const size_t candidate : Ranking(chi_squared)) {
+    if (!std::isfinite(chi_squared[candidate])) break;
     std::vector<FitSite> sites = known;
     sites.push_back(candidates_[candidate]);
     fitter_.SetSites(sites);
@@ -108,6 +139,7 @@ Status ContactSearch::AddContact(const MarkerTargets& targets,
   if (!std::isfinite(best_chi_squared)) {
     return {StatusCode::kNotConverged, "no candidate contact leads to an equilibrium"};
   }
+  chosen_.push_back(best);
   result_.sites.push_back({.name = "contact_" + std::to_string(known.size() + 1),
                            .position_m = candidates_[best].patch.centre_m,
                            .patch_radius_m = config_.candidate_patch_radius_m});
@@ -120,13 +152,13 @@ Status ContactSearch::AddContact(const MarkerTargets& targets,
 
 double ContactSearch::LocationInterval(const std::vector<double>& chi_squared, size_t best,
                                        double noise_scale) const {
-  const double limit =
-      *std::min_element(chi_squared.begin(), chi_squared.end()) +
-      noise_scale * ChiSquaredQuantile(0.95, 2);
+  const double limit = *std::min_element(chi_squared.begin(), chi_squared.end()) +
+                       noise_scale * ChiSquaredQuantile(0.95, 2);
   double radius = 0.5 * spacing_m_;
   for (size_t c = 0; c < candidates_.size(); ++c) {
     if (chi_squared[c] > limit) continue;
-    radius = std::max(radius, (candidates_[c].patch.centre_m - candidates_[best].patch.centre_m).norm());
+    radius =
+        std::max(radius, (candidates_[c].patch.centre_m - candidates_[best].patch.centre_m).norm());
   }
   return radius;
 }

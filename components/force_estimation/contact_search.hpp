@@ -14,7 +14,8 @@ namespace palpate::force_estimation {
 
 /// Finds where on the surface forces act, from the deformation alone: the feature points are
 /// screened to first order, the most likely are fitted to equilibrium, and another contact joins as
-/// long as the residual is beyond the noise.
+/// long as the residual is beyond the noise. Contacts that still explain the markers in the next
+/// frame stay where they are and keep their names.
 class ContactSearch {
  public:
   struct Result {
@@ -39,6 +40,8 @@ class ContactSearch {
   const Result& result() const { return result_; }
 
  private:
+  bool KeepContacts(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
+                    double noise_limit);
   Status AddContact(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables);
   double LocationInterval(const std::vector<double>& chi_squared, size_t best,
                           double noise_scale) const;
@@ -46,7 +49,10 @@ class ContactSearch {
   Config config_;
   MarkerFitter& fitter_;
   std::vector<FitSite> candidates_;
-  double spacing_m_ = 0.0;  ///< mean distance from a candidate to the next
+  double spacing_m_ = 0.0;      ///< mean distance from a candidate to the next
+  std::vector<size_t> chosen_;  ///< candidates that are contacts by now
+  double searched_chi_squared_ = 0.0;  ///< of the last search
+  double searched_force_N_ = 0.0;      ///< size of all forces then
   Result result_;
 };
 

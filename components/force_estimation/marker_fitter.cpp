@@ -122,8 +122,7 @@ Status MarkerFitter::Linearise(const ModelState& state) {
   Status status = model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_,
                                                 /*allow_shift=*/true);
   if (!status.ok()) return status;
-  compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
-                      state.lambda_f_N);
+  compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N, state.lambda_f_N);
   return status;
 }
 
@@ -162,7 +161,8 @@ Status MarkerFitter::SolveQp(const MarkerTargets& targets,
     fem::QpVector c(G.cols());
     for (Eigen::Index j = 0; j < G.cols(); ++j) {
       c[j] = (G.col(j).array() * targets.weight.array() *
-              (elimination_.e0_m() - targets.position_m).array()).sum();
+              (elimination_.e0_m() - targets.position_m).array())
+                 .sum();
     }
     qp.H = basis_.transpose() * Information(targets) * basis_;
     qp.c = basis_.transpose() * c;
@@ -207,11 +207,9 @@ void MarkerFitter::KeepObservable(const MarkerTargets& targets) {
   const fem::QpMatrix information = basis_.transpose() * Information(targets) * basis_;
   const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
   // What the markers do not see at all gets a variance that is large, yet a number.
-  const fem::QpVector variances =
-      eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
-  const fem::QpMatrix covariance =
-      basis_ * eigen.eigenvectors() * variances.asDiagonal() * eigen.eigenvectors().transpose() *
-      basis_.transpose();
+  const fem::QpVector variances = eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
+  const fem::QpMatrix covariance = basis_ * eigen.eigenvectors() * variances.asDiagonal() *
+                                   eigen.eigenvectors().transpose() * basis_.transpose();
   for (size_t s = 0; s < sites_.size(); ++s) {
     const auto row = static_cast<Eigen::Index>(3 * s);
     const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);
@@ -275,13 +273,14 @@ bool MarkerFitter::StepByLinearResponse(ModelState* state) {
   UpdateExternalForce(new_lambda_f_);
   const Status status =
       model_.linearisation().UpdateResidual(trial_x_, new_lambda_a_, external_force_N_);
-  if (!status.ok() || model_.linearisation().residual_N().norm() >
-                          kLinearStepTolerance * ForceScale(*state)) {
+  if (!status.ok() ||
+      model_.linearisation().residual_N().norm() > kLinearStepTolerance * ForceScale(*state)) {
     return false;
   }
   state->x_m = trial_x_;
   state->lambda_f_N = new_lambda_f_;
   state->lambda_a_N = new_lambda_a_;
+  state->balanced = false;
   return true;
 }
 
@@ -325,14 +324,21 @@ double MarkerFitter::ChiSquared(const MarkerTargets& targets, const ModelState& 
   return sum;
 }
 
-void MarkerFitter::Conclude(const MarkerTargets& targets, const ModelState& state) {
-  fit_.chi_squared = ChiSquared(targets, state, &fit_.residual_m);
-  for (Eigen::Index c = 0; c < state.lambda_a_N.size(); ++c) {
-    if (state.lambda_a_N[c] < 0.0) {
-      fit_.status = Status(StatusCode::kNotConverged, {});
-      return;
+Status MarkerFitter::CheckTensions(const ModelState& state) const {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const double tension_N = state.lambda_a_N[c];
+    if (tension_N < 0.0) return {StatusCode::kNotConverged, {}};
+    if (tension_N > model_.body().cables[static_cast<size_t>(c)].max_tension_N) {
+      return {StatusCode::kTensionLimit, {}};
     }
   }
+  return Status::Ok();
+}
+
+void MarkerFitter::Conclude(const MarkerTargets& targets, const ModelState& state) {
+  fit_.chi_squared = ChiSquared(targets, state, &fit_.residual_m);
+  fit_.status = CheckTensions(state);
+  if (!fit_.status.ok()) return;
   const fem::QpMatrix reduced = basis_.transpose() * Information(targets) * basis_;
   fit_.covariance_N2 = basis_ * PseudoInverse(reduced) * basis_.transpose();
   ModulusSensitivity(targets, state);
@@ -364,8 +370,7 @@ void MarkerFitter::ModulusSensitivity(const MarkerTargets& targets, const ModelS
   const Eigen::MatrixXd& G = elimination_.G();
   fem::QpVector pull(G.cols());
   for (Eigen::Index j = 0; j < G.cols(); ++j) {
-    pull[j] =
-        (G.col(j).array() * targets.weight.array() * effector_motion_.array()).sum();
+    pull[j] = (G.col(j).array() * targets.weight.array() * effector_motion_.array()).sum();
   }
   fit_.modulus_sensitivity_N.noalias() = -fit_.covariance_N2 * pull;
 }

@@ -67,12 +67,12 @@ class MarkerFitter {
 
   /// Moves `state` (which must be near an equilibrium) to the fit. With at least one site. The
   /// result stays valid until the next call.
-  const MarkerFit& Fit(const MarkerTargets& targets,
-                       const std::vector<robot::CableCommand>& cables, ModelState* state);
+  const MarkerFit& Fit(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
+                       ModelState* state);
 
   /// Weighted residual that would be left if a force at one more site joined in, to first order
-  /// about `state`; one value for each of `candidates`. Not ok where the state cannot be
-  /// linearised.
+  /// about `state`; one value for each of `candidates`, infinite for one that cannot be told from
+  /// the sites before. Not ok where the state cannot be linearised.
   Status Screen(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
                 const ModelState& state, const std::vector<FitSite>& candidates,
                 std::vector<double>* chi_squared);
@@ -97,6 +97,7 @@ class MarkerFitter {
   double ForceScale(const ModelState& state) const;
   double LargestChange(const ModelState& state) const;
   bool Balanced(const ModelState& state) const;
+  Status CheckTensions(const ModelState& state) const;
   void Conclude(const MarkerTargets& targets, const ModelState& state);
   void ModulusSensitivity(const MarkerTargets& targets, const ModelState& state);
   void UpdateExternalForce(const Eigen::VectorXd& lambda_f_N);
@@ -112,12 +113,12 @@ class MarkerFitter {
   fem::QpMatrix basis_;                      ///< [3k x q] lambda_f = basis q
   fem::QpVector qp_start_;
   MarkerFit fit_;
-  Eigen::VectorXd weight_N_;           ///< [3n] gravity
-  Eigen::VectorXd external_force_N_;   ///< [3n]
+  Eigen::VectorXd weight_N_;          ///< [3n] gravity
+  Eigen::VectorXd external_force_N_;  ///< [3n]
   Eigen::VectorXd new_lambda_f_, new_lambda_a_;
   Eigen::VectorXd trial_x_;
   Eigen::VectorXd nodal_, effector_motion_, cable_motion_;
-  Eigen::MatrixXd modulus_column_;     ///< [reduced x 1]
+  Eigen::MatrixXd modulus_column_;  ///< [reduced x 1]
 };
 
 }  // namespace palpate::force_estimation

@@ -3,8 +3,8 @@
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 
-#include <algorithm>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -34,6 +34,18 @@ double SquaredDistanceFromZero(const ContactForce& contact) {
   return sum;
 }
 
+/// Standard deviation of |F|: along the force, and where there is none in the worst direction.
+double SigmaOfSize(const ContactForce& contact) {
+  const double size_N = contact.force_N.norm();
+  if (size_N > 0.0) {
+    const Eigen::Vector3d direction = contact.force_N / size_N;
+    return std::sqrt(direction.dot(contact.covariance_N2 * direction));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.covariance_N2,
+                                                             Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
+}
+
 }  // namespace
 
 class MarkerForceEstimator::Impl {
@@ -47,11 +59,19 @@ class MarkerForceEstimator::Impl {
         fitter_(model, config),
         free_state_(model.RestState()) {
     if (model.body().markers.empty()) throw InputError("the robot file names no markers");
+    constexpr size_t kMostContacts = fem::kMaxQpVariables / 3;
+    if (sites_.size() > kMostContacts) {
+      throw InputError("contacts: " + std::to_string(sites_.size()) + " are given; at most " +
+                       std::to_string(kMostContacts) + " are fitted at once");
+    }
     for (const ContactSite& site : sites_) {
       fit_sites_.push_back({.patch = PatchOf(site), .direction = site.direction});
     }
     if (sites_.empty()) search_.emplace(model, config, fitter_);
     fitter_.SetSites(fit_sites_);
+    for (const robot::BodyMarker& marker : model.body().markers) {
+      marker_weight_.push_back(StandsOnContact(marker) ? config.contact_marker_weight : 1.0);
+    }
     const auto rows = static_cast<Eigen::Index>(3 * model.body().markers.size());
     targets_.position_m = targets_.weight = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
@@ -64,9 +84,7 @@ class MarkerForceEstimator::Impl {
     estimate_.t_s = frame.t_s;
     estimate_.iterations = 0;
     estimate_.status = Process(frame);
-    if (!estimate_.status.ok() && estimate_.status.code() != StatusCode::kNoContact) {
-      estimate_.contacts.clear();
-    }
+    if (!estimate_.status.ok() && estimate_.status.code() != StatusCode::kNoContact) Withdraw();
     return estimate_;
   }
 
@@ -74,6 +92,7 @@ class MarkerForceEstimator::Impl {
 
  private:
   fem::SurfacePatch PatchOf(const ContactSite& site) const;
+  bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
   Status CheckFrame(const MarkerFrame& frame) const;
   Status SetTargets(const MarkerFrame& frame);
@@ -84,6 +103,7 @@ class MarkerForceEstimator::Impl {
                const std::vector<ContactSite>& sites, double location_ci95_m);
   void PublishFit(const MarkerFit& fit);
   void PublishState(const ModelState& state);
+  void Withdraw();
   ContactForce MakeContact(const MarkerFit& fit, size_t index, double inflation) const;
 
   robot::RobotModel& model_;
@@ -91,6 +111,7 @@ class MarkerForceEstimator::Impl {
   double modulus_sigma_;
   std::vector<ContactSite> sites_;
   std::vector<FitSite> fit_sites_;
+  std::vector<double> marker_weight_;
   MarkerTare tare_;
   MarkerFitter fitter_;
   std::optional<ContactSearch> search_;
@@ -111,6 +132,13 @@ fem::SurfacePatch MarkerForceEstimator::Impl::PatchOf(const ContactSite& site) c
   return patch;
 }
 
+bool MarkerForceEstimator::Impl::StandsOnContact(const robot::BodyMarker& marker) const {
+  return std::any_of(sites_.begin(), sites_.end(), [&](const ContactSite& site) {
+    return (marker.point.rest_m - site.position_m).norm() <=
+           site.patch_radius_m + marker.point.distance_m;
+  });
+}
+
 Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   if (frame.reference != ReferenceShape::kNone) {
@@ -124,8 +152,7 @@ Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
 
 Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
   PALPATE_CHECK(frame.markers.size() == model_.body().markers.size(), frame.markers.size());
-  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(),
-                frame.cables.size());
+  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(), frame.cables.size());
   for (const robot::CableCommand& command : frame.cables) {
     if (!std::isfinite(command.value)) {
       return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
@@ -145,7 +172,7 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
       const double given = marker.sigma_m[i];
       const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
       const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
-      targets_.weight[row + i] = used ? 1.0 / variance : 0.0;
+      targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
       targets_.position_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
       if (!used) continue;
       ++targets_.rows;
@@ -182,9 +209,8 @@ Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
   PublishState(state_);
   Publish(*fit, fit_sites_, sites_, 0.0);
   const bool touched =
-      std::any_of(estimate_.contacts.begin(), estimate_.contacts.end(), [](const ContactForce& c) {
-        return c.status.code() != StatusCode::kNoContact;
-      });
+      std::any_of(estimate_.contacts.begin(), estimate_.contacts.end(),
+                  [](const ContactForce& c) { return c.status.code() != StatusCode::kNoContact; });
   return touched ? Status::Ok() : Status(StatusCode::kNoContact, {});
 }
 
@@ -222,6 +248,17 @@ void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
   }
 }
 
+/// Nothing of an earlier frame stands for this one.
+void MarkerForceEstimator::Impl::Withdraw() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  estimate_.contacts.clear();
+  estimate_.residual_rms_m = estimate_.chi_squared = kUnknown;
+  estimate_.degrees_of_freedom = 0;
+  estimate_.marker_residual_m.setConstant(kUnknown);
+  estimate_.x_m.setConstant(kUnknown);
+  for (robot::CableState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
+}
+
 /// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
 /// by its ratio (Birge), never narrowed.
 void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
@@ -229,10 +266,9 @@ void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
                                          const std::vector<ContactSite>& sites,
                                          double location_ci95_m) {
   const ModelState& state = search_ ? search_->result().state : state_;
-  const double inflation =
-      estimate_.degrees_of_freedom > 0
-          ? std::max(1.0, fit.chi_squared / estimate_.degrees_of_freedom)
-          : 1.0;
+  const double inflation = estimate_.degrees_of_freedom > 0
+                               ? std::max(1.0, fit.chi_squared / estimate_.degrees_of_freedom)
+                               : 1.0;
   estimate_.contacts.resize(sites.size());
   for (size_t s = 0; s < sites.size(); ++s) {
     ContactForce& contact = estimate_.contacts[s];
@@ -249,15 +285,10 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_
   const auto row = static_cast<Eigen::Index>(3 * index);
   ContactForce contact;
   contact.force_N = state.lambda_f_N.segment<3>(row);
-  const Eigen::Vector3d by_modulus =
-      modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
-  contact.covariance_N2 = inflation * fit.covariance_N2.block<3, 3>(row, row) +
-                          by_modulus * by_modulus.transpose();
-  const double size = contact.force_N.norm();
-  const Eigen::Vector3d direction =
-      size > 0.0 ? Eigen::Vector3d(contact.force_N / size) : Eigen::Vector3d::UnitZ();
-  const double sigma = std::sqrt(direction.dot(contact.covariance_N2 * direction));
-  contact.ci95_N = kSigmas95 * sigma;
+  const Eigen::Vector3d by_modulus = modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
+  contact.covariance_N2 =
+      inflation * fit.covariance_N2.block<3, 3>(row, row) + by_modulus * by_modulus.transpose();
+  contact.ci95_N = kSigmas95 * SigmaOfSize(contact);
   switch (fit.observability[index]) {
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});

@@ -21,7 +21,7 @@ void MarkerTare::Add(const MarkerFrame& frame) {
   open_ = true;
   last_ = frame;
   for (size_t m = 0; m < counts_.size(); ++m) {
-    if (!frame.markers[m].valid) continue;
+    if (!frame.markers[m].valid || !frame.markers[m].position_m.allFinite()) continue;
     sum_.segment<3>(static_cast<Eigen::Index>(3 * m)) += frame.markers[m].position_m;
     ++counts_[m];
   }

@@ -4,9 +4,8 @@
 #include "components/force_estimation/recording_frames.hpp"
 
 #include <optional>
-#include <variant>
 
-#include "libs/core/error.hpp"
+#include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::force_estimation {
 
@@ -21,20 +20,12 @@ ReferenceShape ReferenceAt(const experiment::Recording& recording, double t_s) {
              : ReferenceShape::kEquilibrium;
 }
 
-std::optional<double> InputAt(const experiment::Recording& recording, const std::string& cable,
-                              experiment::CableQuantity quantity, double t_s) {
-  if (!recording.actuation) return std::nullopt;
-  const experiment::CableColumn* column = recording.actuation->Find(cable, quantity);
-  if (column == nullptr) return std::nullopt;
-  return recording.actuation->ValueAt(*column, t_s);
-}
-
 }  // namespace
 
 Eigen::Vector3d RotateSigma(const Eigen::Matrix3d& R_robot_measurement,
                             const Eigen::Vector3d& sigma_m) {
-  const Eigen::Matrix3d covariance = R_robot_measurement * sigma_m.cwiseAbs2().asDiagonal() *
-                                     R_robot_measurement.transpose();
+  const Eigen::Matrix3d covariance =
+      R_robot_measurement * sigma_m.cwiseAbs2().asDiagonal() * R_robot_measurement.transpose();
   return covariance.diagonal().cwiseSqrt();
 }
 
@@ -44,24 +35,18 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
                                            robot::CableInput preferred) {
   const std::vector<std::string> marker_names = model.MarkerNames();
   const std::vector<std::string> cable_names = model.CableNames();
-  if (!recording.markers) {
-    throw InputError(recording.folder.string() + ": the recording has no markers.csv");
-  }
+  const experiment::MarkerTracks& tracks = experiment::RequireMarkers(recording);
   experiment::CheckMarkers(recording, marker_names);
   experiment::CheckCables(recording, cable_names);
-  const auto pose = experiment::RobotFromMarkers(experiment, recording);
-  if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
-    throw InputError(recording.folder.string() + ": " + missing->reason);
-  }
-  const auto& T_robot_measurement = std::get<Eigen::Isometry3d>(pose);
-  const Eigen::Vector3d sigma_m =
-      RotateSigma(T_robot_measurement.linear(),
-                  experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()));
+  const Eigen::Isometry3d T_robot_measurement =
+      experiment::RequireRobotFromMarkers(experiment, recording);
+  const Eigen::Vector3d sigma_m = RotateSigma(
+      T_robot_measurement.linear(), experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()));
   std::vector<std::optional<size_t>> columns;
-  for (const std::string& name : marker_names) columns.push_back(recording.markers->IndexOf(name));
+  for (const std::string& name : marker_names) columns.push_back(tracks.IndexOf(name));
 
   std::vector<MarkerFrame> frames;
-  for (const experiment::MarkerFrame& measured : recording.markers->frames) {
+  for (const experiment::MarkerFrame& measured : tracks.frames) {
     MarkerFrame frame;
     frame.t_s = measured.t_s;
     frame.reference = ReferenceAt(recording, measured.t_s);
@@ -77,8 +62,8 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
     for (const std::string& cable : cable_names) {
       using Quantity = experiment::CableQuantity;
       frame.cables.push_back(robot::ChooseCommand(
-          InputAt(recording, cable, Quantity::kDisplacement, measured.t_s),
-          InputAt(recording, cable, Quantity::kTension, measured.t_s), preferred));
+          experiment::CableInputAt(recording, cable, Quantity::kDisplacement, measured.t_s),
+          experiment::CableInputAt(recording, cable, Quantity::kTension, measured.t_s), preferred));
     }
     frames.push_back(std::move(frame));
   }

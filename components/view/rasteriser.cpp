@@ -128,11 +128,12 @@ void Rasteriser::DrawLine(const Eigen::Vector3d& from_seen, const Eigen::Vector3
   }
 }
 
-void Rasteriser::Overlay(const Rasteriser& veil, double opacity) {
+void Rasteriser::Overlay(const Rasteriser& veil, double opacity, double margin) {
+  const auto ahead = static_cast<float>(margin);
   PALPATE_CHECK(veil.samples_.size() == samples_.size() && veil.columns_ == columns_);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& over = veil.samples_[i];
-    if (over.nearness == kEmpty || over.nearness <= samples_[i].nearness) {
+    if (over.nearness == kEmpty || over.nearness <= samples_[i].nearness + ahead) {
       continue;
     }
     for (std::size_t c = 0; c < 3; ++c) {

@@ -40,8 +40,9 @@ class Rasteriser {
   void DrawLine(const Eigen::Vector3d& from_seen, const Eigen::Vector3d& to_seen, double width_px,
                 const Color& color, double opacity);
 
-  /// Lays `veil` (same size) over this picture wherever it is nearer, mixed in by `opacity`.
-  void Overlay(const Rasteriser& veil, double opacity);
+  /// Lays `veil` (same size) over this picture wherever it is nearer by more than `margin`, mixed
+  /// in by `opacity`.
+  void Overlay(const Rasteriser& veil, double opacity, double margin = 0.0);
 
   /// The share of the pixel's samples on which something was drawn, in [0, 1].
   double Coverage(int x, int y) const;

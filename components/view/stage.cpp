@@ -21,6 +21,8 @@ void AddPoints(const Eigen::Matrix3Xd& points_m, double radius_m, std::vector<Ex
   }
 }
 
+constexpr double kInFront_m = 100.0;  // no scene is as large
+
 struct FloorArea {
   Eigen::Array2d lower_m;
   Eigen::Array2d upper_m;
@@ -83,12 +85,13 @@ class Stage {
 
   double Metres(double pixels) const { return pixels * px_ / camera_.px_per_m(); }
 
-  void Draw(const ShadedTriangles& shape, Rasteriser* target) const {
+  void Draw(const ShadedTriangles& shape, Rasteriser* target, double lift_m = 0.0) const {
     for (std::size_t i = 0; i + 2 < shape.corners.size(); i += 3) {
       std::array<Vertex, 3> vertices;
       for (std::size_t k = 0; k < 3; ++k) {
         const ShadedTriangles::Corner& corner = shape.corners[i + k];
         vertices[k] = {camera_.Project(corner.point_m), corner.normal, corner.color};
+        vertices[k].seen.z() += lift_m;
       }
       target->DrawTriangle(vertices, lighting_);
     }
@@ -166,7 +169,8 @@ void Stage::DrawGhosts(const Scene& scene) const {
     }
     Draw(shape, &veil);
   }
-  rasteriser_->Overlay(veil, 0.12);
+  // Sides that have hardly moved would flicker between body and ghost without a margin.
+  rasteriser_->Overlay(veil, 0.12, Metres(8.0));
   for (const Surface& ghost : scene.ghosts) {
     const SurfaceEdges edges = FindEdges(ghost.points_m, ghost.triangles, camera_);
     DrawEdges(ghost.points_m, edges.outlines, 1.2, palette::kGhost, 1.0);
@@ -244,7 +248,8 @@ void Stage::DrawArrow(const Arrow& arrow) const {
   AddFrustum(tail, width * Metres(4.2), neck, width * Metres(4.2), arrow.color, &shape);
   AddDisc(neck, direction, width * Metres(11.0), arrow.color, &shape);
   AddFrustum(neck, width * Metres(11.0), tail + arrow.vector_m, 0.0, arrow.color, &shape);
-  Draw(shape);
+  // In front of everything: a force that runs through the body must be seen whole.
+  Draw(shape, rasteriser_, kInFront_m);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include "libs/fem/bounded_qp.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "libs/core/check.hpp"
 
@@ -37,17 +39,20 @@ ScaledQp Scale(const BoundedQp& qp) {
   return scaled;
 }
 
-/// Minimiser of the quadratic over the free variables, the others staying at y; false where the
-/// objective falls without end along a free direction.
-bool FreeStep(const BoundedQp& qp, const Sides& sides, const QpVector& gradient, double tolerance,
-              QpVector* step) {
+enum class StepKind {
+  kToMinimum,  ///< over the free variables, the others staying
+  kRay,        ///< H has no curvature along the step: the objective falls up to the next bound
+};
+
+StepKind FreeStep(const BoundedQp& qp, const Sides& sides, const QpVector& gradient,
+                  double tolerance, QpVector* step) {
   std::array<Eigen::Index, kMaxQpVariables> index{};
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < gradient.size(); ++i) {
     if (sides[static_cast<size_t>(i)] == Side::kFree) index[static_cast<size_t>(count++)] = i;
   }
   *step = QpVector::Zero(gradient.size());
-  if (count == 0) return true;
+  if (count == 0) return StepKind::kToMinimum;
   QpMatrix H(count, count);
   QpVector g(count);
   for (Eigen::Index a = 0; a < count; ++a) {
@@ -58,22 +63,29 @@ bool FreeStep(const BoundedQp& qp, const Sides& sides, const QpVector& gradient,
   }
   const Eigen::SelfAdjointEigenSolver<QpMatrix> eigen(H);
   const QpVector projected = eigen.eigenvectors().transpose() * g;
-  QpVector p = QpVector::Zero(count);
+  QpVector to_minimum = QpVector::Zero(count);
+  QpVector ray = QpVector::Zero(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     if (eigen.eigenvalues()[k] > 1e-13 * static_cast<double>(count)) {
-      p -= projected[k] / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+      to_minimum -= projected[k] / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
     } else if (std::abs(projected[k]) > tolerance) {
-      return false;
+      ray -= projected[k] * eigen.eigenvectors().col(k);
     }
   }
+  const bool falls_without_end = (ray.array() != 0.0).any();
+  // What is left of rounding must not meet a bound far away.
+  const double rounding = 1e-10 * ray.cwiseAbs().maxCoeff();
+  ray = (ray.array().abs() > rounding).select(ray, 0.0);
+  const QpVector& p = falls_without_end ? ray : to_minimum;
   for (Eigen::Index a = 0; a < count; ++a) (*step)[index[static_cast<size_t>(a)]] = p[a];
-  return true;
+  return falls_without_end ? StepKind::kRay : StepKind::kToMinimum;
 }
 
-/// Largest part of `step` that stays within the bounds; `blocking` gets the bound that stops it.
-double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step,
+/// Largest multiple of `step`, up to `longest`, that stays within the bounds; `blocking` gets the
+/// bound that stops it, or -1.
+double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step, double longest,
                     Eigen::Index* blocking) {
-  double length = 1.0;
+  double length = longest;
   *blocking = -1;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     if (step[i] == 0.0) continue;
@@ -121,30 +133,35 @@ BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
   PALPATE_CHECK(n <= kMaxQpVariables && qp.H.rows() == n && start.size() == n, n, start.size());
   BoundedQpResult result;
   result.x = start;
-  if (!qp.H.allFinite() || !qp.c.allFinite() || (qp.lower.array() > qp.upper.array()).any()) {
+  if (!qp.H.allFinite() || !qp.c.allFinite() || !start.allFinite() ||
+      !(qp.lower.array() <= qp.upper.array()).all()) {
     result.status = Status(StatusCode::kInvalidInput, {});
     return result;
   }
   const ScaledQp scaled = Scale(qp);
   const BoundedQp& problem = scaled.qp;
-  const double tolerance = 1e-12 * scaled.gradient_scale;
   QpVector y = start.cwiseQuotient(scaled.scale).cwiseMax(problem.lower).cwiseMin(problem.upper);
   Sides sides{};
   for (Eigen::Index i = 0; i < n; ++i) {
     Side& side = sides[static_cast<size_t>(i)];
-    if (y[i] == problem.lower[i]) side = Side::kLower;
-    else if (y[i] == problem.upper[i]) side = Side::kUpper;
+    if (y[i] == problem.lower[i])
+      side = Side::kLower;
+    else if (y[i] == problem.upper[i])
+      side = Side::kUpper;
   }
   const int max_iterations = 50 * static_cast<int>(n) + 50;
   for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
     const QpVector gradient = problem.H * y + problem.c;
     QpVector step;
-    if (!FreeStep(problem, sides, gradient, 1e-9 * scaled.gradient_scale, &step)) {
+    const StepKind kind = FreeStep(problem, sides, gradient, 1e-9 * scaled.gradient_scale, &step);
+    const double longest = kind == StepKind::kRay ? std::numeric_limits<double>::infinity() : 1.0;
+    Eigen::Index blocking = -1;
+    const double length = StepToBounds(problem, y, step, longest, &blocking);
+    if (kind == StepKind::kRay && blocking < 0) {
       result.status = Status(StatusCode::kUnobservable, {});
       return result;
     }
-    Eigen::Index blocking = -1;
-    y += StepToBounds(problem, y, step, &blocking) * step;
+    y += length * step;
     if (blocking >= 0) {
       const bool lower = step[blocking] < 0.0;
       y[blocking] = lower ? problem.lower[blocking] : problem.upper[blocking];
@@ -152,6 +169,9 @@ BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
       continue;
     }
     const QpVector reached = problem.H * y + problem.c;
+    // Entries of H are at most 1 now: y tells how large the terms are that rounding acts on.
+    const double tolerance =
+        1e-12 * std::max(scaled.gradient_scale, n > 0 ? y.cwiseAbs().maxCoeff() : 0.0);
     const Eigen::Index release =
         BoundToRelease(sides, reached, tolerance, result.iterations > 10 * static_cast<int>(n));
     if (release < 0) {

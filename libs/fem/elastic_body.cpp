@@ -80,8 +80,7 @@ ElasticBody::Group ElasticBody::MakeGroup(const TetMesh& mesh, const std::vector
   Group group;
   group.nodes_per_cell = static_cast<int>(mesh.cells.rows());
   group.points = mesh.element_type() == ElementType::kTet4 ? 1 : 4;
-  group.kernel =
-      kernels::SelectKernel(group.nodes_per_cell, material.model, material.volumetric);
+  group.kernel = kernels::SelectKernel(group.nodes_per_cell, material.model, material.volumetric);
   group.cells = cells;
   for (int cell : cells) group.material.push_back(material_of_cell[At(cell)]);
   const size_t lanes = (cells.size() + kLanes - 1) / kLanes * kLanes;
@@ -99,8 +98,7 @@ ElasticBody::Group ElasticBody::MakeGroup(const TetMesh& mesh, const std::vector
   return group;
 }
 
-void ElasticBody::FillCell(const TetMesh& mesh, int cell, int block, int lane,
-                           Group& group) const {
+void ElasticBody::FillCell(const TetMesh& mesh, int cell, int block, int lane, Group& group) const {
   const int nodes = group.nodes_per_cell;
   Eigen::Matrix3Xd corners(3, nodes);
   for (int a = 0; a < nodes; ++a) {
@@ -129,7 +127,8 @@ void ElasticBody::FillCell(const TetMesh& mesh, int cell, int block, int lane,
 
 void ElasticBody::UpdateModuli(Group& group) const {
   for (size_t k = 0; k < group.lambda_Pa.size(); ++k) {
-    const Material& material = materials_[At(group.material[std::min(k, group.material.size() - 1)])];
+    const Material& material =
+        materials_[At(group.material[std::min(k, group.material.size() - 1)])];
     group.lambda_Pa[k] = material.LameLambda_Pa();
     group.mu_Pa[k] = material.LameMu_Pa();
   }
@@ -167,8 +166,8 @@ void ElasticBody::BindTo(const StiffnessMatrix& stiffness) {
       for (int lane = 0; lane < kLanes; ++lane) {
         for (int a = 0; a < group.nodes_per_cell; ++a) {
           for (int b = 0; b <= a; ++b) {
-            group.slots.push_back(stiffness.Slot(view.nodes[a * kLanes + lane],
-                                                 view.nodes[b * kLanes + lane]));
+            group.slots.push_back(
+                stiffness.Slot(view.nodes[a * kLanes + lane], view.nodes[b * kLanes + lane]));
           }
         }
       }

@@ -3,8 +3,6 @@
 
 #include "libs/fem/linearisation.hpp"
 
-#include <cmath>
-
 #include "libs/core/check.hpp"
 
 namespace palpate::fem {

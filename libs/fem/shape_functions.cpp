@@ -12,7 +12,8 @@ namespace palpate::fem {
 namespace {
 
 /// Corners that each mid-edge node lies between, in the order of ElementType::kTet10.
-constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+constexpr std::array<std::array<int, 2>, 6> kEdges{
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 Eigen::Vector4d Barycentric(const Eigen::Vector3d& xi) {
   return {1.0 - xi.sum(), xi.x(), xi.y(), xi.z()};

@@ -55,9 +55,8 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
   Status last = Status(StatusCode::kNotConverged, {});
   for (int tries = 0; tries < settings_.max_load_steps; ++tries) {
     // After a failure the rest of the way is taken in smaller pieces.
-    const LoadState loads = remaining_fraction < 1.0
-                                ? Interpolate(start, target, remaining_fraction)
-                                : target;
+    const LoadState loads =
+        remaining_fraction < 1.0 ? Interpolate(start, target, remaining_fraction) : target;
     attempt = start;
     last = SolveLoadStep(loads, &attempt, &result);
     result.multipliers_N = attempt.multipliers_N;
@@ -80,17 +79,17 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
     if (remaining_fraction * (1.0 - result.load_fraction) < settings_.smallest_load_step) break;
   }
   *state = std::move(start);
-  result.status = last;
+  result.status = last.ok() ? Status(StatusCode::kNotConverged, "load steps used up") : last;
   return result;
 }
 
 LoadState StaticSolver::Interpolate(const StaticState& start, const LoadState& target,
                                     double fraction) const {
   LoadState loads = target;
-  loads.external_force_N = (1.0 - fraction) * start.loads.external_force_N +
-                           fraction * target.external_force_N;
-  loads.fixed_position_m = (1.0 - fraction) * start.loads.fixed_position_m +
-                           fraction * target.fixed_position_m;
+  loads.external_force_N =
+      (1.0 - fraction) * start.loads.external_force_N + fraction * target.external_force_N;
+  loads.fixed_position_m =
+      (1.0 - fraction) * start.loads.fixed_position_m + fraction * target.fixed_position_m;
   for (Eigen::Index c = 0; c < Count(target); ++c) {
     ConstraintCommand& command = loads.commands[static_cast<size_t>(c)];
     double from = start.multipliers_N[c];
@@ -212,10 +211,9 @@ bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, Stat
     trial_multipliers_ = state->multipliers_N + length * (new_multipliers_ - state->multipliers_N);
     if (!accepted && length == 1.0) {
       StaticState trial{trial_x_, trial_multipliers_, {}};
-      const Status status = linearisation_.UpdateResidual(trial_x_, trial_multipliers_,
-                                                          loads.external_force_N);
-      const double residual =
-          linearisation_.residual_N().norm() / ForceScale(loads, trial);
+      const Status status =
+          linearisation_.UpdateResidual(trial_x_, trial_multipliers_, loads.external_force_N);
+      const double residual = linearisation_.residual_N().norm() / ForceScale(loads, trial);
       const double error = ConstraintError(loads, trial);
       accepted = status.ok() && residual <= 0.5 * residual_before + 1e-12 &&
                  error <= 0.5 * error_before + settings_.constraint_tolerance_m;

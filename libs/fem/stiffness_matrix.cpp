@@ -48,6 +48,7 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
       if (fixed(i, node)) single_fixed_.push_back(3 * FreeIndex(node) + i);
     }
   }
+  std::sort(single_fixed_.begin(), single_fixed_.end());
 }
 
 void StiffnessMatrix::BuildPattern(const NodePairs& free_pairs) {
@@ -111,15 +112,16 @@ void StiffnessMatrix::AddRelativeShift(double shift) {
 
 void StiffnessMatrix::FixSingleDirections() {
   if (single_fixed_.empty()) return;
-  std::vector<bool> is_fixed(static_cast<size_t>(Size()), false);
-  for (int row : single_fixed_) is_fixed[static_cast<size_t>(row)] = true;
+  const auto is_fixed = [&](int row) {
+    return std::binary_search(single_fixed_.begin(), single_fixed_.end(), row);
+  };
   for (int j = 0; j < Size(); ++j) {
-    const bool column_fixed = is_fixed[static_cast<size_t>(j)];
-    for (int k = column_start_[static_cast<size_t>(j)]; k < column_start_[static_cast<size_t>(j) + 1];
-         ++k) {
+    const bool column_fixed = is_fixed(j);
+    for (int k = column_start_[static_cast<size_t>(j)];
+         k < column_start_[static_cast<size_t>(j) + 1]; ++k) {
       const int i = row_[static_cast<size_t>(k)];
       // The diagonal entry stays as it is: its size does not matter, and it keeps the scale.
-      if (i != j && (column_fixed || is_fixed[static_cast<size_t>(i)])) {
+      if (i != j && (column_fixed || is_fixed(i))) {
         values_[static_cast<size_t>(k)] = 0.0;
       }
     }
@@ -146,8 +148,8 @@ void StiffnessMatrix::AddExpanded(const Eigen::Ref<const Eigen::VectorXd>& reduc
 Eigen::VectorXd StiffnessMatrix::Times(const Eigen::Ref<const Eigen::VectorXd>& reduced) const {
   Eigen::VectorXd product = Eigen::VectorXd::Zero(Size());
   for (int j = 0; j < Size(); ++j) {
-    for (int k = column_start_[static_cast<size_t>(j)]; k < column_start_[static_cast<size_t>(j) + 1];
-         ++k) {
+    for (int k = column_start_[static_cast<size_t>(j)];
+         k < column_start_[static_cast<size_t>(j) + 1]; ++k) {
       const int i = row_[static_cast<size_t>(k)];
       product[i] += values_[static_cast<size_t>(k)] * reduced[j];
       if (i != j) product[j] += values_[static_cast<size_t>(k)] * reduced[i];

@@ -107,8 +107,7 @@ void Cable::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
     size_t slot = 0;
     for (size_t k = 0; k < piece.nodes.size(); ++k) {
       for (size_t l = 0; l <= k; ++l) {
-        const Eigen::Matrix3d block =
-            piece.coefficients[k] * piece.coefficients[l] * curvature;
+        const Eigen::Matrix3d block = piece.coefficients[k] * piece.coefficients[l] * curvature;
         stiffness.Add(piece.slots[slot++], block);
       }
     }

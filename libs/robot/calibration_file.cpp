@@ -123,9 +123,12 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
   RequireSame("material", calibration.model, present.model);
   RequireSame("Poisson's ratio", FormatNumber(calibration.poissons_ratio),
               FormatNumber(present.poissons_ratio));
+  std::vector<int> materials;  // all of them first, so that a refusal leaves the model as it was
   for (const CalibratedModulus& modulus : calibration.moduli) {
-    model->SetYoungsModulus(MaterialIndex(model->body(), modulus.part),
-                            modulus.youngs_modulus_Pa);
+    materials.push_back(MaterialIndex(model->body(), modulus.part));
+  }
+  for (size_t k = 0; k < materials.size(); ++k) {
+    model->SetYoungsModulus(materials[k], calibration.moduli[k].youngs_modulus_Pa);
   }
 }
 

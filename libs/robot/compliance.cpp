@@ -52,8 +52,7 @@ void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cabl
   }
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
-    delta_a_free_[c] +=
-        cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m);
+    delta_a_free_[c] += cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m);
   }
   // The free values are those without cable and contact forces; the residual holds both.
   delta_e_free_.noalias() -= W_ea_ * lambda_a_;

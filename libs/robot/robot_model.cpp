@@ -116,20 +116,21 @@ fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
 
 fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
                                     const std::vector<DeadLoad>& loads, fem::StaticState* state) {
+  const fem::LoadState target = Loads(cables, loads);
   for (int c = 0; c < CableCount(); ++c) {
     const CableCommand& command = cables[static_cast<size_t>(c)];
     const BodyCable& driven = body_.cables[static_cast<size_t>(c)];
     if (command.kind == CableCommand::Kind::kTension &&
         !(command.value >= 0.0 && command.value <= driven.max_tension_N)) {
       fem::StaticResult refused;
-      refused.status = Status(StatusCode::kTensionLimit,
-                              "cable " + driven.name + ": tension " +
-                                  FormatNumber(command.value) + " N is not within 0 to " +
-                                  FormatNumber(driven.max_tension_N) + " N");
+      refused.status =
+          Status(StatusCode::kTensionLimit,
+                 "cable " + driven.name + ": tension " + FormatNumber(command.value) +
+                     " N is not within 0 to " + FormatNumber(driven.max_tension_N) + " N");
       return refused;
     }
   }
-  fem::StaticResult result = static_solver_.Solve(Loads(cables, loads), state);
+  fem::StaticResult result = static_solver_.Solve(target, state);
   if (result.status.code() != StatusCode::kTensionLimit) return result;
   for (int c = 0; c < CableCount(); ++c) {
     const CableCommand& command = cables[static_cast<size_t>(c)];

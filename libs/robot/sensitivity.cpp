@@ -27,8 +27,8 @@ Status EquilibriumSensitivity(RobotModel& model, const std::vector<CableCommand>
                               const fem::StaticState& state,
                               const Eigen::MatrixXd& force_derivative_N, Eigen::MatrixXd* dx_dp) {
   fem::Linearisation& linearisation = model.linearisation();
-  Status status = linearisation.Update(state.x_m, state.multipliers_N,
-                                       state.loads.external_force_N);
+  Status status =
+      linearisation.Update(state.x_m, state.multipliers_N, state.loads.external_force_N);
   if (!status.ok()) return status;
   const std::vector<int> taut = TautCables(cables, state);
   const auto t = static_cast<Eigen::Index>(taut.size());

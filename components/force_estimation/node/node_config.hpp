@@ -14,7 +14,7 @@ namespace palpate::force_estimation {
 struct NodeConfig : Config {
   std::string cable_input = "displacement";
   double max_age_s = 0.0;
-  double cable_wait_s = 0.2;
+  double cable_wait_s = 0.5;
   double max_cable_age_s = 0.5;
   double silence_s = 2.0;
   dds::NodeSettings dds;

@@ -4,7 +4,7 @@
 #pragma once
 
 /// The element kernel: eight elements in the lanes of a pack. Included by one source per
-/// instruction set, after palpate/fem/kernels/kernel.hpp.
+/// instruction set, after libs/fem/kernels/kernel.hpp.
 #include "libs/fem/kernels/pack.inl"
 #include "libs/fem/kernels/constitutive.inl"
 

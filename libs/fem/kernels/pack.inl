@@ -39,11 +39,6 @@ PALPATE_INLINE Pack Dot(const Vec& a, const Vec& b) {
   return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
 }
 
-PALPATE_INLINE Vec Cross(const Vec& a, const Vec& b) {
-  return {{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
-           a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
-}
-
 PALPATE_INLINE Vec Times(const Mat& a, const Vec& b) {
   Vec result;
   for (int i = 0; i < 3; ++i) {

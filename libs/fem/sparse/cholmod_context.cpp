@@ -11,10 +11,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <string_view>
 
-// OpenBLAS, where the BLAS in use is OpenBLAS: its threads cost more than they bring on fronts of
-// this size, and they would compete with our own.
-extern "C" void openblas_set_num_threads(int count) __attribute__((weak));
+// OpenBLAS, where the BLAS in use is OpenBLAS, and the OpenMP that CHOLMOD was built with, if any.
+extern "C" {
+void openblas_set_num_threads(int count) __attribute__((weak));
+char* openblas_get_corename() __attribute__((weak));
+void gotoblas_dynamic_quit() __attribute__((weak));
+void gotoblas_dynamic_init() __attribute__((weak));
+int omp_get_max_active_levels() __attribute__((weak));
+void omp_set_max_active_levels(int levels) __attribute__((weak));
+}
 
 namespace palpate::fem::internal {
 
@@ -32,7 +39,7 @@ class BlockPool {
     if (block != nullptr) {
       free_[static_cast<size_t>(order)] = block->next;
     } else {
-      block = static_cast<Header*>(std::malloc(size_t{1} << order));
+      block = static_cast<Header*>(std::aligned_alloc(alignof(Header), size_t{1} << order));
       if (block == nullptr) return nullptr;
       block->order = order;
     }
@@ -86,13 +93,46 @@ void* PoolCalloc(size_t count, size_t size) {
 void* PoolRealloc(void* pointer, size_t bytes) { return Pool().Reallocate(pointer, bytes); }
 void PoolFree(void* pointer) { Pool().Release(pointer); }
 
-void InstallPool() {
+/// What OpenBLAS is to use instead of `core`, the kernels it chose; null: nothing better. To a
+/// processor younger than itself OpenBLAS gives kernels of 2004, without AVX.
+const char* BetterBlasCore([[maybe_unused]] std::string_view core) {
+#if defined(__x86_64__)
+  const bool without_avx = core == "Prescott" || core == "Core2" || core == "Nehalem";
+  if (!without_avx || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    return nullptr;
+  }
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  return avx512 ? "SkylakeX" : "Haswell";
+#else
+  return nullptr;
+#endif
+}
+
+/// OPENBLAS_CORETYPE, where the user gives it, stands.
+void ChooseBlasKernels() {
+  constexpr const char* kVariable = "OPENBLAS_CORETYPE";
+  if (openblas_get_corename == nullptr || gotoblas_dynamic_quit == nullptr ||
+      gotoblas_dynamic_init == nullptr || std::getenv(kVariable) != nullptr) {
+    return;
+  }
+  const char* better = BetterBlasCore(openblas_get_corename());
+  if (better == nullptr) return;
+  setenv(kVariable, better, 1);
+  gotoblas_dynamic_quit();
+  gotoblas_dynamic_init();
+  unsetenv(kVariable);
+}
+
+/// BLAS threads cost more than they bring on fronts of this size, and would compete with our own.
+void PrepareLibraries() {
   static std::once_flag once;
   std::call_once(once, [] {
     SuiteSparse_config.malloc_func = PoolMalloc;
     SuiteSparse_config.calloc_func = PoolCalloc;
     SuiteSparse_config.realloc_func = PoolRealloc;
     SuiteSparse_config.free_func = PoolFree;
+    ChooseBlasKernels();
     if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
   });
 }
@@ -100,12 +140,22 @@ void InstallPool() {
 }  // namespace
 
 CholmodContext::CholmodContext() {
-  InstallPool();
+  PrepareLibraries();
   cholmod_start(&common_);
   common_.print = 0;
   common_.quick_return_if_not_posdef = 1;
 }
 
 CholmodContext::~CholmodContext() { cholmod_finish(&common_); }
+
+OneThread::OneThread() {
+  if (omp_get_max_active_levels == nullptr || omp_set_max_active_levels == nullptr) return;
+  levels_before_ = omp_get_max_active_levels();
+  omp_set_max_active_levels(0);
+}
+
+OneThread::~OneThread() {
+  if (levels_before_ >= 0) omp_set_max_active_levels(levels_before_);
+}
 
 }  // namespace palpate::fem::internal

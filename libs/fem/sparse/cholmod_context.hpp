@@ -25,4 +25,18 @@ class CholmodContext {
   cholmod_common common_;
 };
 
+/// While it lives, OpenMP loops that this thread enters run on this thread alone. CHOLMOD enters
+/// some thousand loops of a few dozen iterations in one factorisation, on four threads each: handing
+/// them out takes longer than running them.
+class OneThread {
+ public:
+  OneThread();
+  ~OneThread();
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int levels_before_ = -1;
+};
+
 }  // namespace palpate::fem::internal

@@ -11,6 +11,13 @@ namespace palpate::fem {
 
 namespace {
 
+/// BLAS lets NaN pass as a pivot, so that it has to be found before.
+bool AllFinite(std::span<const double> values) {
+  bool finite = true;
+  for (const double value : values) finite &= std::isfinite(value);
+  return finite;
+}
+
 class CholmodSolver final : public SparseSolver {
  public:
   explicit CholmodSolver(const SymmetricPattern& pattern) : pattern_(pattern) {
@@ -20,6 +27,7 @@ class CholmodSolver final : public SparseSolver {
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_NATURAL;  // the pattern is in its final order already
     common->postorder = 0;
+    UseLargeSupernodes(common);
     cholmod_sparse matrix = View({});
     factor_ = cholmod_analyze(&matrix, common);
     PALPATE_CHECK(factor_ != nullptr, common->status);
@@ -36,8 +44,12 @@ class CholmodSolver final : public SparseSolver {
 
   Status Factorize(std::span<const double> values) override {
     has_factor_ = false;
+    if (!AllFinite(values)) return {StatusCode::kInvalidInput, "the matrix is not finite"};
     cholmod_sparse matrix = View(values);
-    cholmod_factorize(&matrix, factor_, context_.get());
+    {
+      const internal::OneThread one_thread;
+      cholmod_factorize(&matrix, factor_, context_.get());
+    }
     const int status = context_.get()->status;
     if (status == CHOLMOD_NOT_POSDEF || factor_->minor < factor_->n) {
       return {StatusCode::kNotPositiveDefinite, {}};
@@ -61,6 +73,7 @@ class CholmodSolver final : public SparseSolver {
     right_hand_side.x = columns.data();
     right_hand_side.xtype = CHOLMOD_REAL;
     right_hand_side.dtype = CHOLMOD_DOUBLE;
+    const internal::OneThread one_thread;
     const int solved = cholmod_solve2(CHOLMOD_A, factor_, &right_hand_side, nullptr, &solution_,
                                       nullptr, &workspace_y_, &workspace_e_, context_.get());
     PALPATE_CHECK(solved == 1, context_.get()->status);

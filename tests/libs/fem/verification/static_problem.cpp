@@ -110,15 +110,23 @@ void StaticProblem::AddBodyForce(const VectorField& force_N_m3) {
   }
 }
 
-Solution Solve(const StaticProblem& problem, const StaticSettings& settings) {
+Solution Solve(const StaticProblem& problem) { return SolveInSteps(problem, 1); }
+
+Solution SolveInSteps(const StaticProblem& problem, int steps) {
   ElasticBody body(problem.mesh, {problem.material},
                    std::vector<int>(static_cast<size_t>(problem.mesh.CellCount()), 0));
   Linearisation linearisation(body, problem.constraints, problem.fixed);
-  StaticSolver solver(linearisation, settings);
+  StaticSolver solver(linearisation);
   StaticState state = solver.RestState();
   Solution solution;
-  solution.result = solver.Solve(
-      {problem.external_force_N, problem.commands, problem.fixed_position_m}, &state);
+  for (int step = 1; step <= steps; ++step) {
+    const double fraction = static_cast<double>(step) / steps;
+    LoadState loads{fraction * problem.external_force_N, problem.commands,
+                    problem.fixed_position_m};
+    for (ConstraintCommand& command : loads.commands) command.value *= fraction;
+    solution.result = solver.Solve(loads, &state);
+    if (!solution.result.status.ok()) break;
+  }
   solution.x_m = state.x_m;
   solution.u_m = state.x_m - body.rest_m();
   return solution;

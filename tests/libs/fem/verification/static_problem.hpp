@@ -47,6 +47,10 @@ struct Solution {
 };
 
 /// The equilibrium reached from the rest shape.
-Solution Solve(const StaticProblem& problem, const StaticSettings& settings = {});
+Solution Solve(const StaticProblem& problem);
+
+/// The same through `steps` equilibria under equal parts of the loads and multipliers; for bodies
+/// so slender that there are several equilibria.
+Solution SolveInSteps(const StaticProblem& problem, int steps);
 
 }  // namespace palpate::fem::verification

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/verbs.hpp"
+#include "components/palpate/node/verbs.hpp"
 #include "libs/app/arguments.hpp"
 #include "libs/app/run_main.hpp"
 

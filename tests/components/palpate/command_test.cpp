@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/verbs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "components/palpate/child_process.hpp"
+#include "components/palpate/progress_line.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "tests/components/palpate/test_robot.hpp"
+
+namespace palpate::command {
+namespace {
+
+std::string RefusalOf(const std::vector<std::string>& words) {
+  try {
+    RunCommand(words);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Command, AnswersHelpAndVersion) {
+  EXPECT_EQ(RunCommand({"--help"}), 0);
+  EXPECT_EQ(RunCommand({"--version"}), 0);
+  for (const char* verb : {"solve", "calibrate", "estimate", "import", "info", "demo"}) {
+    EXPECT_EQ(RunCommand({verb, "--help"}), 0) << verb;
+  }
+}
+
+TEST(Command, RefusesWhatItDoesNotKnowWithDidYouMean) {
+  EXPECT_THAT(RefusalOf({"sovle"}), testing::HasSubstr("did you mean 'solve'?"));
+  EXPECT_THAT(RefusalOf({"solve", "beam", "--uot", "x"}), testing::HasSubstr("--out"));
+  EXPECT_THAT(RefusalOf({}), testing::HasSubstr("a verb is missing"));
+  EXPECT_THAT(RefusalOf({"solve", "beam"}), testing::HasSubstr("--out"));
+}
+
+TEST(Command, DescribesRobotMeshAndExperiment) {
+  const TestFolder folder;
+  const auto robot = WriteBarRobot(folder);
+  EXPECT_EQ(RunCommand({"info", robot.string()}), 0);
+  EXPECT_EQ(RunCommand({"info", robot.string(), "--json"}), 0);
+  EXPECT_EQ(RunCommand({"info", (folder / "bar.vtk").string(), "--unit", "mm"}), 0);
+  EXPECT_EQ(RunCommand({"info", PALPATE_SOURCE_DIR "/tests/data/beam_calculix"}), 0);
+  EXPECT_THAT(RefusalOf({"info", "nothing.msh"}), testing::HasSubstr("nothing.msh"));
+}
+
+TEST(ProgressLine, SaysRateAndTimeToGo) {
+  EXPECT_EQ(ProgressLine::Text("rows", 0, 40, 3.0), "0 of 40 rows");
+  EXPECT_EQ(ProgressLine::Text("rows", 10, 40, 5.0), "10 of 40 rows, 2 rows/s, 15 s to go");
+}
+
+TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {
+  const TestFolder folder;
+  ChildProcess process("/bin/sh", {"-c", "echo $GREETING; exit 3"}, {{"GREETING", "hello"}},
+                       folder / "log");
+  EXPECT_EQ(process.Wait(), 3);
+  EXPECT_EQ(process.ExitCode(), 3);
+  EXPECT_EQ(process.Stop(), 3);
+  EXPECT_EQ(ReadFile(folder / "log"), "hello\n");
+}
+
+TEST(ChildProcess, EndsWhatStillRuns) {
+  const TestFolder folder;
+  ChildProcess process("/bin/sleep", {"1000"}, {}, folder / "log");
+  EXPECT_FALSE(process.ExitCode());
+  EXPECT_EQ(process.Stop(), 128 + SIGINT);
+}
+
+TEST(ChildProcess, RefusesAProgramThatIsNotThere) {
+  const TestFolder folder;
+  EXPECT_THROW(ChildProcess("/no/such/program", {}, {}, folder / "log"), RunError);
+  EXPECT_THROW(ChildProcess("/bin/true", {}, {}, "/no/such/folder/log"), RunError);
+}
+
+}  // namespace
+}  // namespace palpate::command

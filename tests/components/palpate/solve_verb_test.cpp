@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/solve_verb.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/experiment/csv_table.hpp"
+#include "tests/components/palpate/test_robot.hpp"
+
+namespace palpate::command {
+namespace {
+
+using experiment::CsvTable;
+
+class SolveVerb : public testing::Test {
+ protected:
+  SolveVerb() {
+    options_.robot = WriteBarRobot(folder_);
+    options_.out = folder_ / "out";
+  }
+
+  void Actuate(const std::string& csv) { options_.actuation = folder_.Write("a.csv", csv); }
+  nlohmann::json Result() const {
+    return nlohmann::json::parse(ReadFile(options_.out / "result.json"));
+  }
+  CsvTable Cables() const { return CsvTable::Read(options_.out / "cables.csv"); }
+  double TipHeight_m(int row) const {
+    const CsvTable nodes =
+        CsvTable::Read(options_.out / ("nodes_000" + std::to_string(row) + ".csv"));
+    return nodes.Number(nodes.rows() - 1, 3);
+  }
+
+  TestFolder folder_;
+  SolveOptions options_;
+};
+
+TEST_F(SolveVerb, WritesNodesCablesAndResult) {
+  Actuate("t_s,top.tension_N\n0,0\n1,0.2\n");
+  ASSERT_EQ(Solve(options_), 0);
+  const CsvTable nodes = CsvTable::Read(options_.out / "nodes_0001.csv");
+  EXPECT_EQ(nodes.header(), (std::vector<std::string>{"node", "x_m", "y_m", "z_m"}));
+  EXPECT_EQ(nodes.rows(), 81U);
+  EXPECT_EQ(Cables().header(),
+            (std::vector<std::string>{"row", "cable", "displacement_m", "tension_N"}));
+  const nlohmann::json result = Result();
+  EXPECT_TRUE(result["converged"]);
+  ASSERT_EQ(result["rows"].size(), 2U);
+  for (const auto& row : result["rows"]) {
+    EXPECT_EQ(row["status"], "ok");
+    EXPECT_GT(row["iterations"], 0);
+    EXPECT_LT(row["residual_N"], 1e-8);
+    EXPECT_GE(row["time_s"], 0.0);
+  }
+  EXPECT_FALSE(std::filesystem::exists(options_.out / "body_0000.vtu"));
+}
+
+TEST_F(SolveVerb, GivesTheTensionBackForItsDisplacement) {
+  Actuate("t_s,top.tension_N\n0,0.3\n");
+  ASSERT_EQ(Solve(options_), 0);
+  const double displacement_m = Cables().Number(0, 2);
+  EXPECT_GT(displacement_m, 1e-4);
+  const double height_m = TipHeight_m(0);
+  Actuate("t_s,top.displacement_m\n0," + std::to_string(displacement_m) + "\n");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_NEAR(Cables().Number(0, 2), displacement_m, 1e-6);
+  EXPECT_NEAR(Cables().Number(0, 3), 0.3, 2e-3);  // the displacement is written to 1e-6 m
+  EXPECT_NEAR(TipHeight_m(0), height_m, 1e-4);
+}
+
+TEST_F(SolveVerb, SaysThatACableIsSlackAndNeverPushes) {
+  Actuate("t_s,top.displacement_m\n0,-0.02\n");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_DOUBLE_EQ(Cables().Number(0, 3), 0.0);
+  EXPECT_GT(Cables().Number(0, 2), -0.02);
+  EXPECT_THAT(Result()["rows"][0]["notes"][0].get<std::string>(),
+              testing::HasSubstr("cable top is slack"));
+}
+
+TEST_F(SolveVerb, FailsWithRowCableAndCauseWhereNoEquilibriumReachesTheDisplacement) {
+  Actuate("t_s,top.displacement_m\n0,0.001\n1,0.2\n2,0.001\n");
+  EXPECT_EQ(Solve(options_), 1);
+  const nlohmann::json rows = Result()["rows"];
+  EXPECT_FALSE(Result()["converged"]);
+  EXPECT_TRUE(rows[0]["converged"]);
+  EXPECT_EQ(rows[1]["status"], "not_converged");
+  EXPECT_THAT(rows[1]["message"].get<std::string>(),
+              testing::HasSubstr("cable top: no equilibrium reaches a displacement of 0.2 m"));
+  EXPECT_TRUE(rows[2]["converged"]);
+  EXPECT_FALSE(std::filesystem::exists(options_.out / "nodes_0001.csv"));
+  EXPECT_TRUE(std::filesystem::exists(options_.out / "nodes_0002.csv"));
+  EXPECT_EQ(Cables().Text(1, 2), "");
+  EXPECT_NEAR(Cables().Number(2, 2), Cables().Number(0, 2), 1e-8);
+}
+
+TEST_F(SolveVerb, FailsWhereADisplacementNeedsMoreThanTheCableBears) {
+  Actuate("t_s,top.displacement_m\n0,0.06\n");
+  EXPECT_EQ(Solve(options_), 1);
+  EXPECT_THAT(Result()["rows"][0]["message"].get<std::string>(), testing::HasSubstr("cable top"));
+}
+
+TEST_F(SolveVerb, HangsUnderItsWeightWithoutActuationAndLowerUnderALoad) {
+  ASSERT_EQ(Solve(options_), 0);
+  const double under_weight_m = TipHeight_m(0);
+  EXPECT_LT(under_weight_m, 0.02);
+  options_.loads = folder_.Write("l.csv",
+                                 "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n"
+                                 "0,0.08,0.01,0.01,0,0,-0.05,0.005\n");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_LT(TipHeight_m(0), under_weight_m - 1e-4);
+}
+
+TEST_F(SolveVerb, ReachesTheSameStateInOneStepAndInMany) {
+  Actuate("t_s,top.displacement_m\n0,0.01\n");
+  ASSERT_EQ(Solve(options_), 0);
+  const double at_once_m = TipHeight_m(0);
+  Actuate("t_s,top.displacement_m\n0,0\n1,0.004\n2,0.008\n3,0.01\n");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_NEAR(TipHeight_m(3), at_once_m, 1e-9);
+}
+
+TEST_F(SolveVerb, RemovesTheRowsOfAnEarlierRun) {
+  Actuate("t_s,top.tension_N\n0,0\n1,0.1\n");
+  options_.vtu = true;
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_TRUE(std::filesystem::exists(options_.out / "body_0001.vtu"));
+  folder_.Write("out/mine.txt", "not ours");
+  options_.actuation.clear();
+  options_.vtu = false;
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_FALSE(std::filesystem::exists(options_.out / "nodes_0001.csv"));
+  EXPECT_FALSE(std::filesystem::exists(options_.out / "body_0001.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(options_.out / "mine.txt"));
+}
+
+TEST_F(SolveVerb, RefusesALoadFarFromTheBodyWithFileAndLine) {
+  options_.loads = folder_.Write("l.csv", "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n0,80,10,10,0,0,-0.05\n");
+  try {
+    Solve(options_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("l.csv:2"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("half its diagonal"));
+  }
+}
+
+TEST_F(SolveVerb, SaysWhereItCannotWrite) {
+  options_.out = folder_.Write("file", "in the way");
+  EXPECT_THROW(Solve(options_), RunError);
+}
+
+TEST_F(SolveVerb, RefusesARobotThatIsNotThere) {
+  options_.robot = "four_legs";
+  try {
+    Solve(options_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'four_leg'?"));
+  }
+  options_.robot = "no/such/robot.yaml";
+  EXPECT_THROW(Solve(options_), InputError);
+}
+
+}  // namespace
+}  // namespace palpate::command

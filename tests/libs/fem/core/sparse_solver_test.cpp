@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/sparse/sparse_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+#include <vector>
+
+#include "tests/libs/fem/core/laws.hpp"
+
+namespace palpate::fem {
+namespace {
+
+/// A banded symmetric matrix: values by column, lower triangle.
+struct Banded {
+  static constexpr int kSize = 60;
+  static constexpr int kBand = 7;
+
+  explicit Banded(double diagonal, unsigned seed) {
+    std::mt19937 engine(seed);
+    column_start.push_back(0);
+    dense = Eigen::MatrixXd::Zero(kSize, kSize);
+    for (int j = 0; j < kSize; ++j) {
+      for (int i = j; i < std::min(kSize, j + kBand); ++i) {
+        const double entry = i == j ? diagonal : laws::RandomVector(1, 1.0, &engine)[0];
+        row.push_back(i);
+        values.push_back(entry);
+        dense(i, j) = dense(j, i) = entry;
+      }
+      column_start.push_back(static_cast<int>(row.size()));
+    }
+  }
+  SymmetricPattern Pattern() const { return {column_start, row}; }
+
+  std::vector<int> column_start, row;
+  std::vector<double> values;
+  Eigen::MatrixXd dense;
+};
+
+void ExpectSolves(SparseSolver& solver, const Eigen::MatrixXd& dense, int columns) {
+  std::mt19937 engine(8);
+  const Eigen::MatrixXd b =
+      laws::RandomVector(Banded::kSize * columns, 1.0, &engine).reshaped(Banded::kSize, columns);
+  Eigen::MatrixXd x = b;
+  solver.Solve(x);
+  EXPECT_LE((dense * x - b).norm(), 1e-12 * b.norm());
+  EXPECT_LE((x - dense.ldlt().solve(b)).norm(), 1e-12 * x.norm());
+}
+
+TEST(CholmodSolver, SolvesOneAndSeveralRightHandSides) {
+  const Banded matrix(10.0, 1);
+  const auto solver = MakeCholmodSolver(matrix.Pattern());
+  ASSERT_TRUE(solver->Factorize(matrix.values).ok());
+  for (const int columns : {1, 2, 8, 13}) ExpectSolves(*solver, matrix.dense, columns);
+}
+
+TEST(CholmodSolver, SolvesColumnsOfALargerMatrix) {
+  const Banded matrix(10.0, 1);
+  const auto solver = MakeCholmodSolver(matrix.Pattern());
+  ASSERT_TRUE(solver->Factorize(matrix.values).ok());
+  Eigen::MatrixXd block = Eigen::MatrixXd::Ones(Banded::kSize + 5, 4);
+  solver->Solve(block.block(2, 1, Banded::kSize, 2));
+  const Eigen::VectorXd expected = matrix.dense.ldlt().solve(Eigen::VectorXd::Ones(Banded::kSize));
+  EXPECT_LE((block.col(1).segment(2, Banded::kSize) - expected).norm(), 1e-12);
+  EXPECT_LE((block.col(2).segment(2, Banded::kSize) - expected).norm(), 1e-12);
+  EXPECT_TRUE(block.col(0).isOnes(0.0) && block.col(3).isOnes(0.0));
+  EXPECT_TRUE(block.topRows(2).isOnes(0.0) && block.bottomRows(3).isOnes(0.0));
+}
+
+TEST(CholmodSolver, FactorisesAgainWithOtherValues) {
+  const Banded first(10.0, 1);
+  const Banded second(20.0, 2);
+  const auto solver = MakeCholmodSolver(first.Pattern());
+  ASSERT_TRUE(solver->Factorize(first.values).ok());
+  ASSERT_TRUE(solver->Factorize(second.values).ok());
+  ExpectSolves(*solver, second.dense, 3);
+}
+
+TEST(CholmodSolver, SaysThatAMatrixIsNotPositiveDefinite) {
+  const Banded good(10.0, 1);
+  const Banded indefinite(0.5, 1);
+  const auto solver = MakeCholmodSolver(good.Pattern());
+  EXPECT_EQ(solver->Factorize(indefinite.values).code(), StatusCode::kNotPositiveDefinite);
+  ASSERT_TRUE(solver->Factorize(good.values).ok());
+  ExpectSolves(*solver, good.dense, 1);
+}
+
+TEST(CholmodSolver, RefusesNaNAnywhere) {
+  const Banded good(10.0, 1);
+  const auto solver = MakeCholmodSolver(good.Pattern());
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    for (const size_t at : {size_t{0}, size_t{3}, good.values.size() / 2, good.values.size() - 1}) {
+      std::vector<double> values = good.values;
+      values[at] = bad;
+      EXPECT_FALSE(solver->Factorize(values).ok()) << bad << " at " << at;
+    }
+  }
+  ASSERT_TRUE(solver->Factorize(good.values).ok());
+  ExpectSolves(*solver, good.dense, 1);
+}
+
+TEST(CholmodSolverDeathTest, DoesNotSolveWithoutAFactor) {
+  const Banded indefinite(0.5, 1);
+  const auto solver = MakeCholmodSolver(indefinite.Pattern());
+  EXPECT_FALSE(solver->Factorize(indefinite.values).ok());
+  Eigen::MatrixXd column = Eigen::MatrixXd::Ones(Banded::kSize, 1);
+  EXPECT_DEATH(solver->Solve(column), "has_factor_");
+}
+
+TEST(CholmodSolver, TellsTheSizeOfItsFactor) {
+  const Banded matrix(10.0, 1);
+  const auto solver = MakeCholmodSolver(matrix.Pattern());
+  // A band fills no more than itself.
+  EXPECT_EQ(solver->FactorNonzeros(), matrix.row.size());
+  ASSERT_TRUE(solver->Factorize(matrix.values).ok());
+  EXPECT_GT(solver->FactorFlops(), static_cast<double>(Banded::kSize));
+  EXPECT_GT(solver->MemoryBytes(), 8 * matrix.row.size());
+}
+
+}  // namespace
+}  // namespace palpate::fem
