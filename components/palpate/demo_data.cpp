@@ -121,7 +121,7 @@ DemoData ComputedBeam() {
   demo.self_weight = "self_weight";
   demo.hung_weight = "hung_weight";
   demo.contact = kContact;
-  demo.marker_bias_m = 5e-5;  // differences between the two solvers' meshes
+  demo.marker_bias_m = 2e-4;  // the two solvers' meshes differ by 1 % of 20 mm
   const ConfigNode truth = app::LoadYaml(demo.experiment / "truth.yaml");
   const ConfigNode* weight = truth.Find("hung_weight");
   const ConfigNode* force = weight == nullptr ? nullptr : weight->Find("force_N");

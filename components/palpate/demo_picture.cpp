@@ -88,7 +88,7 @@ view::Scene MakeScene(const DemoData& data, const robot::RobotModel& model,
   AddForce(contact_m, force.force_N, metres_per_newton, view::palette::kEstimate,
            fmt::format("{:.2f} ± {:.2f} N estimated", force.magnitude_N, force.ci95_N), &scene);
   // Beside the estimate, so that equal arrows do not hide each other.
-  const Eigen::Vector3d aside_m(0.0, 0.035 * BodyDiagonal_m(model.body()), 0.0);
+  const Eigen::Vector3d aside_m(0.0, 0.06 * BodyDiagonal_m(model.body()), 0.0);
   AddForce(contact_m + aside_m, data.true_force_N, metres_per_newton, view::palette::kTruth,
            fmt::format("{:.2f} N true", data.true_force_N.norm()), &scene);
   const double rms_m =

@@ -36,7 +36,8 @@ Eigen::Matrix3Xd FixedNodes(const robot::RobotBody& body) {
   return points_m;
 }
 
-// A plate behind a flat clamped face; nothing for one that is not flat.
+// A plate behind a flat clamped face; nothing for one that is not flat. A body that stands on its
+// plate needs no floor below.
 void AddClamp(const robot::RobotBody& body, view::Scene* scene) {
   const Eigen::Matrix3Xd fixed_m = FixedNodes(body);
   if (fixed_m.cols() == 0) {
@@ -48,7 +49,8 @@ void AddClamp(const robot::RobotBody& body, view::Scene* scene) {
   if (thickness_m > 0.02 * BodyDiagonal_m(body)) {
     return;
   }
-  const double plate_m = 0.06 * BodyDiagonal_m(body);
+  const bool is_ground = flat == 2;
+  const double plate_m = (is_ground ? 0.025 : 0.06) * BodyDiagonal_m(body);
   const Bounds whole = BoundsOf(body.mesh.nodes_m);
   const bool at_lower_end = clamped.center_m()(flat) < whole.center_m()(flat);
   view::Block plate{clamped.center_m(), Eigen::Matrix3d::Zero()};
@@ -56,6 +58,9 @@ void AddClamp(const robot::RobotBody& body, view::Scene* scene) {
   plate.half_axes_m.diagonal() = 0.5 * clamped.size_m() + Eigen::Vector3d::Constant(plate_m);
   plate.half_axes_m(flat, flat) = 0.5 * plate_m;
   scene->blocks.push_back(plate);
+  if (is_ground && at_lower_end) {
+    scene->floor_z_m.reset();
+  }
 }
 
 void AddCables(const robot::RobotModel& model, const Eigen::VectorXd& x_m, view::Scene* scene) {
@@ -91,10 +96,10 @@ view::Scene MakeRobotScene(const robot::RobotModel& model, const Eigen::VectorXd
   scene.surfaces.push_back(std::move(surface));
   scene.ghosts.push_back(std::move(rest));
   scene.legend.push_back({view::LegendEntry::Mark::kLine, view::palette::kGhost, "undeformed"});
-  AddClamp(body, &scene);
-  AddCables(model, x_m, &scene);
   const double lowest_m = std::min(body.mesh.nodes_m.row(2).minCoeff(), nodes_m.row(2).minCoeff());
   scene.floor_z_m = lowest_m - 0.35 * BodyDiagonal_m(body);
+  AddClamp(body, &scene);
+  AddCables(model, x_m, &scene);
   return scene;
 }
 

@@ -10,6 +10,7 @@
 #include <regex>
 #include <utility>
 
+#include "components/palpate/robot_scene.hpp"
 #include "libs/app/version.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -32,7 +33,9 @@ void MakeFolder(const std::filesystem::path& folder) {
 }
 
 void RemoveOldResults(const std::filesystem::path& folder) {
-  const std::regex ours("nodes_[0-9]{4,}\\.csv|body_[0-9]{4,}\\.vtu|cables\\.csv|result\\.json");
+  const std::regex ours(
+      "nodes_[0-9]{4,}\\.csv|body_[0-9]{4,}\\.vtu|scene_[0-9]{4,}\\.png|cables\\.csv|result\\."
+      "json");
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), ours)) {
@@ -64,10 +67,11 @@ fem::VtuFields DisplacementField(const robot::RobotModel& model, const Eigen::Ve
 
 }  // namespace
 
-SolveOutput::SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, bool vtu)
+SolveOutput::SolveOutput(std::filesystem::path folder, const robot::RobotModel& model,
+                         const Extras& extras)
     : folder_(std::move(folder)),
       model_(model),
-      vtu_(vtu),
+      extras_(extras),
       cables_text_("row,cable,displacement_m,tension_N\n") {
   MakeFolder(folder_);
   RemoveOldResults(folder_);
@@ -80,13 +84,29 @@ std::filesystem::path SolveOutput::RowFile(const char* stem, int row, const char
 void SolveOutput::Add(const RowResult& result) {
   if (result.converged()) {
     WriteFile(RowFile("nodes", result.row, "csv"), NodesText(result.x_m));
-    if (vtu_) {
+    if (extras_.vtu) {
       fem::WriteVtu(RowFile("body", result.row, "vtu"), model_.body().mesh, result.x_m,
                     DisplacementField(model_, result.x_m));
+    }
+    if (extras_.png) {
+      Draw(result);
     }
   }
   AddCables(result);
   rows_.push_back({result.row, result.t_s, result.solver, result.time_s, result.notes});
+}
+
+void SolveOutput::Draw(const RowResult& result) const {
+  view::Scene scene = MakeRobotScene(model_, result.x_m);
+  scene.title = fmt::format("{}, row {} (t = {:g} s)", model_.body().name, result.row, result.t_s);
+  std::string cables;
+  for (std::size_t c = 0; c < result.cables.size(); ++c) {
+    cables +=
+        fmt::format("{}{} {:.1f} mm {:.2f} N", c == 0 ? "" : ", ", model_.body().cables[c].name,
+                    1e3 * result.cables[c].displacement_m, result.cables[c].tension_N);
+  }
+  scene.caption = {cables};
+  view::SaveScene(RowFile("scene", result.row, "png"), scene);
 }
 
 void SolveOutput::AddCables(const RowResult& result) {

@@ -11,14 +11,20 @@
 
 namespace palpate::command {
 
-/// The folder that `palpate solve` fills: nodes_0000.csv (node,x_m,y_m,z_m) and, if asked for,
-/// body_0000.vtu for each row that converged; cables.csv (row,cable,displacement_m,tension_N; the
+/// What is written besides the tables.
+struct Extras {
+  bool vtu = false;  ///< body_0000.vtu, for ParaView
+  bool png = false;  ///< scene_0000.png
+};
+
+/// The folder that `palpate solve` fills: nodes_0000.csv (node,x_m,y_m,z_m) and the extras for each
+/// row that converged; cables.csv (row,cable,displacement_m,tension_N; the
 /// fields of a row that did not converge are empty) and result.json at the end.
 class SolveOutput {
  public:
   /// Creates the folder and removes what an earlier `solve` left in it, so that no old row passes
   /// for a new one. Throws RunError where that fails.
-  SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, bool vtu);
+  SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, const Extras& extras);
 
   /// Writes the row's own files. Throws RunError where they cannot be written.
   void Add(const RowResult& result);
@@ -28,6 +34,7 @@ class SolveOutput {
 
  private:
   void AddCables(const RowResult& result);
+  void Draw(const RowResult& result) const;
   std::filesystem::path RowFile(const char* stem, int row, const char* extension) const;
 
   struct RowSummary {
@@ -40,7 +47,7 @@ class SolveOutput {
 
   std::filesystem::path folder_;
   const robot::RobotModel& model_;
-  bool vtu_;
+  Extras extras_;
   std::string cables_text_;
   std::vector<RowSummary> rows_;
 };

@@ -65,7 +65,7 @@ int Solve(const SolveOptions& options) {
   const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot);
   const LoadCases cases = ReadCases(options, *model);
   const std::vector<std::string> notes = AllNotes(cases, *model);
-  SolveOutput output(options.out, *model, options.vtu);
+  SolveOutput output(options.out, *model, {.vtu = options.vtu, .png = options.png});
   if (!options.json) {
     for (const std::string& note : notes) {
       fmt::print("note: {}\n", note);
@@ -113,6 +113,7 @@ app::Verb SolveVerb() {
             arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
                              "what is imposed on a cable that has both columns");
             arguments.Flag("--vtu", &options->vtu, "write body_0000.vtu for ParaView as well");
+            arguments.Flag("--png", &options->png, "draw scene_0000.png as well");
             arguments.Flag("--json", &options->json, "print result.json instead of lines to read");
             return [options] { return Solve(*options); };
           }};

@@ -16,7 +16,8 @@ struct SolveOptions {
   std::filesystem::path loads;      ///< empty: no external load
   std::filesystem::path out;
   std::string cable_input = "displacement";  ///< or "tension": what drives a cable with both
-  bool vtu = false;
+  bool vtu = false;                          ///< write body_0000.vtu
+  bool png = false;                          ///< write scene_0000.png
   bool json = false;  ///< result.json on the standard output instead of lines to read
 };
 

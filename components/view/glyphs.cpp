@@ -52,8 +52,7 @@ constexpr Glyph kGlyphs[] = {
      "A7 5.6 2.8 3.2 0 360M9.8 8.8L9.8 4.2C9.8 2 13.4 2.2 13.4 6C13.4 10 10.6 12.4 7 12.4"
      "C3.4 12.4 .6 9.6 .6 5.6C.6 1.4 3.4 -1.4 7.2 -1.4C8.6 -1.4 9.8 -1.1 10.8 -.5"},
     {U'A', 10.4, "M0 0L5.2 14L10.4 0M1.8 4.8L8.6 4.8"},
-    {U'B', 9.2,
-     "M5 7.4L.6 7.4M5 7.4A5 10.7 3.5 3.3 -90 90L.6 14L.6 0L5 0A5 3.7 4.1 3.7 -90 90"},
+    {U'B', 9.2, "M5 7.4L.6 7.4M5 7.4A5 10.7 3.5 3.3 -90 90L.6 14L.6 0L5 0A5 3.7 4.1 3.7 -90 90"},
     {U'C', 10, "A6 7 5.7 7 50 310"},
     {U'D', 10.4, "M.6 0L.6 14L4 14A4 7 6.2 7 90 -90L.6 0"},
     {U'E', 8.4, "M8.2 14L.6 14L.6 0L8.4 0M.6 7.3L7.4 7.3"},
@@ -141,9 +140,9 @@ constexpr Glyph kUnknown{0, 8.0, "M.6 0L.6 14L7.4 14L7.4 0L.6 0"};
 }  // namespace
 
 const Glyph& FindGlyph(char32_t code) {
-  const Glyph* found = std::lower_bound(
-      std::begin(kGlyphs), std::end(kGlyphs), code,
-      [](const Glyph& glyph, char32_t wanted) { return glyph.code < wanted; });
+  const Glyph* found =
+      std::lower_bound(std::begin(kGlyphs), std::end(kGlyphs), code,
+                       [](const Glyph& glyph, char32_t wanted) { return glyph.code < wanted; });
   return found != std::end(kGlyphs) && found->code == code ? *found : kUnknown;
 }
 

@@ -38,7 +38,7 @@ struct Arrow {
   Eigen::Vector3d vector_m;  ///< direction and drawn length
   bool points_at = false;
   Color color = palette::kEstimate;
-  std::string label;  ///< beside the free end; empty: none
+  std::string label{};  ///< beside the free end; empty: none
 };
 
 /// Points of one kind: balls (seen) or crosses (of the model, of a fixed size in the picture).
@@ -48,7 +48,7 @@ struct Points {
   Eigen::Matrix3Xd points_m;  ///< [3 x k]
   double radius_m = 0.0025;   ///< of balls
   Color color = palette::kMarker;
-  std::string name;  ///< in the legend; empty: not in it
+  std::string name{};  ///< in the legend; empty: not in it
 };
 
 /// A flat block, drawn where the body is clamped.

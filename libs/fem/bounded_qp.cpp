@@ -117,6 +117,30 @@ Eigen::Index BoundToRelease(const Sides& sides, const QpVector& gradient, double
   return worst;
 }
 
+Sides SidesOf(const BoundedQp& qp, const QpVector& y) {
+  Sides sides{};
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    Side& side = sides[static_cast<size_t>(i)];
+    if (y[i] == qp.lower[i])
+      side = Side::kLower;
+    else if (y[i] == qp.upper[i])
+      side = Side::kUpper;
+  }
+  return sides;
+}
+
+/// x = scale y; exactly on its bound where that is active, and nowhere outside.
+QpVector Unscale(const BoundedQp& qp, const QpVector& scale, const QpVector& y,
+                 const Sides& sides) {
+  QpVector x = y.cwiseProduct(scale).cwiseMax(qp.lower).cwiseMin(qp.upper);
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const Side side = sides[static_cast<size_t>(i)];
+    if (side == Side::kLower) x[i] = qp.lower[i];
+    if (side == Side::kUpper) x[i] = qp.upper[i];
+  }
+  return x;
+}
+
 double KktResidual(const BoundedQp& qp, const QpVector& y, const QpVector& gradient) {
   double residual = 0.0;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
@@ -141,14 +165,7 @@ BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
   const ScaledQp scaled = Scale(qp);
   const BoundedQp& problem = scaled.qp;
   QpVector y = start.cwiseQuotient(scaled.scale).cwiseMax(problem.lower).cwiseMin(problem.upper);
-  Sides sides{};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Side& side = sides[static_cast<size_t>(i)];
-    if (y[i] == problem.lower[i])
-      side = Side::kLower;
-    else if (y[i] == problem.upper[i])
-      side = Side::kUpper;
-  }
+  Sides sides = SidesOf(problem, y);
   const int max_iterations = 50 * static_cast<int>(n) + 50;
   for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
     const QpVector gradient = problem.H * y + problem.c;
@@ -175,7 +192,7 @@ BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
     const Eigen::Index release =
         BoundToRelease(sides, reached, tolerance, result.iterations > 10 * static_cast<int>(n));
     if (release < 0) {
-      result.x = y.cwiseProduct(scaled.scale);
+      result.x = Unscale(qp, scaled.scale, y, sides);
       result.kkt_residual = KktResidual(problem, y, reached) / scaled.gradient_scale;
       result.status = Status::Ok();
       return result;

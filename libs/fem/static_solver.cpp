@@ -57,8 +57,7 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
     // After a failure the rest of the way is taken in smaller pieces.
     const LoadState loads =
         remaining_fraction < 1.0 ? Interpolate(start, target, remaining_fraction) : target;
-    attempt = start;
-    last = SolveLoadStep(loads, &attempt, &result);
+    last = SolveLoadStep(loads, start, &attempt, &result);
     result.multipliers_N = attempt.multipliers_N;
     if (last.ok()) {
       ++result.load_steps;
@@ -113,15 +112,26 @@ void StaticSolver::ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* 
   }
 }
 
-Status StaticSolver::SolveLoadStep(const LoadState& loads, StaticState* state,
-                                   StaticResult* result) {
+Status StaticSolver::SolveLoadStep(const LoadState& loads, const StaticState& start,
+                                   StaticState* state, StaticResult* result) {
+  *state = start;
+  Status status = Iterate(loads, Steps::kFull, state, result);
+  if (status.ok() || status.code() == StatusCode::kTensionLimit) return status;
+  *state = start;
+  return Iterate(loads, Steps::kLineSearch, state, result);
+}
+
+Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* state,
+                             StaticResult* result) {
   ApplyFixedPositions(loads, &state->x_m);
   for (Eigen::Index c = 0; c < Count(loads); ++c) {
     const ConstraintCommand& command = Command(loads, c);
     if (command.mode == Mode::kMultiplier) state->multipliers_N[c] = command.value;
     if (command.mode == Mode::kOff) state->multipliers_N[c] = 0.0;
   }
-  for (int iteration = 0; iteration <= settings_.max_newton_iterations; ++iteration) {
+  const int most =
+      steps == Steps::kFull ? settings_.max_full_steps : settings_.max_newton_iterations;
+  for (int iteration = 0; iteration <= most; ++iteration) {
     if (Status status = ComputeStep(loads, *state); !status.ok()) return status;
     result->residual_N = linearisation_.residual_N().norm();
     result->residual_relative = result->residual_N / ForceScale(loads, *state);
@@ -129,15 +139,34 @@ Status StaticSolver::SolveLoadStep(const LoadState& loads, StaticState* state,
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
                           result->residual_N <= RoundingFloor(state->x_m);
     if (balanced && result->constraint_error_m <= settings_.constraint_tolerance_m) {
+      if (linearisation_.shifted()) return {StatusCode::kNotConverged, "the balance is unstable"};
       return CheckTensionLimits(loads, *state);
     }
-    if (iteration == settings_.max_newton_iterations) break;
+    if (iteration == most) break;
     ++result->iterations;
-    if (!TakeStep(loads, result->residual_relative, state)) {
+    const bool moved = steps == Steps::kFull ? TakeFullStep(state)
+                                             : TakeStep(loads, result->residual_relative, state);
+    if (!moved) {
       return {StatusCode::kNotConverged, "no step brings the body nearer to equilibrium"};
     }
   }
   return {StatusCode::kNotConverged, "Newton iterations used up"};
+}
+
+/// The whole step, unless it inverts an element: then the largest of its halves that does not.
+bool StaticSolver::TakeFullStep(StaticState* state) {
+  constexpr double kShortestStep = 0.1;
+  for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
+    trial_x_ = state->x_m;
+    linearisation_.matrix().AddExpanded(step_, length, trial_x_);
+    double min_J = 0.0;
+    const double energy = linearisation_.body().Energy(trial_x_, &min_J);
+    if (!(min_J > 0.0) || !std::isfinite(energy)) continue;
+    state->x_m = trial_x_;
+    state->multipliers_N += length * (new_multipliers_ - state->multipliers_N);
+    return true;
+  }
+  return false;
 }
 
 /// step_ and new_multipliers_ at the present state: dx = K^-1 r + K^-1 H_a' dlambda (eq. 6), the

@@ -46,6 +46,9 @@ struct StaticSettings {
   /// Distance by which g may exceed its bound, m.
   double constraint_tolerance_m = 1e-10;
   int max_newton_iterations = 40;  ///< in one load step
+  /// Full Newton steps that are tried before the line search. Where they converge they take a tenth
+  /// of its iterations: bending bodies must pass through stretched states that it refuses.
+  int max_full_steps = 15;
   int max_load_steps = 400;        ///< tried in all
   double smallest_load_step = 1e-4;
 };
@@ -62,8 +65,9 @@ struct StaticResult {
   Eigen::VectorXd multipliers_N;
 };
 
-/// Newton's method for r(x, lambda) = 0 (linearisation.hpp) with line search, a guard against
-/// inverted elements, and load stepping. Bounds on constraints are solved through their compliance
+/// Newton's method for r(x, lambda) = 0 (linearisation.hpp): full steps first; where they fail, a
+/// line search on the potential energy; where that fails, load stepping. No step inverts an element,
+/// and only stable equilibria (K positive definite) count. Bounds on constraints are solved through their compliance
 /// W_aa = H_a K^-1 H_a' (paper, eqs. 4 and 5) as a bounded QP in the multipliers.
 class StaticSolver {
  public:
@@ -77,7 +81,12 @@ class StaticSolver {
   StaticResult Solve(const LoadState& target, StaticState* state);
 
  private:
-  Status SolveLoadStep(const LoadState& loads, StaticState* state, StaticResult* result);
+  enum class Steps { kFull, kLineSearch };
+
+  Status SolveLoadStep(const LoadState& loads, const StaticState& start, StaticState* state,
+                       StaticResult* result);
+  Status Iterate(const LoadState& loads, Steps steps, StaticState* state, StaticResult* result);
+  bool TakeFullStep(StaticState* state);
   LoadState Interpolate(const StaticState& start, const LoadState& target, double fraction) const;
   void ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const;
   Status ComputeStep(const LoadState& loads, const StaticState& state);

@@ -47,7 +47,8 @@ Status EquilibriumSensitivity(RobotModel& model, const std::vector<CableCommand>
   if (t > 0) {
     const Eigen::MatrixXd W_aa = H_a.transpose() * columns.leftCols(t);
     const Eigen::LLT<Eigen::MatrixXd> factor(W_aa);
-    if (factor.info() != Eigen::Success) {
+    constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
+    if (factor.info() != Eigen::Success || factor.rcond() < kAlike) {
       return {StatusCode::kUnobservable, "two taut cables act alike"};
     }
     const Eigen::MatrixXd tension = -factor.solve(H_a.transpose() * columns.rightCols(p));

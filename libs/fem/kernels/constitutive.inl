@@ -13,7 +13,10 @@ namespace {
 
 using palpate::fem::MaterialModel;
 
-/// dU/dJ, d2U/dJ2 and U of the volumetric energy, at the volume ratio J.
+/// U, dU/dJ and d2U/dJ2 of the volumetric energy, at the volume ratio J: of what lambda multiplies.
+/// What mu multiplies stays with the point, so that averaging J leaves the element stable: of the
+/// stable neo-Hookean energy (lambda + mu) / 2 (J - alpha)^2 = lambda / 2 (J - 1)^2 +
+/// mu / 2 (J - 1)^2 - mu (J - 1) + constant, the first term only.
 struct VolumetricLaw {
   Pack U;
   Pack dU;
@@ -21,17 +24,13 @@ struct VolumetricLaw {
 };
 
 template <MaterialModel model>
-PALPATE_INLINE VolumetricLaw EvaluateVolumetric(Pack J, Pack lambda, Pack mu) {
-  if constexpr (model == MaterialModel::kStableNeoHookean) {
-    const Pack bulk = lambda + mu;
-    const Pack shift = J - (1.0 + mu / bulk);
-    return {0.5 * bulk * shift * shift, bulk * shift, bulk};
-  } else if constexpr (model == MaterialModel::kNeoHookean) {
+PALPATE_INLINE VolumetricLaw EvaluateVolumetric(Pack J, Pack lambda) {
+  if constexpr (model == MaterialModel::kNeoHookean) {
     const Pack log_J = Log(J);
     return {0.5 * lambda * log_J * log_J, lambda * log_J / J, lambda * (1.0 - log_J) / (J * J)};
-  } else {  // linear: J stands for 1 + tr(eps)
-    const Pack trace = J - 1.0;
-    return {0.5 * lambda * trace * trace, lambda * trace, lambda};
+  } else {  // stable neo-Hookean; linear, where J stands for 1 + tr(eps)
+    const Pack change = J - 1.0;
+    return {0.5 * lambda * change * change, lambda * change, lambda};
   }
 }
 
@@ -58,10 +57,11 @@ PALPATE_INLINE void EvaluateJBased(const VolumetricLaw& law, bool pointwise, Pac
   point.s = mu;
   point.node_map = cofactor;
   if constexpr (model == MaterialModel::kStableNeoHookean) {
-    point.P = Combine(mu, point.F, law.dU, cofactor);
-    point.energy = 0.5 * mu * square;
-    point.A = ddU + law.dU / J;
-    point.B = -law.dU / J;
+    const Pack pressure = law.dU + mu * (J - 2.0);
+    point.P = Combine(mu, point.F, pressure, cofactor);
+    point.energy = 0.5 * mu * square + 0.5 * mu * (J - 1.0) * (J - 3.0);
+    point.A = ddU + mu + pressure / J;
+    point.B = -pressure / J;
   } else {
     point.P = Combine(mu, point.F, law.dU - mu / J, cofactor);
     point.energy = 0.5 * mu * square - mu * Log(J);

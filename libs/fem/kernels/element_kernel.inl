@@ -3,8 +3,11 @@
 
 #pragma once
 
-/// The element kernel: eight elements in the lanes of a pack. Included by one source per
-/// instruction set, after libs/fem/kernels/kernel.hpp.
+/// The element kernel: eight elements in the lanes of a pack. Included by one source for each
+/// instruction set.
+#include "libs/fem/kernels/kernel.hpp"
+
+// These two need it, and each other, in this order.
 #include "libs/fem/kernels/pack.inl"
 #include "libs/fem/kernels/constitutive.inl"
 
@@ -76,7 +79,7 @@ PALPATE_INLINE void EvaluatePoint(const VolumetricLaw& mean_law, Pack lambda, Pa
                                   PointState& point) {
   if constexpr (HasVolumetricLaw(model)) {
     const VolumetricLaw law =
-        kMean ? mean_law : EvaluateVolumetric<model>(point.J, lambda, mu);
+        kMean ? mean_law : EvaluateVolumetric<model>(point.J, lambda);
     if constexpr (IsJBased(model)) {
       EvaluateJBased<model>(law, !kMean, mu, point);
     } else {
@@ -183,7 +186,7 @@ void EvaluateBlock(const Block& block, const double* x_m, const Output& output) 
       volume += weight;
       deformed_volume += weight * VolumeRatio<model>(DeformationGradient<kNodes>(positions, gradients));
     }
-    mean_law = EvaluateVolumetric<model>(deformed_volume / volume, lambda, mu);
+    mean_law = EvaluateVolumetric<model>(deformed_volume / volume, lambda);
   }
   if (output.force) {
     for (int k = 0; k < kNodes * 3; ++k) Store(output.force + k * kLanes, Splat(0.0));

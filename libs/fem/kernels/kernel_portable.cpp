@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/fem/kernels/instruction_sets.hpp"
 #include "libs/fem/kernels/element_kernel.inl"
+#include "libs/fem/kernels/instruction_sets.hpp"
 
 namespace palpate::fem::kernels {
 

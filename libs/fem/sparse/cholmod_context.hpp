@@ -26,8 +26,8 @@ class CholmodContext {
 };
 
 /// While it lives, OpenMP loops that this thread enters run on this thread alone. CHOLMOD enters
-/// some thousand loops of a few dozen iterations in one factorisation, on four threads each: handing
-/// them out takes longer than running them.
+/// some thousand loops of a few dozen iterations in one factorisation, on four threads each:
+/// handing them out takes longer than running them.
 class OneThread {
  public:
   OneThread();

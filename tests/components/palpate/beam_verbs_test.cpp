@@ -97,8 +97,11 @@ TEST(ChooseRecordings, LeavesUnknownContactsAndUnsteadyOnesOut) {
   experiment.recordings.resize(4);
   for (auto& recording : experiment.recordings) recording.markers.emplace();
   experiment.recordings[0].kind = experiment::RecordingKind::kFree;
+  experiment.recordings[0].steady_window_s = experiment::TimeWindow{0.0, 1.0};
   experiment.recordings[1].kind = experiment::RecordingKind::kRamp;
-  EXPECT_THROW(RecordingsWithKnownLoads({.recordings = {experiment.recordings[0]}}), InputError);
+  experiment::Experiment unknown_only;
+  unknown_only.recordings = {experiment.recordings[0]};
+  EXPECT_THROW(RecordingsWithKnownLoads(unknown_only), InputError);
   experiment.recordings[2].kind = experiment::RecordingKind::kKnownLoad;
   experiment.recordings[3].kind = experiment::RecordingKind::kRamp;
   experiment.recordings[3].steady_window_s = experiment::TimeWindow{0.0, 1.0};

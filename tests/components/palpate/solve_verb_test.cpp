@@ -117,30 +117,33 @@ TEST_F(SolveVerb, HangsUnderItsWeightWithoutActuationAndLowerUnderALoad) {
 }
 
 TEST_F(SolveVerb, ReachesTheSameStateInOneStepAndInMany) {
-  Actuate("t_s,top.displacement_m\n0,0.01\n");
+  Actuate("t_s,top.displacement_m\n0,0.002\n");
   ASSERT_EQ(Solve(options_), 0);
   const double at_once_m = TipHeight_m(0);
-  Actuate("t_s,top.displacement_m\n0,0\n1,0.004\n2,0.008\n3,0.01\n");
+  Actuate("t_s,top.displacement_m\n0,0\n1,0.0008\n2,0.0016\n3,0.002\n");
   ASSERT_EQ(Solve(options_), 0);
   EXPECT_NEAR(TipHeight_m(3), at_once_m, 1e-9);
 }
 
 TEST_F(SolveVerb, RemovesTheRowsOfAnEarlierRun) {
   Actuate("t_s,top.tension_N\n0,0\n1,0.1\n");
-  options_.vtu = true;
+  options_.vtu = options_.png = true;
   ASSERT_EQ(Solve(options_), 0);
   EXPECT_TRUE(std::filesystem::exists(options_.out / "body_0001.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(options_.out / "scene_0001.png"));
   folder_.Write("out/mine.txt", "not ours");
   options_.actuation.clear();
-  options_.vtu = false;
+  options_.vtu = options_.png = false;
   ASSERT_EQ(Solve(options_), 0);
   EXPECT_FALSE(std::filesystem::exists(options_.out / "nodes_0001.csv"));
   EXPECT_FALSE(std::filesystem::exists(options_.out / "body_0001.vtu"));
+  EXPECT_FALSE(std::filesystem::exists(options_.out / "scene_0001.png"));
   EXPECT_TRUE(std::filesystem::exists(options_.out / "mine.txt"));
 }
 
 TEST_F(SolveVerb, RefusesALoadFarFromTheBodyWithFileAndLine) {
-  options_.loads = folder_.Write("l.csv", "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n0,80,10,10,0,0,-0.05\n");
+  options_.loads =
+      folder_.Write("l.csv", "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n0,0.8,0.1,0.1,0,0,-0.05\n");
   try {
     Solve(options_);
     FAIL();

@@ -94,7 +94,7 @@ mass: {density_kg_m3: 1000}
 gravity_m_s2: [0, 0, -9.81]
 fixed: [{box_m: [[-0.001, -0.001, -0.001], [0.001, 0.021, 0.021]]}]
 cables:
-  - {name: top, path_m: [[-0.01, 0.01, 0.02], [0.08, 0.01, 0.02]], max_tension_N: 5, guide_radius_m: 0}
+  - {name: top, path_m: [[-0.01, 0.01, 0.02], [0.08, 0.01, 0.02]], max_tension_N: 1, guide_radius_m: 0}
 markers: [{name: tip, position_m: [0.08, 0.01, 0.02]}]
 feature_points: {count: 3}
 )");

@@ -144,8 +144,7 @@ TEST(BoundedQp, AProblemWithoutMinimumIsUnobservable) {
   const Eigen::Vector2d free = Eigen::Vector2d::Constant(kInfinity);
   const Eigen::Matrix2d H = Eigen::Matrix2d::Ones();  // no curvature along (1, -1)
   const BoundedQp unbounded{H, Eigen::Vector2d(1.0, -1.0), -free, free};
-  EXPECT_EQ(SolveBoundedQp(unbounded, QpVector::Zero(2)).status.code(),
-            StatusCode::kUnobservable);
+  EXPECT_EQ(SolveBoundedQp(unbounded, QpVector::Zero(2)).status.code(), StatusCode::kUnobservable);
   const BoundedQp bounded{H, Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(-3.0, -kInfinity), free};
   const BoundedQpResult result = SolveBoundedQp(bounded, QpVector::Zero(2));
   ASSERT_TRUE(result.status.ok());

@@ -62,8 +62,8 @@ class ElasticBodyLaw : public ::testing::TestWithParam<Law> {
   ElasticBody body_ = TwoRegionBody(mesh_, GetParam(), 180e3, 60e3);
   std::mt19937 engine_{3};
   Eigen::VectorXd x_m_ =
-      Moved(Eigen::Matrix3d::Identity() + 0.1 * Eigen::Matrix3d(RandomVector(9, 1.0, &engine_)
-                                                                    .reshaped(3, 3)),
+      Moved(Eigen::Matrix3d::Identity() +
+                0.1 * Eigen::Matrix3d(RandomVector(9, 1.0, &engine_).reshaped(3, 3)),
             body_.rest_m()) +
       RandomVector(body_.rest_m().size(), 3e-4, &engine_);
 };
@@ -80,8 +80,7 @@ TEST_P(ElasticBodyLaw, ARigidRotationGivesNoForce) {
   for (const Eigen::Vector3d& axis :
        {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1),
         Eigen::Vector3d(1, 2, -3), Eigen::Vector3d(-1, 1, 1)}) {
-    const Eigen::VectorXd turned =
-        Moved(Rotation(2.1, axis), body_.rest_m(), {0.02, -0.01, 0.03});
+    const Eigen::VectorXd turned = Moved(Rotation(2.1, axis), body_.rest_m(), {0.02, -0.01, 0.03});
     EXPECT_LE(Forces(body_, turned).cwiseAbs().maxCoeff(), 1e-12) << axis.transpose();  // N
   }
 }
@@ -111,8 +110,8 @@ TEST_P(ElasticBodyLaw, AssembledForceAndTangentAreDerivatives) {
     const double slope =
         DerivativeAlong([&](const Eigen::VectorXd& x) { return Energy(body_, x); }, x_m_, d, 2e-6);
     EXPECT_NEAR(force.dot(d), slope, 1e-8 * force.norm() * d.norm());
-    const Eigen::VectorXd expected = DerivativeAlong(
-        [&](const Eigen::VectorXd& x) { return Forces(body_, x); }, x_m_, d, 5e-6);
+    const Eigen::VectorXd expected =
+        DerivativeAlong([&](const Eigen::VectorXd& x) { return Forces(body_, x); }, x_m_, d, 5e-6);
     Eigen::VectorXd reduced(K.Size());
     K.Reduce(d, reduced);
     Eigen::VectorXd product = Eigen::VectorXd::Zero(x_m_.size());
@@ -147,15 +146,15 @@ TEST_P(ElasticBodyLaw, UniformStretchHasTheClosedFormEnergyAndStress) {
   const Material probe{MaterialModel::kLinear, Volumetric::kPointwise, 1.0, 0.0};
   const ElasticBody volume_meter(mesh_, {probe},
                                  std::vector<int>(static_cast<size_t>(mesh_.CellCount()), 0));
-  const double volume_m3 = 2.0 * Energy(volume_meter, Moved(Eigen::Vector3d(2.0, 1.0, 1.0)
-                                                                .asDiagonal()
-                                                                .toDenseMatrix(),
-                                                            body.rest_m()));
+  const double volume_m3 =
+      2.0 * Energy(volume_meter, Moved(Eigen::Vector3d(2.0, 1.0, 1.0).asDiagonal().toDenseMatrix(),
+                                       body.rest_m()));
   for (const Eigen::Matrix3d& F :
        {uniaxial, Eigen::Matrix3d(1.15 * Eigen::Matrix3d::Identity()), sheared}) {
     const Eigen::VectorXd x = Moved(F, body.rest_m());
-    const double expected = volume_m3 * (laws::EnergyDensity_Pa(material, F) -
-                                         laws::EnergyDensity_Pa(material, Eigen::Matrix3d::Identity()));
+    const double expected =
+        volume_m3 * (laws::EnergyDensity_Pa(material, F) -
+                     laws::EnergyDensity_Pa(material, Eigen::Matrix3d::Identity()));
     const double energy = Energy(body, x) - Energy(body, body.rest_m());
     EXPECT_NEAR(energy, expected, 1e-12 * std::abs(expected));
     const Eigen::Matrix3d P = laws::Stress_Pa(material, F);
@@ -210,9 +209,9 @@ TEST(ElasticBody, MixesMaterialModels) {
 
 TEST(ElasticBody, TellsThatAnElementIsInverted) {
   const TetMesh mesh = CrookedBox(ElementType::kTet4, {1, 1, 1});
-  const ElasticBody body =
-      TwoRegionBody(mesh, {MaterialModel::kStableNeoHookean, Volumetric::kPointwise,
-                           ElementType::kTet4}, 1e5, 1e5);
+  const ElasticBody body = TwoRegionBody(
+      mesh, {MaterialModel::kStableNeoHookean, Volumetric::kPointwise, ElementType::kTet4}, 1e5,
+      1e5);
   const Eigen::Matrix3d mirror = Eigen::Vector3d(-1.0, 1.0, 1.0).asDiagonal();
   const Eigen::VectorXd x = Moved(mirror, body.rest_m());
   Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());

@@ -69,8 +69,7 @@ struct LaneBlock {
           gradients[static_cast<size_t>((q * 3 * nodes_per_element + k) * kLanes + lane)] =
               G.reshaped()[k];
         }
-        weights[static_cast<size_t>(q * kLanes + lane)] =
-            jacobian.determinant() * rule.weights[q];
+        weights[static_cast<size_t>(q * kLanes + lane)] = jacobian.determinant() * rule.weights[q];
       }
     }
   }
@@ -89,7 +88,8 @@ struct LaneBlock {
   /// Every lane turned and stretched alike, and each node moved a little by itself.
   Eigen::VectorXd DeformedPositions() const {
     std::mt19937 engine(9);
-    Eigen::Matrix3d F = Rotation(1.1, {1.0, -2.0, 0.5}) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal();
+    Eigen::Matrix3d F =
+        Rotation(1.1, {1.0, -2.0, 0.5}) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal();
     const Eigen::Matrix3Xd moved = F * rest_m.reshaped(3, rest_m.size() / 3);
     return moved.reshaped() + RandomVector(rest_m.size(), 3e-4, &engine);
   }

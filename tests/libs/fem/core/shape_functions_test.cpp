@@ -59,8 +59,8 @@ TEST(ShapeFunctions, GradientsAreTheirDerivatives) {
     const Eigen::Matrix3Xd dN = ShapeGradients(element, Eigen::Vector3d(xi));
     for (int i = 0; i < 3; ++i) {
       const Eigen::VectorXd expected = laws::DerivativeAlong(
-          [&](const Eigen::VectorXd& x) { return ShapeFunctions(element, Eigen::Vector3d(x)); },
-          xi, Eigen::Vector3d::Unit(i), 1e-2);
+          [&](const Eigen::VectorXd& x) { return ShapeFunctions(element, Eigen::Vector3d(x)); }, xi,
+          Eigen::Vector3d::Unit(i), 1e-2);
       EXPECT_LE((dN.row(i).transpose() - expected).norm(), 1e-12);
     }
   }
@@ -134,8 +134,7 @@ TEST(ConsistentNodalMass, OfACurvedMeshOfABoxIsThatOfTheBox) {
       .squaredNorm()
       .minCoeff(&inner);
   mesh.nodes_m.col(27 + inner) += Eigen::Vector3d(4e-4, -3e-4, 2e-4);
-  EXPECT_NEAR(ConsistentNodalMass_kg(mesh, density_kg_m3).sum(), straight_kg,
-              1e-14 * straight_kg);
+  EXPECT_NEAR(ConsistentNodalMass_kg(mesh, density_kg_m3).sum(), straight_kg, 1e-14 * straight_kg);
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ TEST(CholmodSolver, SaysThatAMatrixIsNotPositiveDefinite) {
 TEST(CholmodSolver, RefusesNaNAnywhere) {
   const Banded good(10.0, 1);
   const auto solver = MakeCholmodSolver(good.Pattern());
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (const size_t at : {size_t{0}, size_t{3}, good.values.size() / 2, good.values.size() - 1}) {
       std::vector<double> values = good.values;
       values[at] = bad;

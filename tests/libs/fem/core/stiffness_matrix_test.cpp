@@ -99,8 +99,9 @@ TEST(StiffnessMatrix, EqualsTheDenseAssemblyOverTheFreeNodes) {
   EXPECT_LE((K.Times(v) - dense * v).norm(), 1e-13 * v.norm() * dense.norm());
   EXPECT_NEAR(K.MeanDiagonal(), dense.diagonal().mean(), 1e-13);
   K.AddRelativeShift(0.5);
-  EXPECT_LE((Dense(K) - dense -
-             0.5 * dense.diagonal().mean() * Eigen::MatrixXd::Identity(72, 72)).norm(), 1e-12);
+  EXPECT_LE(
+      (Dense(K) - dense - 0.5 * dense.diagonal().mean() * Eigen::MatrixXd::Identity(72, 72)).norm(),
+      1e-12);
   K.SetZero();
   EXPECT_EQ(Dense(K).norm(), 0.0);
 }
@@ -135,8 +136,10 @@ TEST(StiffnessMatrix, SingleFixedDirectionsStayWhereTheyAre) {
 
   std::vector<Eigen::Index> free_rows;
   for (Eigen::Index i = 0; i < 24; ++i) {
-    if (!fixed.reshaped()[i]) free_rows.push_back(i);
-    else EXPECT_EQ(u[i], 0.0);
+    if (!fixed.reshaped()[i])
+      free_rows.push_back(i);
+    else
+      EXPECT_EQ(u[i], 0.0);
   }
   const Eigen::VectorXd expected =
       full(free_rows, free_rows).ldlt().solve(Eigen::VectorXd(force(free_rows)));

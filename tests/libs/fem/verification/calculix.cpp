@@ -77,7 +77,8 @@ void WriteCalculixInput(const StaticProblem& problem, const fs::path& file) {
   WriteMesh(problem.mesh, out);
   const double mu = problem.material.LameMu_Pa();
   const double bulk = problem.material.LameLambda_Pa() + 2.0 / 3.0 * mu;
-  out << "*MATERIAL, NAME=SOLID\n*HYPERELASTIC, NEO HOOKE\n" << mu / 2.0 << ',' << 2.0 / bulk
+  out << "*MATERIAL, NAME=SOLID\n*HYPERELASTIC, NEO HOOKE\n"
+      << mu / 2.0 << ',' << 2.0 / bulk
       << "\n*SOLID SECTION, ELSET=BODY, MATERIAL=SOLID\n*BOUNDARY\n";
   for (Eigen::Index n = 0; n < problem.fixed.cols(); ++n) {
     for (Eigen::Index i = 0; i < 3; ++i) {

@@ -15,7 +15,8 @@ namespace {
 using Tet = std::array<int, 4>;
 
 /// Bricks as positively oriented tetrahedra; corners are numbered by the bits of (x, y, z).
-const std::vector<Tet> kFiveTets{{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
+const std::vector<Tet> kFiveTets{
+    {0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
 const std::vector<Tet> kSixTets{{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
                                 {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
@@ -69,7 +70,9 @@ TetMesh MakeGrid(const Eigen::Array3i& cells, ElementType element, const PointMa
 
 TetMesh MakeBox(const Eigen::Array3i& cells, ElementType element, const Eigen::Vector3d& size_m,
                 Cut cut) {
-  const auto scale = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.cwiseProduct(size_m)); };
+  const auto scale = [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.cwiseProduct(size_m));
+  };
   return MakeGrid(cells, element, scale, cut);
 }
 

@@ -15,9 +15,8 @@ namespace {
 
 constexpr double kStep = 2e-3;  ///< of the difference stencil, over the edge of the unit cube
 
-const Material kMaterial{.model = MaterialModel::kStableNeoHookean,
-                         .youngs_modulus_Pa = 1000.0,
-                         .poissons_ratio = 0.3};
+const Material kMaterial{
+    .model = MaterialModel::kStableNeoHookean, .youngs_modulus_Pa = 1000.0, .poissons_ratio = 0.3};
 
 /// The displacement that is to be the answer, m, on the unit cube; strains up to 25 %.
 Eigen::Vector3d ExactDisplacement(const Eigen::Vector3d& p) {

@@ -21,9 +21,8 @@ SectionTurn::SectionTurn(const TetMesh& mesh, const std::vector<double>& station
   PALPATE_CHECK(stations_m.size() >= 2, stations_m.size());
   for (double station_m : stations_m) {
     Section section;
-    section.nodes = NodesWhere(mesh, [&](const Eigen::Vector3d& p) {
-      return std::abs(p[0] - station_m) < 1e-9;
-    });
+    section.nodes = NodesWhere(
+        mesh, [&](const Eigen::Vector3d& p) { return std::abs(p[0] - station_m) < 1e-9; });
     PALPATE_CHECK(section.nodes.size() >= 2, station_m);
     for (int node : section.nodes) section.weights.push_back(mesh.nodes_m(2, node));
     const double middle = std::accumulate(section.weights.begin(), section.weights.end(), 0.0) /

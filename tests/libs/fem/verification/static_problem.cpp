@@ -75,9 +75,8 @@ void StaticProblem::AddTraction(const PointTest& test, const VectorField& tracti
   for (Eigen::Index f = 0; f < faces.cols(); ++f) {
     const Eigen::VectorXi nodes = faces.col(f);
     const Eigen::Matrix3Xd points = mesh.nodes_m(Eigen::all, nodes);
-    const bool loaded = std::all_of(nodes.begin(), nodes.end(), [&](int node) {
-      return test(mesh.nodes_m.col(node));
-    });
+    const bool loaded = std::all_of(nodes.begin(), nodes.end(),
+                                    [&](int node) { return test(mesh.nodes_m.col(node)); });
     if (!loaded) continue;
     for (const TrianglePoint& q : kTriangleRule) {
       const auto shape = FaceShape(nodes.size(), q.a, q.b);

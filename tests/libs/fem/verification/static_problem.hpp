@@ -31,9 +31,9 @@ struct StaticProblem {
 
   TetMesh mesh;
   Material material;
-  FixedDirections fixed;              ///< [3 x n]
-  Eigen::VectorXd fixed_position_m;   ///< [3n]
-  Eigen::VectorXd external_force_N;   ///< [3n]
+  FixedDirections fixed;             ///< [3 x n]
+  Eigen::VectorXd fixed_position_m;  ///< [3n]
+  Eigen::VectorXd external_force_N;  ///< [3n]
   std::vector<ScalarConstraint*> constraints;
   std::vector<ConstraintCommand> commands;
 };

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "components/force_estimation/marker_fitter.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::benchmarks {
+
+/// A robot that is touched on top while its first cable moves to and fro by 1 mm a frame: its
+/// feature points are the markers that are seen, exact and without noise.
+class SensingScene {
+ public:
+  enum class Update {
+    kOneStep,    ///< one linearisation a frame
+    kConverged,  ///< to equilibrium
+  };
+
+  /// Throws InputError for a robot that cannot be built, RunError where a frame has no equilibrium.
+  SensingScene(robot::RobotDescription description, int feature_points, Update update);
+  SensingScene(const SensingScene&) = delete;
+  SensingScene& operator=(const SensingScene&) = delete;
+
+  /// The whole update with the next frame: tangent, factor, W, QP, state. Throws RunError where it
+  /// does not come to what was asked for.
+  void TakeFrame();
+
+  robot::RobotModel& model() { return model_; }
+  const force_estimation::ModelState& state() const { return state_; }
+  /// The loads that `state` balances before the first frame.
+  const Eigen::VectorXd& external_force_N() const { return external_force_N_; }
+  int last_iterations() const { return last_iterations_; }  ///< linearisations of the last frame
+
+ private:
+  struct Frame {
+    std::vector<robot::CableCommand> cables;
+    force_estimation::MarkerTargets targets;
+  };
+
+  void AddFrame(int step, fem::StaticState* equilibrium);
+
+  robot::RobotModel model_;
+  force_estimation::FitSite site_;
+  force_estimation::MarkerFitter fitter_;
+  Update update_;
+  std::vector<Frame> frames_;  ///< the first half of the cycle; the way back is the same
+  size_t next_ = 0;
+  force_estimation::ModelState state_;
+  Eigen::VectorXd external_force_N_;
+  int last_iterations_ = 0;
+};
+
+}  // namespace palpate::benchmarks

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace palpate::force_estimation {
+namespace {
+
+TEST(Statistics, NormalQuantileInvertsTheDistribution) {
+  for (const double z :
+       {-6.0, -3.0, -1.959963984540054, -0.5, 0.0, 0.1, 1.0, 2.5758293035489, 5.0}) {
+    const double probability = 0.5 * std::erfc(-z / std::sqrt(2.0));
+    EXPECT_NEAR(NormalQuantile(probability), z, 2e-8 * (1.0 + std::abs(z))) << z;
+  }
+  EXPECT_NEAR(NormalQuantile(0.975), kSigmas95, 1e-8);
+  EXPECT_NEAR(NormalQuantile(0.025), -kSigmas95, 1e-8);
+}
+
+TEST(Statistics, ChiSquaredQuantileIsGoodToOnePerCent) {
+  struct Entry {
+    double probability;
+    int degrees;
+    double quantile;
+  };
+  constexpr std::array<Entry, 10> kTable = {{{0.95, 1, 3.8415},
+                                             {0.95, 2, 5.9915},
+                                             {0.95, 3, 7.8147},
+                                             {0.95, 30, 43.773},
+                                             {0.99, 1, 6.6349},
+                                             {0.99, 3, 11.345},
+                                             {0.999, 1, 10.828},
+                                             {0.999, 3, 16.266},
+                                             {0.999, 27, 55.476},
+                                             {0.999, 100, 149.449}}};
+  for (const Entry& entry : kTable) {
+    EXPECT_NEAR(ChiSquaredQuantile(entry.probability, entry.degrees), entry.quantile,
+                0.025 * entry.quantile)
+        << entry.probability << ' ' << entry.degrees;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation

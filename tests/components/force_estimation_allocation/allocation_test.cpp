@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+#include "tests/components/force_estimation/test_bodies.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PALPATE_COUNTS_ALLOCATIONS 0
+#else
+#define PALPATE_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+
+std::atomic<bool> counting = false;
+std::atomic<int> allocations = 0;
+
+void Count() {
+  if (counting.load(std::memory_order_relaxed)) ++allocations;
+}
+
+}  // namespace
+
+#if PALPATE_COUNTS_ALLOCATIONS
+
+// glibc's own, behind the names that are replaced here.
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) {
+  Count();
+  return __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  Count();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, size_t size) {
+  Count();
+  return __libc_realloc(memory, size);
+}
+void* memalign(size_t alignment, size_t size) {
+  Count();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  Count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  Count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory == nullptr ? 12 : 0;  // ENOMEM
+}
+}
+
+#endif
+
+namespace palpate::force_estimation {
+namespace {
+
+/// four_leg, its cables pulled a little further in each frame, and a growing force on the hub.
+std::vector<MarkerFrame> SlowMotion(robot::RobotModel& model) {
+  std::vector<MarkerFrame> frames;
+  fem::StaticState state = model.RestState();
+  std::mt19937 random(1);
+  for (int i = 0; i < 12; ++i) {
+    std::vector<robot::CableCommand> cables;
+    for (int c = 0; c < 4; ++c) cables.push_back({Kind::kDisplacement, 0.003 + 2e-5 * i * (c + 1)});
+    const auto load = LoadAt(model, {0.0, 0.0, 0.125}, 0.008, {0.1, 0.02 * i, -0.5 - 0.01 * i});
+    EXPECT_TRUE(model.Solve(cables, {load}, &state).status.ok());
+    frames.push_back(FrameOf(model, state, cables));
+    AddNoise(2e-5, random, &frames.back());
+  }
+  return frames;
+}
+
+void ExpectNoAllocation(const std::vector<std::string>& contacts) {
+  if (!PALPATE_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer has malloc";
+  const auto model = Build(FourLegRobot());
+  const std::vector<MarkerFrame> frames = SlowMotion(*model);
+  MarkerForceEstimator estimator(*model, WithContacts(contacts), 0.05);
+  ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
+  for (size_t i = 1; i < frames.size(); ++i) {
+    allocations = 0;
+    counting = true;
+    const bool ok = estimator.Update(frames[i]).status.ok();
+    counting = false;
+    EXPECT_TRUE(ok) << i;
+    EXPECT_EQ(allocations, 0) << "frame " << i;
+  }
+}
+
+TEST(ForceEstimationAllocation, CounterSeesMalloc) {
+  if (!PALPATE_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer has malloc";
+  allocations = 0;
+  counting = true;
+  const auto vector = std::make_unique<std::vector<double>>(1000);
+  counting = false;
+  EXPECT_EQ(allocations, 2);
+  EXPECT_EQ(vector->size(), 1000U);
+}
+
+TEST(ForceEstimationAllocation, FramesWithOneGivenContactTakeNoMemory) {
+  ExpectNoAllocation({"hub: 0, 0, 0.125, 0.008"});
+}
+
+TEST(ForceEstimationAllocation, FramesWithTwoGivenContactsTakeNoMemory) {
+  ExpectNoAllocation({"hub: 0, 0, 0.125, 0.008", "a_leg_with_a_long_name: 0, 0.0598, 0.0858"});
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstddef>
+
+namespace palpate::robot {
+
+/// Requests for heap memory by this program so far: malloc and its kin, operator new.
+size_t HeapRequestCount();
+
+/// Whether they are counted: not where a sanitizer has its own malloc.
+bool HeapRequestsAreCounted();
+
+}  // namespace palpate::robot

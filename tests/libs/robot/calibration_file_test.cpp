@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/calibration_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "tests/libs/robot/beam_model.hpp"
+
+namespace palpate::robot {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CalibrationFileTest : public BeamModelTest {
+ protected:
+  CalibrationFile Example() const {
+    CalibrationFile calibration = DescribeForCalibration(*model_);
+    calibration.date_utc = "2026-01-31T12:00:00Z";
+    calibration.data = "a \"quoted\" folder\\with: signs # of YAML";
+    calibration.data_hash = "sha256-00ff";
+    calibration.moduli = {{"body", 61234.56789012345, 321.0}, {"tip", 1.0 / 3e-5, 0.0}};
+    calibration.residual_rms_m = 1.25e-4;
+    calibration.chi_squared = 17.5;
+    calibration.degrees_of_freedom = 19;
+    return calibration;
+  }
+
+  std::string ApplyRefusal(const CalibrationFile& calibration) {
+    try {
+      ApplyCalibration(calibration, model_.get());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return {};
+  }
+
+  std::string ReadRefusal(const std::string& text) {
+    WriteFile(file_, text);
+    try {
+      ReadCalibrationFile(file_, app::LoadYaml);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return {};
+  }
+
+  /// The example's file with one text replaced.
+  std::string Altered(const std::string& old_text, const std::string& new_text) {
+    WriteCalibrationFile(Example(), file_);
+    std::string text = ReadFile(file_);
+    const size_t at = text.find(old_text);
+    EXPECT_NE(at, std::string::npos) << old_text;
+    return text.replace(at, old_text.size(), new_text);
+  }
+
+  std::unique_ptr<RobotModel> model_ = Build(FullRobotText());
+  std::filesystem::path file_ = folder_ / "calibration.yaml";
+};
+
+TEST_F(CalibrationFileTest, IsReadAsItWasWritten) {
+  const CalibrationFile written = Example();
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  EXPECT_EQ(read.robot, "test beam");
+  EXPECT_EQ(read.mesh_hash, model_->body().mesh_hash);
+  EXPECT_EQ(read.element, "tet10");
+  EXPECT_EQ(read.model, "stable_neo_hookean");
+  EXPECT_EQ(read.poissons_ratio, 0.45);
+  EXPECT_EQ(read.date_utc, written.date_utc);
+  EXPECT_EQ(read.data, written.data);
+  EXPECT_EQ(read.data_hash, written.data_hash);
+  ASSERT_EQ(read.moduli.size(), 2U);
+  for (size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(read.moduli[k].part, written.moduli[k].part);
+    EXPECT_EQ(read.moduli[k].youngs_modulus_Pa, written.moduli[k].youngs_modulus_Pa);
+    EXPECT_EQ(read.moduli[k].standard_error_Pa, written.moduli[k].standard_error_Pa);
+  }
+  EXPECT_EQ(read.residual_rms_m, written.residual_rms_m);
+  EXPECT_EQ(read.chi_squared, written.chi_squared);
+  EXPECT_EQ(read.degrees_of_freedom, written.degrees_of_freedom);
+}
+
+TEST_F(CalibrationFileTest, GivesTheModelItsModuli) {
+  ApplyCalibration(Example(), model_.get());
+  EXPECT_EQ(model_->body().materials[0].youngs_modulus_Pa, 61234.56789012345);
+  EXPECT_EQ(model_->body().materials[1].youngs_modulus_Pa, 1.0 / 3e-5);
+  EXPECT_EQ(model_->body().materials[2].youngs_modulus_Pa, 65e3);
+  EXPECT_EQ(model_->elastic_body().materials()[0].youngs_modulus_Pa, 61234.56789012345);
+}
+
+TEST_F(CalibrationFileTest, RefusesWhatItWasNotMadeFor) {
+  CalibrationFile other = Example();
+  other.robot = "snake";
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("'snake'"), HasSubstr("'test beam'")));
+  other = Example();
+  other.mesh_hash = "fnv1a-0000000000000000";
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("mesh"), HasSubstr(other.mesh_hash),
+                                         HasSubstr(model_->body().mesh_hash)));
+  other = Example();
+  other.element = "tet4";
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("element 'tet4'"), HasSubstr("'tet10'")));
+  other = Example();
+  other.model = "corotational";
+  EXPECT_THAT(ApplyRefusal(other),
+              AllOf(HasSubstr("'corotational'"), HasSubstr("'stable_neo_hookean'")));
+  other = Example();
+  other.poissons_ratio = 0.49;
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("0.49"), HasSubstr("0.45")));
+}
+
+TEST_F(CalibrationFileTest, ARefusedRegionLeavesTheModelAsItWas) {
+  CalibrationFile other = Example();
+  other.moduli.push_back({"tipp", 5e4, 0.0});
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("'tipp'"), HasSubstr("did you mean 'tip'")));
+  EXPECT_EQ(model_->body().materials[0].youngs_modulus_Pa, 65e3);
+}
+
+TEST_F(CalibrationFileTest, RefusesAFileThatIsNoCalibration) {
+  EXPECT_THAT(ReadRefusal(Altered("element:", "elements: 1\nelement:")),
+              AllOf(HasSubstr(file_.string() + ":4:1"), HasSubstr("elements")));
+  EXPECT_THAT(ReadRefusal(Altered("element: tet10", "element: hex8")), HasSubstr("hex8"));
+  EXPECT_THAT(ReadRefusal(Altered("model: stable", "model: unstable")), HasSubstr("unstable"));
+  EXPECT_THAT(ReadRefusal(Altered("poissons_ratio: 0.45", "poissons_ratio: 0.5")),
+              HasSubstr("0.5"));
+  EXPECT_THAT(ReadRefusal(Altered("residual_rms_m: ", "residual_rms_m: .nan #")),
+              HasSubstr("residual_rms_m"));
+  EXPECT_THAT(ReadRefusal(Altered("chi_squared", "#chi_squared")), HasSubstr("chi_squared"));
+  EXPECT_THAT(ReadRefusal(Altered("youngs_modulus_Pa: 6", "youngs_modulus_Pa: -6")),
+              HasSubstr("youngs_modulus_Pa"));
+  EXPECT_THAT(ReadRefusal("robot: x\n"), HasSubstr("mesh_hash"));
+  std::string text = Altered("moduli:\n", "moduli: []\n#");
+  for (size_t at = 0; (at = text.find("\n  - ", at)) != std::string::npos;) text[at + 1] = '#';
+  EXPECT_THAT(ReadRefusal(text), HasSubstr("at least one"));
+}
+
+TEST_F(CalibrationFileTest, RefusesAFileThatIsNotThere) {
+  EXPECT_THROW(ReadCalibrationFile(folder_ / "none.yaml", app::LoadYaml), InputError);
+  EXPECT_THROW(WriteCalibrationFile(Example(), folder_ / "none" / "c.yaml"), RunError);
+}
+
+TEST_F(CalibrationFileTest, TellsTheLargestRelativeError) {
+  CalibrationFile calibration;
+  EXPECT_EQ(RelativeModulusError(calibration), 0.0);
+  calibration.moduli = {{"body", 100e3, 1e3}, {"tip", 50e3, 2e3}};
+  EXPECT_DOUBLE_EQ(RelativeModulusError(calibration), 0.04);
+}
+
+}  // namespace
+}  // namespace palpate::robot
