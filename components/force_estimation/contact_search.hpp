@@ -49,8 +49,8 @@ class ContactSearch {
   Config config_;
   MarkerFitter& fitter_;
   std::vector<FitSite> candidates_;
-  double spacing_m_ = 0.0;      ///< mean distance from a candidate to the next
-  std::vector<size_t> chosen_;  ///< candidates that are contacts by now
+  double spacing_m_ = 0.0;             ///< mean distance from a candidate to the next
+  std::vector<size_t> chosen_;         ///< candidates that are contacts by now
   double searched_chi_squared_ = 0.0;  ///< of the last search
   double searched_force_N_ = 0.0;      ///< size of all forces then
   Result result_;

@@ -116,6 +116,7 @@ class MarkerForceEstimator::Impl {
   MarkerFitter fitter_;
   std::optional<ContactSearch> search_;
   MarkerTargets targets_;
+  double freedom_ = 0.0;         ///< coordinates used; those on a contact count by their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
   ModelState state_;             ///< last fit
   ForceEstimate estimate_;
@@ -163,6 +164,7 @@ Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
 
 Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
   targets_.rows = 0;
+  freedom_ = 0.0;
   estimate_.noise_rms_m = 0.0;
   for (size_t m = 0; m < frame.markers.size(); ++m) {
     const MarkerObservation& marker = frame.markers[m];
@@ -174,8 +176,9 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
       const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
       targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
       targets_.position_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
-      if (!used) continue;
+      if (!(targets_.weight[row + i] > 0.0)) continue;
       ++targets_.rows;
+      freedom_ += marker_weight_[m];
       estimate_.noise_rms_m += variance;
     }
   }
@@ -233,8 +236,8 @@ void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
   estimate_.chi_squared = fit.chi_squared;
   estimate_.marker_residual_m = fit.residual_m;
   estimate_.residual_rms_m = fit.residual_m.norm() / std::sqrt(std::max(1, targets_.rows));
-  estimate_.degrees_of_freedom =
-      targets_.rows - std::accumulate(fit.unknowns.begin(), fit.unknowns.end(), 0);
+  estimate_.degrees_of_freedom = static_cast<int>(std::lround(freedom_)) -
+                                 std::accumulate(fit.unknowns.begin(), fit.unknowns.end(), 0);
 }
 
 void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {

@@ -53,6 +53,8 @@ double NormalQuantile(double probability) {
 
 double ChiSquaredQuantile(double probability, int degrees) {
   PALPATE_CHECK(degrees >= 1, degrees);
+  if (degrees == 1) return std::pow(NormalQuantile(0.5 * (1.0 + probability)), 2);
+  if (degrees == 2) return -2.0 * std::log1p(-probability);
   const double variance = 2.0 / (9.0 * degrees);
   const double root = 1.0 - variance + NormalQuantile(probability) * std::sqrt(variance);
   return degrees * root * root * root;

@@ -9,8 +9,8 @@ namespace palpate::force_estimation {
 /// approximation, 1e-9).
 double NormalQuantile(double probability);
 
-/// Quantile of the chi-squared distribution with `degrees` >= 1 degrees of freedom (Wilson and
-/// Hilferty's cube root, good to about 1 %).
+/// Quantile of the chi-squared distribution with `degrees` >= 1 degrees of freedom: exact for one
+/// and two, else Wilson and Hilferty's cube root, good to 2 % for probabilities from 0.5 to 0.999.
 double ChiSquaredQuantile(double probability, int degrees);
 
 /// Half-width of a 95 % interval in standard deviations.

@@ -49,7 +49,7 @@ struct StaticSettings {
   /// Full Newton steps that are tried before the line search. Where they converge they take a tenth
   /// of its iterations: bending bodies must pass through stretched states that it refuses.
   int max_full_steps = 15;
-  int max_load_steps = 400;        ///< tried in all
+  int max_load_steps = 60;        ///< tried in all
   double smallest_load_step = 1e-4;
 };
 

@@ -4,19 +4,8 @@
 #include "tests/benchmarks/memory.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
-
-#include <fstream>
 
 namespace palpate::benchmarks {
-
-double ResidentBytes() {
-  std::ifstream file("/proc/self/statm");
-  double total_pages = 0.0;
-  double resident_pages = 0.0;
-  file >> total_pages >> resident_pages;
-  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 double PeakResidentBytes() {
   rusage usage{};

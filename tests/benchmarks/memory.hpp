@@ -5,8 +5,7 @@
 
 namespace palpate::benchmarks {
 
-/// Memory of this process that is in RAM now, and the most that ever was.
-double ResidentBytes();
+/// The most memory of this process that ever was in RAM at once.
 double PeakResidentBytes();
 
 }  // namespace palpate::benchmarks

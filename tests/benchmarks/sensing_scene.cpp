@@ -13,7 +13,10 @@ namespace {
 
 constexpr int kSteps = 4;
 constexpr double kCableAtRest_m = 5e-3;
-constexpr double kCableStep_m = 1e-3;
+/// A frame in which one linearisation is enough moves less than one that is to converge.
+double CableStep_m(SensingScene::Update update) {
+  return update == SensingScene::Update::kOneStep ? 0.05e-3 : 1e-3;
+}
 constexpr double kPatchRadius_m = 5e-3;
 constexpr double kMarkerSigma_m = 1e-4;
 
@@ -41,9 +44,9 @@ Eigen::Vector3d HighestNode_m(const robot::RobotModel& model) {
   return nodes_m.col(highest);
 }
 
-/// Grows by a tenth from step to step, so that a robot without cables moves, too.
+/// Grows by a fiftieth from step to step, so that a robot without cables moves, too.
 Eigen::Vector3d ContactForce_N(int step) {
-  return (1.0 + 0.1 * step) * Eigen::Vector3d(0.05, 0.02, -0.1);
+  return (1.0 + 0.02 * step) * Eigen::Vector3d(0.05, 0.02, -0.1);
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ void SensingScene::AddFrame(int step, fem::StaticState* equilibrium) {
   Frame frame;
   frame.cables.assign(static_cast<size_t>(model_.CableCount()),
                       {.kind = Kind::kDisplacement, .value = kCableAtRest_m});
-  if (!frame.cables.empty()) frame.cables.front().value += step * kCableStep_m;
+  if (!frame.cables.empty()) frame.cables.front().value += step * CableStep_m(update_);
   const fem::StaticResult result = model_.Solve(
       frame.cables, {{.weights = site_.patch.weights, .force_N = ContactForce_N(step)}},
       equilibrium);
@@ -92,7 +95,7 @@ void SensingScene::TakeFrame() {
   const Frame& frame = frames_[next_ < frames_.size() ? next_ : 2 * frames_.size() - 2 - next_];
   state_.balanced = false;
   const force_estimation::MarkerFit& fit = fitter_.Fit(frame.targets, frame.cables, &state_);
-  last_iterations_ = fit.iterations;
+  linearisations_ = fit.status.ok() ? fit.iterations + 1 : fit.iterations;
   if (update_ == Update::kConverged) {
     if (!fit.status.ok()) throw RunError("the frame did not converge: " + fit.status.message());
     return;

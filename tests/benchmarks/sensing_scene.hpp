@@ -11,13 +11,13 @@
 
 namespace palpate::benchmarks {
 
-/// A robot that is touched on top while its first cable moves to and fro by 1 mm a frame: its
-/// feature points are the markers that are seen, exact and without noise.
+/// A robot that is touched on top while its first cable moves to and fro: its feature points are
+/// the markers that are seen, exact and without noise.
 class SensingScene {
  public:
   enum class Update {
-    kOneStep,    ///< one linearisation a frame
-    kConverged,  ///< to equilibrium
+    kOneStep,    ///< one linearisation a frame, of 0.05 mm of cable
+    kConverged,  ///< to equilibrium, each frame after 1 mm of cable
   };
 
   /// Throws InputError for a robot that cannot be built, RunError where a frame has no equilibrium.
@@ -33,7 +33,7 @@ class SensingScene {
   const force_estimation::ModelState& state() const { return state_; }
   /// The loads that `state` balances before the first frame.
   const Eigen::VectorXd& external_force_N() const { return external_force_N_; }
-  int last_iterations() const { return last_iterations_; }  ///< linearisations of the last frame
+  int linearisations() const { return linearisations_; }  ///< of the last frame
 
  private:
   struct Frame {
@@ -51,7 +51,7 @@ class SensingScene {
   size_t next_ = 0;
   force_estimation::ModelState state_;
   Eigen::VectorXd external_force_N_;
-  int last_iterations_ = 0;
+  int linearisations_ = 0;
 };
 
 }  // namespace palpate::benchmarks

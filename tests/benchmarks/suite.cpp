@@ -63,33 +63,23 @@ void Register(std::vector<Row>* rows, const std::string& name, const std::string
   rows->push_back({name, reference});
 }
 
-void MeasureUpdate(benchmark::State& state, SensingScene& scene, double resident_bytes) {
+void MeasureUpdate(benchmark::State& state, SensingScene& scene) {
   scene.TakeFrame();
   for ([[maybe_unused]] auto iteration : state) scene.TakeFrame();
-  state.counters["memory_MiB"] = resident_bytes / kMebibyte;
-  state.counters["iterations_of_newton"] = scene.last_iterations();
+  const fem::SparseSolver& solver = scene.model().linearisation().solver();
+  state.counters["memory_MiB"] = static_cast<double>(solver.MemoryBytes()) / kMebibyte;
+  state.counters["linearisations"] = scene.linearisations();
   state.counters["peak_rss_MiB"] = PeakResidentBytes() / kMebibyte;
 }
 
 void RegisterUpdate(std::vector<Row>* rows, const NamedRobot& robot, const std::string& name,
                     const std::string& reference, int points, SensingScene::Update update) {
-  struct Built {
-    std::unique_ptr<SensingScene> scene;
-    double resident_bytes = 0.0;
-  };
-  const auto built =
-      std::make_shared<Lazy<Built>>([description = robot.description, points, update] {
-        const double before = ResidentBytes();
-        auto made = std::make_unique<Built>();
-        made->scene = std::make_unique<SensingScene>(description, points, update);
-        made->scene->TakeFrame();
-        made->resident_bytes = ResidentBytes() - before;
-        return made;
+  const auto scene =
+      std::make_shared<Lazy<SensingScene>>([description = robot.description, points, update] {
+        return std::make_unique<SensingScene>(description, points, update);
       });
-  Register(rows, robot.name + "/" + name, reference, [built](benchmark::State& state) {
-    Built& ready = built->Get();
-    MeasureUpdate(state, *ready.scene, ready.resident_bytes);
-  });
+  Register(rows, robot.name + "/" + name, reference,
+           [scene](benchmark::State& state) { MeasureUpdate(state, scene->Get()); });
 }
 
 void RegisterAssembly(std::vector<Row>* rows, const NamedRobot& robot, fem::MaterialModel model,

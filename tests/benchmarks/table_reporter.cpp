@@ -42,7 +42,7 @@ void TableReporter::ReportRuns(const std::vector<Run>& report) {
       result.median_ms = run.GetAdjustedRealTime();
       result.cpu_ms = run.GetAdjustedCPUTime();
       result.memory_MiB = Counter(run, "memory_MiB");
-      result.newton_iterations = Counter(run, "iterations_of_newton");
+      result.linearisations = Counter(run, "linearisations");
       result.runs = static_cast<int>(run.repetitions);
     }
     if (single || run.aggregate_name == "min") result.smallest_ms = run.GetAdjustedRealTime();
@@ -52,8 +52,7 @@ void TableReporter::ReportRuns(const std::vector<Run>& report) {
 void TableReporter::Finalize() {
   std::ostream& out = GetOutputStream();
   out << "\nOne call a repetition; median and minimum of wall-clock time, median of CPU time; "
-         "ratios are of CPU medians\nof this run. Memory: of update and frame what the robot added "
-         "to the process, of factorize what the factor holds.\n\n"
+         "ratios are of CPU\nmedians of this run. Memory: what the sparse solver holds.\n\n"
       << std::left << std::setw(42) << "benchmark" << std::right << std::setw(6) << "runs"
       << std::setw(12) << "median ms" << std::setw(10) << "min ms" << std::setw(10) << "CPU ms"
       << std::setw(12) << "memory MiB" << std::setw(9) << "ratio"
@@ -83,8 +82,8 @@ void TableReporter::PrintRow(const Row& row, const Result& result) {
     out << std::setw(9) << Fixed(result.cpu_ms / reference->second.cpu_ms, 2) << "  "
         << row.reference;
   }
-  if (result.newton_iterations > 0.0) {
-    out << " (" << Fixed(result.newton_iterations + 1.0, 0) << " linearisations)";
+  if (result.linearisations > 1.0) {
+    out << " (" << Fixed(result.linearisations, 0) << " linearisations a frame)";
   }
   out << '\n';
 }

@@ -27,21 +27,26 @@ namespace palpate::fem::internal {
 
 namespace {
 
-/// Blocks of 2^k bytes in free lists. CHOLMOD asks for the same sizes in every factorisation, so
-/// after the first one every request is served from the lists. Blocks are never given back to the
-/// system: the peak of one factorisation is what the process needs anyway.
+/// Whether this thread is inside a SolveMemoryScope: 1, else 0.
+thread_local int memory_use = 0;
+
+/// Blocks of 2^k bytes in free lists, apart for each use. CHOLMOD asks for the same sizes in every
+/// factorisation, so after the first one every request is served from the lists. Blocks are never
+/// given back to the system: the peak of one factorisation is what the process needs anyway.
 class BlockPool {
  public:
   void* Allocate(size_t bytes) {
     const int order = Order(bytes + sizeof(Header));
     const std::lock_guard lock(mutex_);
-    Header* block = free_[static_cast<size_t>(order)];
+    Header*& first = FirstFree(memory_use, order);
+    Header* block = first;
     if (block != nullptr) {
-      free_[static_cast<size_t>(order)] = block->next;
+      first = block->next;
     } else {
       block = static_cast<Header*>(std::aligned_alloc(alignof(Header), size_t{1} << order));
       if (block == nullptr) return nullptr;
       block->order = order;
+      block->use = memory_use;
     }
     return block + 1;
   }
@@ -50,8 +55,9 @@ class BlockPool {
     if (pointer == nullptr) return;
     Header* block = static_cast<Header*>(pointer) - 1;
     const std::lock_guard lock(mutex_);
-    block->next = free_[static_cast<size_t>(block->order)];
-    free_[static_cast<size_t>(block->order)] = block;
+    Header*& first = FirstFree(block->use, block->order);
+    block->next = first;
+    first = block;
   }
 
   void* Reallocate(void* pointer, size_t bytes) {
@@ -69,13 +75,18 @@ class BlockPool {
  private:
   struct alignas(64) Header {
     int order;
+    int use;
     Header* next;
   };
 
   static int Order(size_t bytes) { return static_cast<int>(std::bit_width(bytes - 1)); }
 
+  Header*& FirstFree(int use, int order) {
+    return free_[static_cast<size_t>(use)][static_cast<size_t>(order)];
+  }
+
   std::mutex mutex_;
-  std::array<Header*, 64> free_{};
+  std::array<std::array<Header*, 64>, 2> free_{};
 };
 
 /// Lives as long as the process: SuiteSparse's hooks are global.
@@ -138,6 +149,9 @@ void PrepareLibraries() {
 }
 
 }  // namespace
+
+SolveMemoryScope::SolveMemoryScope() { memory_use = 1; }
+SolveMemoryScope::~SolveMemoryScope() { memory_use = 0; }
 
 CholmodContext::CholmodContext() {
   PrepareLibraries();

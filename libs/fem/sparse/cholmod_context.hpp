@@ -9,6 +9,17 @@
 
 namespace palpate::fem::internal {
 
+/// While it lives, this thread's CHOLMOD takes blocks that were freed inside such a scope, and no
+/// others. Solving keeps its workspace between calls; without this it would hold on to blocks that
+/// the next factorisation counts on.
+class SolveMemoryScope {
+ public:
+  SolveMemoryScope();
+  ~SolveMemoryScope();
+  SolveMemoryScope(const SolveMemoryScope&) = delete;
+  SolveMemoryScope& operator=(const SolveMemoryScope&) = delete;
+};
+
 /// A CHOLMOD workspace whose memory comes from a pool that keeps freed blocks for the next
 /// factorisation, with one BLAS thread and no output. Not shared between threads.
 class CholmodContext {

@@ -78,6 +78,7 @@ class CholmodSolver final : public SparseSolver {
     PALPATE_CHECK(has_factor_);
     PALPATE_CHECK(columns.rows() == pattern_.Size(), columns.rows(), pattern_.Size());
     if (columns.cols() == 0) return;
+    const internal::SolveMemoryScope scope;
     cholmod_dense right_hand_side{};
     right_hand_side.nrow = static_cast<size_t>(columns.rows());
     right_hand_side.ncol = static_cast<size_t>(columns.cols());

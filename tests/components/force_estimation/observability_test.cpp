@@ -68,10 +68,10 @@ TEST(Observability, OneMarkerDoesNotTellTwoForces) {
 
 TEST(Observability, SaysWhereOnlyTheNormalForceIsKnown) {
   const auto model = Build(BeamRobot());
-  const Eigen::Vector3d middle(-0.05, 0.015, 0.03);
+  const Eigen::Vector3d middle(-0.06, 0.015, 0.03);
   const MarkerFrame frame =
       FrameUnder(*model, {}, {LoadAt(*model, middle, 0.005, {0.0, 0.0, -0.5})});
-  Config config = WithContacts({"middle: -0.05, 0.015, 0.03, 0.005"});
+  Config config = WithContacts({"middle: -0.06, 0.015, 0.03, 0.005"});
   MarkerForceEstimator everything(*model, config);
   const ContactForce full = everything.Update(frame).contacts[0];
   ASSERT_TRUE(full.status.ok());
@@ -97,8 +97,26 @@ TEST(Observability, MissingAndNanMarkersAreLeftOut) {
   const ForceEstimate& estimate = estimator.Update(frame);
   ASSERT_TRUE(estimate.status.ok());
   EXPECT_LT((estimate.contacts[0].force_N - kForce_N).norm(), 1e-6);
-  EXPECT_EQ(estimate.degrees_of_freedom, 30 - 3);
+  EXPECT_EQ(estimate.degrees_of_freedom, 27 - 3);  // one more stands on the contact
   EXPECT_EQ(estimate.marker_residual_m.head<3>(), Eigen::Vector3d::Zero());
+}
+
+TEST(Observability, MarkersOnAContactCountByTheirWeight) {
+  const auto model = Build(BeamRobot());
+  MarkerFrame frame = TipForceFrame(*model);
+  frame.markers[9].position_m.z() += 0.001;  // stands where the force acts
+  Config config = WithContacts({kTipSite});
+  config.contact_marker_weight = 0.0;
+  MarkerForceEstimator estimator(*model, config);
+  const ForceEstimate& estimate = estimator.Update(frame);
+  EXPECT_LT((estimate.contacts[0].force_N - kForce_N).norm(), 1e-6);
+  EXPECT_EQ(estimate.degrees_of_freedom, 33 - 3);
+  EXPECT_LT(estimate.chi_squared, 1e-6);
+  config.contact_marker_weight = 1.0;
+  MarkerForceEstimator trusting(*model, config);
+  const ForceEstimate& spoilt = trusting.Update(frame);
+  EXPECT_GT((spoilt.contacts[0].force_N - kForce_N).norm(), 1e-4);
+  EXPECT_EQ(spoilt.degrees_of_freedom, 36 - 3);
 }
 
 TEST(Observability, WithoutAnyMarkerNothingIsEstimated) {

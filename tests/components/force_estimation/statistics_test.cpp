@@ -21,7 +21,7 @@ TEST(Statistics, NormalQuantileInvertsTheDistribution) {
   EXPECT_NEAR(NormalQuantile(0.025), -kSigmas95, 1e-8);
 }
 
-TEST(Statistics, ChiSquaredQuantileIsGoodToOnePerCent) {
+TEST(Statistics, ChiSquaredQuantileIsGoodToTwoPerCent) {
   struct Entry {
     double probability;
     int degrees;
@@ -39,7 +39,7 @@ TEST(Statistics, ChiSquaredQuantileIsGoodToOnePerCent) {
                                              {0.999, 100, 149.449}}};
   for (const Entry& entry : kTable) {
     EXPECT_NEAR(ChiSquaredQuantile(entry.probability, entry.degrees), entry.quantile,
-                0.025 * entry.quantile)
+                (entry.degrees <= 2 ? 1e-4 : 0.02) * entry.quantile)
         << entry.probability << ' ' << entry.degrees;
   }
 }

@@ -12,8 +12,8 @@
 namespace palpate::force_estimation {
 namespace {
 
-const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
-constexpr char kTipSite[] = "tip: 0, 0.015, 0.03, 0.005";
+const Eigen::Vector3d kTip(0.0, 0.007, 0.03);
+constexpr char kTipSite[] = "tip: 0, 0.007, 0.03, 0.005";
 
 TEST(ForceUncertainty, IntervalsHoldTheTruthAsOftenAsTheySay) {
   const auto model = Build(BeamRobot());

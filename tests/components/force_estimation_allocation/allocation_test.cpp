@@ -3,66 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PALPATE_COUNTS_ALLOCATIONS 0
-#else
-#define PALPATE_COUNTS_ALLOCATIONS 1
-#endif
-
-namespace {
-
-std::atomic<bool> counting = false;
-std::atomic<int> allocations = 0;
-
-void Count() {
-  if (counting.load(std::memory_order_relaxed)) ++allocations;
-}
-
-}  // namespace
-
-#if PALPATE_COUNTS_ALLOCATIONS
-
-// glibc's own, behind the names that are replaced here.
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* memory, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-
-void* malloc(size_t size) {
-  Count();
-  return __libc_malloc(size);
-}
-void* calloc(size_t count, size_t size) {
-  Count();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, size_t size) {
-  Count();
-  return __libc_realloc(memory, size);
-}
-void* memalign(size_t alignment, size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  Count();
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? 12 : 0;  // ENOMEM
-}
-}
-
-#endif
+#include "tests/components/force_estimation_allocation/heap_counter.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -84,28 +27,25 @@ std::vector<MarkerFrame> SlowMotion(robot::RobotModel& model) {
 }
 
 void ExpectNoAllocation(const std::vector<std::string>& contacts) {
-  if (!PALPATE_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer has malloc";
+  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
   const auto model = Build(FourLegRobot());
   const std::vector<MarkerFrame> frames = SlowMotion(*model);
   MarkerForceEstimator estimator(*model, WithContacts(contacts), 0.05);
   ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
   for (size_t i = 1; i < frames.size(); ++i) {
-    allocations = 0;
-    counting = true;
+    const size_t before = HeapRequestCount();
     const bool ok = estimator.Update(frames[i]).status.ok();
-    counting = false;
+    const size_t after = HeapRequestCount();
     EXPECT_TRUE(ok) << i;
-    EXPECT_EQ(allocations, 0) << "frame " << i;
+    EXPECT_EQ(after - before, 0U) << "frame " << i;
   }
 }
 
 TEST(ForceEstimationAllocation, CounterSeesMalloc) {
-  if (!PALPATE_COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer has malloc";
-  allocations = 0;
-  counting = true;
+  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
+  const size_t before = HeapRequestCount();
   const auto vector = std::make_unique<std::vector<double>>(1000);
-  counting = false;
-  EXPECT_EQ(allocations, 2);
+  EXPECT_EQ(HeapRequestCount() - before, 2U);
   EXPECT_EQ(vector->size(), 1000U);
 }
 

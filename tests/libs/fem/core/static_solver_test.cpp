@@ -131,6 +131,7 @@ constexpr Law kStable{MaterialModel::kStableNeoHookean, Volumetric::kPointwise,
 TEST(StaticSolver, SaysThatItDidNotConverge) {
   StaticSettings one_step;
   one_step.max_newton_iterations = 1;
+  one_step.max_full_steps = 1;
   Bar bar(kStable, one_step);
   bar.PullTip({0.0, 0.0, -0.3});
   const StaticResult result = bar.solver.Solve(bar.target, &bar.state);

@@ -61,7 +61,7 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
   model.AddWeight(force_N);
   const Eigen::VectorXd lambda_a = Eigen::Vector2d(0.1, 0.2);
   const Eigen::VectorXd lambda_f = Eigen::Vector2d(0.0, 0.0);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(model.linearisation().Size(), 3);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(model.linearisation().Size(), 5);
   Eigen::VectorXd effectors_m, cables_m;
   bool ok = true;
   const auto frame = [&] {

@@ -3,8 +3,11 @@
 
 #include "tests/libs/robot/allocation/heap_counter.hpp"
 
+#include <dlfcn.h>
+
 #include <atomic>
 #include <cerrno>
+#include <cstring>
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define PALPATE_COUNTS_HEAP_REQUESTS 1
@@ -15,6 +18,14 @@ namespace palpate::robot {
 namespace {
 
 std::atomic<size_t> heap_requests = 0;
+
+#if defined(PALPATE_COUNTS_HEAP_REQUESTS)
+void CountRequestFrom(void* caller) {
+  Dl_info library{};
+  const bool known = dladdr(caller, &library) != 0 && library.dli_fname != nullptr;
+  if (!known || std::strstr(library.dli_fname, "libopenblas") == nullptr) ++heap_requests;
+}
+#endif
 
 }  // namespace
 
@@ -41,27 +52,27 @@ void* __libc_realloc(void* pointer, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
 void* malloc(size_t size) {
-  ++palpate::robot::heap_requests;
+  palpate::robot::CountRequestFrom(__builtin_return_address(0));
   return __libc_malloc(size);
 }
 
 void* calloc(size_t count, size_t size) {
-  ++palpate::robot::heap_requests;
+  palpate::robot::CountRequestFrom(__builtin_return_address(0));
   return __libc_calloc(count, size);
 }
 
 void* realloc(void* pointer, size_t size) {
-  ++palpate::robot::heap_requests;
+  palpate::robot::CountRequestFrom(__builtin_return_address(0));
   return __libc_realloc(pointer, size);
 }
 
 void* aligned_alloc(size_t alignment, size_t size) {
-  ++palpate::robot::heap_requests;
+  palpate::robot::CountRequestFrom(__builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
 
 int posix_memalign(void** pointer, size_t alignment, size_t size) {
-  ++palpate::robot::heap_requests;
+  palpate::robot::CountRequestFrom(__builtin_return_address(0));
   *pointer = __libc_memalign(alignment, size);
   return *pointer == nullptr ? ENOMEM : 0;
 }
