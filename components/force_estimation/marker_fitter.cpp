@@ -224,6 +224,10 @@ void MarkerFitter::KeepObservable(const MarkerTargets& targets) {
     const Eigen::Vector3d normal = sites_[s].patch.normal;
     const bool normal_known = normal.dot(own_covariance * normal) <= limit;
     fit_.observability[s] = normal_known ? Observability::kNormal : Observability::kNone;
+    if (normal_known) {
+      KeepNormal(s, own_covariance);
+      continue;
+    }
     directions_[s] = own.eigenvectors();
     fit_.unknowns[s] = 0;
     while (fit_.unknowns[s] < 3 && own.eigenvalues()[fit_.unknowns[s]] <= limit) {
@@ -231,6 +235,20 @@ void MarkerFitter::KeepObservable(const MarkerTargets& targets) {
     }
   }
   BuildBasis();
+}
+
+/// The normal itself and, where it is certain enough, the better known tangent: the force along the
+/// other counts as zero, which leaves a force along the normal what it is.
+void MarkerFitter::KeepNormal(size_t site, const Eigen::Matrix3d& covariance_N2) {
+  const Eigen::Vector3d normal = sites_[site].patch.normal;
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents.col(0) = normal.unitOrthogonal();
+  tangents.col(1) = normal.cross(tangents.col(0));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(tangents.transpose() * covariance_N2 *
+                                                             tangents);
+  directions_[site] << normal, tangents * eigen.eigenvectors();
+  const double limit = config_.unobservable_sigma_N * config_.unobservable_sigma_N;
+  fit_.unknowns[site] = eigen.eigenvalues()[0] <= limit ? 2 : 1;
 }
 
 double MarkerFitter::ForceScale(const ModelState& state) const {

@@ -87,6 +87,7 @@ class MarkerFitter {
                  const ModelState& state);
   void AskForEverything();
   void KeepObservable(const MarkerTargets& targets);
+  void KeepNormal(size_t site, const Eigen::Matrix3d& covariance_N2);
   void BuildBasis();
   bool Step(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
             ModelState* state);

@@ -56,7 +56,8 @@ class MarkerForceEstimator {
   ~MarkerForceEstimator();
 
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
-  /// after the first frame.
+  /// after the first frame, as long as the forces change little enough from one to the next for the
+  /// linear response (marker_fitter.hpp).
   const ForceEstimate& Update(const MarkerFrame& frame);
 
   /// The given contact sites; empty where contacts are searched.

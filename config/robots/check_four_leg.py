@@ -111,7 +111,8 @@ def write_input(path, nodes, cells, modulus_Pa, nodal_forces):
             out.write(f"{number}," + ",".join(map(str, cell)) + "\n")
         out.write("*NSET, NSET=FEET\n")
         out.writelines(f"{n}\n" for n, p in nodes.items() if abs(p[2]) < 1e-6)
-        out.write(f"*MATERIAL, NAME=SILICONE\n*HYPERELASTIC, NEO HOOKE\n{mu / 2:.9e},{2 / bulk:.9e}\n"
+        out.write("*MATERIAL, NAME=SILICONE\n*HYPERELASTIC, NEO HOOKE\n"
+                  f"{mu / 2:.9e},{2 / bulk:.9e}\n"
                   f"*DENSITY\n{DENSITY_KG_M3}\n*SOLID SECTION, ELSET=BODY, MATERIAL=SILICONE\n"
                   "*BOUNDARY\nFEET,1,3\n*STEP, NLGEOM, INC=200\n*STATIC\n0.5,1.\n"
                   f"*DLOAD\nBODY,GRAV,{GRAVITY_M_S2},0.,0.,-1.\n")

@@ -33,7 +33,8 @@ def five_tets(origin, number):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--cells", type=int, nargs=3, default=(12, 4, 4))
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent / "beam.msh")
+    parser.add_argument("--out", type=pathlib.Path,
+                        default=pathlib.Path(__file__).parent / "beam.msh")
     arguments = parser.parse_args()
     counts = arguments.cells
     lattice = [(i, j, k) for i in range(counts[0] + 1) for j in range(counts[1] + 1)

@@ -11,19 +11,6 @@ namespace palpate::app {
 
 namespace {
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (c == '\n') {
-      quoted += "\\n";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
-}
-
 template <typename List, typename Format>
 std::string JoinList(const List& list, const Format& format) {
   std::string text;

@@ -22,6 +22,10 @@ std::string DidYouMean(std::string_view word, const std::vector<std::string>& ca
 /// ("1e3 ", "nan", "inf", "", "1,5").
 bool ParseFinite(std::string_view text, double* value);
 
+/// `text` in double quotes, as YAML and JSON read it back; line ends and other control characters
+/// are escaped.
+std::string Quoted(std::string_view text);
+
 /// The shortest decimal text that reads back as exactly `value`.
 std::string FormatNumber(double value);
 

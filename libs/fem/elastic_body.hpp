@@ -57,14 +57,14 @@ class ElasticBody {
     kernels::Kernel kernel = nullptr;
     int nodes_per_cell = 0;
     int points = 0;
-    std::vector<int> cells;          ///< of the mesh, in lane order
-    std::vector<int> material;       ///< [cells]
-    std::vector<int> nodes;          ///< [blocks][nodes][lanes]
-    std::vector<double> gradients;   ///< [blocks][points][nodes][3][lanes]
-    std::vector<double> weights;     ///< [blocks][points][lanes]
-    std::vector<double> lambda_Pa;   ///< [blocks][lanes]
-    std::vector<double> mu_Pa;       ///< [blocks][lanes]
-    std::vector<BlockSlot> slots;    ///< [blocks][lanes][pairs]
+    std::vector<int> cells;         ///< of the mesh, in lane order
+    std::vector<int> material;      ///< [cells]
+    std::vector<int> nodes;         ///< [blocks][nodes][lanes]
+    std::vector<double> gradients;  ///< [blocks][points][nodes][3][lanes]
+    std::vector<double> weights;    ///< [blocks][points][lanes]
+    std::vector<double> lambda_Pa;  ///< [blocks][lanes]
+    std::vector<double> mu_Pa;      ///< [blocks][lanes]
+    std::vector<BlockSlot> slots;   ///< [blocks][lanes][pairs]
 
     int BlockCount() const { return static_cast<int>(lambda_Pa.size()) / kernels::kLanes; }
     int LanesUsed(int block) const;

@@ -43,7 +43,7 @@ class Linearisation {
   Status UpdateResidual(const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
                         const Eigen::VectorXd& external_force_N);
 
-  const Eigen::VectorXd& residual_N() const { return residual_; }     ///< [Size()]
+  const Eigen::VectorXd& residual_N() const { return residual_; }  ///< [Size()]
   /// r over all nodes [3n]; in fixed directions minus the support's reaction.
   const Eigen::VectorXd& nodal_residual_N() const { return nodal_; }
   double internal_force_norm_N() const { return internal_norm_; }

@@ -12,10 +12,10 @@ namespace palpate::fem {
 /// The stress that defines each material, with the Lame constants lambda and mu, E the Green
 /// strain, F = R S the polar decomposition, J = det F:
 enum class MaterialModel {
-  kLinear,            ///< small strain: P = 2 mu eps + lambda tr(eps) I
-  kCorotational,      ///< P = 2 mu (F - R) + lambda tr(R'F - I) R, exact tangent
-  kStVenantKirchhoff, ///< S = 2 mu E + lambda tr(E) I
-  kNeoHookean,        ///< S = mu (I - C^-1) + lambda ln(J) C^-1
+  kLinear,             ///< small strain: P = 2 mu eps + lambda tr(eps) I
+  kCorotational,       ///< P = 2 mu (F - R) + lambda tr(R'F - I) R, exact tangent
+  kStVenantKirchhoff,  ///< S = 2 mu E + lambda tr(E) I
+  kNeoHookean,         ///< S = mu (I - C^-1) + lambda ln(J) C^-1
   kStableNeoHookean,  ///< S = mu I + (lambda + mu) J (J - alpha) C^-1, alpha = 1 + mu/(lambda + mu)
 };
 

@@ -49,26 +49,28 @@ struct StaticSettings {
   /// Full Newton steps that are tried before the line search. Where they converge they take a tenth
   /// of its iterations: bending bodies must pass through stretched states that it refuses.
   int max_full_steps = 15;
-  int max_load_steps = 60;        ///< tried in all
+  int max_load_steps = 60;  ///< tried in all
   double smallest_load_step = 1e-4;
 };
 
 struct StaticResult {
   Status status;
-  int iterations = 0;          ///< Newton iterations over all load steps
-  int load_steps = 0;          ///< that were accepted
-  double residual_N = 0.0;     ///< Euclidean norm over the free directions
+  int iterations = 0;       ///< Newton iterations over all load steps
+  int load_steps = 0;       ///< that were accepted
+  double residual_N = 0.0;  ///< Euclidean norm over the free directions
   double residual_relative = 0.0;
   double constraint_error_m = 0.0;
   double load_fraction = 0.0;  ///< of the way from the old loads to the new that was reached
-  /// Multipliers where the last attempt ended, also where it failed (which cable pulls at its limit).
+  /// Multipliers where the last attempt ended, also where it failed (which cable pulls at its
+  /// limit).
   Eigen::VectorXd multipliers_N;
 };
 
 /// Newton's method for r(x, lambda) = 0 (linearisation.hpp): full steps first; where they fail, a
-/// line search on the potential energy; where that fails, load stepping. No step inverts an element,
-/// and only stable equilibria (K positive definite) count. Bounds on constraints are solved through their compliance
-/// W_aa = H_a K^-1 H_a' (paper, eqs. 4 and 5) as a bounded QP in the multipliers.
+/// line search on the potential energy; where that fails, load stepping. No step inverts an
+/// element, and only stable equilibria (K positive definite) count. Bounds on constraints are
+/// solved through their compliance W_aa = H_a K^-1 H_a' (paper, eqs. 4 and 5) as a bounded QP in
+/// the multipliers.
 class StaticSolver {
  public:
   explicit StaticSolver(Linearisation& linearisation, const StaticSettings& settings = {});
@@ -100,10 +102,10 @@ class StaticSolver {
 
   Linearisation& linearisation_;
   StaticSettings settings_;
-  Eigen::MatrixXd columns_;        ///< [Size x (1 + constraints)]: K^-1 r, -K^-1 dg/dx
-  Eigen::VectorXd gradient_;       ///< [3n]
-  Eigen::MatrixXd gradients_;      ///< [Size x constraints], -dg/dx
-  Eigen::VectorXd step_;           ///< [Size]
+  Eigen::MatrixXd columns_;    ///< [Size x (1 + constraints)]: K^-1 r, -K^-1 dg/dx
+  Eigen::VectorXd gradient_;   ///< [3n]
+  Eigen::MatrixXd gradients_;  ///< [Size x constraints], -dg/dx
+  Eigen::VectorXd step_;       ///< [Size]
   Eigen::VectorXd new_multipliers_;
   Eigen::VectorXd penalties_;
   Eigen::VectorXd trial_x_;

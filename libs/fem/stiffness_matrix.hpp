@@ -14,8 +14,8 @@ namespace palpate::fem {
 
 /// Where the 3x3 block of two nodes lies in the values of a StiffnessMatrix.
 struct BlockSlot {
-  int address = -1;    ///< of its first entry; -1: a node is fixed, the block is not stored
-  int below = 0;       ///< node blocks below the diagonal in this node column
+  int address = -1;  ///< of its first entry; -1: a node is fixed, the block is not stored
+  int below = 0;     ///< node blocks below the diagonal in this node column
   bool diagonal = false;
   bool transposed = false;
 };
@@ -29,7 +29,7 @@ class StiffnessMatrix {
   /// `fixed` [3 x nodes]: true where a direction is fixed. `pairs`: nodes that are coupled.
   StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed, const NodePairs& pairs);
 
-  int Size() const { return 3 * free_node_count_; }          ///< rows
+  int Size() const { return 3 * free_node_count_; }                                 ///< rows
   int FreeIndex(int node) const { return free_index_[static_cast<size_t>(node)]; }  ///< or -1
   int NodeCount() const { return static_cast<int>(free_index_.size()); }
   SymmetricPattern Pattern() const { return {column_start_, row_}; }
@@ -82,11 +82,11 @@ class StiffnessMatrix {
   void BuildPattern(const NodePairs& free_pairs);
 
   int free_node_count_ = 0;
-  std::vector<int> free_index_;     ///< [nodes], place in the order of elimination, or -1
-  std::vector<int> single_fixed_;   ///< reduced rows that are fixed in one direction only
-  std::vector<int> block_start_;    ///< [free nodes + 1] into block_row_
-  std::vector<int> block_row_;      ///< free nodes below the diagonal, ascending
-  std::vector<int> column_start_;   ///< [Size() + 1]
+  std::vector<int> free_index_;    ///< [nodes], place in the order of elimination, or -1
+  std::vector<int> single_fixed_;  ///< reduced rows that are fixed in one direction only
+  std::vector<int> block_start_;   ///< [free nodes + 1] into block_row_
+  std::vector<int> block_row_;     ///< free nodes below the diagonal, ascending
+  std::vector<int> column_start_;  ///< [Size() + 1]
   std::vector<int> row_;
   std::vector<double> values_;
 };

@@ -25,15 +25,6 @@ void RequireSame(const char* what, const std::string& calibrated, const std::str
                    "': calibrate again with this robot file");
 }
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 CalibratedModulus ReadModulus(const ConfigNode& node) {
   MapReader map(node);
   CalibratedModulus modulus;

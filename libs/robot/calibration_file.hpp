@@ -23,13 +23,13 @@ struct CalibratedModulus {
 /// to the mesh and element it was found with: coarse linear meshes are too stiff, and the fit makes
 /// up for it.
 struct CalibrationFile {
-  std::string robot;       ///< name in the robot file
-  std::string mesh_hash;   ///< RobotBody::mesh_hash: mesh and element
-  std::string element;     ///< "tet4" | "tet10"
-  std::string model;       ///< material model
+  std::string robot;      ///< name in the robot file
+  std::string mesh_hash;  ///< RobotBody::mesh_hash: mesh and element
+  std::string element;    ///< "tet4" | "tet10"
+  std::string model;      ///< material model
   double poissons_ratio = 0.0;
-  std::string date_utc;    ///< "2026-01-31T12:00:00Z"
-  std::string data;        ///< what it was fitted to, for people
+  std::string date_utc;  ///< "2026-01-31T12:00:00Z"
+  std::string data;      ///< what it was fitted to, for people
   std::string data_hash;
   std::vector<CalibratedModulus> moduli;
   double residual_rms_m = 0.0;

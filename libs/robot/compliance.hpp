@@ -20,9 +20,10 @@ struct ForceDirection {
   void AddForce(double force_N, Eigen::VectorXd& nodal_force_N) const;
 };
 
-/// The compliance matrices of the paper's eq. (5), W_ij = H_i K^-1 H_j', about one linearised state,
-/// for effectors e (observed points), cables a and external forces f. Columns are computed for
-/// forces and cables only, from one factorisation: effectors are rows, so many cost what few cost.
+/// The compliance matrices of the paper's eq. (5), W_ij = H_i K^-1 H_j', about one linearised
+/// state, for effectors e (observed points), cables a and external forces f. Columns are computed
+/// for forces and cables only, from one factorisation: effectors are rows, so many cost what few
+/// cost.
 ///
 /// Cables are the linearisation's constraints. Their displacement delta_a is counted as pulled in,
 /// so dell/dx = -H_a. After the first Compute of a set of force directions nothing is allocated.
@@ -40,10 +41,10 @@ class Compliance {
   void Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
                const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
 
-  const Eigen::MatrixXd& W_ea() const { return W_ea_; }  ///< [3e x a] m/N
-  const Eigen::MatrixXd& W_ef() const { return W_ef_; }  ///< [3e x f] m/N
-  const Eigen::MatrixXd& W_aa() const { return W_aa_; }  ///< [a x a] m/N
-  const Eigen::MatrixXd& W_af() const { return W_af_; }  ///< [a x f] m/N
+  const Eigen::MatrixXd& W_ea() const { return W_ea_; }                    ///< [3e x a] m/N
+  const Eigen::MatrixXd& W_ef() const { return W_ef_; }                    ///< [3e x f] m/N
+  const Eigen::MatrixXd& W_aa() const { return W_aa_; }                    ///< [a x a] m/N
+  const Eigen::MatrixXd& W_af() const { return W_af_; }                    ///< [a x f] m/N
   const Eigen::VectorXd& delta_e_free_m() const { return delta_e_free_; }  ///< [3e]
   const Eigen::VectorXd& delta_a_free_m() const { return delta_a_free_; }  ///< [a]
 

@@ -12,15 +12,6 @@ namespace palpate::robot {
 
 namespace {
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::string Point(const Eigen::Vector3d& point) {
   return "[" + FormatNumber(point.x()) + ", " + FormatNumber(point.y()) + ", " +
          FormatNumber(point.z()) + "]";

@@ -95,7 +95,7 @@ void SensingScene::TakeFrame() {
   const Frame& frame = frames_[next_ < frames_.size() ? next_ : 2 * frames_.size() - 2 - next_];
   state_.balanced = false;
   const force_estimation::MarkerFit& fit = fitter_.Fit(frame.targets, frame.cables, &state_);
-  linearisations_ = fit.status.ok() ? fit.iterations + 1 : fit.iterations;
+  qp_steps_ = fit.status.ok() ? fit.iterations + 1 : fit.iterations;
   if (update_ == Update::kConverged) {
     if (!fit.status.ok()) throw RunError("the frame did not converge: " + fit.status.message());
     return;

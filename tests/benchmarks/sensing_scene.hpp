@@ -33,7 +33,7 @@ class SensingScene {
   const force_estimation::ModelState& state() const { return state_; }
   /// The loads that `state` balances before the first frame.
   const Eigen::VectorXd& external_force_N() const { return external_force_N_; }
-  int linearisations() const { return linearisations_; }  ///< of the last frame
+  int qp_steps() const { return qp_steps_; }  ///< of the last frame, each with its linearisation
 
  private:
   struct Frame {
@@ -51,7 +51,7 @@ class SensingScene {
   size_t next_ = 0;
   force_estimation::ModelState state_;
   Eigen::VectorXd external_force_N_;
-  int linearisations_ = 0;
+  int qp_steps_ = 0;
 };
 
 }  // namespace palpate::benchmarks

@@ -42,7 +42,7 @@ void TableReporter::ReportRuns(const std::vector<Run>& report) {
       result.median_ms = run.GetAdjustedRealTime();
       result.cpu_ms = run.GetAdjustedCPUTime();
       result.memory_MiB = Counter(run, "memory_MiB");
-      result.linearisations = Counter(run, "linearisations");
+      result.qp_steps = Counter(run, "qp_steps");
       result.runs = static_cast<int>(run.repetitions);
     }
     if (single || run.aggregate_name == "min") result.smallest_ms = run.GetAdjustedRealTime();
@@ -82,8 +82,8 @@ void TableReporter::PrintRow(const Row& row, const Result& result) {
     out << std::setw(9) << Fixed(result.cpu_ms / reference->second.cpu_ms, 2) << "  "
         << row.reference;
   }
-  if (result.linearisations > 1.0) {
-    out << " (" << Fixed(result.linearisations, 0) << " linearisations a frame)";
+  if (result.qp_steps > 1.0) {
+    out << " (" << Fixed(result.qp_steps, 0) << " QPs a frame)";
   }
   out << '\n';
 }

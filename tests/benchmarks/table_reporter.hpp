@@ -30,7 +30,7 @@ class TableReporter final : public benchmark::BenchmarkReporter {
     double smallest_ms = 0.0;
     double cpu_ms = 0.0;
     double memory_MiB = 0.0;
-    double linearisations = 0.0;
+    double qp_steps = 0.0;
     int runs = 0;
     std::string error;
   };

@@ -44,7 +44,7 @@ struct PointState {
   Mat node_map;  ///< v_a = node_map G_a
   Mat extra;     ///< StVK: F F' and, in second, S; corotational: (tr(V) I - V)^-1
   Mat second;
-  Pack kappa;    ///< corotational: lambda tr(S - I) - 2 mu
+  Pack kappa;  ///< corotational: lambda tr(S - I) - 2 mu
 };
 
 template <MaterialModel model>

@@ -8,14 +8,14 @@
 #include "libs/fem/kernels/kernel.hpp"
 
 // These two need it, and each other, in this order.
-#include "libs/fem/kernels/pack.inl"
 #include "libs/fem/kernels/constitutive.inl"
+#include "libs/fem/kernels/pack.inl"
 
 namespace {
 
 using palpate::fem::kernels::Block;
-using palpate::fem::kernels::kLanes;
 using palpate::fem::kernels::Kernel;
+using palpate::fem::kernels::kLanes;
 using palpate::fem::kernels::Output;
 using palpate::fem::kernels::PairCount;
 using palpate::fem::kernels::PairIndex;
@@ -78,8 +78,7 @@ template <MaterialModel model, bool kMean>
 PALPATE_INLINE void EvaluatePoint(const VolumetricLaw& mean_law, Pack lambda, Pack mu,
                                   PointState& point) {
   if constexpr (HasVolumetricLaw(model)) {
-    const VolumetricLaw law =
-        kMean ? mean_law : EvaluateVolumetric<model>(point.J, lambda);
+    const VolumetricLaw law = kMean ? mean_law : EvaluateVolumetric<model>(point.J, lambda);
     if constexpr (IsJBased(model)) {
       EvaluateJBased<model>(law, !kMean, mu, point);
     } else {
@@ -154,8 +153,7 @@ PALPATE_INLINE void AddPointForce(const PointState& point, Pack weight,
 
 /// Rank-one part of the mean-dilatation tangent: U'' / V C_a C_b', C_a = sum of w cof(F) G_a.
 template <int kNodes>
-PALPATE_INLINE void AddMeanStiffness(Pack coefficient, const Vec (&C)[kNodes],
-                                     double* stiffness) {
+PALPATE_INLINE void AddMeanStiffness(Pack coefficient, const Vec (&C)[kNodes], double* stiffness) {
   for (int b = 0; b < kNodes; ++b) {
     for (int a = b; a < kNodes; ++a) {
       double* target = stiffness + PairIndex(a, b) * 9 * kLanes;
@@ -184,7 +182,8 @@ void EvaluateBlock(const Block& block, const double* x_m, const Output& output) 
       LoadGradients<kNodes>(block, point, gradients);
       const Pack weight = Load(block.weights + point * kLanes);
       volume += weight;
-      deformed_volume += weight * VolumeRatio<model>(DeformationGradient<kNodes>(positions, gradients));
+      deformed_volume +=
+          weight * VolumeRatio<model>(DeformationGradient<kNodes>(positions, gradients));
     }
     mean_law = EvaluateVolumetric<model>(deformed_volume / volume, lambda);
   }

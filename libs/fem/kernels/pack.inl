@@ -119,8 +119,7 @@ PALPATE_INLINE Mat Cofactor(const Mat& a) {
 }
 
 PALPATE_INLINE Pack Determinant(const Mat& a, const Mat& cofactor) {
-  return a.m[0][0] * cofactor.m[0][0] + a.m[0][1] * cofactor.m[0][1] +
-         a.m[0][2] * cofactor.m[0][2];
+  return a.m[0][0] * cofactor.m[0][0] + a.m[0][1] * cofactor.m[0][1] + a.m[0][2] * cofactor.m[0][2];
 }
 
 /// Rotation R of the polar decomposition a = R S, by Newton's iteration R <- (R + R^-T) / 2 with

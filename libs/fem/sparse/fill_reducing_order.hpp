@@ -9,7 +9,8 @@
 
 namespace palpate::fem {
 
-/// Pairs (a, b), a != b, of nodes that some element or cable couples. Either order, repeats allowed.
+/// Pairs (a, b), a != b, of nodes that some element or cable couples. Either order, repeats
+/// allowed.
 using NodePairs = std::vector<std::pair<int, int>>;
 
 /// Order of elimination that keeps the Cholesky factor of a matrix with this node graph sparse

@@ -59,7 +59,7 @@ TEST(ContactSearch, FindsAContactBetweenFeaturePointsWithinItsInterval) {
   std::mt19937 random(9);
   for (const Eigen::Vector3d& place : places) {
     const fem::SurfacePatch patch = model->Patch(place, 0.005);
-    const fem::StaticState truth = SolveTruth(*model, {}, {{patch.weights, -0.5 * patch.normal}});
+    const fem::StaticState truth = SolveTruth(*model, {}, {{patch.weights, -0.1 * patch.normal}});
     MarkerFrame frame = FrameOf(*model, truth, {});
     AddNoise(1e-4, random, &frame);
     MarkerForceEstimator estimator(*model, Config{});

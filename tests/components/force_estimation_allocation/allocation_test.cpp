@@ -5,7 +5,7 @@
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
-#include "tests/components/force_estimation_allocation/heap_counter.hpp"
+#include "tests/support/heap_counter.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -21,31 +21,31 @@ std::vector<MarkerFrame> SlowMotion(robot::RobotModel& model) {
     const auto load = LoadAt(model, {0.0, 0.0, 0.125}, 0.008, {0.1, 0.02 * i, -0.5 - 0.01 * i});
     EXPECT_TRUE(model.Solve(cables, {load}, &state).status.ok());
     frames.push_back(FrameOf(model, state, cables));
-    AddNoise(2e-5, random, &frames.back());
+    AddNoise(2e-6, random, &frames.back());
   }
   return frames;
 }
 
 void ExpectNoAllocation(const std::vector<std::string>& contacts) {
-  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
   const auto model = Build(FourLegRobot());
   const std::vector<MarkerFrame> frames = SlowMotion(*model);
   MarkerForceEstimator estimator(*model, WithContacts(contacts), 0.05);
   ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
   for (size_t i = 1; i < frames.size(); ++i) {
-    const size_t before = HeapRequestCount();
+    const size_t before = test_support::HeapRequestCount();
     const bool ok = estimator.Update(frames[i]).status.ok();
-    const size_t after = HeapRequestCount();
+    const size_t after = test_support::HeapRequestCount();
     EXPECT_TRUE(ok) << i;
     EXPECT_EQ(after - before, 0U) << "frame " << i;
   }
 }
 
 TEST(ForceEstimationAllocation, CounterSeesMalloc) {
-  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
-  const size_t before = HeapRequestCount();
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
+  const size_t before = test_support::HeapRequestCount();
   const auto vector = std::make_unique<std::vector<double>>(1000);
-  EXPECT_EQ(HeapRequestCount() - before, 2U);
+  EXPECT_EQ(test_support::HeapRequestCount() - before, 2U);
   EXPECT_EQ(vector->size(), 1000U);
 }
 

@@ -117,7 +117,8 @@ def write_input(path, grid, weight_N):
                       + ",".join(map(str, brick[12:])) + "\n")
         out.write("*NSET, NSET=CLAMP\n")
         out.writelines(f"{number}\n" for n, number in grid.number.items() if n[0] == 0)
-        out.write(f"*MATERIAL, NAME=SILICONE\n*HYPERELASTIC, NEO HOOKE\n{mu / 2:.9e},{2 / bulk:.9e}\n"
+        out.write("*MATERIAL, NAME=SILICONE\n*HYPERELASTIC, NEO HOOKE\n"
+                  f"{mu / 2:.9e},{2 / bulk:.9e}\n"
                   f"*DENSITY\n{DENSITY_KG_M3}\n*SOLID SECTION, ELSET=BODY, MATERIAL=SILICONE\n"
                   "*BOUNDARY\nCLAMP,1,3\n*STEP, NLGEOM, INC=1000\n*STATIC, DIRECT\n"
                   f"{1 / STEPS},1.\n*DLOAD\nBODY,GRAV,{GRAVITY_M_S2},0.,0.,-1.\n")

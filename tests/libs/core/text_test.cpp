@@ -25,6 +25,12 @@ std::vector<std::string> RandomWords(int count) {
   return words;
 }
 
+TEST(Quoted, EscapesQuotesBackslashesAndControlCharacters) {
+  EXPECT_EQ(Quoted("a b"), "\"a b\"");
+  EXPECT_EQ(Quoted("a\"b\\c"), "\"a\\\"b\\\\c\"");
+  EXPECT_EQ(Quoted("a\nb"), "\"a\\u000ab\"");
+}
+
 TEST(EditDistance, CountsSingleEdits) {
   EXPECT_EQ(EditDistance("cable", "cable"), 0);
   EXPECT_EQ(EditDistance("cable", "cables"), 1);

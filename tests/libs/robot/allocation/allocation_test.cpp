@@ -8,7 +8,7 @@
 #include "libs/robot/compliance.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
-#include "tests/libs/robot/allocation/heap_counter.hpp"
+#include "tests/support/heap_counter.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -37,16 +37,16 @@ RobotBody SoftBox() {
 }
 
 TEST(Allocation, CountsEveryKindOfRequest) {
-  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
-  const size_t before = HeapRequestCount();
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
+  const size_t before = test_support::HeapRequestCount();
   const auto one = std::make_unique<double>(1.0);
   const Eigen::VectorXd other = Eigen::VectorXd::Zero(1000);
-  EXPECT_GE(HeapRequestCount(), before + 2);
+  EXPECT_GE(test_support::HeapRequestCount(), before + 2);
   EXPECT_EQ(*one + other[0], 1.0);
 }
 
 TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
-  if (!HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
   RobotModel model(SoftBox());
   const fem::PointLocator locator(model.body().mesh);
   std::vector<fem::NodeWeights> effectors;
@@ -75,9 +75,9 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
     ok = ok && model.linearisation().UpdateResidual(x_m, lambda_a, force_N).ok();
   };
   frame();
-  const size_t before = HeapRequestCount();
+  const size_t before = test_support::HeapRequestCount();
   for (int k = 0; k < 3; ++k) frame();
-  EXPECT_EQ(HeapRequestCount(), before);
+  EXPECT_EQ(test_support::HeapRequestCount(), before);
   EXPECT_TRUE(ok);
 }
 

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace palpate::robot {
+namespace palpate::test_support {
 
 /// Requests for heap memory by this program so far: malloc and its kin, operator new. Those that
 /// OpenBLAS makes inside one of its functions are left out: its small AVX-512 products take some
@@ -16,4 +16,4 @@ size_t HeapRequestCount();
 /// Whether they are counted: not where a sanitizer has its own malloc.
 bool HeapRequestsAreCounted();
 
-}  // namespace palpate::robot
+}  // namespace palpate::test_support

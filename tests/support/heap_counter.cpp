@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "tests/components/force_estimation_allocation/heap_counter.hpp"
+#include "tests/support/heap_counter.hpp"
 
 #include <dlfcn.h>
 
@@ -13,7 +13,7 @@
 #define PALPATE_COUNTS_HEAP_REQUESTS 1
 #endif
 
-namespace palpate::force_estimation {
+namespace palpate::test_support {
 
 namespace {
 
@@ -41,7 +41,7 @@ bool HeapRequestsAreCounted() {
 #endif
 }
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::test_support
 
 #if defined(PALPATE_COUNTS_HEAP_REQUESTS)
 // glibc's own names of the functions that take the place of malloc and its kin here. operator new
@@ -54,27 +54,27 @@ void* __libc_realloc(void* pointer, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
 void* malloc(size_t size) {
-  palpate::force_estimation::CountRequestFrom(__builtin_return_address(0));
+  palpate::test_support::CountRequestFrom(__builtin_return_address(0));
   return __libc_malloc(size);
 }
 
 void* calloc(size_t count, size_t size) {
-  palpate::force_estimation::CountRequestFrom(__builtin_return_address(0));
+  palpate::test_support::CountRequestFrom(__builtin_return_address(0));
   return __libc_calloc(count, size);
 }
 
 void* realloc(void* pointer, size_t size) {
-  palpate::force_estimation::CountRequestFrom(__builtin_return_address(0));
+  palpate::test_support::CountRequestFrom(__builtin_return_address(0));
   return __libc_realloc(pointer, size);
 }
 
 void* aligned_alloc(size_t alignment, size_t size) {
-  palpate::force_estimation::CountRequestFrom(__builtin_return_address(0));
+  palpate::test_support::CountRequestFrom(__builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
 
 int posix_memalign(void** pointer, size_t alignment, size_t size) {
-  palpate::force_estimation::CountRequestFrom(__builtin_return_address(0));
+  palpate::test_support::CountRequestFrom(__builtin_return_address(0));
   *pointer = __libc_memalign(alignment, size);
   return *pointer == nullptr ? ENOMEM : 0;
 }
