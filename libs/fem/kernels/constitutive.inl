@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "libs/fem/kernels/pack.inl"
+
 /// Constitutive laws at one integration point (libs/fem/material.hpp gives their stresses).
 /// Each law offers the first Piola-Kirchhoff stress P(F), the energy density, and the tangent
 /// between two nodes with shape gradients G_a, G_b:

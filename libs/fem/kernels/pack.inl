@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "libs/fem/kernels/kernel.hpp"
+
 /// Small fixed-size algebra on SIMD packs. Only for the kernel sources, inside their own namespace:
 /// everything here is static, so that no instruction set's version is ever linked into another's.
 namespace {
