@@ -5,10 +5,8 @@
 
 /// The element kernel: eight elements in the lanes of a pack. Included by one source for each
 /// instruction set.
-#include "libs/fem/kernels/kernel.hpp"
-
-// These two need it, and each other, in this order.
 #include "libs/fem/kernels/constitutive.inl"
+#include "libs/fem/kernels/kernel.hpp"
 #include "libs/fem/kernels/pack.inl"
 
 namespace {

@@ -150,6 +150,28 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ReferenceShapes,
                                                                            : "Equilibrium";
                          });
 
+TEST(CalibrateMaterial, StandardErrorKnowsThatTheReferenceMovesToo) {
+  const auto model = Build(BeamRobot());
+  const auto load = LoadAt(*model, kTip, 0.005, {0.0, 0.0, -0.1});
+  const auto displacements_m = [&](double modulus_Pa) -> Eigen::VectorXd {
+    model->SetYoungsModulus(0, modulus_Pa);
+    return MarkersOf(*model, SolveTruth(*model, {}, {load})) -
+           MarkersOf(*model, SolveTruth(*model, {}, {}));
+  };
+  constexpr double kStep = 1e-4;
+  const Eigen::VectorXd derivative_m =
+      (displacements_m(250e3 * std::exp(kStep)) - displacements_m(250e3 * std::exp(-kStep))) /
+      (2.0 * kStep);
+  model->SetYoungsModulus(0, 250e3);
+  StaticObservation observation = Observe(*model, {}, {load});
+  observation.reference = ReferenceShape::kEquilibrium;
+  observation.reference_position_m = MarkersOf(*model, SolveTruth(*model, {}, {}));
+  const MaterialCalibration fit = CalibrateMaterial(*model, {observation}, {});
+  ASSERT_TRUE(fit.status.ok());
+  const double expected_Pa = 250e3 * kSigma_m / derivative_m.norm();
+  EXPECT_NEAR(fit.moduli[0].standard_error_Pa, expected_Pa, 1e-4 * expected_Pa);
+}
+
 TEST(CalibrateMaterial, StandardErrorsHoldTheTruthAsOftenAsTheySay) {
   const auto model = Build(BeamRobot());
   const StaticObservation clean = Observe(*model, {}, {});
