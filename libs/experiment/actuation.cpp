@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "libs/core/check.hpp"
 #include "libs/core/file.hpp"
@@ -60,7 +62,8 @@ void CheckSample(const CsvTable& table, std::size_t row, std::size_t index, Cabl
   }
 }
 
-CableColumn ReadColumn(const CsvTable& table, std::size_t index) {
+/// Nothing where every field is empty: nobody measured this.
+std::optional<CableColumn> ReadColumn(const CsvTable& table, std::size_t index) {
   CableColumn column = ParseHeaderField(table, index);
   column.samples.reserve(table.rows());
   bool any = false;
@@ -70,9 +73,7 @@ CableColumn ReadColumn(const CsvTable& table, std::size_t index) {
     CheckSample(table, row, index, column.quantity, *column.samples.back());
     any = true;
   }
-  if (!any) {
-    throw InputError(column.where, "column '" + column.Header() + "' holds no value at all");
-  }
+  if (!any) return std::nullopt;
   return column;
 }
 
@@ -119,7 +120,8 @@ Actuation ReadActuation(const std::filesystem::path& file) {
     actuation.t_s.push_back(RisingTime(table, row, time_index, Rise::kStrict));
   }
   for (std::size_t index = 0; index < header.size(); ++index) {
-    if (index != time_index) actuation.columns.push_back(ReadColumn(table, index));
+    if (index == time_index) continue;
+    if (auto column = ReadColumn(table, index)) actuation.columns.push_back(std::move(*column));
   }
   return actuation;
 }

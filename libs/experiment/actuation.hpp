@@ -45,7 +45,8 @@ struct Actuation {
 
 /// Reads actuation.csv. Throws InputError with file:line:column for an unknown, missing, doubled
 /// or wrongly scaled column ("north.displacement_mm"), a wrong number of fields, what is no finite
-/// number, time that does not rise, a column without a sample, a negative tension.
+/// number, time that does not rise, a negative tension. A column without a sample is left out: its
+/// cable was not driven.
 Actuation ReadActuation(const std::filesystem::path& file);
 
 /// Writes what ReadActuation reads back exactly. Throws RunError where it cannot.
