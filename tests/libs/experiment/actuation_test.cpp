@@ -80,8 +80,8 @@ TEST(Actuation, RefusesAnUnknownOrDoubledOrMissingColumn) {
 
 TEST(Actuation, TakesAColumnWithoutAnyValueForACableThatWasNotDriven) {
   const TestFolder folder;
-  const Actuation actuation = ReadActuation(
-      folder.Write("actuation.csv", "t_s,a.tension_N,b.tension_N\n0,,1\n1,,1\n"));
+  const Actuation actuation =
+      ReadActuation(folder.Write("actuation.csv", "t_s,a.tension_N,b.tension_N\n0,,1\n1,,1\n"));
   EXPECT_EQ(actuation.Find("a", CableQuantity::kTension), nullptr);
   EXPECT_NE(actuation.Find("b", CableQuantity::kTension), nullptr);
 }
