@@ -9,6 +9,12 @@
 
 namespace palpate::fem {
 
+namespace {
+
+size_t At(int index) { return static_cast<size_t>(index); }
+
+}  // namespace
+
 StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed,
                                  const NodePairs& pairs)
     : free_index_(static_cast<size_t>(fixed.cols()), -1) {
@@ -48,81 +54,68 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
       if (fixed(i, node)) single_fixed_.push_back(3 * FreeIndex(node) + i);
     }
   }
-  std::sort(single_fixed_.begin(), single_fixed_.end());
+  is_single_fixed_.assign(At(Size()), false);
+  for (const int row : single_fixed_) is_single_fixed_[At(row)] = true;
 }
 
 void StiffnessMatrix::BuildPattern(const NodePairs& free_pairs) {
-  NodePairs columns = free_pairs;  // (column, row), column < row
+  NodePairs columns = free_pairs;  // (column, row), column <= row
+  for (int node = 0; node < free_node_count_; ++node) columns.emplace_back(node, node);
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  block_start_.assign(static_cast<size_t>(free_node_count_) + 1, 0);
+  column_start_.assign(At(free_node_count_) + 1, 0);
+  row_.reserve(columns.size());
   for (const auto& [column, row] : columns) {
-    ++block_start_[static_cast<size_t>(column) + 1];
-    block_row_.push_back(row);
+    ++column_start_[At(column) + 1];
+    row_.push_back(row);
   }
-  for (size_t j = 1; j < block_start_.size(); ++j) block_start_[j] += block_start_[j - 1];
-
-  column_start_.reserve(static_cast<size_t>(Size()) + 1);
-  column_start_.push_back(0);
-  for (int column = 0; column < free_node_count_; ++column) {
-    for (int c = 0; c < 3; ++c) {
-      for (int r = c; r < 3; ++r) row_.push_back(3 * column + r);
-      for (int k = block_start_[static_cast<size_t>(column)];
-           k < block_start_[static_cast<size_t>(column) + 1]; ++k) {
-        for (int r = 0; r < 3; ++r) row_.push_back(3 * block_row_[static_cast<size_t>(k)] + r);
-      }
-      column_start_.push_back(static_cast<int>(row_.size()));
-    }
-  }
-  values_.assign(row_.size(), 0.0);
+  for (size_t j = 1; j < column_start_.size(); ++j) column_start_[j] += column_start_[j - 1];
+  values_.assign(kBlockEntries * row_.size(), 0.0);
 }
 
 BlockSlot StiffnessMatrix::Slot(int node_a, int node_b) const {
   const int a = FreeIndex(node_a);
   const int b = FreeIndex(node_b);
   if (a < 0 || b < 0) return {};
-  const auto column = static_cast<size_t>(std::min(a, b));
-  const int start = block_start_[column];
-  const int below = block_start_[column + 1] - start;
-  const int base = column_start_[3 * column];
-  if (a == b) return {.address = base, .below = below, .diagonal = true, .transposed = false};
-  const auto first = block_row_.begin() + start;
-  const auto found = std::lower_bound(first, first + below, std::max(a, b));
-  PALPATE_CHECK(found != first + below && *found == std::max(a, b), node_a, node_b);
-  const int k = static_cast<int>(found - first);
-  return {.address = base + 3 + 3 * k, .below = below, .diagonal = false, .transposed = a < b};
+  const int column = std::min(a, b);
+  const auto first = row_.begin() + column_start_[At(column)];
+  const auto last = row_.begin() + column_start_[At(column) + 1];
+  const auto found = std::lower_bound(first, last, std::max(a, b));
+  PALPATE_CHECK(found != last && *found == std::max(a, b), node_a, node_b);
+  return {.address = kBlockEntries * static_cast<int>(found - row_.begin()), .transposed = a < b};
 }
 
 void StiffnessMatrix::SetZero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
 double StiffnessMatrix::MeanDiagonal() const {
   double sum = 0.0;
-  for (int j = 0; j < Size(); ++j) {
-    sum += values_[static_cast<size_t>(column_start_[static_cast<size_t>(j)])];
+  for (int node = 0; node < free_node_count_; ++node) {
+    const double* block = DiagonalBlock(node);
+    sum += block[0] + block[4] + block[8];
   }
   return sum / std::max(1, Size());
 }
 
 void StiffnessMatrix::AddRelativeShift(double shift) {
   const double amount = shift * MeanDiagonal();
-  for (int j = 0; j < Size(); ++j) {
-    values_[static_cast<size_t>(column_start_[static_cast<size_t>(j)])] += amount;
+  for (int node = 0; node < free_node_count_; ++node) {
+    double* block = values_.data() + kBlockEntries * At(column_start_[At(node)]);
+    for (const int entry : {0, 4, 8}) block[entry] += amount;
   }
 }
 
 void StiffnessMatrix::FixSingleDirections() {
   if (single_fixed_.empty()) return;
-  const auto is_fixed = [&](int row) {
-    return std::binary_search(single_fixed_.begin(), single_fixed_.end(), row);
-  };
-  for (int j = 0; j < Size(); ++j) {
-    const bool column_fixed = is_fixed(j);
-    for (int k = column_start_[static_cast<size_t>(j)];
-         k < column_start_[static_cast<size_t>(j) + 1]; ++k) {
-      const int i = row_[static_cast<size_t>(k)];
-      // The diagonal entry stays as it is: its size does not matter, and it keeps the scale.
-      if (i != j && (column_fixed || is_fixed(i))) {
-        values_[static_cast<size_t>(k)] = 0.0;
+  for (int column = 0; column < free_node_count_; ++column) {
+    for (int k = column_start_[At(column)]; k < column_start_[At(column) + 1]; ++k) {
+      double* block = values_.data() + kBlockEntries * At(k);
+      for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) {
+          const int i = 3 * row_[At(k)] + r;
+          const int j = 3 * column + c;
+          // The diagonal entry stays as it is: its size does not matter, and it keeps the scale.
+          if (i != j && (IsSingleFixed(i) || IsSingleFixed(j))) block[3 * c + r] = 0.0;
+        }
       }
     }
   }
@@ -147,12 +140,14 @@ void StiffnessMatrix::AddExpanded(const Eigen::Ref<const Eigen::VectorXd>& reduc
 
 Eigen::VectorXd StiffnessMatrix::Times(const Eigen::Ref<const Eigen::VectorXd>& reduced) const {
   Eigen::VectorXd product = Eigen::VectorXd::Zero(Size());
-  for (int j = 0; j < Size(); ++j) {
-    for (int k = column_start_[static_cast<size_t>(j)];
-         k < column_start_[static_cast<size_t>(j) + 1]; ++k) {
-      const int i = row_[static_cast<size_t>(k)];
-      product[i] += values_[static_cast<size_t>(k)] * reduced[j];
-      if (i != j) product[j] += values_[static_cast<size_t>(k)] * reduced[i];
+  for (int column = 0; column < free_node_count_; ++column) {
+    for (int k = column_start_[At(column)]; k < column_start_[At(column) + 1]; ++k) {
+      const int row = row_[At(k)];
+      const Eigen::Map<const Eigen::Matrix3d> block(values_.data() + kBlockEntries * At(k));
+      product.segment<3>(3 * row) += block * reduced.segment<3>(3 * column);
+      if (row != column) {
+        product.segment<3>(3 * column) += block.transpose() * reduced.segment<3>(3 * row);
+      }
     }
   }
   return product;

@@ -15,13 +15,11 @@ namespace palpate::fem {
 /// Where the 3x3 block of two nodes lies in the values of a StiffnessMatrix.
 struct BlockSlot {
   int address = -1;  ///< of its first entry; -1: a node is fixed, the block is not stored
-  int below = 0;     ///< node blocks below the diagonal in this node column
-  bool diagonal = false;
   bool transposed = false;
 };
 
 /// The stiffness matrix over the free nodes, renumbered once so that its factor is sparse. Lower
-/// triangle, columns compressed, in 3x3 node blocks. Nodes with all three directions fixed are left
+/// triangle in 3x3 node blocks (BlockPattern), which solvers read as they are. Nodes with all three directions fixed are left
 /// out; a node with one or two directions fixed stays, its fixed rows and columns replaced by those
 /// of the identity (FixSingleDirections).
 class StiffnessMatrix {
@@ -32,37 +30,22 @@ class StiffnessMatrix {
   int Size() const { return 3 * free_node_count_; }                                 ///< rows
   int FreeIndex(int node) const { return free_index_[static_cast<size_t>(node)]; }  ///< or -1
   int NodeCount() const { return static_cast<int>(free_index_.size()); }
-  SymmetricPattern Pattern() const { return {column_start_, row_}; }
+  BlockPattern Pattern() const { return {column_start_, row_}; }
   std::span<const double> Values() const { return values_; }
+  std::span<double> Values() { return values_; }
 
   /// The slot of block (a, b). Checks that the pair was declared.
   BlockSlot Slot(int node_a, int node_b) const;
 
   void SetZero();
-  /// Adds `block` = dforce_a/dx_b at slot (a, b); for a == b its symmetric part's lower triangle.
+  /// Adds `block` = dforce_a/dx_b at slot (a, b); for a == b it must be symmetric.
   /// `block` may be any 3x3 accessor block(row, column).
   template <typename Block>
   void Add(const BlockSlot& slot, const Block& block) {
     if (slot.address < 0) return;
-    double* column0 = values_.data() + slot.address;
-    if (slot.diagonal) {
-      double* column1 = column0 + 3 + 3 * slot.below;
-      double* column2 = column1 + 2 + 3 * slot.below;
-      column0[0] += block(0, 0), column0[1] += block(1, 0), column0[2] += block(2, 0);
-      column1[0] += block(1, 1), column1[1] += block(2, 1);
-      column2[0] += block(2, 2);
-      return;
-    }
-    double* column1 = column0 + 2 + 3 * slot.below;
-    double* column2 = column1 + 1 + 3 * slot.below;
-    if (slot.transposed) {
-      for (int r = 0; r < 3; ++r) {
-        column0[r] += block(0, r), column1[r] += block(1, r), column2[r] += block(2, r);
-      }
-    } else {
-      for (int r = 0; r < 3; ++r) {
-        column0[r] += block(r, 0), column1[r] += block(r, 1), column2[r] += block(r, 2);
-      }
+    double* entry = values_.data() + slot.address;
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) *entry++ += slot.transposed ? block(c, r) : block(r, c);
     }
   }
   double MeanDiagonal() const;
@@ -80,14 +63,17 @@ class StiffnessMatrix {
 
  private:
   void BuildPattern(const NodePairs& free_pairs);
+  bool IsSingleFixed(int row) const { return is_single_fixed_[static_cast<size_t>(row)]; }
+  const double* DiagonalBlock(int column) const {
+    return values_.data() + kBlockEntries * column_start_[static_cast<size_t>(column)];
+  }
 
   int free_node_count_ = 0;
   std::vector<int> free_index_;    ///< [nodes], place in the order of elimination, or -1
   std::vector<int> single_fixed_;  ///< reduced rows that are fixed in one direction only
-  std::vector<int> block_start_;   ///< [free nodes + 1] into block_row_
-  std::vector<int> block_row_;     ///< free nodes below the diagonal, ascending
-  std::vector<int> column_start_;  ///< [Size() + 1]
-  std::vector<int> row_;
+  std::vector<bool> is_single_fixed_;  ///< [Size()]
+  std::vector<int> column_start_;  ///< [free nodes + 1] into row_
+  std::vector<int> row_;           ///< [blocks] free nodes, ascending in each column
   std::vector<double> values_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <cmath>
+#include <vector>
 
 #include "libs/core/check.hpp"
 #include "libs/fem/sparse/cholmod_context.hpp"
@@ -33,7 +34,8 @@ void UseLargeSupernodes(cholmod_common* common) {
 
 class CholmodSolver final : public SparseSolver {
  public:
-  explicit CholmodSolver(const SymmetricPattern& pattern) : pattern_(pattern) {
+  explicit CholmodSolver(const BlockPattern& pattern) : size_(pattern.Size()) {
+    ExpandBlocks(pattern);
     cholmod_common* common = context_.get();
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->final_ll = 1;
@@ -41,7 +43,7 @@ class CholmodSolver final : public SparseSolver {
     common->method[0].ordering = CHOLMOD_NATURAL;  // the pattern is in its final order already
     common->postorder = 0;
     UseLargeSupernodes(common);
-    cholmod_sparse matrix = View({});
+    cholmod_sparse matrix = View(CHOLMOD_PATTERN);
     factor_ = cholmod_analyze(&matrix, common);
     PALPATE_CHECK(factor_ != nullptr, common->status);
     factor_nonzeros_ = static_cast<size_t>(common->lnz);
@@ -58,7 +60,9 @@ class CholmodSolver final : public SparseSolver {
   Status Factorize(std::span<const double> values) override {
     has_factor_ = false;
     if (!AllFinite(values)) return {StatusCode::kInvalidInput, "the matrix is not finite"};
-    cholmod_sparse matrix = View(values);
+    PALPATE_CHECK(values.size() == block_entries_, values.size(), block_entries_);
+    for (size_t k = 0; k < source_.size(); ++k) values_[k] = values[static_cast<size_t>(source_[k])];
+    cholmod_sparse matrix = View(CHOLMOD_REAL);
     {
       const internal::OneThread one_thread;
       cholmod_factorize(&matrix, factor_, context_.get());
@@ -76,7 +80,7 @@ class CholmodSolver final : public SparseSolver {
 
   void Solve(Eigen::Ref<Eigen::MatrixXd> columns) override {
     PALPATE_CHECK(has_factor_);
-    PALPATE_CHECK(columns.rows() == pattern_.Size(), columns.rows(), pattern_.Size());
+    PALPATE_CHECK(columns.rows() == size_, columns.rows(), size_);
     if (columns.cols() == 0) return;
     const internal::SolveMemoryScope scope;
     cholmod_dense right_hand_side{};
@@ -101,17 +105,37 @@ class CholmodSolver final : public SparseSolver {
   double FactorFlops() const override { return factor_flops_; }
 
  private:
+  /// The scalar pattern of the lower triangle, and where each of its values lies in the blocks.
+  void ExpandBlocks(const BlockPattern& pattern) {
+    column_start_.push_back(0);
+    for (int column = 0; column < pattern.NodeCount(); ++column) {
+      const auto node = static_cast<size_t>(column);
+      for (int c = 0; c < 3; ++c) {
+        for (int k = pattern.column_start[node]; k < pattern.column_start[node + 1]; ++k) {
+          const int row = pattern.row[static_cast<size_t>(k)];
+          for (int r = row == column ? c : 0; r < 3; ++r) {
+            row_.push_back(3 * row + r);
+            source_.push_back(kBlockEntries * k + 3 * c + r);
+          }
+        }
+        column_start_.push_back(static_cast<int>(row_.size()));
+      }
+    }
+    values_.resize(row_.size());
+    block_entries_ = kBlockEntries * pattern.row.size();
+  }
+
   /// The matrix without a copy; CHOLMOD takes non-const pointers but does not write through them.
-  cholmod_sparse View(std::span<const double> values) const {
+  cholmod_sparse View(int kind) {
     cholmod_sparse matrix{};
-    matrix.nrow = matrix.ncol = static_cast<size_t>(pattern_.Size());
-    matrix.nzmax = pattern_.row.size();
-    matrix.p = const_cast<int*>(pattern_.column_start.data());
-    matrix.i = const_cast<int*>(pattern_.row.data());
-    matrix.x = const_cast<double*>(values.data());
+    matrix.nrow = matrix.ncol = static_cast<size_t>(size_);
+    matrix.nzmax = row_.size();
+    matrix.p = column_start_.data();
+    matrix.i = row_.data();
+    matrix.x = values_.data();
     matrix.stype = -1;
     matrix.itype = CHOLMOD_INT;
-    matrix.xtype = values.empty() ? CHOLMOD_PATTERN : CHOLMOD_REAL;
+    matrix.xtype = kind;
     matrix.dtype = CHOLMOD_DOUBLE;
     matrix.sorted = 1;
     matrix.packed = 1;
@@ -119,7 +143,11 @@ class CholmodSolver final : public SparseSolver {
   }
 
   internal::CholmodContext context_;
-  SymmetricPattern pattern_;
+  int size_ = 0;
+  std::vector<int> column_start_, row_;  ///< scalar, lower triangle
+  std::vector<int> source_;              ///< [nonzeros] place in the block values
+  std::vector<double> values_;           ///< [nonzeros]
+  size_t block_entries_ = 0;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* solution_ = nullptr;
   cholmod_dense* workspace_y_ = nullptr;
@@ -131,7 +159,7 @@ class CholmodSolver final : public SparseSolver {
 
 }  // namespace
 
-std::unique_ptr<SparseSolver> MakeCholmodSolver(const SymmetricPattern& pattern) {
+std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern) {
   return std::make_unique<CholmodSolver>(pattern);
 }
 

@@ -13,13 +13,19 @@
 
 namespace palpate::fem {
 
-/// A symmetric matrix by its lower triangle, columns compressed, rows ascending, with the diagonal.
-/// The rows and columns are already in a fill-reducing order: solvers keep it.
-struct SymmetricPattern {
-  std::span<const int> column_start;  ///< [n + 1]
-  std::span<const int> row;           ///< [nonzeros]
-  int Size() const { return static_cast<int>(column_start.size()) - 1; }
+/// A symmetric matrix of 3x3 blocks, one block row for each node, by its lower triangle: block
+/// columns compressed, block rows ascending, the diagonal block first. The nodes are already in a
+/// fill-reducing order: solvers keep it.
+struct BlockPattern {
+  std::span<const int> column_start;  ///< [nodes + 1] into `row`
+  std::span<const int> row;           ///< [blocks]
+  int NodeCount() const { return static_cast<int>(column_start.size()) - 1; }
+  int Size() const { return 3 * NodeCount(); }
 };
+
+/// Values of one block, column after column: entry (r, c) is the (3 c + r)-th. Of diagonal blocks
+/// only the lower triangle is read.
+inline constexpr int kBlockEntries = 9;
 
 /// Direct solver for symmetric positive definite matrices of one pattern: analysed once, factorised
 /// again and again. After the first factorisation nothing is allocated on the heap.
@@ -27,7 +33,7 @@ class SparseSolver {
  public:
   virtual ~SparseSolver() = default;
 
-  /// `values` in the order of `pattern.row`. Not ok, and no factor, where the matrix is not
+  /// `values` [blocks][kBlockEntries] in the order of `pattern.row`. Not ok, and no factor, where the matrix is not
   /// positive definite (kNotPositiveDefinite) or holds NaN.
   virtual Status Factorize(std::span<const double> values) = 0;
 
@@ -43,6 +49,6 @@ class SparseSolver {
 };
 
 /// CHOLMOD's supernodal Cholesky, analysed for `pattern`, which must outlive the solver.
-std::unique_ptr<SparseSolver> MakeCholmodSolver(const SymmetricPattern& pattern);
+std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern);
 
 }  // namespace palpate::fem

@@ -14,26 +14,32 @@
 namespace palpate::fem {
 namespace {
 
-/// A banded symmetric matrix: values by column, lower triangle.
+/// A banded symmetric matrix of 3x3 blocks.
 struct Banded {
-  static constexpr int kSize = 60;
-  static constexpr int kBand = 7;
+  static constexpr int kNodes = 20;
+  static constexpr int kSize = 3 * kNodes;
+  static constexpr int kBand = 3;  ///< blocks, with that on the diagonal
 
   explicit Banded(double diagonal, unsigned seed) {
     std::mt19937 engine(seed);
     column_start.push_back(0);
     dense = Eigen::MatrixXd::Zero(kSize, kSize);
-    for (int j = 0; j < kSize; ++j) {
-      for (int i = j; i < std::min(kSize, j + kBand); ++i) {
-        const double entry = i == j ? diagonal : laws::RandomVector(1, 1.0, &engine)[0];
+    for (int j = 0; j < kNodes; ++j) {
+      for (int i = j; i < std::min(kNodes, j + kBand); ++i) {
+        Eigen::Matrix3d block = laws::RandomVector(9, 1.0, &engine).reshaped(3, 3);
+        if (i == j) {
+          block = (block + block.transpose()).eval();
+          block.diagonal().setConstant(diagonal);
+        }
         row.push_back(i);
-        values.push_back(entry);
-        dense(i, j) = dense(j, i) = entry;
+        values.insert(values.end(), block.data(), block.data() + kBlockEntries);
+        dense.block<3, 3>(3 * j, 3 * i) = block.transpose();
+        dense.block<3, 3>(3 * i, 3 * j) = block;
       }
       column_start.push_back(static_cast<int>(row.size()));
     }
   }
-  SymmetricPattern Pattern() const { return {column_start, row}; }
+  BlockPattern Pattern() const { return {column_start, row}; }
 
   std::vector<int> column_start, row;
   std::vector<double> values;
@@ -93,7 +99,8 @@ TEST(CholmodSolver, RefusesNaNAnywhere) {
   const auto solver = MakeCholmodSolver(good.Pattern());
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    for (const size_t at : {size_t{0}, size_t{3}, good.values.size() / 2, good.values.size() - 1}) {
+    for (const size_t block : {size_t{0}, size_t{1}, good.row.size() / 2, good.row.size() - 1}) {
+      const size_t at = kBlockEntries * block + 5;  // below the diagonal
       std::vector<double> values = good.values;
       values[at] = bad;
       EXPECT_FALSE(solver->Factorize(values).ok()) << bad << " at " << at;
@@ -115,7 +122,7 @@ TEST(CholmodSolver, TellsTheSizeOfItsFactor) {
   const Banded matrix(10.0, 1);
   const auto solver = MakeCholmodSolver(matrix.Pattern());
   // A band fills no more than itself.
-  EXPECT_EQ(solver->FactorNonzeros(), matrix.row.size());
+  EXPECT_EQ(solver->FactorNonzeros(), 9 * matrix.row.size() - 3 * Banded::kNodes);
   ASSERT_TRUE(solver->Factorize(matrix.values).ok());
   EXPECT_GT(solver->FactorFlops(), static_cast<double>(Banded::kSize));
   EXPECT_GT(solver->MemoryBytes(), 8 * matrix.row.size());

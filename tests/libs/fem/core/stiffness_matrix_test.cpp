@@ -29,12 +29,13 @@ NodePairs GridPairs(int k) {
 
 Eigen::MatrixXd Dense(const StiffnessMatrix& K) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(K.Size(), K.Size());
-  const SymmetricPattern pattern = K.Pattern();
-  for (int j = 0; j < K.Size(); ++j) {
-    const auto first = static_cast<size_t>(pattern.column_start[static_cast<size_t>(j)]);
-    const auto last = static_cast<size_t>(pattern.column_start[static_cast<size_t>(j) + 1]);
-    for (size_t k = first; k < last; ++k) {
-      dense(pattern.row[k], j) = dense(j, pattern.row[k]) = K.Values()[k];
+  const BlockPattern pattern = K.Pattern();
+  for (int j = 0; j < pattern.NodeCount(); ++j) {
+    for (int k = pattern.column_start[j]; k < pattern.column_start[j + 1]; ++k) {
+      const int i = pattern.row[static_cast<size_t>(k)];
+      const Eigen::Map<const Eigen::Matrix3d> block(K.Values().data() + kBlockEntries * k);
+      dense.block<3, 3>(3 * j, 3 * i) = block.transpose();
+      dense.block<3, 3>(3 * i, 3 * j) = block;
     }
   }
   return dense;
@@ -108,7 +109,7 @@ TEST(StiffnessMatrix, EqualsTheDenseAssemblyOverTheFreeNodes) {
 
 TEST(StiffnessMatrix, RowsAreAscendingAndStartWithTheDiagonal) {
   const StiffnessMatrix K(Fixed::Constant(3, 27, false), GridPairs(3));
-  const SymmetricPattern pattern = K.Pattern();
+  const BlockPattern pattern = K.Pattern();
   for (size_t j = 0; j + 1 < pattern.column_start.size(); ++j) {
     const auto first = pattern.row.begin() + pattern.column_start[j];
     const auto last = pattern.row.begin() + pattern.column_start[j + 1];
