@@ -21,12 +21,13 @@ NodePairs AllPairs(const ElasticBody& body, const std::vector<ScalarConstraint*>
 }  // namespace
 
 Linearisation::Linearisation(ElasticBody& body, std::vector<ScalarConstraint*> constraints,
-                             const FixedDirections& fixed)
+                             const FixedDirections& fixed, std::shared_ptr<ThreadTeam> team)
     : body_(body),
       constraints_(std::move(constraints)),
       fixed_(fixed),
       matrix_(fixed, AllPairs(body, constraints_)),
-      solver_(MakeCholmodSolver(matrix_.Pattern())),
+      team_(team != nullptr ? std::move(team) : std::make_shared<ThreadTeam>(1)),
+      solver_(MakeMultifrontalSolver(matrix_.Pattern(), *team_)),
       nodal_(Eigen::VectorXd::Zero(3 * body.NodeCount())),
       residual_(Eigen::VectorXd::Zero(matrix_.Size())) {
   PALPATE_CHECK(fixed.cols() == body.NodeCount(), fixed.cols(), body.NodeCount());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libs/core/status.hpp"
+#include "libs/core/thread_team.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/scalar_constraint.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
@@ -23,9 +24,10 @@ using FixedDirections = Eigen::Matrix<bool, 3, Eigen::Dynamic>;  ///< [3 x nodes
 /// Owns the matrix, its pattern and its factor; nothing is allocated after the first Update.
 class Linearisation {
  public:
-  /// `body` and `constraints` are bound to this object's matrix and must outlive it.
+  /// `body` and `constraints` are bound to this object's matrix and must outlive it. The threads of
+  /// `team` factorise and solve; none: the calling thread alone.
   Linearisation(ElasticBody& body, std::vector<ScalarConstraint*> constraints,
-                const FixedDirections& fixed);
+                const FixedDirections& fixed, std::shared_ptr<ThreadTeam> team = nullptr);
 
   int Size() const { return matrix_.Size(); }  ///< rows of the reduced system
   const StiffnessMatrix& matrix() const { return matrix_; }
@@ -60,6 +62,7 @@ class Linearisation {
   std::vector<ScalarConstraint*> constraints_;
   FixedDirections fixed_;
   StiffnessMatrix matrix_;
+  std::shared_ptr<ThreadTeam> team_;
   std::unique_ptr<SparseSolver> solver_;
   Eigen::VectorXd nodal_;
   Eigen::VectorXd residual_;

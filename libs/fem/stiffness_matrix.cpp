@@ -33,11 +33,10 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
   }
   std::sort(free_pairs.begin(), free_pairs.end());
   free_pairs.erase(std::unique(free_pairs.begin(), free_pairs.end()), free_pairs.end());
-  const std::vector<int> order = FillReducingOrder(free_node_count_, free_pairs);
-  std::vector<int> place(order.size());
-  for (size_t k = 0; k < order.size(); ++k) {
-    place[static_cast<size_t>(order[k])] = static_cast<int>(k);
-  }
+  EliminationOrder order = FindEliminationOrder(free_node_count_, free_pairs);
+  supernode_start_ = std::move(order.supernode_start);
+  std::vector<int> place(order.nodes.size());
+  for (size_t k = 0; k < order.nodes.size(); ++k) place[At(order.nodes[k])] = static_cast<int>(k);
   for (int node : node_of_graph) {
     int& index = free_index_[static_cast<size_t>(node)];
     index = place[static_cast<size_t>(index)];

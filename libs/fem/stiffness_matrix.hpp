@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "libs/fem/sparse/fill_reducing_order.hpp"
+#include "libs/fem/sparse/elimination_order.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
 
 namespace palpate::fem {
@@ -19,9 +19,9 @@ struct BlockSlot {
 };
 
 /// The stiffness matrix over the free nodes, renumbered once so that its factor is sparse. Lower
-/// triangle in 3x3 node blocks (BlockPattern), which solvers read as they are. Nodes with all three directions fixed are left
-/// out; a node with one or two directions fixed stays, its fixed rows and columns replaced by those
-/// of the identity (FixSingleDirections).
+/// triangle in 3x3 node blocks (BlockPattern), which solvers read as they are. Nodes with all three
+/// directions fixed are left out; a node with one or two directions fixed stays, its fixed rows and
+/// columns replaced by those of the identity (FixSingleDirections).
 class StiffnessMatrix {
  public:
   /// `fixed` [3 x nodes]: true where a direction is fixed. `pairs`: nodes that are coupled.
@@ -30,7 +30,7 @@ class StiffnessMatrix {
   int Size() const { return 3 * free_node_count_; }                                 ///< rows
   int FreeIndex(int node) const { return free_index_[static_cast<size_t>(node)]; }  ///< or -1
   int NodeCount() const { return static_cast<int>(free_index_.size()); }
-  BlockPattern Pattern() const { return {column_start_, row_}; }
+  BlockPattern Pattern() const { return {column_start_, row_, supernode_start_}; }
   std::span<const double> Values() const { return values_; }
   std::span<double> Values() { return values_; }
 
@@ -69,11 +69,12 @@ class StiffnessMatrix {
   }
 
   int free_node_count_ = 0;
-  std::vector<int> free_index_;    ///< [nodes], place in the order of elimination, or -1
-  std::vector<int> single_fixed_;  ///< reduced rows that are fixed in one direction only
+  std::vector<int> free_index_;        ///< [nodes], place in the order of elimination, or -1
+  std::vector<int> single_fixed_;      ///< reduced rows that are fixed in one direction only
   std::vector<bool> is_single_fixed_;  ///< [Size()]
-  std::vector<int> column_start_;  ///< [free nodes + 1] into row_
-  std::vector<int> row_;           ///< [blocks] free nodes, ascending in each column
+  std::vector<int> column_start_;      ///< [free nodes + 1] into row_
+  std::vector<int> row_;               ///< [blocks] free nodes, ascending in each column
+  std::vector<int> supernode_start_;
   std::vector<double> values_;
 };
 

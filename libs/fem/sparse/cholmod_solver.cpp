@@ -61,7 +61,8 @@ class CholmodSolver final : public SparseSolver {
     has_factor_ = false;
     if (!AllFinite(values)) return {StatusCode::kInvalidInput, "the matrix is not finite"};
     PALPATE_CHECK(values.size() == block_entries_, values.size(), block_entries_);
-    for (size_t k = 0; k < source_.size(); ++k) values_[k] = values[static_cast<size_t>(source_[k])];
+    for (size_t k = 0; k < source_.size(); ++k)
+      values_[k] = values[static_cast<size_t>(source_[k])];
     cholmod_sparse matrix = View(CHOLMOD_REAL);
     {
       const internal::OneThread one_thread;

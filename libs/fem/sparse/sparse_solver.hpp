@@ -9,7 +9,9 @@
 #include <span>
 #include <string>
 
+#include "libs/core/instruction_set.hpp"
 #include "libs/core/status.hpp"
+#include "libs/core/thread_team.hpp"
 
 namespace palpate::fem {
 
@@ -19,6 +21,8 @@ namespace palpate::fem {
 struct BlockPattern {
   std::span<const int> column_start;  ///< [nodes + 1] into `row`
   std::span<const int> row;           ///< [blocks]
+  /// [supernodes + 1] Nodes that are worth being eliminated together; see elimination_order.hpp.
+  std::span<const int> supernode_start;
   int NodeCount() const { return static_cast<int>(column_start.size()) - 1; }
   int Size() const { return 3 * NodeCount(); }
 };
@@ -33,8 +37,8 @@ class SparseSolver {
  public:
   virtual ~SparseSolver() = default;
 
-  /// `values` [blocks][kBlockEntries] in the order of `pattern.row`. Not ok, and no factor, where the matrix is not
-  /// positive definite (kNotPositiveDefinite) or holds NaN.
+  /// `values` [blocks][kBlockEntries] in the order of `pattern.row`. Not ok, and no factor, where
+  /// the matrix is not positive definite (kNotPositiveDefinite) or holds NaN.
   virtual Status Factorize(std::span<const double> values) = 0;
 
   /// Overwrites each column of `columns` [n x m] with the solution. Needs a factor.
@@ -48,7 +52,14 @@ class SparseSolver {
   virtual double FactorFlops() const = 0;
 };
 
-/// CHOLMOD's supernodal Cholesky, analysed for `pattern`, which must outlive the solver.
+/// CHOLMOD's supernodal Cholesky: the reference.
 std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern);
+
+/// Multifrontal Cholesky with a fixed pattern, on the threads of `team`, which must outlive the
+/// solver; the inner loops are those of `instruction_set`. The factor does not depend on the number
+/// of threads.
+std::unique_ptr<SparseSolver> MakeMultifrontalSolver(
+    const BlockPattern& pattern, ThreadTeam& team,
+    InstructionSet instruction_set = BestInstructionSet());
 
 }  // namespace palpate::fem

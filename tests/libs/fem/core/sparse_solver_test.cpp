@@ -39,9 +39,10 @@ struct Banded {
       column_start.push_back(static_cast<int>(row.size()));
     }
   }
-  BlockPattern Pattern() const { return {column_start, row}; }
+  BlockPattern Pattern() const { return {column_start, row, supernode_start}; }
 
   std::vector<int> column_start, row;
+  std::vector<int> supernode_start{0, 1, 3, 8, 12, kNodes};
   std::vector<double> values;
   Eigen::MatrixXd dense;
 };

@@ -189,17 +189,17 @@ int FactorEntries(int nodes, const NodePairs& pairs, const std::vector<int>& ord
   return static_cast<int>(filled.count());
 }
 
-TEST(FillReducingOrder, IsAPermutationWithLessFillThanTheNaturalOrder) {
+TEST(EliminationOrder, IsAPermutationWithLessFillThanTheNaturalOrder) {
   const NodePairs pairs = GridPairs(7);
   std::vector<int> natural(343);
   std::iota(natural.begin(), natural.end(), 0);
-  const std::vector<int> order = FillReducingOrder(343, pairs);
+  const std::vector<int> order = FindEliminationOrder(343, pairs).nodes;
   EXPECT_TRUE(std::is_permutation(order.begin(), order.end(), natural.begin(), natural.end()));
   EXPECT_LT(FactorEntries(343, pairs, order), 0.7 * FactorEntries(343, pairs, natural));
 }
 
-TEST(FillReducingOrder, TakesRepeatedPairsAndLonelyNodes) {
-  std::vector<int> order = FillReducingOrder(4, {{0, 2}, {2, 0}, {0, 2}});
+TEST(EliminationOrder, TakesRepeatedPairsAndLonelyNodes) {
+  std::vector<int> order = FindEliminationOrder(4, {{0, 2}, {2, 0}, {0, 2}}).nodes;
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3}));
 }

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+
+namespace palpate::fem::internal {
+
+/// Uninitialised doubles at an address that is a multiple of a page of 2 MiB; large buffers ask the
+/// system for such pages, because columns far apart would miss the address cache otherwise.
+class AlignedBuffer {
+ public:
+  AlignedBuffer() = default;
+  explicit AlignedBuffer(size_t size);  ///< std::bad_alloc where there is no memory
+
+  double* data() { return data_.get(); }
+  const double* data() const { return data_.get(); }
+  size_t size() const { return size_; }
+  size_t bytes() const { return size_ * sizeof(double); }
+
+ private:
+  struct Free {
+    void operator()(double* pointer) const { std::free(pointer); }
+  };
+  std::unique_ptr<double[], Free> data_;
+  size_t size_ = 0;
+};
+
+}  // namespace palpate::fem::internal

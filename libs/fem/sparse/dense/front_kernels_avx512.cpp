@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#define PALPATE_LANES 8
+#define PALPATE_ACCUMULATORS 24
+#include "libs/fem/sparse/dense/front_kernels.inl"
+#include "libs/fem/sparse/dense/front_kernels_sets.hpp"
+
+namespace palpate::fem::dense {
+
+const FrontKernels& FrontKernelsAvx512() { return kKernels; }
+
+}  // namespace palpate::fem::dense
