@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "libs/fem/kernels/kernel.hpp"
-#include "libs/fem/sparse/fill_reducing_order.hpp"
+#include "libs/fem/sparse/elimination_order.hpp"
 
 // OpenBLAS, where the BLAS in use is OpenBLAS.
 extern "C" char* openblas_get_config() __attribute__((weak));
@@ -35,7 +35,7 @@ std::string Load() {
 
 std::string Blas() {
   if (openblas_get_config == nullptr || openblas_get_corename == nullptr) return "not OpenBLAS";
-  fem::FillReducingOrder(1, {});  // the first use of the solver chooses the kernels of the BLAS
+  fem::FindEliminationOrder(1, {});  // the first use of the solver chooses the kernels of the BLAS
   const std::string config = openblas_get_config();
   const size_t version_end = config.find(' ', config.find(' ') + 1);
   return config.substr(0, version_end) + ", kernels " + openblas_get_corename() + ", one thread";
