@@ -99,7 +99,7 @@ TEST_P(MultifrontalSolver, RefusesNaNAnywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, MultifrontalSolver, testing::ValuesIn(AvailableInstructionSets()),
-                         [](const auto& info) { return std::string(ToString(info.param)); });
+                         [](const auto& set) { return std::string(ToString(set.param)); });
 
 TEST(MultifrontalThreads, GiveTheSameSolution) {
   const StiffnessMatrix matrix = MakeGridMatrix(25.0, 3);
