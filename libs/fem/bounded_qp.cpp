@@ -3,91 +3,136 @@
 
 #include "libs/fem/bounded_qp.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/bounded_qp_step.hpp"
 
 namespace palpate::fem {
 
 namespace {
 
-enum class Side : signed char { kFree, kLower, kUpper };
-using Sides = std::array<Side, kMaxQpVariables>;
+using Eigen::Index;
 
-/// The problem in variables y = x / scale with a unit diagonal.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Multipliers of active bounds up to this, in units of the terms that they are the sum of, may be
+/// rounding. (kFlatSlope is for slopes that depend on the caller's rounding, too.)
+constexpr double kRounding = 1e-12;
+/// 1e-16 of the terms before a step is the rounding after it; kRounding / kMemory leaves it room.
+constexpr double kMemory = 256.0;
+/// Steps from far away are repeated so often, to get rid of their rounding.
+constexpr int kMaxRefinements = 3;
+
+enum class Side : signed char {
+  kFree,
+  kLower,
+  kUpper,
+  kFixed,  ///< for good: the bounds are equal, or nothing in H acts on the variable
+};
+
+template <typename Type>
+using PerVariable = std::array<Type, kMaxQpVariables>;
+
+Side& At(PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
+Side At(const PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
+
+/// The problem in variables y = x / scale that bring H's diagonal to 1/2..2. Scales are powers of
+/// two, so that scaling rounds nothing.
 struct ScaledQp {
   BoundedQp qp;
   QpVector scale;
-  double gradient_scale = 1.0;
 };
 
+/// Where the iteration stands.
+struct Iterate {
+  QpVector y;
+  PerVariable<Side> sides{};
+  QpVector gradient;
+  /// |c_i| + sum_j |H_ij y_j|: the size of what rounding acts on in each entry of the gradient.
+  QpVector terms;
+  /// The same, but at least 1/kMemory of what it was before the last step: y keeps its rounding.
+  QpVector magnitude;
+  /// Multipliers up to this turned out to be rounding.
+  QpVector refuted;
+};
+
+double PowerOfTwoScale(double diagonal) {
+  if (!(diagonal > 0.0)) return 1.0;
+  const int exponent = std::ilogb(diagonal);
+  return std::ldexp(1.0, -(exponent + (exponent & 1)) / 2);
+}
+
 ScaledQp Scale(const BoundedQp& qp) {
-  ScaledQp scaled{qp, QpVector::Ones(qp.c.size()), 1.0};
-  for (Eigen::Index i = 0; i < qp.c.size(); ++i) {
-    if (qp.H(i, i) > 0.0) scaled.scale[i] = 1.0 / std::sqrt(qp.H(i, i));
+  const Index n = qp.c.size();
+  ScaledQp scaled{{QpMatrix(n, n), QpVector(n), QpVector(n), QpVector(n)}, QpVector(n)};
+  for (Index i = 0; i < n; ++i) {
+    const double scale = PowerOfTwoScale(qp.H(i, i));
+    scaled.scale[i] = scale;
+    scaled.qp.c[i] = scale * qp.c[i];
+    scaled.qp.lower[i] = qp.lower[i] / scale;
+    scaled.qp.upper[i] = qp.upper[i] / scale;
+    for (Index j = 0; j <= i; ++j) {
+      const double mean = 0.5 * (scale * qp.H(i, j) + scale * qp.H(j, i)) * scaled.scale[j];
+      scaled.qp.H(i, j) = scaled.qp.H(j, i) = mean;
+    }
   }
-  scaled.qp.H = scaled.scale.asDiagonal() * qp.H * scaled.scale.asDiagonal();
-  scaled.qp.c = scaled.scale.cwiseProduct(qp.c);
-  scaled.qp.lower = qp.lower.cwiseQuotient(scaled.scale);
-  scaled.qp.upper = qp.upper.cwiseQuotient(scaled.scale);
-  const double largest = qp.c.size() > 0 ? scaled.qp.c.cwiseAbs().maxCoeff() : 0.0;
-  if (largest > 0.0) scaled.gradient_scale = largest;
   return scaled;
 }
 
-enum class StepKind {
-  kToMinimum,  ///< over the free variables, the others staying
-  kRay,        ///< H has no curvature along the step: the objective falls up to the next bound
-};
+void Evaluate(const BoundedQp& qp, Iterate* at) {
+  at->gradient = qp.c;
+  at->terms = qp.c.cwiseAbs();
+  for (Index j = 0; j < qp.c.size(); ++j) {
+    if (at->y[j] == 0.0) continue;
+    at->gradient += at->y[j] * qp.H.col(j);
+    at->terms += std::abs(at->y[j]) * qp.H.col(j).cwiseAbs();
+  }
+  at->magnitude = at->terms.cwiseMax(at->magnitude / kMemory);
+}
 
-StepKind FreeStep(const BoundedQp& qp, const Sides& sides, const QpVector& gradient,
-                  double tolerance, QpVector* step) {
-  std::array<Eigen::Index, kMaxQpVariables> index{};
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    if (sides[static_cast<size_t>(i)] == Side::kFree) index[static_cast<size_t>(count++)] = i;
+FreeBlock GatherFree(const BoundedQp& qp, const Iterate& at, Index released) {
+  FreeBlock block;
+  Index count = 0;
+  for (Index i = 0; i < at.y.size(); ++i) {
+    if (At(at.sides, i) == Side::kFree) block.variable[static_cast<size_t>(count++)] = i;
   }
-  *step = QpVector::Zero(gradient.size());
-  if (count == 0) return StepKind::kToMinimum;
-  QpMatrix H(count, count);
-  QpVector g(count);
-  for (Eigen::Index a = 0; a < count; ++a) {
-    g[a] = gradient[index[static_cast<size_t>(a)]];
-    for (Eigen::Index b = 0; b < count; ++b) {
-      H(a, b) = qp.H(index[static_cast<size_t>(a)], index[static_cast<size_t>(b)]);
+  block.H.resize(count, count);
+  block.gradient.resize(count);
+  block.magnitude.resize(count);
+  block.descent.resize(count);
+  for (Index a = 0; a < count; ++a) {
+    const Index i = block.variable[static_cast<size_t>(a)];
+    block.gradient[a] = at.gradient[i];
+    block.magnitude[a] = at.magnitude[i];
+    block.descent[a] = released < 0 || i == released ? at.gradient[i] : 0.0;
+    for (Index b = 0; b < count; ++b) {
+      block.H(b, a) = qp.H(block.variable[static_cast<size_t>(b)], i);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<QpMatrix> eigen(H);
-  const QpVector projected = eigen.eigenvectors().transpose() * g;
-  QpVector to_minimum = QpVector::Zero(count);
-  QpVector ray = QpVector::Zero(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    if (eigen.eigenvalues()[k] > 1e-13 * static_cast<double>(count)) {
-      to_minimum -= projected[k] / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
-    } else if (std::abs(projected[k]) > tolerance) {
-      ray -= projected[k] * eigen.eigenvectors().col(k);
-    }
+  return block;
+}
+
+StepKind FreeStep(const BoundedQp& qp, const Iterate& at, Index released, QpVector* step) {
+  const FreeBlock block = GatherFree(qp, at, released);
+  QpVector free_step(block.gradient.size());
+  const StepKind kind = StepOf(block, &free_step);
+  step->setZero(at.y.size());
+  for (Index a = 0; a < free_step.size(); ++a) {
+    (*step)[block.variable[static_cast<size_t>(a)]] = free_step[a];
   }
-  const bool falls_without_end = (ray.array() != 0.0).any();
-  // What is left of rounding must not meet a bound far away.
-  const double rounding = 1e-10 * ray.cwiseAbs().maxCoeff();
-  ray = (ray.array().abs() > rounding).select(ray, 0.0);
-  const QpVector& p = falls_without_end ? ray : to_minimum;
-  for (Eigen::Index a = 0; a < count; ++a) (*step)[index[static_cast<size_t>(a)]] = p[a];
-  return falls_without_end ? StepKind::kRay : StepKind::kToMinimum;
+  return kind;
 }
 
 /// Largest multiple of `step`, up to `longest`, that stays within the bounds; `blocking` gets the
 /// bound that stops it, or -1.
 double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step, double longest,
-                    Eigen::Index* blocking) {
+                    Index* blocking) {
   double length = longest;
   *blocking = -1;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
+  for (Index i = 0; i < y.size(); ++i) {
     if (step[i] == 0.0) continue;
     const double room = (step[i] < 0.0 ? qp.lower[i] : qp.upper[i]) - y[i];
     if (room / step[i] < length) {
@@ -98,108 +143,164 @@ double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step
   return length;
 }
 
-/// The active bound whose multiplier has the wrong sign the most, or -1. After many iterations the
-/// first one (Bland's rule), so that degenerate problems cannot cycle.
-Eigen::Index BoundToRelease(const Sides& sides, const QpVector& gradient, double tolerance,
-                            bool first) {
-  Eigen::Index worst = -1;
-  double worst_pull = tolerance;
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    const Side side = sides[static_cast<size_t>(i)];
-    if (side == Side::kFree) continue;
-    const double pull = side == Side::kLower ? -gradient[i] : gradient[i];
-    if (pull > worst_pull) {
+/// How far down a ray the objective falls: what curvature H has there, be it rounding, ends it, so
+/// that every step lowers the objective and no set of active bounds comes back.
+double EndOfRay(const BoundedQp& qp, const Iterate& at, const QpVector& ray) {
+  const double curvature = ray.dot(qp.H * ray);
+  return curvature > 0.0 ? -at.gradient.dot(ray) / curvature : kInfinity;
+}
+
+/// How much the objective falls for each unit that the variable leaves its bound by.
+double Pull(const Iterate& at, Index i) {
+  return At(at.sides, i) == Side::kLower ? -at.gradient[i] : at.gradient[i];
+}
+
+/// The active bound whose multiplier has the wrong sign the most, or -1.
+Index BoundToRelease(const Iterate& at, double rounding) {
+  Index worst = -1;
+  double worst_pull = 0.0;
+  for (Index i = 0; i < at.y.size(); ++i) {
+    const Side side = At(at.sides, i);
+    if (side == Side::kFree || side == Side::kFixed) continue;
+    const double pull = Pull(at, i);
+    if (pull > std::max({worst_pull, rounding * at.magnitude[i], at.refuted[i]})) {
       worst = i;
       worst_pull = pull;
-      if (first) break;
     }
   }
   return worst;
 }
 
-Sides SidesOf(const BoundedQp& qp, const QpVector& y) {
-  Sides sides{};
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    Side& side = sides[static_cast<size_t>(i)];
-    if (y[i] == qp.lower[i])
+/// Sides of the start. A variable on which nothing in H acts goes where c sends it, at once; false
+/// where there is no bound.
+bool SetSides(const BoundedQp& qp, Iterate* at) {
+  for (Index i = 0; i < at->y.size(); ++i) {
+    Side& side = At(at->sides, i);
+    if ((qp.H.col(i).array() == 0.0).all()) {
+      side = Side::kFixed;
+      if (qp.c[i] != 0.0) at->y[i] = qp.c[i] > 0.0 ? qp.lower[i] : qp.upper[i];
+      if (!std::isfinite(at->y[i])) return false;
+    } else if (qp.lower[i] == qp.upper[i]) {
+      side = Side::kFixed;
+    } else if (at->y[i] == qp.lower[i]) {
       side = Side::kLower;
-    else if (y[i] == qp.upper[i])
+    } else if (at->y[i] == qp.upper[i]) {
       side = Side::kUpper;
+    }
   }
-  return sides;
+  return true;
+}
+
+void Move(const BoundedQp& qp, const QpVector& step, double length, Index blocking, Iterate* at) {
+  at->y = (at->y + length * step).cwiseMax(qp.lower).cwiseMin(qp.upper);
+  if (blocking >= 0) {
+    const bool lower = step[blocking] < 0.0;
+    at->y[blocking] = lower ? qp.lower[blocking] : qp.upper[blocking];
+    At(at->sides, blocking) = lower ? Side::kLower : Side::kUpper;
+  }
+  Evaluate(qp, at);
+}
+
+/// Whether rounding of the last step is still to be seen in the gradient of free variables.
+bool IsRough(const Iterate& at) {
+  for (Index i = 0; i < at.y.size(); ++i) {
+    if (At(at.sides, i) == Side::kFree && std::abs(at.gradient[i]) > kRounding * at.terms[i]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// From the present iterate to the solution.
+StatusCode Minimise(const BoundedQp& qp, Iterate* at, int* iterations) {
+  const int n = static_cast<int>(qp.c.size());
+  Evaluate(qp, at);
+  Index released = -1;
+  Side left = Side::kFree;
+  int refinements = 0;
+  for (*iterations = 1; *iterations <= 50 * n + 50; ++*iterations) {
+    QpVector step;
+    const StepKind kind = FreeStep(qp, *at, released, &step);
+    if (kind == StepKind::kFailed || !step.allFinite()) return StatusCode::kNotConverged;
+    if (released >= 0 && !(left == Side::kLower ? step[released] > 0.0 : step[released] < 0.0)) {
+      // A multiplier of the wrong sign means a step away from the bound: this one was rounding.
+      At(at->sides, released) = left;
+      at->refuted[released] = 2.0 * std::abs(at->gradient[released]);
+      released = -1;
+      continue;
+    }
+    released = -1;
+    Index blocking = -1;
+    const bool ray = kind == StepKind::kRay;
+    double length = StepToBounds(qp, at->y, step, ray ? kInfinity : 1.0, &blocking);
+    if (ray && blocking < 0) return StatusCode::kUnobservable;
+    if (const double end = ray ? EndOfRay(qp, *at, step) : kInfinity; end < length) {
+      length = end;
+      blocking = -1;
+    }
+    Move(qp, step, length, blocking, at);
+    if (ray || blocking >= 0) continue;
+    if (refinements < kMaxRefinements && IsRough(*at)) {
+      ++refinements;
+      continue;
+    }
+    // So many iterations are never needed: rounding makes them, so more is put down to it.
+    released = BoundToRelease(*at, *iterations <= 10 * n ? kRounding : kFlatSlope);
+    if (released < 0) return StatusCode::kOk;
+    left = std::exchange(At(at->sides, released), Side::kFree);
+  }
+  return StatusCode::kNotConverged;
 }
 
 /// x = scale y; exactly on its bound where that is active, and nowhere outside.
-QpVector Unscale(const BoundedQp& qp, const QpVector& scale, const QpVector& y,
-                 const Sides& sides) {
-  QpVector x = y.cwiseProduct(scale).cwiseMax(qp.lower).cwiseMin(qp.upper);
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const Side side = sides[static_cast<size_t>(i)];
-    if (side == Side::kLower) x[i] = qp.lower[i];
-    if (side == Side::kUpper) x[i] = qp.upper[i];
+QpVector Unscale(const BoundedQp& qp, const ScaledQp& scaled, const Iterate& at) {
+  QpVector x = at.y.cwiseProduct(scaled.scale).cwiseMax(qp.lower).cwiseMin(qp.upper);
+  for (Index i = 0; i < x.size(); ++i) {
+    if (at.y[i] == scaled.qp.lower[i]) x[i] = qp.lower[i];
+    if (at.y[i] == scaled.qp.upper[i]) x[i] = qp.upper[i];
   }
   return x;
 }
 
-double KktResidual(const BoundedQp& qp, const QpVector& y, const QpVector& gradient) {
+double KktResidual(const BoundedQp& qp, const Iterate& at) {
   double residual = 0.0;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    const double moved = std::min(std::max(y[i] - gradient[i], qp.lower[i]), qp.upper[i]);
-    residual = std::max(residual, std::abs(moved - y[i]));
+  double unit = 0.0;
+  for (Index i = 0; i < at.y.size(); ++i) {
+    const double moved = std::min(std::max(at.y[i] - at.gradient[i], qp.lower[i]), qp.upper[i]);
+    residual = std::max(residual, std::abs(moved - at.y[i]));
+    unit = std::max(unit, at.magnitude[i]);
   }
-  return residual;
+  return residual > 0.0 ? residual / unit : 0.0;
+}
+
+bool IsValid(const BoundedQp& qp, const QpVector& start) {
+  return qp.H.allFinite() && qp.c.allFinite() && start.allFinite() &&
+         (qp.lower.array() <= qp.upper.array()).all() && (qp.lower.array() < kInfinity).all() &&
+         (qp.upper.array() > -kInfinity).all();
 }
 
 }  // namespace
 
 BoundedQpResult SolveBoundedQp(const BoundedQp& qp, const QpVector& start) {
-  const Eigen::Index n = qp.c.size();
-  PALPATE_CHECK(n <= kMaxQpVariables && qp.H.rows() == n && start.size() == n, n, start.size());
+  const Index n = qp.c.size();
+  PALPATE_CHECK(n <= kMaxQpVariables && qp.H.rows() == n && qp.H.cols() == n, n);
+  PALPATE_CHECK(qp.lower.size() == n && qp.upper.size() == n && start.size() == n, n);
   BoundedQpResult result;
   result.x = start;
-  if (!qp.H.allFinite() || !qp.c.allFinite() || !start.allFinite() ||
-      !(qp.lower.array() <= qp.upper.array()).all()) {
-    result.status = Status(StatusCode::kInvalidInput, {});
-    return result;
-  }
+  result.status = Status(StatusCode::kInvalidInput, {});
+  if (!IsValid(qp, start)) return result;
   const ScaledQp scaled = Scale(qp);
-  const BoundedQp& problem = scaled.qp;
-  QpVector y = start.cwiseQuotient(scaled.scale).cwiseMax(problem.lower).cwiseMin(problem.upper);
-  Sides sides = SidesOf(problem, y);
-  const int max_iterations = 50 * static_cast<int>(n) + 50;
-  for (result.iterations = 1; result.iterations <= max_iterations; ++result.iterations) {
-    const QpVector gradient = problem.H * y + problem.c;
-    QpVector step;
-    const StepKind kind = FreeStep(problem, sides, gradient, 1e-9 * scaled.gradient_scale, &step);
-    const double longest = kind == StepKind::kRay ? std::numeric_limits<double>::infinity() : 1.0;
-    Eigen::Index blocking = -1;
-    const double length = StepToBounds(problem, y, step, longest, &blocking);
-    if (kind == StepKind::kRay && blocking < 0) {
-      result.status = Status(StatusCode::kUnobservable, {});
-      return result;
-    }
-    y += length * step;
-    if (blocking >= 0) {
-      const bool lower = step[blocking] < 0.0;
-      y[blocking] = lower ? problem.lower[blocking] : problem.upper[blocking];
-      sides[static_cast<size_t>(blocking)] = lower ? Side::kLower : Side::kUpper;
-      continue;
-    }
-    const QpVector reached = problem.H * y + problem.c;
-    // Entries of H are at most 1 now: y tells how large the terms are that rounding acts on.
-    const double tolerance =
-        1e-12 * std::max(scaled.gradient_scale, n > 0 ? y.cwiseAbs().maxCoeff() : 0.0);
-    const Eigen::Index release =
-        BoundToRelease(sides, reached, tolerance, result.iterations > 10 * static_cast<int>(n));
-    if (release < 0) {
-      result.x = Unscale(qp, scaled.scale, y, sides);
-      result.kkt_residual = KktResidual(problem, y, reached) / scaled.gradient_scale;
-      result.status = Status::Ok();
-      return result;
-    }
-    sides[static_cast<size_t>(release)] = Side::kFree;
+  Iterate at;
+  at.y = start.cwiseQuotient(scaled.scale).cwiseMax(scaled.qp.lower).cwiseMin(scaled.qp.upper);
+  at.magnitude = at.refuted = QpVector::Zero(n);
+  if (!scaled.qp.H.allFinite() || !scaled.qp.c.allFinite() || !at.y.allFinite()) return result;
+  StatusCode code = StatusCode::kUnobservable;
+  if (SetSides(scaled.qp, &at)) code = Minimise(scaled.qp, &at, &result.iterations);
+  if (code == StatusCode::kOk) {
+    result.x = Unscale(qp, scaled, at);
+    result.kkt_residual = KktResidual(scaled.qp, at);
   }
-  result.status = Status(StatusCode::kNotConverged, {});
+  result.status = Status(code, {});
   return result;
 }
 

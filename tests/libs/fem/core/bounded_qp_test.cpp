@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "tests/libs/fem/core/laws.hpp"
 
@@ -73,6 +74,13 @@ double KktViolation(const BoundedQp& qp, const QpVector& x) {
     if (x[i] < qp.upper[i]) worst = std::max(worst, -gradient[i]);
   }
   return worst;
+}
+
+/// The same, but for variables whose bounds are equal: any multiplier is right there.
+double KktViolationOfOthers(const BoundedQp& qp, const QpVector& x) {
+  const QpVector gradient = qp.H * x + qp.c;
+  const QpVector moved = (x - gradient).cwiseMax(qp.lower).cwiseMin(qp.upper);
+  return (moved - x).cwiseAbs().maxCoeff();
 }
 
 TEST(BoundedQp, FindsTheMinimumThatEnumerationFinds) {
@@ -160,6 +168,103 @@ TEST(BoundedQp, TakesTheSmallestStepWhereTheSolutionIsNotUnique) {
   EXPECT_LE((result.x - QpVector(Eigen::Vector2d(1.0, 1.0))).norm(), 1e-12);
 }
 
+TEST(BoundedQp, FallsWithoutEndWhereADirectionOfDescentMeetsNoBound) {
+  std::mt19937 engine(22);
+  const auto below = [&](int count) {
+    return static_cast<int>(engine() % static_cast<unsigned>(count));
+  };
+  for (int trial = 0; trial < 500; ++trial) {
+    const int n = 2 + trial % 15;
+    BoundedQp qp = RandomQp(n, 1 + below(n - 1), false, &engine);
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(qp.H));
+    const QpVector flat = lu.kernel().col(0).normalized();
+    qp.c = -qp.H * Eigen::VectorXd(laws::RandomVector(n, 2.0, &engine)) - flat;
+    for (int i = 0; i < n; ++i) {
+      if (flat[i] > 0.0) qp.upper[i] = kInfinity;
+      if (flat[i] < 0.0) qp.lower[i] = -kInfinity;
+    }
+    const QpVector start = laws::RandomVector(n, 3.0, &engine);
+    EXPECT_EQ(SolveBoundedQp(qp, start).status.code(), StatusCode::kUnobservable) << trial;
+    // With bounds on every side there is a minimum.
+    qp.lower = -QpVector::Constant(n, 1e3);
+    qp.upper = QpVector::Constant(n, 1e3);
+    const BoundedQpResult result = SolveBoundedQp(qp, start);
+    ASSERT_TRUE(result.status.ok()) << trial;
+    EXPECT_LE(result.kkt_residual, 1e-9) << trial;
+  }
+}
+
+TEST(BoundedQp, EqualBoundsHoldTheirVariable) {
+  std::mt19937 engine(23);
+  for (int trial = 0; trial < 100; ++trial) {
+    BoundedQp qp = RandomQp(6, 6, false, &engine);
+    qp.lower[2] = qp.upper[2] = 0.3;
+    qp.lower[4] = qp.upper[4] = -1.7;
+    const BoundedQpResult result = SolveBoundedQp(qp, QpVector::Zero(6));
+    ASSERT_TRUE(result.status.ok());
+    EXPECT_EQ(result.x[2], 0.3);
+    EXPECT_EQ(result.x[4], -1.7);
+    EXPECT_LE(KktViolationOfOthers(qp, result.x), 1e-10);
+  }
+}
+
+TEST(BoundedQp, AVariableOnWhichNothingActsGoesWhereItsCostSendsIt) {
+  QpMatrix H = QpMatrix::Zero(4, 4);
+  H(0, 0) = 4.0;
+  BoundedQp qp{H, Eigen::Vector4d(-4.0, 1e-7, -1e7, 0.0), Eigen::Vector4d(-9.0, -1e8, -1e-8, -1.0),
+               Eigen::Vector4d(9.0, kInfinity, 1e-8, 1.0)};
+  const BoundedQpResult result = SolveBoundedQp(qp, Eigen::Vector4d(0.0, 0.0, 0.0, 0.25));
+  ASSERT_TRUE(result.status.ok());
+  EXPECT_EQ(result.x, Eigen::Vector4d(1.0, -1e8, 1e-8, 0.25));
+  qp.c[1] = -1e-7;  // there is no bound on that side
+  EXPECT_EQ(SolveBoundedQp(qp, QpVector::Zero(4)).status.code(), StatusCode::kUnobservable);
+}
+
+TEST(BoundedQp, AFarStartCostsNoAccuracy) {
+  std::mt19937 engine(24);
+  for (int trial = 0; trial < 100; ++trial) {
+    BoundedQp qp = RandomQp(7, 7, false, &engine);
+    qp.H += QpMatrix::Identity(7, 7);
+    qp.lower.setConstant(-kInfinity);
+    qp.upper.setConstant(kInfinity);
+    const BoundedQpResult result = SolveBoundedQp(qp, laws::RandomVector(7, 1e10, &engine));
+    ASSERT_TRUE(result.status.ok());
+    const Eigen::VectorXd gradient = qp.H * result.x + qp.c;
+    EXPECT_LE(gradient.norm(), 1e-12);
+  }
+}
+
+TEST(BoundedQp, RoundingOfAFarStartIsNoSlope) {
+  std::mt19937 engine(26);
+  for (int trial = 0; trial < 500; ++trial) {
+    BoundedQp qp = RandomQp(2, 1, false, &engine);
+    qp.c.setZero();
+    qp.lower.setConstant(-kInfinity);
+    qp.upper = Eigen::Vector2d(0.0, kInfinity);
+    // With the first variable at its bound, the minimum is 0: all that is left there is rounding.
+    const Eigen::Vector2d start(0.0, laws::RandomVector(1, 1e6, &engine)[0]);
+    ASSERT_TRUE(SolveBoundedQp(qp, start).status.ok()) << "trial " << trial;
+  }
+}
+
+TEST(BoundedQp, CountsTheMeanOfAMatrixAndItsTransposed) {
+  std::mt19937 engine(25);
+  const BoundedQp even = RandomQp(5, 5, false, &engine);
+  BoundedQp skewed = even;
+  skewed.H(0, 3) += 0.25;
+  skewed.H(3, 0) -= 0.25;
+  const QpVector zero = QpVector::Zero(5);
+  EXPECT_LE((SolveBoundedQp(even, zero).x - SolveBoundedQp(skewed, zero).x).norm(), 1e-12);
+}
+
+TEST(BoundedQp, AResultThatIsNotOkReportsNoResidual) {
+  EXPECT_FALSE(BoundedQpResult{}.status.ok());
+  EXPECT_EQ(BoundedQpResult{}.kkt_residual, kInfinity);
+  const Eigen::Vector2d one(1.0, 1.0);
+  const BoundedQp crossed{Eigen::Matrix2d::Identity(), one, one, -one};
+  EXPECT_EQ(SolveBoundedQp(crossed, QpVector::Zero(2)).kkt_residual, kInfinity);
+}
+
 TEST(BoundedQp, SolvesTheEmptyProblem) {
   EXPECT_TRUE(SolveBoundedQp({QpMatrix(0, 0), QpVector(0), QpVector(0), QpVector(0)}, QpVector(0))
                   .status.ok());
@@ -187,6 +292,33 @@ TEST(BoundedQp, RefusesNaNAndBoundsThatCross) {
   bad.lower[0] = 2.0;
   EXPECT_TRUE(refuses(bad, start));
   EXPECT_TRUE(refuses(good, Eigen::Vector2d(nan, 0.0)));
+}
+
+TEST(BoundedQp, RefusesInfinitiesThatLeaveNoFiniteAnswer) {
+  const Eigen::Vector2d one(1.0, 1.0);
+  const BoundedQp good{Eigen::Matrix2d::Identity(), one, -one, one};
+  const QpVector start = QpVector::Zero(2);
+  const auto refuses = [&](const BoundedQp& qp, const QpVector& from) {
+    const BoundedQpResult result = SolveBoundedQp(qp, from);
+    return result.status.code() == StatusCode::kInvalidInput && result.x == from;
+  };
+  BoundedQp bad = good;
+  bad.lower[1] = bad.upper[1] = kInfinity;
+  EXPECT_TRUE(refuses(bad, start));
+  bad.lower[1] = bad.upper[1] = -kInfinity;
+  EXPECT_TRUE(refuses(bad, start));
+  bad = good;
+  bad.H(1, 1) = kInfinity;
+  EXPECT_TRUE(refuses(bad, start));
+  bad = good;
+  bad.c[0] = -kInfinity;
+  EXPECT_TRUE(refuses(bad, start));
+  bad = good;
+  bad.H(0, 0) = 1e-300;  // the minimum is at -1e600
+  bad.c[0] = 1e300;
+  bad.lower[0] = -kInfinity;
+  EXPECT_TRUE(refuses(bad, start));
+  EXPECT_TRUE(refuses(good, Eigen::Vector2d(kInfinity, 0.0)));
 }
 
 }  // namespace
