@@ -4,9 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
-#include "libs/fem/kernels/kernel.hpp"
+#include "libs/core/thread_team.hpp"
+#include "libs/fem/assembly_shares.hpp"
+#include "libs/fem/cell_blocks.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 #include "libs/fem/tet_mesh.hpp"
@@ -17,6 +20,8 @@ namespace palpate::fem {
 /// Sign: F_int(x) = dEnergy/dx is what the body resists with; equilibrium is F_int(x) = f_ext, and
 /// the tangent K = dF_int/dx is positive definite at stable states. (The paper's F(x), eq. 1, is
 /// -F_int, and its K, eq. 2, is -K.)
+/// Results do not depend on the number of threads, bit for bit. One call at a time: the sums of the
+/// threads are kept in the body. After BindTo nothing is allocated.
 class ElasticBody {
  public:
   /// `material_of_cell` [cells] indexes `materials`. Throws InputError where a cell's map from the
@@ -48,37 +53,49 @@ class ElasticBody {
   /// Elastic energy, J; `min_J` gets the smallest det F.
   double Energy(const Eigen::VectorXd& x_m, double* min_J) const;
 
-  /// Looks up once where each cell's blocks lie in `stiffness`.
-  void BindTo(const StiffnessMatrix& stiffness);
+  /// Puts the cells in the order of elimination of `stiffness`, looks up where their blocks lie in
+  /// it, and shares them out among the threads of `team`; none: the calling thread alone.
+  void BindTo(const StiffnessMatrix& stiffness, std::shared_ptr<ThreadTeam> team = nullptr);
 
  private:
-  /// Cells of one material model, eight to a block, in the layout of kernels::Block.
-  struct Group {
-    kernels::Kernel kernel = nullptr;
-    int nodes_per_cell = 0;
-    int points = 0;
-    std::vector<int> cells;         ///< of the mesh, in lane order
-    std::vector<int> material;      ///< [cells]
-    std::vector<int> nodes;         ///< [blocks][nodes][lanes]
-    std::vector<double> gradients;  ///< [blocks][points][nodes][3][lanes]
-    std::vector<double> weights;    ///< [blocks][points][lanes]
-    std::vector<double> lambda_Pa;  ///< [blocks][lanes]
-    std::vector<double> mu_Pa;      ///< [blocks][lanes]
-    std::vector<BlockSlot> slots;   ///< [blocks][lanes][pairs]
-
-    int BlockCount() const { return static_cast<int>(lambda_Pa.size()) / kernels::kLanes; }
-    int LanesUsed(int block) const;
-    kernels::Block View(int block) const;
+  /// Internal force on one node, filled up to a whole vector register.
+  struct alignas(32) ForceRow {
+    double N[4];
+  };
+  /// What a thread found.
+  struct alignas(64) ThreadResult {
+    double min_J;
   };
 
-  Group MakeGroup(const TetMesh& mesh, const std::vector<int>& cells,
-                  const std::vector<int>& material_of_cell) const;
-  void FillCell(const TetMesh& mesh, int cell, int block, int lane, Group& group) const;
-  void UpdateModuli(Group& group) const;
+  void MakeBlocks(const RowOrder& order);
+  void Share(RowOrder order, const StiffnessMatrix* stiffness, int threads);
+  /// Calls work(thread index) for every share; gives the smallest det F that they found.
+  template <typename Work>
+  double OnEveryShare(const Work& work) const;
+  /// Evaluates the blocks of one share: adds its rows to `force_N`, and its block columns to
+  /// `stiffness` unless that is null. Returns the smallest det F.
+  double AddShare(const AssemblyShare& share, const double* x_m, Eigen::VectorXd& force_N,
+                  double* stiffness) const;
+  void AddShareOfMaterial(const AssemblyShare& share, int material, const double* x_m,
+                          Eigen::VectorXd& force_N) const;
+  double EnergiesOfShare(const AssemblyShare& share, const double* x_m) const;
+  void ClearRows(const AssemblyShare& share) const;
+  void AddRows(const AssemblyShare& share, Eigen::VectorXd& force_N) const;
 
+  TetMesh mesh_;
   Eigen::VectorXd rest_m_;
   std::vector<Material> materials_;
-  std::vector<Group> groups_;
+  std::vector<int> material_of_cell_;
+
+  std::vector<CellBlocks> laws_;
+  RowOrder order_;
+  std::vector<AssemblyShare> shares_;  ///< one for each thread that has work
+  bool bound_ = false;
+  std::shared_ptr<ThreadTeam> team_;
+
+  mutable std::vector<ForceRow> force_rows_;
+  mutable std::vector<ThreadResult> results_;            ///< [shares]
+  mutable std::vector<Eigen::VectorXd> block_energy_J_;  ///< [laws][blocks]
 };
 
 }  // namespace palpate::fem

@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "libs/core/error.hpp"
+#include "libs/core/thread_team.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -23,7 +26,7 @@ using laws::RandomVector;
 using laws::Rotation;
 
 Material SoftMaterial(MaterialModel model, Volumetric volumetric, double youngs_modulus_Pa) {
-  return {model, volumetric, youngs_modulus_Pa, 0.45};
+  return {model, volumetric, youngs_modulus_Pa, 0.45, /*c20_over_c10=*/-0.1, /*c30_over_c10=*/0.2};
 }
 
 /// Cells in turn of the first and the second material.
@@ -188,6 +191,110 @@ TEST_P(ElasticBodyLaw, ForcesAreLinearInEachModulus) {
 
 INSTANTIATE_TEST_SUITE_P(AllLaws, ElasticBodyLaw, ::testing::ValuesIn(AllLaws()),
                          [](const auto& law_info) { return laws::Name(law_info.param); });
+
+/// All that a body gives at one state.
+struct Assembled {
+  Eigen::VectorXd force, tangent_force, force_of_material, tangent;
+  double energy = 0.0, min_J = 0.0;
+  bool operator==(const Assembled&) const = default;
+};
+
+Assembled Assemble(ElasticBody& body, const Eigen::VectorXd& x_m, StiffnessMatrix& K, int threads) {
+  body.BindTo(K, std::make_shared<ThreadTeam>(threads));
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x_m.size());
+  Assembled result{zero, zero, zero, {}};
+  body.AddForces(x_m, result.force);
+  body.AddForcesOfMaterial(1, x_m, result.force_of_material);
+  K.SetZero();
+  body.AddForcesAndTangent(x_m, result.tangent_force, K);
+  result.tangent = Eigen::Map<const Eigen::VectorXd>(K.Values().data(),
+                                                     static_cast<Eigen::Index>(K.Values().size()));
+  result.energy = body.Energy(x_m, &result.min_J);
+  return result;
+}
+
+TEST_P(ElasticBodyLaw, IsTheSameToTheLastBitOnAnyNumberOfThreads) {
+  const TetMesh mesh = CrookedBox(GetParam().element, {6, 3, 2});
+  ElasticBody body = TwoRegionBody(mesh, GetParam(), 180e3, 60e3);
+  const Eigen::VectorXd x_m = body.rest_m() + RandomVector(body.rest_m().size(), 4e-4, &engine_);
+  Eigen::Matrix<bool, 3, Eigen::Dynamic> fixed =
+      Eigen::Matrix<bool, 3, Eigen::Dynamic>::Constant(3, body.NodeCount(), false);
+  for (int node = 0; node < body.NodeCount(); ++node) {
+    if (mesh.nodes_m(0, node) < 0.012) fixed.col(node).setConstant(true);
+  }
+  StiffnessMatrix K(fixed, body.CoupledPairs());
+  const Assembled alone = Assemble(body, x_m, K, 1);
+  EXPECT_EQ(alone.force, alone.tangent_force);
+  EXPECT_GT(alone.tangent.norm(), 0.0);
+  for (const int threads : {2, 3, 7, 40}) {
+    EXPECT_TRUE(Assemble(body, x_m, K, threads) == alone) << threads << " threads";
+  }
+  body.BindTo(K);
+  EXPECT_EQ(Forces(body, x_m), alone.force);
+}
+
+TEST_P(ElasticBodyLaw, HeldNodesLeaveTheOtherBlocksAsTheyAre) {
+  using Fixed = Eigen::Matrix<bool, 3, Eigen::Dynamic>;
+  Fixed fixed = Fixed::Constant(3, body_.NodeCount(), false);
+  StiffnessMatrix whole(fixed, body_.CoupledPairs());
+  for (const int node : {0, 3, 8}) fixed.col(node).setConstant(true);
+  StiffnessMatrix held(fixed, body_.CoupledPairs());
+  Eigen::VectorXd whole_force = Eigen::VectorXd::Zero(x_m_.size());
+  Eigen::VectorXd held_force = whole_force;
+  body_.BindTo(whole);
+  body_.AddForcesAndTangent(x_m_, whole_force, whole);
+  body_.BindTo(held, std::make_shared<ThreadTeam>(2));
+  body_.AddForcesAndTangent(x_m_, held_force, held);
+  EXPECT_LE((held_force - whole_force).norm(), 1e-13 * whole_force.norm());
+
+  Eigen::VectorXd d = RandomVector(x_m_.size(), 1.0, &engine_);
+  for (const int node : {0, 3, 8}) d.segment<3>(3 * node).setZero();
+  const auto product = [&](const StiffnessMatrix& K) {
+    Eigen::VectorXd reduced(K.Size());
+    K.Reduce(d, reduced);
+    Eigen::VectorXd nodal = Eigen::VectorXd::Zero(x_m_.size());
+    K.AddExpanded(K.Times(reduced), 1.0, nodal);
+    return nodal;
+  };
+  Eigen::VectorXd expected = product(whole);
+  for (const int node : {0, 3, 8}) expected.segment<3>(3 * node).setZero();
+  EXPECT_LE((product(held) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(ElasticBody, YeohWithoutHigherTermsIsNeoHookeanAtConstantVolume) {
+  const TetMesh mesh = CrookedBox(ElementType::kTet10, {1, 1, 1});
+  const std::vector<int> first(static_cast<size_t>(mesh.CellCount()), 0);
+  const Material yeoh{MaterialModel::kYeoh, Volumetric::kPointwise, 1e5, 0.45};
+  const Material neo_hookean{MaterialModel::kStableNeoHookean, Volumetric::kPointwise, 1e5, 0.45};
+  const ElasticBody body(mesh, {yeoh}, first);
+  const ElasticBody other(mesh, {neo_hookean}, first);
+  const Eigen::VectorXd x =
+      Moved(Eigen::Vector3d(1.6, 1.0 / 1.28, 0.8).asDiagonal().toDenseMatrix(), body.rest_m());
+  EXPECT_NEAR(Energy(body, x), Energy(other, x), 1e-13 * Energy(other, x));
+}
+
+TEST(ElasticBody, YeohHasTheStiffnessOfSmallStrains) {
+  const TetMesh mesh = CrookedBox(ElementType::kTet4, {1, 1, 1});
+  const std::vector<int> first(static_cast<size_t>(mesh.CellCount()), 0);
+  const ElasticBody yeoh(mesh, {SoftMaterial(MaterialModel::kYeoh, Volumetric::kPointwise, 1e5)},
+                         first);
+  const ElasticBody linear(
+      mesh, {SoftMaterial(MaterialModel::kLinear, Volumetric::kPointwise, 1e5)}, first);
+  std::mt19937 engine(8);
+  const Eigen::VectorXd x =
+      yeoh.rest_m() + RandomVector(yeoh.rest_m().size(), 1e-9, &engine);  // strains of 1e-7
+  const Eigen::VectorXd expected = Forces(linear, x);
+  EXPECT_LE((Forces(yeoh, x) - expected).norm(), 1e-5 * expected.norm());
+}
+
+TEST(YeohMaterial, IsMonotoneWhereShearNeverSoftensToNothing) {
+  EXPECT_TRUE(IsYeohMonotone(0.0, 0.0));
+  EXPECT_TRUE(IsYeohMonotone(0.3, 0.0));
+  EXPECT_TRUE(IsYeohMonotone(-0.1, 0.0034));
+  EXPECT_FALSE(IsYeohMonotone(-0.1, 0.0033));
+  EXPECT_FALSE(IsYeohMonotone(-0.1, 0.0));
+  EXPECT_FALSE(IsYeohMonotone(0.3, -1e-9));
+}
 
 TEST(ElasticBody, MixesMaterialModels) {
   const TetMesh mesh = CrookedBox(ElementType::kTet4, {2, 1, 1});

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "libs/core/instruction_set.hpp"
 #include "libs/fem/kernels/instruction_sets.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "tests/libs/fem/core/laws.hpp"
@@ -58,6 +60,8 @@ struct LaneBlock {
       rest_m.segment(3 * nodes_per_element * lane, 3 * nodes_per_element) = rest.reshaped();
       lambda_Pa[static_cast<size_t>(lane)] = 5e5 + 1e4 * lane;
       mu_Pa[static_cast<size_t>(lane)] = 6e4 - 3e3 * lane;
+      c20_over_c10[static_cast<size_t>(lane)] = 0.2 - 0.1 * lane;
+      c30_over_c10[static_cast<size_t>(lane)] = 0.3 + 0.02 * lane;
       for (int a = 0; a < nodes_per_element; ++a) {
         nodes[static_cast<size_t>(a * kLanes + lane)] = lane * nodes_per_element + a;
       }
@@ -95,29 +99,45 @@ struct LaneBlock {
   }
 
   Block View() const {
-    return {nodes.data(), gradients.data(), weights.data(), lambda_Pa.data(), mu_Pa.data()};
+    return {nodes.data(), gradients.data(),    weights.data(),     lambda_Pa.data(),
+            mu_Pa.data(), c20_over_c10.data(), c30_over_c10.data()};
   }
 
   int nodes_per_element;
   Eigen::VectorXd rest_m;
   std::vector<int> nodes;
   std::vector<double> gradients, weights;
-  std::array<double, kLanes> lambda_Pa{}, mu_Pa{};
+  std::array<double, kLanes> lambda_Pa{}, mu_Pa{}, c20_over_c10{}, c30_over_c10{};
 };
 
-/// [dofs x lanes], [pairs * 9 x lanes], [lanes]
-using Lanes = Eigen::Matrix<double, kLanes, Eigen::Dynamic>;
-
+/// What each lane gives, one column for each; the stiffness pair by pair, column by column.
 struct Evaluation {
-  Lanes force, stiffness, energy, min_J;
+  Eigen::MatrixXd force;      // [3 nodes x lanes]
+  Eigen::MatrixXd stiffness;  // [9 pairs x lanes]
+  Eigen::VectorXd energy, min_J;
 };
 
 Evaluation Evaluate(Kernel kernel, const LaneBlock& block, const Eigen::VectorXd& x_m) {
-  const int n = block.nodes_per_element;
-  Evaluation value{Lanes(kLanes, 3 * n), Lanes(kLanes, 9 * PairCount(n)), Lanes(kLanes, 1),
-                   Lanes(kLanes, 1)};
+  const int nodes = block.nodes_per_element;
+  const int pairs = PairCount(nodes);
+  Eigen::MatrixXd force_rows = Eigen::MatrixXd::Zero(4, nodes * kLanes);
+  Evaluation value{{},
+                   Eigen::MatrixXd::Zero(9 * pairs, kLanes),
+                   Eigen::VectorXd::Zero(kLanes),
+                   Eigen::VectorXd::Zero(kLanes)};
+  std::vector<int> addresses;
+  for (int pair = 0; pair < pairs; ++pair) {
+    for (int lane = 0; lane < kLanes; ++lane) addresses.push_back(9 * (lane * pairs + pair));
+  }
   kernel(block.View(), x_m.data(),
-         {value.force.data(), value.stiffness.data(), value.energy.data(), value.min_J.data()});
+         {.force = force_rows.data(),
+          .force_rows = block.nodes.data(),
+          .stiffness = value.stiffness.data(),
+          .addresses = addresses.data(),
+          .energy = value.energy.data(),
+          .min_J = value.min_J.data()});
+  EXPECT_TRUE((force_rows.row(3).array() == 0.0).all());
+  value.force = force_rows.topRows<3>().reshaped(3 * nodes, kLanes);
   return value;
 }
 
@@ -126,13 +146,10 @@ Eigen::MatrixXd Tangent(const Evaluation& value, int nodes, int lane) {
   Eigen::MatrixXd K(3 * nodes, 3 * nodes);
   for (int a = 0; a < nodes; ++a) {
     for (int b = 0; b <= a; ++b) {
-      for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) {
-          const double entry = value.stiffness(lane, PairIndex(a, b) * 9 + i * 3 + k);
-          K(3 * a + i, 3 * b + k) = entry;
-          if (a != b) K(3 * b + k, 3 * a + i) = entry;
-        }
-      }
+      const Eigen::Matrix3d block =
+          value.stiffness.col(lane).segment<9>(9 * PairIndex(a, b, nodes)).reshaped(3, 3);
+      K.block<3, 3>(3 * b, 3 * a) = block.transpose();
+      K.block<3, 3>(3 * a, 3 * b) = block;
     }
   }
   return K;
@@ -165,8 +182,8 @@ TEST_P(ElementKernel, ForceIsTheDerivativeOfTheEnergy) {
   const Evaluation here = Evaluate(kernel_, block_, x_m_);
   const auto energy = [&](const Eigen::VectorXd& x) { return Evaluate(kernel_, block_, x).energy; };
   for (int dof = 0; dof < 3 * block_.nodes_per_element; ++dof) {
-    const Lanes expected = DerivativeAlong(energy, x_m_, Direction(dof), 2e-6);
-    EXPECT_LE((here.force.col(dof) - expected).cwiseAbs().maxCoeff(),
+    const Eigen::VectorXd expected = DerivativeAlong(energy, x_m_, Direction(dof), 2e-6);
+    EXPECT_LE((here.force.row(dof).transpose() - expected).cwiseAbs().maxCoeff(),
               1e-8 * here.force.cwiseAbs().maxCoeff());
   }
 }
@@ -178,9 +195,9 @@ TEST_P(ElementKernel, TangentIsTheDerivativeOfTheForceAndSymmetric) {
   std::array<Eigen::MatrixXd, kLanes> expected;
   expected.fill(Eigen::MatrixXd(dofs, dofs));
   for (int dof = 0; dof < dofs; ++dof) {
-    const Lanes column = DerivativeAlong(force, x_m_, Direction(dof), 5e-6);
+    const Eigen::MatrixXd column = DerivativeAlong(force, x_m_, Direction(dof), 5e-6);
     for (int lane = 0; lane < kLanes; ++lane) {
-      expected[static_cast<size_t>(lane)].col(dof) = column.row(lane).transpose();
+      expected[static_cast<size_t>(lane)].col(dof) = column.col(lane);
     }
   }
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -193,20 +210,65 @@ TEST_P(ElementKernel, TangentIsTheDerivativeOfTheForceAndSymmetric) {
 
 TEST_P(ElementKernel, GivesEachResultAloneAsTogether) {
   const Evaluation together = Evaluate(kernel_, block_, x_m_);
-  Evaluation alone = together;
-  alone.force.setZero();
-  alone.energy.setZero();
-  kernel_(block_.View(), x_m_.data(), {alone.force.data(), nullptr, nullptr, nullptr});
-  kernel_(block_.View(), x_m_.data(), {nullptr, nullptr, alone.energy.data(), nullptr});
-  EXPECT_EQ(alone.force, together.force);
-  EXPECT_EQ(alone.energy, together.energy);
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(4, block_.nodes_per_element * kLanes);
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(kLanes);
+  kernel_(block_.View(), x_m_.data(), {.force = force.data(), .force_rows = block_.nodes.data()});
+  kernel_(block_.View(), x_m_.data(), {.energy = energy.data()});
+  EXPECT_EQ(force.topRows<3>().reshaped(together.force.rows(), kLanes), together.force);
+  EXPECT_EQ(energy, together.energy);
+}
+
+TEST_P(ElementKernel, ALaneDoesNotDependOnTheOthers) {
+  const Evaluation here = Evaluate(kernel_, block_, x_m_);
+  LaneBlock turned = block_;  // every lane's element moves on by one lane
+  std::rotate(turned.lambda_Pa.begin(), turned.lambda_Pa.begin() + 1, turned.lambda_Pa.end());
+  std::rotate(turned.mu_Pa.begin(), turned.mu_Pa.begin() + 1, turned.mu_Pa.end());
+  std::rotate(turned.c20_over_c10.begin(), turned.c20_over_c10.begin() + 1,
+              turned.c20_over_c10.end());
+  std::rotate(turned.c30_over_c10.begin(), turned.c30_over_c10.begin() + 1,
+              turned.c30_over_c10.end());
+  for (auto* packs : {&turned.gradients, &turned.weights}) {
+    for (auto pack = packs->begin(); pack != packs->end(); pack += kLanes) {
+      std::rotate(pack, pack + 1, pack + kLanes);
+    }
+  }
+  Eigen::VectorXd x_m = x_m_;
+  const Eigen::Index dofs = 3 * block_.nodes_per_element;
+  std::rotate(x_m.begin(), x_m.begin() + dofs, x_m.end());
+  // One far stretched element keeps iterations going for longer.
+  x_m.segment(dofs * 3, dofs) *= 3.0;
+  const Evaluation there = Evaluate(kernel_, turned, x_m);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lane == 3) continue;
+    const int before = (lane + 1) % kLanes;
+    EXPECT_EQ(there.force.col(lane), here.force.col(before)) << lane;
+    EXPECT_EQ(there.stiffness.col(lane), here.stiffness.col(before)) << lane;
+    EXPECT_EQ(there.energy[lane], here.energy[before]) << lane;
+  }
+}
+
+TEST_P(ElementKernel, AddsAndLeavesOutWhatHasNoPlace) {
+  const Evaluation here = Evaluate(kernel_, block_, x_m_);
+  const int pairs = PairCount(block_.nodes_per_element);
+  std::vector<int> addresses(static_cast<size_t>(pairs * kLanes), -1);
+  const int pair = pairs - 2;
+  addresses[static_cast<size_t>(pair * kLanes + 5)] = 4;
+  addresses[static_cast<size_t>(pair * kLanes + 6)] = 4;
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(20, 7.0);
+  kernel_(block_.View(), x_m_.data(), {.stiffness = values.data(), .addresses = addresses.data()});
+  const Eigen::VectorXd expected =
+      here.stiffness.col(5).segment<9>(9 * pair) + here.stiffness.col(6).segment<9>(9 * pair);
+  EXPECT_LE((values.segment<9>(4).array() - 7.0 - expected.array()).abs().maxCoeff(),
+            1e-13 * (7.0 + expected.cwiseAbs().maxCoeff()));
+  EXPECT_TRUE((values.head<4>().array() == 7.0).all());
+  EXPECT_TRUE((values.tail<7>().array() == 7.0).all());
 }
 
 TEST_P(ElementKernel, AgreesWithTheOtherInstructionSets) {
   const Evaluation here = Evaluate(kernel_, block_, x_m_);
   const Evaluation portable =
       Evaluate(Select(Set::kPortable, std::get<Law>(GetParam())), block_, x_m_);
-  const auto expect_equal = [](const Lanes& a, const Lanes& b) {
+  const auto expect_equal = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     EXPECT_LE((a - b).cwiseAbs().maxCoeff(), 1e-12 * b.cwiseAbs().maxCoeff());
   };
   expect_equal(here.force, portable.force);

@@ -16,7 +16,7 @@ std::vector<Law> AllLaws() {
   std::vector<Law> laws;
   for (const MaterialModel model :
        {MaterialModel::kLinear, MaterialModel::kCorotational, MaterialModel::kStVenantKirchhoff,
-        MaterialModel::kNeoHookean, MaterialModel::kStableNeoHookean}) {
+        MaterialModel::kNeoHookean, MaterialModel::kStableNeoHookean, MaterialModel::kYeoh}) {
     for (const ElementType element : {ElementType::kTet4, ElementType::kTet10}) {
       laws.push_back({model, Volumetric::kPointwise, element});
       if (kernels::SupportsMeanDilatation(model)) {
@@ -56,6 +56,12 @@ double EnergyDensity_Pa(const Material& material, const Eigen::Matrix3d& F) {
     case MaterialModel::kStableNeoHookean:
       return 0.5 * mu * (stretch.squaredNorm() - 3.0) +
              0.5 * (lambda + mu) * std::pow(J - 1.0 - mu / (lambda + mu), 2);
+    case MaterialModel::kYeoh: {
+      const double c10 = 0.5 * mu;
+      const double s = stretch.squaredNorm() / std::cbrt(J * J) - 3.0;
+      return c10 * (s + material.c20_over_c10 * s * s + material.c30_over_c10 * s * s * s) +
+             0.5 * (lambda + 2.0 / 3.0 * mu) * std::pow(J - 1.0, 2);
+    }
   }
   return std::nan("");
 }
@@ -85,6 +91,14 @@ Eigen::Matrix3d Stress_Pa(const Material& material, const Eigen::Matrix3d& F) {
     case MaterialModel::kStableNeoHookean: {
       const double alpha = 1.0 + mu / (lambda + mu);
       return F * (mu * I + (lambda + mu) * J * (J - alpha) * C.inverse());
+    }
+    case MaterialModel::kYeoh: {
+      const double g = std::pow(J, -2.0 / 3.0);
+      const double s = g * C.trace() - 3.0;
+      const double twice_slope =
+          mu * (1.0 + 2.0 * material.c20_over_c10 * s + 3.0 * material.c30_over_c10 * s * s);
+      return F * (twice_slope * g * (I - C.trace() / 3.0 * C.inverse()) +
+                  (lambda + 2.0 / 3.0 * mu) * J * (J - 1.0) * C.inverse());
     }
   }
   return Eigen::Matrix3d::Constant(std::nan(""));
