@@ -21,17 +21,17 @@ NodePairs AllPairs(const ElasticBody& body, const std::vector<ScalarConstraint*>
 }  // namespace
 
 Linearisation::Linearisation(ElasticBody& body, std::vector<ScalarConstraint*> constraints,
-                             const FixedDirections& fixed, std::shared_ptr<ThreadTeam> team)
+                             const FixedDirections& fixed, const SolverSettings& settings)
     : body_(body),
       constraints_(std::move(constraints)),
       fixed_(fixed),
       matrix_(fixed, AllPairs(body, constraints_)),
-      team_(team != nullptr ? std::move(team) : std::make_shared<ThreadTeam>(1)),
-      solver_(MakeMultifrontalSolver(matrix_.Pattern(), *team_)),
+      team_(std::make_shared<ThreadTeam>(settings.threads)),
+      solver_(MakeSolver(settings.solver, matrix_.Pattern(), *team_)),
       nodal_(Eigen::VectorXd::Zero(3 * body.NodeCount())),
       residual_(Eigen::VectorXd::Zero(matrix_.Size())) {
   PALPATE_CHECK(fixed.cols() == body.NodeCount(), fixed.cols(), body.NodeCount());
-  body_.BindTo(matrix_);
+  body_.BindTo(matrix_, team_);
   for (ScalarConstraint* constraint : constraints_) constraint->BindTo(matrix_);
 }
 

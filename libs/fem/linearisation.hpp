@@ -11,7 +11,7 @@
 #include "libs/core/thread_team.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/scalar_constraint.hpp"
-#include "libs/fem/sparse/sparse_solver.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 
 namespace palpate::fem {
@@ -24,10 +24,10 @@ using FixedDirections = Eigen::Matrix<bool, 3, Eigen::Dynamic>;  ///< [3 x nodes
 /// Owns the matrix, its pattern and its factor; nothing is allocated after the first Update.
 class Linearisation {
  public:
-  /// `body` and `constraints` are bound to this object's matrix and must outlive it. The threads of
-  /// `team` factorise and solve; none: the calling thread alone.
+  /// `body` and `constraints` are bound to this object's matrix and must outlive it. Throws
+  /// InputError where there is no solver of that name.
   Linearisation(ElasticBody& body, std::vector<ScalarConstraint*> constraints,
-                const FixedDirections& fixed, std::shared_ptr<ThreadTeam> team = nullptr);
+                const FixedDirections& fixed, const SolverSettings& settings = {});
 
   int Size() const { return matrix_.Size(); }  ///< rows of the reduced system
   const StiffnessMatrix& matrix() const { return matrix_; }

@@ -34,11 +34,14 @@ void UseLargeSupernodes(cholmod_common* common) {
 
 class CholmodSolver final : public SparseSolver {
  public:
-  explicit CholmodSolver(const BlockPattern& pattern) : size_(pattern.Size()) {
+  CholmodSolver(const BlockPattern& pattern, CholmodMethod method)
+      : size_{pattern.Size()}, method_{method} {
     ExpandBlocks(pattern);
     cholmod_common* common = context_.get();
-    common->supernodal = CHOLMOD_SUPERNODAL;
+    const bool supernodal = method == CholmodMethod::kSupernodal;
+    common->supernodal = supernodal ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     common->final_ll = 1;
+    common->quick_return_if_not_posdef = 1;
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_NATURAL;  // the pattern is in its final order already
     common->postorder = 0;
@@ -100,7 +103,9 @@ class CholmodSolver final : public SparseSolver {
                                                 columns.rows(), columns.cols());
   }
 
-  std::string Name() const override { return "cholmod_supernodal"; }
+  std::string Name() const override {
+    return method_ == CholmodMethod::kSupernodal ? "cholmod_supernodal" : "cholmod_simplicial";
+  }
   size_t FactorNonzeros() const override { return factor_nonzeros_; }
   size_t MemoryBytes() const override { return context_.memory_inuse(); }
   double FactorFlops() const override { return factor_flops_; }
@@ -144,7 +149,8 @@ class CholmodSolver final : public SparseSolver {
   }
 
   internal::CholmodContext context_;
-  int size_ = 0;
+  int size_;
+  CholmodMethod method_;
   std::vector<int> column_start_, row_;  ///< scalar, lower triangle
   std::vector<int> source_;              ///< [nonzeros] place in the block values
   std::vector<double> values_;           ///< [nonzeros]
@@ -160,8 +166,8 @@ class CholmodSolver final : public SparseSolver {
 
 }  // namespace
 
-std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern) {
-  return std::make_unique<CholmodSolver>(pattern);
+std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern, CholmodMethod method) {
+  return std::make_unique<CholmodSolver>(pattern, method);
 }
 
 }  // namespace palpate::fem

@@ -52,14 +52,17 @@ class SparseSolver {
   virtual double FactorFlops() const = 0;
 };
 
-/// CHOLMOD's supernodal Cholesky: the reference.
-std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern);
-
 /// Multifrontal Cholesky with a fixed pattern, on the threads of `team`, which must outlive the
 /// solver; the inner loops are those of `instruction_set`. The factor does not depend on the number
 /// of threads.
 std::unique_ptr<SparseSolver> MakeMultifrontalSolver(
     const BlockPattern& pattern, ThreadTeam& team,
     InstructionSet instruction_set = BestInstructionSet());
+
+enum class CholmodMethod { kSupernodal, kSimplicial };
+
+/// CHOLMOD's Cholesky: the reference, and what to fall back upon. Runs on the calling thread.
+std::unique_ptr<SparseSolver> MakeCholmodSolver(const BlockPattern& pattern,
+                                                CholmodMethod method = CholmodMethod::kSupernodal);
 
 }  // namespace palpate::fem

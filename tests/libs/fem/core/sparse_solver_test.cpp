@@ -3,12 +3,15 @@
 
 #include "libs/fem/sparse/sparse_solver.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 #include <vector>
 
+#include "libs/core/error.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -57,11 +60,36 @@ void ExpectSolves(SparseSolver& solver, const Eigen::MatrixXd& dense, int column
   EXPECT_LE((x - dense.ldlt().solve(b)).norm(), 1e-12 * x.norm());
 }
 
-TEST(CholmodSolver, SolvesOneAndSeveralRightHandSides) {
+TEST(SparseSolver, OfEachNameSolvesOneAndSeveralRightHandSides) {
   const Banded matrix(10.0, 1);
-  const auto solver = MakeCholmodSolver(matrix.Pattern());
-  ASSERT_TRUE(solver->Factorize(matrix.values).ok());
-  for (const int columns : {1, 2, 8, 13}) ExpectSolves(*solver, matrix.dense, columns);
+  ThreadTeam team(2);
+  for (const std::string& name : SolverNames()) {
+    SCOPED_TRACE(name);
+    const auto solver = MakeSolver(name, matrix.Pattern(), team);
+    EXPECT_EQ(solver->Name().substr(0, name.size()), name);
+    ASSERT_TRUE(solver->Factorize(matrix.values).ok());
+    for (const int columns : {1, 2, 8, 13}) ExpectSolves(*solver, matrix.dense, columns);
+  }
+}
+
+TEST(SparseSolver, OfEachNameSaysThatAMatrixIsNotPositiveDefiniteAndRecovers) {
+  const Banded indefinite(0.5, 1);
+  const Banded good(10.0, 1);
+  ThreadTeam team(1);
+  for (const std::string& name : SolverNames()) {
+    SCOPED_TRACE(name);
+    const auto solver = MakeSolver(name, indefinite.Pattern(), team);
+    EXPECT_EQ(solver->Factorize(indefinite.values).code(), StatusCode::kNotPositiveDefinite);
+    ASSERT_TRUE(solver->Factorize(good.values).ok());
+    ExpectSolves(*solver, good.dense, 1);
+  }
+}
+
+TEST(SparseSolver, OfUnknownNameIsRefusedWithTheNearestOne) {
+  const Banded matrix(10.0, 1);
+  ThreadTeam team(1);
+  EXPECT_THAT([&] { MakeSolver("multifrontl", matrix.Pattern(), team); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("multifrontal")));
 }
 
 TEST(CholmodSolver, SolvesColumnsOfALargerMatrix) {
@@ -84,15 +112,6 @@ TEST(CholmodSolver, FactorisesAgainWithOtherValues) {
   ASSERT_TRUE(solver->Factorize(first.values).ok());
   ASSERT_TRUE(solver->Factorize(second.values).ok());
   ExpectSolves(*solver, second.dense, 3);
-}
-
-TEST(CholmodSolver, SaysThatAMatrixIsNotPositiveDefinite) {
-  const Banded good(10.0, 1);
-  const Banded indefinite(0.5, 1);
-  const auto solver = MakeCholmodSolver(good.Pattern());
-  EXPECT_EQ(solver->Factorize(indefinite.values).code(), StatusCode::kNotPositiveDefinite);
-  ASSERT_TRUE(solver->Factorize(good.values).ok());
-  ExpectSolves(*solver, good.dense, 1);
 }
 
 TEST(CholmodSolver, RefusesNaNAnywhere) {
