@@ -3,16 +3,37 @@
 
 #include "libs/robot/cable.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 
 #include "libs/core/check.hpp"
+#include "libs/robot/cable_path.hpp"
 
 namespace palpate::robot {
 
 namespace {
 
-/// Pieces shorter than this have no direction; they neither pull nor stiffen.
-constexpr double kShortestPiece_m = 1e-9;
+/// The fraction of the drive's tension in one piece after the other, from the drive on.
+class TensionAlong {
+ public:
+  explicit TensionAlong(const CableFriction& friction) : mu_(friction.SignedCoefficient()) {}
+
+  /// `direction`: of the next piece, unit.
+  double Next(const Eigen::Vector3d& direction) {
+    if (mu_ == 0.0) return 1.0;
+    if (started_) turned_ += TurningAngle(before_, direction);
+    started_ = true;
+    before_ = direction;
+    return std::exp(-mu_ * turned_);
+  }
+
+ private:
+  double mu_;
+  bool started_ = false;
+  Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
+  double turned_ = 0.0;
+};
 
 }  // namespace
 
@@ -47,13 +68,24 @@ Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> 
   rest_length_m_ = Value(rest_x_m);
 }
 
+void Cable::SetFriction(const CableFriction& friction) {
+  PALPATE_CHECK(friction.coefficient >= 0.0 && std::isfinite(friction.coefficient),
+                friction.coefficient);
+  friction_ = friction;
+}
+
 Eigen::Matrix3Xd Cable::Path_m(const Eigen::VectorXd& x_m) const {
-  Eigen::Matrix3Xd path(3, static_cast<Eigen::Index>(eyelets_.size()) + 1);
-  path.col(0) = pull_point_m_;
+  Eigen::Matrix3Xd path_m;
+  FindPath(x_m, &path_m);
+  return path_m;
+}
+
+void Cable::FindPath(const Eigen::VectorXd& x_m, Eigen::Matrix3Xd* path_m) const {
+  path_m->resize(3, static_cast<Eigen::Index>(eyelets_.size()) + 1);
+  path_m->col(0) = pull_point_m_;
   for (size_t e = 0; e < eyelets_.size(); ++e) {
-    path.col(static_cast<Eigen::Index>(e) + 1) = eyelets_[e].Position(x_m);
+    path_m->col(static_cast<Eigen::Index>(e) + 1) = eyelets_[e].Position(x_m);
   }
-  return path;
 }
 
 double Cable::Value(const Eigen::VectorXd& x_m) const {
@@ -63,11 +95,13 @@ double Cable::Value(const Eigen::VectorXd& x_m) const {
 }
 
 void Cable::AddGradient(const Eigen::VectorXd& x_m, double factor, Eigen::VectorXd& nodal) const {
+  TensionAlong tension(friction_);
   for (const Piece& piece : pieces_) {
     const Eigen::Vector3d vector = piece.Vector(x_m);
     const double length = vector.norm();
     if (length < kShortestPiece_m) continue;
-    const Eigen::Vector3d direction = factor / length * vector;
+    const double pull = factor * tension.Next(vector / length);
+    const Eigen::Vector3d direction = pull / length * vector;
     for (size_t k = 0; k < piece.nodes.size(); ++k) {
       nodal.segment<3>(3 * piece.nodes[k]) += piece.coefficients[k] * direction;
     }
@@ -97,13 +131,15 @@ void Cable::BindTo(const fem::StiffnessMatrix& stiffness) {
 
 void Cable::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
                          fem::StiffnessMatrix& stiffness) const {
+  TensionAlong tension(friction_);
   for (const Piece& piece : pieces_) {
     const Eigen::Vector3d vector = piece.Vector(x_m);
     const double length = vector.norm();
     if (length < kShortestPiece_m) continue;
     const Eigen::Vector3d u = vector / length;
+    const double pull = multiplier * tension.Next(u);
     const Eigen::Matrix3d curvature =
-        multiplier / length * (Eigen::Matrix3d::Identity() - u * u.transpose());
+        pull / length * (Eigen::Matrix3d::Identity() - u * u.transpose());
     size_t slot = 0;
     for (size_t k = 0; k < piece.nodes.size(); ++k) {
       for (size_t l = 0; l <= k; ++l) {

@@ -11,9 +11,23 @@
 
 namespace palpate::robot {
 
-/// A cable without friction: from a pull point fixed to the ground through eyelets on the body, in
-/// which it slides, to the last one, where it is attached. Its value is its length outside the
-/// drive, m; its multiplier the tension, N, the same all along. A cable cannot push.
+/// Coulomb friction of a cable in its eyelets while it slides (capstan, Euler-Eytelwein): where it
+/// turns by theta, the tension falls by exp(-mu theta) in the direction in which it slides.
+struct CableFriction {
+  enum class Sliding {
+    kIn,   ///< towards the drive: the tension falls from the drive to the tip
+    kOut,  ///< out of the drive: it rises
+  };
+  double coefficient = 0.0;  ///< mu >= 0; 0: none
+  Sliding sliding = Sliding::kIn;
+
+  double SignedCoefficient() const { return sliding == Sliding::kIn ? coefficient : -coefficient; }
+};
+
+/// A cable: from a pull point fixed to the ground through eyelets on the body, in which it slides,
+/// to the last one, where it is attached. Its value is its length outside the drive, m; its
+/// multiplier the tension at the drive, N: without friction the same all along. A cable cannot
+/// push.
 class Cable final : public fem::ScalarConstraint {
  public:
   /// `eyelets`: at least one, weights as in fem/node_weights.hpp; `rest_x_m` [3n] rest positions.
@@ -21,17 +35,27 @@ class Cable final : public fem::ScalarConstraint {
         const Eigen::VectorXd& rest_x_m);
 
   double rest_length_m() const { return rest_length_m_; }
+  const Eigen::Vector3d& pull_point_m() const { return pull_point_m_; }
+  const std::vector<fem::NodeWeights>& eyelets() const { return eyelets_; }
+  const CableFriction& friction() const { return friction_; }
+  void SetFriction(const CableFriction& friction);
   /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body.
   double Displacement_m(const Eigen::VectorXd& x_m) const { return rest_length_m_ - Value(x_m); }
   /// [3 x eyelets + 1], pull point first.
   Eigen::Matrix3Xd Path_m(const Eigen::VectorXd& x_m) const;
+  /// The same into memory that is kept.
+  void FindPath(const Eigen::VectorXd& x_m, Eigen::Matrix3Xd* path_m) const;
 
   double Value(const Eigen::VectorXd& x_m) const override;
+  /// The forces of the tension: of dlength/dx, each piece's part times the fraction of the drive's
+  /// tension that reaches it. Without friction the gradient of the length.
   void AddGradient(const Eigen::VectorXd& x_m, double factor,
                    Eigen::VectorXd& nodal) const override;
   fem::NodePairs CoupledPairs() const override;
   void BindTo(const fem::StiffnessMatrix& stiffness) override;
-  /// Geometric stiffness lambda / L (I - u u') of each straight piece.
+  /// Geometric stiffness lambda / L (I - u u') of each straight piece, lambda its own tension. What
+  /// is left out with friction, the change of these tensions with the turning angles, is not
+  /// symmetric: Newton's method then converges linearly, the slower the more friction.
   void AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
                     fem::StiffnessMatrix& stiffness) const override;
 
@@ -49,6 +73,7 @@ class Cable final : public fem::ScalarConstraint {
   Eigen::Vector3d pull_point_m_;
   std::vector<fem::NodeWeights> eyelets_;
   std::vector<Piece> pieces_;
+  CableFriction friction_;
   double rest_length_m_ = 0.0;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "libs/geometry/box.hpp"
 #include "libs/geometry/surface_sampling.hpp"
@@ -74,6 +75,23 @@ class PointPlacer {
   std::vector<std::string>* notes_;
   double diagonal_m_;
 };
+
+/// Says so where cells lock: docs/near_incompressibility.md.
+void NoteLocking(const RobotDescription& robot, std::vector<std::string>* notes) {
+  const fem::Material& material = robot.material;
+  if (material.poissons_ratio < kNearlyIncompressible) return;
+  const std::string ratio = "Poisson's ratio " + FormatNumber(material.poissons_ratio);
+  if (robot.element == fem::ElementType::kTet4) {
+    notes->push_back(ratio +
+                     ": tet4 locks, the body is 20 % to 20 times too stiff; element: tet10 "
+                     "with volumetric: mean_dilatation does not");
+  } else if (material.volumetric == fem::Volumetric::kPointwise) {
+    notes->push_back(
+        ratio +
+        ": tet10 with pointwise dilatation locks, the body is 4 to 30 % too "
+        "stiff; volumetric: mean_dilatation does not, where the material model has it");
+  }
+}
 
 Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
@@ -148,7 +166,11 @@ void PlaceFeaturePoints(const RobotDescription& robot, const fem::PointLocator& 
 void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator, RobotBody* body) {
   const PointPlacer placer(locator, &body->notes);
   for (const CableSettings& settings : robot.cables) {
-    BodyCable cable{settings.name, settings.path_m.col(0), {}, settings.max_tension_N};
+    BodyCable cable{settings.name,
+                    settings.path_m.col(0),
+                    {},
+                    settings.max_tension_N,
+                    settings.friction_coefficient};
     for (Eigen::Index k = 1; k < settings.path_m.cols(); ++k) {
       cable.eyelets.push_back(placer.Eyelet(settings, k));
     }
@@ -171,6 +193,7 @@ RobotBody BuildRobotBody(const RobotDescription& robot) {
   body.mesh = read.mesh;
   body.fixed = HoldNodes(robot, read, &body.notes);
   AssignMaterials(robot, &body);
+  NoteLocking(robot, &body.notes);
   body.node_mass_kg = NodeMass_kg(robot.mass, read);
   body.gravity_m_s2 = robot.gravity_m_s2;
   const fem::PointLocator locator(read.mesh);

@@ -20,6 +20,7 @@ struct BodyCable {
   Eigen::Vector3d pull_point_m;         ///< fixed to the ground
   std::vector<fem::BodyPoint> eyelets;  ///< at least one; the cable is attached to the last
   double max_tension_N = 0.0;
+  double friction_coefficient = 0.0;
 };
 
 struct BodyMarker {

@@ -9,6 +9,7 @@
 
 #include "libs/core/config_reader.hpp"
 #include "libs/core/text.hpp"
+#include "libs/fem/kernels/kernel.hpp"
 #include "libs/robot/unit_keys.hpp"
 
 namespace palpate::robot {
@@ -16,7 +17,7 @@ namespace palpate::robot {
 namespace {
 
 constexpr int kMaxFeaturePoints = 100000;
-constexpr NumberRule kPoissonsRatio{.min = -1.0, .max = 0.5, .min_open = true, .max_open = true};
+constexpr NumberRule kPoissonsRatio{.min = -1.0, .max = kLargestPoissonsRatio, .min_open = true};
 
 /// Names become columns of CSV files and parts of topic names.
 std::string ReadName(const ConfigNode& node) {
@@ -80,6 +81,53 @@ MeshSettings ReadMeshSettings(const ConfigNode& node, const std::filesystem::pat
   return mesh;
 }
 
+double ReadPoissonsRatio(const ConfigNode& node) {
+  const double ratio = ReadNumber(node);
+  if (ratio > kLargestPoissonsRatio) {
+    Refuse(node, "must be " + DescribeRule(kPoissonsRatio) + ", not " + node.text + ": give " +
+                     FormatNumber(kLargestPoissonsRatio) +
+                     " for an incompressible body, nothing moves differently beyond it");
+  }
+  return ReadNumber(node, kPoissonsRatio);
+}
+
+fem::Volumetric ReadVolumetric(const ConfigNode* node, fem::ElementType element,
+                               const fem::Material& material) {
+  const bool can_average = fem::kernels::SupportsMeanDilatation(material.model);
+  bool average = can_average && element == fem::ElementType::kTet10 &&
+                 material.poissons_ratio >= kNearlyIncompressible;
+  if (node != nullptr) {
+    average = ReadChoice(*node, {"pointwise", "mean_dilatation"}) == "mean_dilatation";
+    if (average && !can_average) {
+      Refuse(*node, "material '" + std::string(fem::ToString(material.model)) +
+                        "' has no volumetric energy of its own to average: give pointwise, or "
+                        "another model such as stable_neo_hookean");
+    }
+  }
+  return average ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
+}
+
+/// The ratios belong to the Yeoh material, and to no other.
+void ReadYeohRatios(MapReader* map, fem::Material* material) {
+  if (material->model != fem::MaterialModel::kYeoh) {
+    for (const char* key : {"c20_over_c10", "c30_over_c10"}) {
+      if (const ConfigNode* ratio = map->Optional(key)) {
+        Refuse(*ratio, "belongs to the material 'yeoh', not to '" +
+                           std::string(fem::ToString(material->model)) + "'");
+      }
+    }
+    return;
+  }
+  material->c20_over_c10 = ReadNumber(map->Require("c20_over_c10"));
+  const ConfigNode& c30_over_c10 = map->Require("c30_over_c10");
+  material->c30_over_c10 = ReadNumber(c30_over_c10, kNonNegative);
+  if (!fem::IsYeohMonotone(material->c20_over_c10, material->c30_over_c10)) {
+    Refuse(c30_over_c10,
+           "must be more than a third of the square of a negative c20_over_c10: the "
+           "material would lose its stiffness at large strains");
+  }
+}
+
 fem::Material ReadMaterial(const ConfigNode& node, fem::ElementType element) {
   RefuseForeignUnits(node, {"youngs_modulus_Pa"});
   MapReader map(node);
@@ -87,14 +135,9 @@ fem::Material ReadMaterial(const ConfigNode& node, fem::ElementType element) {
   const std::string model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
   fem::ParseMaterialModel(model, &material.model);
   material.youngs_modulus_Pa = ReadNumber(map.Require("youngs_modulus_Pa"), kPositive);
-  material.poissons_ratio = ReadNumber(map.Require("poissons_ratio"), kPoissonsRatio);
-  const bool locks =
-      element == fem::ElementType::kTet10 && material.poissons_ratio >= kNearlyIncompressible;
-  material.volumetric = locks ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
-  if (const ConfigNode* volumetric = map.Optional("volumetric")) {
-    const bool mean = ReadChoice(*volumetric, {"pointwise", "mean_dilatation"}) != "pointwise";
-    material.volumetric = mean ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
-  }
+  material.poissons_ratio = ReadPoissonsRatio(map.Require("poissons_ratio"));
+  material.volumetric = ReadVolumetric(map.Optional("volumetric"), element, material);
+  ReadYeohRatios(&map, &material);
   map.Finish();
   return material;
 }
@@ -157,6 +200,8 @@ CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
   cable.path_m = ReadCablePath(map.Require("path_m"));
   cable.max_tension_N = map.Number("max_tension_N", cable.max_tension_N, kPositive);
   cable.guide_radius_m = map.Number("guide_radius_m", cable.guide_radius_m, kNonNegative);
+  cable.friction_coefficient =
+      map.Number("friction_coefficient", cable.friction_coefficient, kNonNegative);
   map.Finish();
   return cable;
 }

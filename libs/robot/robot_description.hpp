@@ -42,6 +42,8 @@ struct CableSettings {
   Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest
   double max_tension_N = 1e3;      ///< > 0
   double guide_radius_m = 0.0015;  ///< >= 0; 0: barycentric points
+  /// >= 0; of the cable in its eyelets while the drive pulls it in (cable.hpp).
+  double friction_coefficient = 0.0;
   SourceLocation where;
 };
 
@@ -85,11 +87,15 @@ struct RobotDescription {
 ///
 /// Lengths are in metres; `mesh.translate_mm` may stand for `mesh.translate_m`. Left out:
 /// element tet10, gravity (0, 0, -9.81), 51 feature points, `material.volumetric` mean_dilatation
-/// for tet10 from a Poisson's ratio of 0.48 on (against locking), else pointwise.
+/// for tet10 from a Poisson's ratio of 0.48 on (against locking) where the material model has it,
+/// else pointwise.
 RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load);
 
 /// Poisson's ratio from which tet10 averages the dilatation over the element unless told otherwise.
 inline constexpr double kNearlyIncompressible = 0.48;
+/// Beyond it displacements change by less than 0.01 %, while rounding and Newton iterations grow
+/// tenfold with each further digit (docs/near_incompressibility.md).
+inline constexpr double kLargestPoissonsRatio = 0.4999;
 
 /// The description as the text of a robot file that lies in `folder`: the path of the mesh is
 /// written relative to it. Reading it back gives the same description.

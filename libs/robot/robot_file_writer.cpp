@@ -47,10 +47,15 @@ std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& fold
 
 std::string MaterialText(const fem::Material& material) {
   const bool mean = material.volumetric == fem::Volumetric::kMeanDilatation;
-  return "material:\n  model: " + std::string(fem::ToString(material.model)) +
-         "\n  youngs_modulus_Pa: " + FormatNumber(material.youngs_modulus_Pa) +
-         "\n  poissons_ratio: " + FormatNumber(material.poissons_ratio) +
-         "\n  volumetric: " + (mean ? "mean_dilatation" : "pointwise") + "\n";
+  std::string text = "material:\n  model: " + std::string(fem::ToString(material.model)) +
+                     "\n  youngs_modulus_Pa: " + FormatNumber(material.youngs_modulus_Pa) +
+                     "\n  poissons_ratio: " + FormatNumber(material.poissons_ratio) +
+                     "\n  volumetric: " + (mean ? "mean_dilatation" : "pointwise") + "\n";
+  if (material.model == fem::MaterialModel::kYeoh) {
+    text += "  c20_over_c10: " + FormatNumber(material.c20_over_c10) +
+            "\n  c30_over_c10: " + FormatNumber(material.c30_over_c10) + "\n";
+  }
+  return text;
 }
 
 std::string MassText(const MassSettings& mass) {
@@ -62,9 +67,13 @@ std::string MassText(const MassSettings& mass) {
 }
 
 std::string CableText(const CableSettings& cable) {
-  return "  - name: " + Quoted(cable.name) + "\n    path_m: " + Points(cable.path_m) +
-         "\n    max_tension_N: " + FormatNumber(cable.max_tension_N) +
-         "\n    guide_radius_m: " + FormatNumber(cable.guide_radius_m) + "\n";
+  std::string text = "  - name: " + Quoted(cable.name) + "\n    path_m: " + Points(cable.path_m) +
+                     "\n    max_tension_N: " + FormatNumber(cable.max_tension_N) +
+                     "\n    guide_radius_m: " + FormatNumber(cable.guide_radius_m) + "\n";
+  if (cable.friction_coefficient > 0.0) {
+    text += "    friction_coefficient: " + FormatNumber(cable.friction_coefficient) + "\n";
+  }
+  return text;
 }
 
 std::string RegionText(const RegionSettings& region) {

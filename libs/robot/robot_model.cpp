@@ -19,6 +19,7 @@ std::vector<Cable> MakeCables(const RobotBody& body, const Eigen::VectorXd& rest
     std::vector<fem::NodeWeights> eyelets;
     for (const fem::BodyPoint& point : cable.eyelets) eyelets.push_back(point.weights);
     cables.emplace_back(cable.pull_point_m, std::move(eyelets), rest_m);
+    cables.back().SetFriction({.coefficient = cable.friction_coefficient});
   }
   return cables;
 }
@@ -34,12 +35,13 @@ CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<d
   return {};
 }
 
-RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings)
+RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
+                       const fem::SolverSettings& solver)
     : body_(std::move(body)),
       locator_(body_.mesh),
       elastic_body_(body_.mesh, body_.materials, body_.material_of_cell),
       cables_(MakeCables(body_, elastic_body_.rest_m())),
-      linearisation_(elastic_body_, Constraints(), body_.fixed),
+      linearisation_(elastic_body_, Constraints(), body_.fixed, solver),
       static_solver_(linearisation_, settings),
       cable_rest_length_m_(static_cast<Eigen::Index>(cables_.size())),
       gravity_m_s2_(body_.gravity_m_s2) {

@@ -52,7 +52,8 @@ struct DeadLoad {
 /// equilibria of the paper's eq. (1). Not copied or moved: its parts point at each other.
 class RobotModel {
  public:
-  explicit RobotModel(RobotBody body, const fem::StaticSettings& settings = {});
+  explicit RobotModel(RobotBody body, const fem::StaticSettings& settings = {},
+                      const fem::SolverSettings& solver = {});
   RobotModel(const RobotModel&) = delete;
   RobotModel& operator=(const RobotModel&) = delete;
 
@@ -71,6 +72,12 @@ class RobotModel {
 
   /// Moduli of body (0) and regions (k + 1); see RobotBody::materials.
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
+  /// Friction of a cable in its eyelets (cable.hpp); at first the robot file's, sliding in. The
+  /// static solver then takes more steps; what a load history does to the direction of sliding is
+  /// the caller's business.
+  void SetCableFriction(int cable, const CableFriction& friction) {
+    cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
+  }
   /// Gravity in the robot frame; at first the robot file's.
   void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
   const Eigen::Vector3d& gravity_m_s2() const { return gravity_m_s2_; }

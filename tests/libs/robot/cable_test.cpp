@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -116,6 +118,43 @@ TEST_F(CableTest, ARigidMotionOfBodyAndPullPointChangesNothing) {
   EXPECT_LE((there.reshaped(3, kNodes) - R * here.reshaped(3, kNodes)).norm(), 1e-13);
 }
 
+/// Force of each piece on the node where it ends, from a cable of one node an eyelet.
+TEST_F(CableTest, FrictionTakesExpOfTheTurningAngleAtEachEyelet) {
+  const std::vector<fem::NodeWeights> nodes{{{0}, {1.0}}, {{1}, {1.0}}, {{2}, {1.0}}};
+  Eigen::VectorXd x_m(9);
+  x_m << 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.5, 1.5, 0.0;  // turns by 90 and 45 degrees
+  for (const auto sliding : {CableFriction::Sliding::kIn, CableFriction::Sliding::kOut}) {
+    Cable cable(Eigen::Vector3d::Zero(), nodes, x_m);
+    cable.SetFriction({0.3, sliding});
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(9);
+    cable.AddGradient(x_m, -2.0, force_N);
+    const double sign = sliding == CableFriction::Sliding::kIn ? -1.0 : 1.0;
+    const double second_N = 2.0 * std::exp(sign * 0.3 * std::numbers::pi / 2.0);
+    const double third_N = 2.0 * std::exp(sign * 0.3 * 0.75 * std::numbers::pi);
+    const Eigen::Vector3d slanted = Eigen::Vector3d(1.0, 1.0, 0.0).normalized();
+    EXPECT_LE((force_N.segment<3>(0) - Eigen::Vector3d(-2.0, second_N, 0.0)).norm(), 1e-14);
+    EXPECT_LE(
+        (force_N.segment<3>(3) - Eigen::Vector3d(0.0, -second_N, 0.0) - third_N * slanted).norm(),
+        1e-14);
+    EXPECT_LE((force_N.segment<3>(6) + third_N * slanted).norm(), 1e-14);
+  }
+}
+
+TEST_F(CableTest, WithoutFrictionNothingChangesByABit) {
+  Cable set = cable_;
+  set.SetFriction({0.0, CableFriction::Sliding::kOut});
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(3 * kNodes);
+  cable_.AddGradient(x_m_, 1.7, a);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * kNodes);
+  set.AddGradient(x_m_, 1.7, b);
+  EXPECT_EQ(a, b);
+  set.SetFriction({0.1, CableFriction::Sliding::kIn});
+  b.setZero();
+  set.AddGradient(x_m_, 1.7, b);
+  EXPECT_NE(a, b);
+  EXPECT_EQ(set.Value(x_m_), cable_.Value(x_m_));
+}
+
 TEST_F(CableTest, APieceWithoutLengthHasNoDirection) {
   const Cable folded(pull_point_m_, {eyelets_[0], eyelets_[0], eyelets_[1]}, rest_m_);
   const Cable straight(pull_point_m_, {eyelets_[0], eyelets_[1]}, rest_m_);
@@ -129,6 +168,11 @@ TEST_F(CableTest, APieceWithoutLengthHasNoDirection) {
 
 TEST(CableDeathTest, NeedsAnEyelet) {
   EXPECT_DEATH(Cable(Eigen::Vector3d::Zero(), {}, Eigen::VectorXd::Zero(3)), "eyelets_");
+}
+
+TEST(CableDeathTest, RefusesNegativeFriction) {
+  Cable cable(Eigen::Vector3d::UnitX(), {{{0}, {1.0}}}, Eigen::VectorXd::Zero(3));
+  EXPECT_DEATH(cable.SetFriction({-0.1, CableFriction::Sliding::kIn}), "coefficient");
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr double kVolume_m3 = 0.1 * 0.02 * 0.02;
@@ -67,6 +68,20 @@ TEST_F(RobotBodyTest, MakesTheElementThatTheFileNames) {
   EXPECT_EQ(Build(FullRobotText()).mesh.element_type(), fem::ElementType::kTet10);
   EXPECT_EQ(Build(Changed("element: tet10", "element: tet4")).mesh.element_type(),
             fem::ElementType::kTet4);
+}
+
+TEST_F(RobotBodyTest, NotesThatCellsLockNearIncompressibility) {
+  const auto notes = [&](const std::string& ratio, const std::string& element = "tet10") {
+    std::string text = Changed("poissons_ratio: 0.45", "poissons_ratio: " + ratio);
+    text.replace(text.find("element: tet10"), 14, "element: " + element);
+    return Build(text).notes;
+  };
+  EXPECT_THAT(notes("0.499, volumetric: pointwise"),
+              Contains(AllOf(StartsWith("Poisson's ratio 0.499: tet10 with pointwise"),
+                             HasSubstr("mean_dilatation"))));
+  EXPECT_THAT(notes("0.48", "tet4"), Contains(HasSubstr("tet4 locks")));
+  EXPECT_THAT(notes("0.499"), Not(Contains(HasSubstr("lock"))));
+  EXPECT_THAT(notes("0.479, volumetric: pointwise"), Not(Contains(HasSubstr("lock"))));
 }
 
 TEST_F(RobotBodyTest, HoldsTheNodesInTheBoxMidEdgesIncluded) {

@@ -77,6 +77,32 @@ TEST(RobotFile, NearlyIncompressibleTet10AveragesItsDilatationUnlessToldOtherwis
   EXPECT_EQ(volumetric("0.3, volumetric: mean_dilatation"), fem::Volumetric::kMeanDilatation);
 }
 
+TEST(RobotFile, AMaterialWithoutVolumetricEnergyStaysPointwise) {
+  for (const std::string model : {"corotational", "st_venant_kirchhoff"}) {
+    const auto with = [&](const std::string& end) {
+      return Changed(
+          "{model: stable_neo_hookean, youngs_modulus_Pa: 65.0e3, poissons_ratio: 0.45}",
+          "{model: " + model + ", youngs_modulus_Pa: 65.0e3, poissons_ratio: 0.499" + end + "}");
+    };
+    EXPECT_EQ(ReadText(with("")).material.volumetric, fem::Volumetric::kPointwise);
+    EXPECT_THAT(RefusalOf(with(", volumetric: mean_dilatation")),
+                AllOf(StartsWith("robot.yaml:4:"), HasSubstr("material.volumetric"),
+                      HasSubstr("material '" + model + "' has no volumetric energy")));
+  }
+}
+
+TEST(RobotFile, PoissonsRatioGoesUpTo4999AndTheRefusalSaysWhatToGiveInstead) {
+  EXPECT_EQ(
+      ReadText(Changed("poissons_ratio: 0.45", "poissons_ratio: 0.4999")).material.poissons_ratio,
+      0.4999);
+  for (const std::string ratio : {"0.49991", "0.5", "0.6"}) {
+    EXPECT_THAT(
+        RefusalOf(Changed("poissons_ratio: 0.45", "poissons_ratio: " + ratio)),
+        AllOf(StartsWith("robot.yaml:4:"), HasSubstr("material.poissons_ratio"),
+              HasSubstr("must be > -1 and <= 0.4999, not " + ratio), HasSubstr("give 0.4999")));
+  }
+}
+
 TEST(RobotFile, FeaturePointsMayBeGiven) {
   for (const char* given : {"feature_points: [[0, 0.1, 0], [0, 0.05, 0.01]]",
                             "feature_points: {positions_m: [[0, 0.1, 0], [0, 0.05, 0.01]]}"}) {
@@ -184,7 +210,7 @@ TEST(RobotFile, RefusesBothMassesAndNone) {
 }
 
 TEST(RobotFile, RefusesAModelThatIsNotThereAndNamesThoseThatAre) {
-  EXPECT_THAT(RefusalOf(Changed("model: stable_neo_hookean", "model: yeoh")),
+  EXPECT_THAT(RefusalOf(Changed("model: stable_neo_hookean", "model: ogden")),
               AllOf(StartsWith("robot.yaml:4:"), HasSubstr("corotational"),
                     HasSubstr("st_venant_kirchhoff"), HasSubstr("stable_neo_hookean")));
 }
