@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "libs/core/config_reader.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 
 namespace palpate::force_estimation {
 
-/// Settings of MarkerForceEstimator.
+/// Settings of MarkerForceEstimator and of the model it works with.
 struct Config {
   /// Where contacts may be: each "name: x, y, z[, patch radius][ along dx, dy, dz]" (m, undeformed
   /// body, robot frame; the direction where it is known, as of a hung weight). Empty: the robot's
@@ -24,7 +25,10 @@ struct Config {
   double significance = 1e-3;
   double unobservable_sigma_N = 1.0;
   int max_iterations = 40;
-  double force_tolerance_N = 1e-11;
+  double frame_tolerance = 1e-10;
+  double frame_budget_s = 0.0;
+  std::string solver = fem::SolverSettings().solver;
+  int threads = fem::SolverSettings().threads;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -48,8 +52,14 @@ struct Config {
     v("unobservable_sigma_N", unobservable_sigma_N, {.min = 0.0, .min_open = true},
       "A force component known no better than this is called unobservable");
     v("max_iterations", max_iterations, {.min = 1.0, .max = 1000.0}, "Linearisations in one frame");
-    v("force_tolerance_N", force_tolerance_N, {.min = 0.0, .min_open = true},
-      "Change of the forces at which the iteration stops");
+    v("frame_tolerance", frame_tolerance, {.min = 1e-11, .max = 0.1},
+      "A frame has converged when residual / forces, cable length missed / cable length and the "
+      "forces' next change / largest force (1 N at least) are no larger");
+    v("frame_budget_s", frame_budget_s, {.min = 0.0},
+      "Time for one frame with given contacts, once the first was found; 0: no limit");
+    v("solver", solver, fem::SolverNames(), "Sparse Cholesky of the model");
+    v("threads", threads, {.min = 1.0, .max = 64.0},
+      "Threads that assemble, factorise and solve; the results do not depend on it");
   }
 };
 

@@ -15,6 +15,7 @@ Status MarkerFitter::Screen(const MarkerTargets& targets,
   const std::vector<FitSite> sites = sites_;
   ModelState extended = state;
   chi_squared->clear();
+  UpdateWeight();
   Status status = Status::Ok();
   for (size_t c = 0; c < candidates.size() && status.ok(); ++c) {
     std::vector<FitSite> with_candidate = sites;
@@ -24,7 +25,7 @@ Status MarkerFitter::Screen(const MarkerTargets& targets,
     extended.lambda_f_N.head(state.lambda_f_N.size()) = state.lambda_f_N;
     elimination_.Start(cables, state.lambda_a_N);
     if (c == 0) {
-      status = Linearise(extended);
+      status = Linearise(extended, /*allow_shift=*/true);
     } else {
       compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
                           extended.lambda_f_N);

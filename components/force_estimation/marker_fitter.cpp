@@ -3,7 +3,6 @@
 
 #include "components/force_estimation/marker_fitter.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,13 +13,15 @@ namespace palpate::force_estimation {
 
 namespace {
 
-constexpr double kBalanceTolerance = 1e-9;  ///< residual over internal forces
-constexpr int kMaxSetChanges = 12;          ///< of taut and slack cables in one linearisation
-/// Residual over internal forces up to which a linear step may be taken as it is: from there on
-/// Newton's steps converge by themselves.
-constexpr double kLinearStepTolerance = 1e-3;
+using Kind = robot::CableCommand::Kind;
 
-/// A step that needs more load steps than these is halved instead.
+constexpr int kMaxSetChanges = 12;  ///< of taut and slack cables in one linearisation
+constexpr int kMaxRestorations = 8;
+/// Weight of the error at which the tangent was taken. A live fit is content with the tangent of
+/// where the frame began.
+constexpr double kTangentErrorWeight = 1e-3;
+
+/// A restoration that needs more load steps than these is halved instead.
 constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
 
 std::vector<fem::NodeWeights> MarkerRows(const robot::RobotModel& model) {
@@ -39,16 +40,8 @@ std::vector<robot::ForceDirection> Directions(const std::vector<FitSite>& sites)
   return directions;
 }
 
-/// Inverse on the directions that have information; infinite variances are left out by the basis.
-fem::QpMatrix PseudoInverse(const fem::QpMatrix& information) {
-  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
-  fem::QpMatrix inverse = fem::QpMatrix::Zero(information.rows(), information.cols());
-  for (Eigen::Index k = 0; k < information.rows(); ++k) {
-    const double value = eigen.eigenvalues()[k];
-    if (value <= 1e-14 * eigen.eigenvalues().maxCoeff()) continue;
-    inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / value;
-  }
-  return inverse;
+bool Diverged(const Status& status) {
+  return !status.ok() && status.code() != StatusCode::kBudgetReached;
 }
 
 }  // namespace
@@ -62,12 +55,11 @@ MarkerFitter::MarkerFitter(robot::RobotModel& model, const Config& config)
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
       new_lambda_a_(model.CableCount()),
-      trial_x_(weight_N_),
       nodal_(weight_N_),
+      gradient_(weight_N_),
       effector_motion_(static_cast<Eigen::Index>(3 * model.body().markers.size())),
       cable_motion_(model.CableCount()),
       modulus_column_(model.linearisation().Size(), 1) {
-  model_.AddWeight(weight_N_);
   fit_.residual_m = Eigen::VectorXd::Zero(effector_motion_.size());
 }
 
@@ -79,51 +71,146 @@ void MarkerFitter::SetSites(const std::vector<FitSite>& sites) {
   new_lambda_f_ = Eigen::VectorXd::Zero(forces);
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
-  fit_.observability.assign(sites.size(), Observability::kFull);
-  fit_.unknowns.assign(sites.size(), 3);
-  directions_.assign(sites.size(), Eigen::Matrix3d::Identity());
-  AskForEverything();
+  directions_.AskForEverything(sites_);
+  last_good_.valid = false;
 }
 
 const MarkerFit& MarkerFitter::Fit(const MarkerTargets& targets,
                                    const std::vector<robot::CableCommand>& cables,
-                                   ModelState* state) {
+                                   ModelState* state, const fem::TimeBudget& budget) {
   PALPATE_CHECK(SiteCount() > 0);
-  weight_N_.setZero();
-  model_.AddWeight(weight_N_);
-  AskForEverything();
-  elimination_.Start(cables, state->lambda_a_N);
-  for (fit_.iterations = 0; fit_.iterations <= config_.max_iterations; ++fit_.iterations) {
-    fit_.status = Linearise(*state);
-    if (fit_.status.ok()) fit_.status = SolveQp(targets, cables, *state);
-    if (!fit_.status.ok()) return fit_;
-    if (fit_.iterations == 0) {
-      KeepObservable(targets);
-      fit_.status = SolveQp(targets, cables, *state);
-      if (!fit_.status.ok()) return fit_;
-    }
-    const double change = LargestChange(*state);
-    const bool balanced = Balanced(*state);
-    if (!Step(targets, cables, state)) {
-      fit_.status = Status(StatusCode::kNotConverged, {});
-      return fit_;
-    }
-    if (balanced && change <= config_.force_tolerance_N) {
-      Conclude(targets, *state);
-      return fit_;
-    }
-  }
-  fit_.status = Status(StatusCode::kNotConverged, {});
+  frame_ = {.targets = &targets, .cables = &cables, .budget = &budget, .state = state};
+  fit_.iterations = fit_.chord_steps = fit_.restorations = 0;
+  UpdateWeight();
+  directions_.AskForEverything(sites_);
+  start_ = *state;
+  fit_.status = FitWithRestorations();
+  if (fit_.status.ok()) fit_.status = Conclude();
+  if (Diverged(fit_.status)) *state = start_;
+  fit_.observability = directions_.observability();
+  fit_.unknowns = directions_.unknowns();
   return fit_;
 }
 
-Status MarkerFitter::Linearise(const ModelState& state) {
+/// Newton's steps; where they diverge, one step along equilibria, from which they try again.
+Status MarkerFitter::FitWithRestorations() {
+  Status status = RunLoop();
+  if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
+  while (Diverged(status) && fit_.restorations < kMaxRestorations) {
+    *frame_.state = start_;
+    ++fit_.restorations;
+    if (Status restored = Restore(); !restored.ok()) return restored;
+    start_ = *frame_.state;
+    status = RunLoop();
+  }
+  return status;
+}
+
+Status MarkerFitter::RunLoop() {
+  const fem::FrameOutcome outcome =
+      fem::RunFrame(*this,
+                    {.relative_tolerance = config_.frame_tolerance,
+                     .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations)},
+                    *frame_.budget);
+  fit_.iterations += outcome.exact_steps;
+  fit_.chord_steps += outcome.chord_steps;
+  fit_.error = outcome.error;
+  frame_.state->balanced = outcome.converged();
+  return outcome.status;
+}
+
+Status MarkerFitter::PrepareExactStep() {
+  const ModelState& state = *frame_.state;
+  Status status = Linearise(state, /*allow_shift=*/false);
+  if (!status.ok()) return status;
+  elimination_.Start(*frame_.cables, state.lambda_a_N);
+  status = SolveQp(*frame_.targets, *frame_.cables, state);
+  if (status.ok() && !frame_.observability_known) {
+    directions_.KeepObservable(sites_, Information(*frame_.targets), config_.unobservable_sigma_N);
+    frame_.observability_known = true;
+    status = SolveQp(*frame_.targets, *frame_.cables, state);
+  }
+  if (status.ok()) linearised_error_ = Error(state);
+  return status;
+}
+
+Status MarkerFitter::Try(double length) {
+  const ModelState& state = *frame_.state;
+  trial_.x_m = state.x_m;
+  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.x_m);
+  trial_.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
+  trial_.lambda_f_N = state.lambda_f_N + length * (new_lambda_f_ - state.lambda_f_N);
+  UpdateExternalForce(trial_.lambda_f_N);
+  Status status =
+      model_.linearisation().UpdateResidual(trial_.x_m, trial_.lambda_a_N, external_force_N_);
+  if (!status.ok()) return status;
+  compliance_.ComputeChord(trial_.x_m, model_.cable_rest_length_m(), trial_.lambda_a_N,
+                           trial_.lambda_f_N);
+  status = SolveQp(*frame_.targets, *frame_.cables, trial_);
+  if (status.ok()) trial_error_ = std::max(Error(trial_), kTangentErrorWeight * linearised_error_);
+  return status;
+}
+
+void MarkerFitter::AcceptTrial() {
+  frame_.state->x_m.swap(trial_.x_m);
+  frame_.state->lambda_a_N.swap(trial_.lambda_a_N);
+  frame_.state->lambda_f_N.swap(trial_.lambda_f_N);
+}
+
+/// The forces are changed as far as the residual of the markers falls, the model following in
+/// equilibrium.
+Status MarkerFitter::Restore() {
+  const ModelState& state = *frame_.state;
+  Status status = Linearise(state, /*allow_shift=*/true);
+  if (!status.ok()) return status;
+  ++fit_.iterations;
+  elimination_.Start(*frame_.cables, state.lambda_a_N);
+  status = SolveQp(*frame_.targets, *frame_.cables, state);
+  if (!status.ok()) return status;
+  constexpr int kHalvings = 8;
+  double fraction = 1.0;
+  for (int k = 0; k < kHalvings; ++k, fraction *= 0.5) {
+    status = StepToEquilibrium(fraction);
+    if (status.ok() || status.code() == StatusCode::kBudgetReached) return status;
+  }
+  return {StatusCode::kNotConverged, {}};
+}
+
+Status MarkerFitter::StepToEquilibrium(double fraction) {
+  ModelState& state = *frame_.state;
+  ModelState moved = state;
+  moved.lambda_f_N += fraction * (new_lambda_f_ - state.lambda_f_N);
+  fem::LoadState loads = model_.Loads(*frame_.cables, {});
+  fem::StaticState body{state.x_m, state.lambda_a_N, loads};
   UpdateExternalForce(state.lambda_f_N);
-  Status status = model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_,
-                                                /*allow_shift=*/true);
+  body.loads.external_force_N = external_force_N_;
+  UpdateExternalForce(moved.lambda_f_N);
+  loads.external_force_N = external_force_N_;
+  Status status = equilibrium_.Solve(loads, &body, *frame_.budget).status;
+  if (!status.ok()) return status;
+  moved.x_m = body.x_m;
+  moved.lambda_a_N = body.multipliers_N;
+  moved.balanced = true;
+  // The residual before counts only where the state before was an equilibrium.
+  const double before = ChiSquared(*frame_.targets, state, &fit_.residual_m);
+  const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
+  if (state.balanced && after > before * (1.0 + 1e-9)) return {StatusCode::kNotConverged, {}};
+  state = std::move(moved);
+  return Status::Ok();
+}
+
+Status MarkerFitter::Linearise(const ModelState& state, bool allow_shift) {
+  UpdateExternalForce(state.lambda_f_N);
+  Status status =
+      model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_, allow_shift);
   if (!status.ok()) return status;
   compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N, state.lambda_f_N);
   return status;
+}
+
+void MarkerFitter::UpdateWeight() {
+  weight_N_.setZero();
+  model_.AddWeight(weight_N_);
 }
 
 void MarkerFitter::UpdateExternalForce(const Eigen::VectorXd& lambda_f_N) {
@@ -150,11 +237,12 @@ fem::QpMatrix MarkerFitter::Information(const MarkerTargets& targets) const {
 Status MarkerFitter::SolveQp(const MarkerTargets& targets,
                              const std::vector<robot::CableCommand>& cables,
                              const ModelState& state) {
-  const Eigen::Index q = basis_.cols();
+  const fem::QpMatrix& basis = directions_.basis();
+  const Eigen::Index q = basis.cols();
   fem::BoundedQp qp;
   qp.lower = fem::QpVector::Constant(q, -std::numeric_limits<double>::infinity());
   qp.upper = -qp.lower;
-  qp_start_ = basis_.transpose() * state.lambda_f_N;
+  qp_start_ = basis.transpose() * state.lambda_f_N;
   for (int round = 0; round < kMaxSetChanges; ++round) {
     if (Status status = elimination_.Eliminate(compliance_, cables); !status.ok()) return status;
     const Eigen::MatrixXd& G = elimination_.G();
@@ -164,102 +252,43 @@ Status MarkerFitter::SolveQp(const MarkerTargets& targets,
               (elimination_.e0_m() - targets.position_m).array())
                  .sum();
     }
-    qp.H = basis_.transpose() * Information(targets) * basis_;
-    qp.c = basis_.transpose() * c;
+    qp.H = basis.transpose() * Information(targets) * basis;
+    qp.c = basis.transpose() * c;
     const fem::BoundedQpResult solution = fem::SolveBoundedQp(qp, qp_start_);
     if (!solution.status.ok()) return solution.status;
-    new_lambda_f_ = basis_ * solution.x;
+    new_lambda_f_ = basis * solution.x;
     if (elimination_.Settle(compliance_, cables, new_lambda_f_)) break;
   }
   elimination_.CableForces(new_lambda_f_, &new_lambda_a_);
   return Status::Ok();
 }
 
-/// Every direction, or the given one, of every site.
-void MarkerFitter::AskForEverything() {
-  for (size_t s = 0; s < sites_.size(); ++s) {
-    const bool free = sites_[s].direction.isZero();
-    fit_.observability[s] = Observability::kFull;
-    fit_.unknowns[s] = free ? 3 : 1;
-    directions_[s].setIdentity();
-    if (!free) directions_[s].col(0) = sites_[s].direction;
-  }
-  BuildBasis();
-}
-
-void MarkerFitter::BuildBasis() {
-  Eigen::Index columns = 0;
-  for (const int unknowns : fit_.unknowns) columns += unknowns;
-  basis_ = fem::QpMatrix::Zero(static_cast<Eigen::Index>(3 * sites_.size()), columns);
-  Eigen::Index column = 0;
-  for (size_t s = 0; s < sites_.size(); ++s) {
-    const Eigen::Index unknowns = fit_.unknowns[s];
-    basis_.block(static_cast<Eigen::Index>(3 * s), column, 3, unknowns) =
-        directions_[s].leftCols(unknowns);
-    column += unknowns;
-  }
-}
-
-/// Leaves out the directions in which a force is uncertain by more than the limit, taking the
-/// other contacts' uncertainty into account.
-void MarkerFitter::KeepObservable(const MarkerTargets& targets) {
-  const double limit = config_.unobservable_sigma_N * config_.unobservable_sigma_N;
-  const fem::QpMatrix information = basis_.transpose() * Information(targets) * basis_;
-  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
-  // What the markers do not see at all gets a variance that is large, yet a number.
-  const fem::QpVector variances = eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
-  const fem::QpMatrix covariance = basis_ * eigen.eigenvectors() * variances.asDiagonal() *
-                                   eigen.eigenvectors().transpose() * basis_.transpose();
-  for (size_t s = 0; s < sites_.size(); ++s) {
-    const auto row = static_cast<Eigen::Index>(3 * s);
-    const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);
-    if (!sites_[s].direction.isZero()) {
-      if (own_covariance.trace() <= limit) continue;
-      fit_.observability[s] = Observability::kNone;
-      fit_.unknowns[s] = 0;
-      continue;
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(own_covariance);
-    if (own.eigenvalues()[2] <= limit) continue;
-    const Eigen::Vector3d normal = sites_[s].patch.normal;
-    const bool normal_known = normal.dot(own_covariance * normal) <= limit;
-    fit_.observability[s] = normal_known ? Observability::kNormal : Observability::kNone;
-    if (normal_known) {
-      KeepNormal(s, own_covariance);
-      continue;
-    }
-    directions_[s] = own.eigenvectors();
-    fit_.unknowns[s] = 0;
-    while (fit_.unknowns[s] < 3 && own.eigenvalues()[fit_.unknowns[s]] <= limit) {
-      ++fit_.unknowns[s];
-    }
-  }
-  BuildBasis();
-}
-
-/// The normal itself and, where it is certain enough, the better known tangent: the force along the
-/// other counts as zero, which leaves a force along the normal what it is.
-void MarkerFitter::KeepNormal(size_t site, const Eigen::Matrix3d& covariance_N2) {
-  const Eigen::Vector3d normal = sites_[site].patch.normal;
-  Eigen::Matrix<double, 3, 2> tangents;
-  tangents.col(0) = normal.unitOrthogonal();
-  tangents.col(1) = normal.cross(tangents.col(0));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(tangents.transpose() * covariance_N2 *
-                                                             tangents);
-  directions_[site] << normal, tangents * eigen.eigenvectors();
-  const double limit = config_.unobservable_sigma_N * config_.unobservable_sigma_N;
-  fit_.unknowns[site] = eigen.eigenvalues()[0] <= limit ? 2 : 1;
-}
-
-double MarkerFitter::ForceScale(const ModelState& state) const {
-  return std::max({model_.linearisation().internal_force_norm_N(), weight_N_.norm(),
-                   state.lambda_f_N.norm(), 1e-9});
-}
-
-bool MarkerFitter::Balanced(const ModelState& state) const {
+/// At the state that the linearisation and the QP were updated at last.
+double MarkerFitter::Error(const ModelState& state) const {
   const fem::Linearisation& linearisation = model_.linearisation();
-  return !linearisation.shifted() &&
-         linearisation.residual_N().norm() <= kBalanceTolerance * ForceScale(state);
+  const double residual_N = linearisation.residual_N().norm();
+  double error = std::max(CableError(state), LargestChange(state));
+  if (residual_N > fem::RoundingForce_N(linearisation, state.x_m)) {
+    const double scale_N = std::max(
+        {linearisation.internal_force_norm_N(), weight_N_.norm(), state.lambda_f_N.norm(), 1e-9});
+    error = std::max(error, residual_N / scale_N);
+  }
+  return error;
+}
+
+/// Length by which a taut cable misses its displacement, or a slack one is too long, over its rest
+/// length.
+double MarkerFitter::CableError(const ModelState& state) const {
+  double error = 0.0;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const robot::CableCommand& command = (*frame_.cables)[static_cast<size_t>(c)];
+    if (command.kind != Kind::kDisplacement) continue;
+    const double missing_m = command.value - model_.cable(c).Displacement_m(state.x_m);
+    const bool taut = state.lambda_a_N[c] > 0.0;
+    error =
+        std::max(error, (taut ? std::abs(missing_m) : missing_m) / model_.cable(c).rest_length_m());
+  }
+  return error;
 }
 
 /// Largest change of a force that the QP asks for, relative where forces are above 1 N.
@@ -269,60 +298,6 @@ double MarkerFitter::LargestChange(const ModelState& state) const {
     change = std::max(change, (new_lambda_a_ - state.lambda_a_N).cwiseAbs().maxCoeff());
   }
   return change / std::max(1.0, new_lambda_f_.cwiseAbs().maxCoeff());
-}
-
-/// The linear step where it is short enough; else the forces are changed as far as the residual of
-/// the markers falls, the model following in equilibrium.
-bool MarkerFitter::Step(const MarkerTargets& targets,
-                        const std::vector<robot::CableCommand>& cables, ModelState* state) {
-  if (StepByLinearResponse(state)) return true;
-  constexpr int kHalvings = 8;
-  double fraction = 1.0;
-  for (int k = 0; k < kHalvings; ++k, fraction *= 0.5) {
-    if (StepToEquilibrium(targets, cables, fraction, state)) return true;
-  }
-  return false;
-}
-
-bool MarkerFitter::StepByLinearResponse(ModelState* state) {
-  if (model_.linearisation().shifted()) return false;
-  trial_x_ = state->x_m;
-  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, 1.0, &trial_x_);
-  UpdateExternalForce(new_lambda_f_);
-  const Status status =
-      model_.linearisation().UpdateResidual(trial_x_, new_lambda_a_, external_force_N_);
-  if (!status.ok() ||
-      model_.linearisation().residual_N().norm() > kLinearStepTolerance * ForceScale(*state)) {
-    return false;
-  }
-  state->x_m = trial_x_;
-  state->lambda_f_N = new_lambda_f_;
-  state->lambda_a_N = new_lambda_a_;
-  state->balanced = false;
-  return true;
-}
-
-bool MarkerFitter::StepToEquilibrium(const MarkerTargets& targets,
-                                     const std::vector<robot::CableCommand>& cables,
-                                     double fraction, ModelState* state) {
-  ModelState trial = *state;
-  trial.lambda_f_N += fraction * (new_lambda_f_ - state->lambda_f_N);
-  fem::LoadState loads = model_.Loads(cables, {});
-  fem::StaticState body{state->x_m, state->lambda_a_N, loads};
-  UpdateExternalForce(state->lambda_f_N);
-  body.loads.external_force_N = external_force_N_;
-  UpdateExternalForce(trial.lambda_f_N);
-  loads.external_force_N = external_force_N_;
-  if (!equilibrium_.Solve(loads, &body).status.ok()) return false;
-  trial.x_m = body.x_m;
-  trial.lambda_a_N = body.multipliers_N;
-  // The residual before counts only where the state before was an equilibrium.
-  const double before = ChiSquared(targets, *state, &fit_.residual_m);
-  const double after = ChiSquared(targets, trial, &fit_.residual_m);
-  if (state->balanced && after > before * (1.0 + 1e-9)) return false;
-  *state = std::move(trial);
-  state->balanced = true;
-  return true;
 }
 
 double MarkerFitter::ChiSquared(const MarkerTargets& targets, const ModelState& state,
@@ -340,57 +315,6 @@ double MarkerFitter::ChiSquared(const MarkerTargets& targets, const ModelState& 
     }
   }
   return sum;
-}
-
-Status MarkerFitter::CheckTensions(const ModelState& state) const {
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const double tension_N = state.lambda_a_N[c];
-    if (tension_N < 0.0) return {StatusCode::kNotConverged, {}};
-    if (tension_N > model_.body().cables[static_cast<size_t>(c)].max_tension_N) {
-      return {StatusCode::kTensionLimit, {}};
-    }
-  }
-  return Status::Ok();
-}
-
-void MarkerFitter::Conclude(const MarkerTargets& targets, const ModelState& state) {
-  fit_.chi_squared = ChiSquared(targets, state, &fit_.residual_m);
-  fit_.status = CheckTensions(state);
-  if (!fit_.status.ok()) return;
-  const fem::QpMatrix reduced = basis_.transpose() * Information(targets) * basis_;
-  fit_.covariance_N2 = basis_ * PseudoInverse(reduced) * basis_.transpose();
-  ModulusSensitivity(targets, state);
-  fit_.status = Status::Ok();
-}
-
-/// With stiffer material the same shape needs larger forces: internal forces grow with ln E, and
-/// the fit answers by dlambda_f = -(G' S^-1 G)^-1 G' S^-1 de/dlnE.
-void MarkerFitter::ModulusSensitivity(const MarkerTargets& targets, const ModelState& state) {
-  nodal_.setZero();
-  model_.elastic_body().AddForces(state.x_m, nodal_);
-  nodal_ *= -1.0;
-  const fem::Linearisation& linearisation = model_.linearisation();
-  linearisation.matrix().Reduce(nodal_, modulus_column_.col(0));
-  model_.linearisation().Solve(modulus_column_);
-  nodal_.setZero();
-  linearisation.matrix().AddExpanded(modulus_column_.col(0), 1.0, nodal_);
-  const auto& markers = model_.body().markers;
-  for (size_t m = 0; m < markers.size(); ++m) {
-    effector_motion_.segment<3>(static_cast<Eigen::Index>(3 * m)) =
-        markers[m].point.weights.Position(nodal_);
-  }
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    trial_x_.setZero();
-    model_.cable(c).AddGradient(state.x_m, -1.0, trial_x_);
-    cable_motion_[c] = trial_x_.dot(nodal_);
-  }
-  elimination_.HoldTautCables(compliance_, cable_motion_, &effector_motion_);
-  const Eigen::MatrixXd& G = elimination_.G();
-  fem::QpVector pull(G.cols());
-  for (Eigen::Index j = 0; j < G.cols(); ++j) {
-    pull[j] = (G.col(j).array() * targets.weight.array() * effector_motion_.array()).sum();
-  }
-  fit_.modulus_sensitivity_N.noalias() = -fit_.covariance_N2 * pull;
 }
 
 }  // namespace palpate::force_estimation

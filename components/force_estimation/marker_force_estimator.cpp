@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "components/force_estimation/contact_search.hpp"
 #include "components/force_estimation/marker_fitter.hpp"
@@ -50,10 +51,12 @@ double SigmaOfSize(const ContactForce& contact) {
 
 class MarkerForceEstimator::Impl {
  public:
-  Impl(robot::RobotModel& model, const Config& config, double modulus_sigma)
+  Impl(robot::RobotModel& model, const Config& config, double modulus_sigma,
+       fem::SecondsClock clock)
       : model_(model),
         config_(config),
         modulus_sigma_(modulus_sigma),
+        clock_(std::move(clock)),
         sites_(ParseContactSites(config.contacts)),
         tare_(model),
         fitter_(model, config),
@@ -77,18 +80,21 @@ class MarkerForceEstimator::Impl {
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
     estimate_.x_m = free_state_.x_m;
     estimate_.cables.resize(static_cast<size_t>(model.CableCount()));
-    estimate_.contacts.reserve(static_cast<size_t>(config.max_contacts) + sites_.size());
+    withdrawn_.reserve(static_cast<size_t>(config.max_contacts) + sites_.size());
   }
 
   const ForceEstimate& Update(const MarkerFrame& frame) {
     estimate_.t_s = frame.t_s;
     estimate_.iterations = 0;
+    estimate_.frame_error = 0.0;
+    published_ = false;
     estimate_.status = Process(frame);
-    if (!estimate_.status.ok() && estimate_.status.code() != StatusCode::kNoContact) Withdraw();
+    if (!published_) Withdraw();
     return estimate_;
   }
 
   const std::vector<ContactSite>& sites() const { return sites_; }
+  const ModelState& last_good() const { return fitter_.last_good(); }
 
  private:
   fem::SurfacePatch PatchOf(const ContactSite& site) const;
@@ -98,17 +104,22 @@ class MarkerForceEstimator::Impl {
   Status SetTargets(const MarkerFrame& frame);
   Status SolveFreeState(const MarkerFrame& frame);
   Status FitGivenSites(const MarkerFrame& frame);
+  Status FitFromFreeState(const MarkerFrame& frame);
+  Status Fit(const MarkerFrame& frame, const fem::TimeBudget& budget);
+  Status StatusOfContacts() const;
   Status SearchSites(const MarkerFrame& frame);
   void Publish(const MarkerFit& fit, const std::vector<FitSite>& fit_sites,
                const std::vector<ContactSite>& sites, double location_ci95_m);
   void PublishFit(const MarkerFit& fit);
   void PublishState(const ModelState& state);
   void Withdraw();
+  void HideContacts();
   ContactForce MakeContact(const MarkerFit& fit, size_t index, double inflation) const;
 
   robot::RobotModel& model_;
   Config config_;
   double modulus_sigma_;
+  fem::SecondsClock clock_;
   std::vector<ContactSite> sites_;
   std::vector<FitSite> fit_sites_;
   std::vector<double> marker_weight_;
@@ -120,6 +131,8 @@ class MarkerForceEstimator::Impl {
   fem::StaticState free_state_;  ///< last equilibrium without contact
   ModelState state_;             ///< last fit
   ForceEstimate estimate_;
+  std::vector<ContactForce> withdrawn_;  ///< keeps its memory for the next frame
+  bool published_ = false;               ///< something of the present frame
 };
 
 fem::SurfacePatch MarkerForceEstimator::Impl::PatchOf(const ContactSite& site) const {
@@ -194,27 +207,51 @@ Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
 /// Goes on from the last frame's state; where that leads nowhere, once more from the equilibrium
 /// without contact.
 Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
-  const MarkerFit* fit = nullptr;
-  state_.balanced = false;
-  if (state_.valid) fit = &fitter_.Fit(targets_, frame.cables, &state_);
-  if (fit == nullptr || !fit->status.ok()) {
-    state_.valid = false;
-    if (Status status = SolveFreeState(frame); !status.ok()) return status;
-    state_.balanced = true;
-    state_.x_m = free_state_.x_m;
-    state_.lambda_a_N = free_state_.multipliers_N;
-    state_.lambda_f_N = Eigen::VectorXd::Zero(3 * fitter_.SiteCount());
-    fit = &fitter_.Fit(targets_, frame.cables, &state_);
+  const fem::TimeBudget budget(config_.frame_budget_s > 0.0
+                                   ? config_.frame_budget_s
+                                   : std::numeric_limits<double>::infinity(),
+                               clock_);
+  Status status;
+  if (state_.valid) {
+    state_.balanced = false;
+    status = Fit(frame, budget);
   }
-  PublishFit(*fit);
-  if (!fit->status.ok()) return fit->status;
-  state_.valid = true;
+  const bool diverged = !status.ok() && status.code() != StatusCode::kBudgetReached;
+  // Without a state to go on from there is no way to keep to the budget.
+  if (diverged && !(state_.valid && budget.Over())) status = FitFromFreeState(frame);
+  state_.valid = status.ok() || status.code() == StatusCode::kBudgetReached;
+  if (!status.ok()) return status;
   PublishState(state_);
-  Publish(*fit, fit_sites_, sites_, 0.0);
-  const bool touched =
-      std::any_of(estimate_.contacts.begin(), estimate_.contacts.end(),
-                  [](const ContactForce& c) { return c.status.code() != StatusCode::kNoContact; });
-  return touched ? Status::Ok() : Status(StatusCode::kNoContact, {});
+  Publish(fitter_.fit(), fit_sites_, sites_, 0.0);
+  return StatusOfContacts();
+}
+
+Status MarkerForceEstimator::Impl::FitFromFreeState(const MarkerFrame& frame) {
+  if (Status status = SolveFreeState(frame); !status.ok()) return status;
+  state_.balanced = true;
+  state_.x_m = free_state_.x_m;
+  state_.lambda_a_N = free_state_.multipliers_N;
+  state_.lambda_f_N = Eigen::VectorXd::Zero(3 * fitter_.SiteCount());
+  return Fit(frame, {});
+}
+
+Status MarkerForceEstimator::Impl::Fit(const MarkerFrame& frame, const fem::TimeBudget& budget) {
+  const MarkerFit& fit = fitter_.Fit(targets_, frame.cables, &state_, budget);
+  PublishFit(fit);
+  return fit.status;
+}
+
+/// A frame may be used where a force of it may, or where none acts.
+Status MarkerForceEstimator::Impl::StatusOfContacts() const {
+  bool none_acts = true;
+  for (const ContactForce& contact : estimate_.contacts) {
+    const StatusCode code = contact.status.code();
+    if (code == StatusCode::kOk || code == StatusCode::kTangentialUnobservable) {
+      return Status::Ok();
+    }
+    none_acts = none_acts && code == StatusCode::kNoContact;
+  }
+  return {none_acts ? StatusCode::kNoContact : StatusCode::kUnobservable, {}};
 }
 
 Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
@@ -224,7 +261,7 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
     PublishState(found.state);
     PublishFit(found.fit);
   }
-  estimate_.contacts.clear();
+  HideContacts();
   if (found.status.ok()) {
     Publish(found.fit, found.fit_sites, found.sites, found.location_ci95_m);
   }
@@ -233,6 +270,7 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
 
 void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
   estimate_.iterations = fit.iterations;
+  estimate_.frame_error = fit.error;
   estimate_.chi_squared = fit.chi_squared;
   estimate_.marker_residual_m = fit.residual_m;
   estimate_.residual_rms_m = fit.residual_m.norm() / std::sqrt(std::max(1, targets_.rows));
@@ -241,6 +279,7 @@ void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
 }
 
 void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
+  published_ = true;
   estimate_.x_m = state.x_m;
   for (int c = 0; c < model_.CableCount(); ++c) {
     const double length = model_.cable(c).Value(state.x_m);
@@ -254,12 +293,17 @@ void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
 /// Nothing of an earlier frame stands for this one.
 void MarkerForceEstimator::Impl::Withdraw() {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  estimate_.contacts.clear();
+  HideContacts();
   estimate_.residual_rms_m = estimate_.chi_squared = kUnknown;
   estimate_.degrees_of_freedom = 0;
   estimate_.marker_residual_m.setConstant(kUnknown);
   estimate_.x_m.setConstant(kUnknown);
   for (robot::CableState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
+}
+
+void MarkerForceEstimator::Impl::HideContacts() {
+  if (!estimate_.contacts.empty()) withdrawn_.swap(estimate_.contacts);
+  estimate_.contacts.clear();
 }
 
 /// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
@@ -272,6 +316,7 @@ void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
   const double inflation = estimate_.degrees_of_freedom > 0
                                ? std::max(1.0, fit.chi_squared / estimate_.degrees_of_freedom)
                                : 1.0;
+  if (estimate_.contacts.empty()) estimate_.contacts.swap(withdrawn_);
   estimate_.contacts.resize(sites.size());
   for (size_t s = 0; s < sites.size(); ++s) {
     ContactForce& contact = estimate_.contacts[s];
@@ -312,8 +357,10 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_
 }
 
 MarkerForceEstimator::MarkerForceEstimator(robot::RobotModel& model, const Config& config,
-                                           double youngs_modulus_relative_sigma)
-    : impl_(std::make_unique<Impl>(model, config, youngs_modulus_relative_sigma)) {}
+                                           double youngs_modulus_relative_sigma,
+                                           fem::SecondsClock clock)
+    : impl_(
+          std::make_unique<Impl>(model, config, youngs_modulus_relative_sigma, std::move(clock))) {}
 
 MarkerForceEstimator::~MarkerForceEstimator() = default;
 
@@ -322,5 +369,7 @@ const ForceEstimate& MarkerForceEstimator::Update(const MarkerFrame& frame) {
 }
 
 const std::vector<ContactSite>& MarkerForceEstimator::sites() const { return impl_->sites(); }
+
+const ModelState& MarkerForceEstimator::last_good() const { return impl_->last_good(); }
 
 }  // namespace palpate::force_estimation

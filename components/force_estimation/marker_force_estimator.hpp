@@ -10,8 +10,10 @@
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/contact_site.hpp"
+#include "components/force_estimation/marker_fitter.hpp"
 #include "components/force_estimation/marker_frame.hpp"
 #include "libs/core/status.hpp"
+#include "libs/fem/time_budget.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -27,12 +29,15 @@ struct ContactForce {
 };
 
 /// The forces of one frame. Only where status is kOk may `contacts` be used; kNoContact says that
-/// the deformation is explained without any.
+/// the deformation is explained without any; kUnobservable, with contacts, that the markers tell
+/// none of the forces. kBudgetReached: not converged within frame_budget_s or max_iterations; the
+/// next frame goes on from there.
 struct ForceEstimate {
   Status status;
   double t_s = 0.0;
   std::vector<ContactForce> contacts;
-  int iterations = 0;
+  int iterations = 0;           ///< linearisations
+  double frame_error = 0.0;     ///< relative, compared with Config::frame_tolerance
   double residual_rms_m = 0.0;  ///< of the markers, after the fit
   double noise_rms_m = 0.0;     ///< expected of it
   double chi_squared = 0.0;     ///< weighted residual
@@ -50,18 +55,20 @@ class MarkerForceEstimator {
  public:
   /// `model` must outlive the estimator. `youngs_modulus_relative_sigma` of the calibration enters
   /// the intervals. Throws InputError where a robot without markers is given, or a site lies far
-  /// from the body.
+  /// from the body. `clock`: by which frame_budget_s is counted.
   MarkerForceEstimator(robot::RobotModel& model, const Config& config,
-                       double youngs_modulus_relative_sigma = 0.0);
+                       double youngs_modulus_relative_sigma = 0.0,
+                       fem::SecondsClock clock = fem::SteadySeconds);
   ~MarkerForceEstimator();
 
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
-  /// after the first frame, as long as the forces change little enough from one to the next for the
-  /// linear response (marker_fitter.hpp).
+  /// after the first frame, as long as none needs a restoration (marker_fitter.hpp).
   const ForceEstimate& Update(const MarkerFrame& frame);
 
   /// The given contact sites; empty where contacts are searched.
   const std::vector<ContactSite>& sites() const;
+  /// The last converged state of given contacts, kept apart from frames that failed.
+  const ModelState& last_good() const;
 
  private:
   class Impl;

@@ -115,7 +115,7 @@ nlohmann::ordered_json ToJson(const robot::CalibrationFile& file) {
 }  // namespace
 
 int Calibrate(const CalibrateOptions& options) {
-  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot);
+  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot, options.solver);
   const calibration::MaterialCalibrationSettings settings{
       .materials = MaterialsOf(options.parts, model->body())};
   const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
@@ -158,6 +158,7 @@ app::Verb CalibrateVerb() {
                            "use this recording (repeatable); else all but those of kind 'free'");
         arguments.Repeated("--part", &options->parts,
                            "fit the modulus of 'body' or of a region (repeatable); else the body");
+        DeclareSolverOptions(arguments, &options->solver);
         arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
                          "what is imposed on a cable where both were measured");
         arguments.Option(

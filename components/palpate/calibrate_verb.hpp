@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libs/app/verbs.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 
 namespace palpate::command {
 
@@ -18,6 +19,7 @@ struct CalibrateOptions {
   std::vector<std::string> recordings;  ///< names; empty: all with a static phase and known loads
   std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body
   std::string cable_input = "displacement";
+  fem::SolverSettings solver;
   double marker_bias_m = 0.0;  ///< constant error of each marker, one sigma
   std::filesystem::path out;
   bool json = false;

@@ -76,10 +76,10 @@ std::vector<const Recording*> RecordingsToEstimate(const Experiment& experiment,
 // One estimator for each recording: what it learns from one does not hold for the next.
 class RecordingEstimator {
  public:
-  RecordingEstimator(const EstimateOptions& options, const Experiment& experiment,
-                     robot::RobotModel* model, double modulus_error)
-      : config_(ReadConfig(options)),
-        cable_input_(ParseCableInput(options.cable_input)),
+  RecordingEstimator(force_estimation::Config config, const std::string& cable_input,
+                     const Experiment& experiment, robot::RobotModel* model, double modulus_error)
+      : config_(std::move(config)),
+        cable_input_(ParseCableInput(cable_input)),
         experiment_(experiment),
         model_(*model),
         gravity_m_s2_(model->gravity_m_s2()),
@@ -117,11 +117,12 @@ class RecordingEstimator {
 }  // namespace
 
 int Estimate(const EstimateOptions& options) {
-  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot);
+  const force_estimation::Config config = ReadConfig(options);
+  const auto model = LoadRobot(options.robot, {config.solver, config.threads});
   const double modulus_error = ApplyCalibration(options.calibration, model.get());
   const Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const auto recordings = RecordingsToEstimate(experiment, options.recordings);
-  RecordingEstimator estimator(options, experiment, model.get(), modulus_error);
+  RecordingEstimator estimator(config, options.cable_input, experiment, model.get(), modulus_error);
   ForcesTable table;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   int with_result = 0;

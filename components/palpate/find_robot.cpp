@@ -71,9 +71,18 @@ std::filesystem::path FindRobotFile(const std::filesystem::path& robot) {
   return named;
 }
 
-std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot) {
+std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
+                                             const fem::SolverSettings& solver) {
   const auto description = robot::ReadRobotFile(FindRobotFile(robot), app::LoadYaml);
-  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description));
+  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description),
+                                             fem::StaticSettings{}, solver);
+}
+
+void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver) {
+  constexpr int kMostThreads = 64;
+  arguments.Choice("--solver", &solver->solver, fem::SolverNames(), "sparse Cholesky of the model");
+  arguments.Option("--threads", &solver->threads, 1, kMostThreads,
+                   "threads that assemble, factorise and solve; results do not depend on it");
 }
 
 robot::CableInput ParseCableInput(const std::string& word) {

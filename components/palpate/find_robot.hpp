@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "libs/app/arguments.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
@@ -24,7 +25,11 @@ std::filesystem::path FindProjectFile(const std::filesystem::path& relative);
 std::filesystem::path FindRobotFile(const std::filesystem::path& robot);
 
 /// Reads the robot file and its mesh and makes the model ready to solve. Throws InputError.
-std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot);
+std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
+                                             const fem::SolverSettings& solver = {});
+
+/// The options --solver and --threads.
+void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver);
 
 /// "displacement" or "tension", as the options offer them.
 robot::CableInput ParseCableInput(const std::string& word);

@@ -62,7 +62,7 @@ void PrintRow(const RowResult& result, const std::vector<std::string>& cable_nam
 }  // namespace
 
 int Solve(const SolveOptions& options) {
-  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot);
+  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot, options.solver);
   const LoadCases cases = ReadCases(options, *model);
   const std::vector<std::string> notes = AllNotes(cases, *model);
   SolveOutput output(options.out, *model, {.vtu = options.vtu, .png = options.png});
@@ -110,6 +110,7 @@ app::Verb SolveVerb() {
                              "until the next, a single one throughout");
             arguments.Option("--out", &options->out, "folder for the results",
                              app::Need::kRequired);
+            DeclareSolverOptions(arguments, &options->solver);
             arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
                              "what is imposed on a cable that has both columns");
             arguments.Flag("--vtu", &options->vtu, "write body_0000.vtu for ParaView as well");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "libs/app/verbs.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 
 namespace palpate::command {
 
@@ -16,8 +17,9 @@ struct SolveOptions {
   std::filesystem::path loads;      ///< empty: no external load
   std::filesystem::path out;
   std::string cable_input = "displacement";  ///< or "tension": what drives a cable with both
-  bool vtu = false;                          ///< write body_0000.vtu
-  bool png = false;                          ///< write scene_0000.png
+  fem::SolverSettings solver;
+  bool vtu = false;   ///< write body_0000.vtu
+  bool png = false;   ///< write scene_0000.png
   bool json = false;  ///< result.json on the standard output instead of lines to read
 };
 

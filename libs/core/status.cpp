@@ -12,6 +12,7 @@ std::string_view ToString(StatusCode code) {
     case StatusCode::kNotRun: return "not_run";
     case StatusCode::kOk: return "ok";
     case StatusCode::kNotConverged: return "not_converged";
+    case StatusCode::kBudgetReached: return "budget_reached";
     case StatusCode::kNotPositiveDefinite: return "not_positive_definite";
     case StatusCode::kInverted: return "inverted";
     case StatusCode::kTensionLimit: return "tension_limit";

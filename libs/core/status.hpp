@@ -14,6 +14,7 @@ enum class StatusCode {
   kNotRun,                  ///< nothing was computed yet: what every result starts as
   kOk,                      ///< may be used
   kNotConverged,            ///< iterations or load steps used up
+  kBudgetReached,           ///< a frame's time or steps were used up before it converged
   kNotPositiveDefinite,     ///< the stiffness matrix has no Cholesky factor here
   kInverted,                ///< an element turned inside out
   kTensionLimit,            ///< a cable's displacement needs more than its max_tension_N

@@ -22,17 +22,16 @@ const ConstraintCommand& Command(const LoadState& loads, Eigen::Index c) {
   return loads.commands[static_cast<size_t>(c)];
 }
 
+/// Smaller load steps would not help.
+bool IsFinal(const Status& status) {
+  return status.code() == StatusCode::kTensionLimit || status.code() == StatusCode::kBudgetReached;
+}
+
 }  // namespace
 
 StaticSolver::StaticSolver(Linearisation& linearisation, const StaticSettings& settings)
-    : linearisation_(linearisation), settings_(settings) {
-  const auto constraints = static_cast<Eigen::Index>(linearisation.constraints().size());
-  PALPATE_CHECK(constraints <= kMaxQpVariables, constraints);
-  columns_.resize(linearisation.Size(), 1 + constraints);
-  gradients_.resize(linearisation.Size(), constraints);
-  gradient_.resize(3 * linearisation.body().NodeCount());
-  step_.resize(linearisation.Size());
-  new_multipliers_ = penalties_ = trial_multipliers_ = Eigen::VectorXd::Zero(constraints);
+    : linearisation_(linearisation), settings_(settings), step_(linearisation) {
+  penalties_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(linearisation.constraints().size()));
 }
 
 StaticState StaticSolver::RestState() const {
@@ -46,8 +45,10 @@ StaticState StaticSolver::RestState() const {
   return state;
 }
 
-StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
+StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state,
+                                 const TimeBudget& budget) {
   StaticResult result;
+  budget_ = &budget;
   PALPATE_CHECK(Count(target) == state->multipliers_N.size(), Count(target));
   StaticState start = *state;
   StaticState attempt = start;
@@ -73,7 +74,7 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state) {
       remaining_fraction = std::min(1.0, 2.0 * remaining_fraction / (1.0 - remaining_fraction));
       continue;
     }
-    if (last.code() == StatusCode::kTensionLimit) break;
+    if (IsFinal(last)) break;
     remaining_fraction *= 0.5;
     if (remaining_fraction * (1.0 - result.load_fraction) < settings_.smallest_load_step) break;
   }
@@ -116,7 +117,7 @@ Status StaticSolver::SolveLoadStep(const LoadState& loads, const StaticState& st
                                    StaticState* state, StaticResult* result) {
   *state = start;
   Status status = Iterate(loads, Steps::kFull, state, result);
-  if (status.ok() || status.code() == StatusCode::kTensionLimit) return status;
+  if (status.ok() || IsFinal(status)) return status;
   *state = start;
   return Iterate(loads, Steps::kLineSearch, state, result);
 }
@@ -124,25 +125,27 @@ Status StaticSolver::SolveLoadStep(const LoadState& loads, const StaticState& st
 Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* state,
                              StaticResult* result) {
   ApplyFixedPositions(loads, &state->x_m);
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
-    if (command.mode == Mode::kMultiplier) state->multipliers_N[c] = command.value;
-    if (command.mode == Mode::kOff) state->multipliers_N[c] = 0.0;
-  }
+  EquilibriumStep::ImposeMultipliers(loads, &state->multipliers_N);
   const int most =
       steps == Steps::kFull ? settings_.max_full_steps : settings_.max_newton_iterations;
   for (int iteration = 0; iteration <= most; ++iteration) {
-    if (Status status = ComputeStep(loads, *state); !status.ok()) return status;
+    if (Status status = step_.Compute(loads, state->x_m, state->multipliers_N, true);
+        !status.ok()) {
+      return status;
+    }
     result->residual_N = linearisation_.residual_N().norm();
-    result->residual_relative = result->residual_N / ForceScale(loads, *state);
+    result->residual_relative =
+        result->residual_N / ForceScale_N(linearisation_, loads, state->multipliers_N);
     result->constraint_error_m = ConstraintError(loads, *state);
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
-                          result->residual_N <= RoundingFloor(state->x_m);
+                          result->residual_N <= RoundingForce_N(linearisation_, state->x_m);
     if (balanced && result->constraint_error_m <= settings_.constraint_tolerance_m) {
       if (linearisation_.shifted()) return {StatusCode::kNotConverged, "the balance is unstable"};
-      return CheckTensionLimits(loads, *state);
+      return CheckLargestMultipliers(linearisation_, loads, state->x_m, state->multipliers_N,
+                                     settings_.constraint_tolerance_m);
     }
     if (iteration == most) break;
+    if (budget_->Over()) return {StatusCode::kBudgetReached, "time used up"};
     ++result->iterations;
     const bool moved = steps == Steps::kFull ? TakeFullStep(state)
                                              : TakeStep(loads, result->residual_relative, state);
@@ -157,73 +160,22 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
 bool StaticSolver::TakeFullStep(StaticState* state) {
   constexpr double kShortestStep = 0.1;
   for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
-    trial_x_ = state->x_m;
-    linearisation_.matrix().AddExpanded(step_, length, trial_x_);
+    step_.Apply(length, state->x_m, state->multipliers_N, &trial_.x_m, &trial_.multipliers_N);
     double min_J = 0.0;
-    const double energy = linearisation_.body().Energy(trial_x_, &min_J);
+    const double energy = linearisation_.body().Energy(trial_.x_m, &min_J);
     if (!(min_J > 0.0) || !std::isfinite(energy)) continue;
-    state->x_m = trial_x_;
-    state->multipliers_N += length * (new_multipliers_ - state->multipliers_N);
+    state->x_m = trial_.x_m;
+    state->multipliers_N = trial_.multipliers_N;
     return true;
   }
   return false;
-}
-
-/// step_ and new_multipliers_ at the present state: dx = K^-1 r + K^-1 H_a' dlambda (eq. 6), the
-/// multipliers from delta_a = W_aa lambda + delta_a^free (eq. 4) under their bounds.
-Status StaticSolver::ComputeStep(const LoadState& loads, const StaticState& state) {
-  if (Status status = linearisation_.Update(state.x_m, state.multipliers_N, loads.external_force_N,
-                                            /*allow_shift=*/true);
-      !status.ok()) {
-    return status;
-  }
-  const Eigen::Index constraints = Count(loads);
-  columns_.col(0) = linearisation_.residual_N();
-  Eigen::Index bounded = 0;
-  for (Eigen::Index c = 0; c < constraints; ++c) {
-    if (Command(loads, c).mode != Mode::kUpperBound) continue;
-    gradient_.setZero();
-    linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(state.x_m, -1.0, gradient_);
-    linearisation_.matrix().Reduce(gradient_, gradients_.col(bounded));
-    columns_.col(1 + bounded) = gradients_.col(bounded);
-    ++bounded;
-  }
-  linearisation_.Solve(columns_.leftCols(1 + bounded));
-  step_ = columns_.col(0);
-  new_multipliers_ = state.multipliers_N;
-  if (bounded == 0) return Status::Ok();
-
-  BoundedQp qp;
-  qp.H = gradients_.leftCols(bounded).transpose() * columns_.middleCols(1, bounded);
-  qp.c = gradients_.leftCols(bounded).transpose() * columns_.col(0);
-  qp.lower = QpVector::Zero(bounded);
-  qp.upper.resize(bounded);
-  QpVector present(bounded);
-  Eigen::Index k = 0;
-  for (Eigen::Index c = 0; c < constraints; ++c) {
-    const ConstraintCommand& command = Command(loads, c);
-    if (command.mode != Mode::kUpperBound) continue;
-    const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m);
-    qp.c[k] += command.value - value;
-    qp.upper[k] = command.max_multiplier_N;
-    present[k++] = state.multipliers_N[c];
-  }
-  qp.c -= qp.H * present;
-  const BoundedQpResult multipliers = SolveBoundedQp(qp, present);
-  if (!multipliers.status.ok()) return multipliers.status;
-  step_ += columns_.middleCols(1, bounded) * (multipliers.x - present);
-  k = 0;
-  for (Eigen::Index c = 0; c < constraints; ++c) {
-    if (Command(loads, c).mode == Mode::kUpperBound) new_multipliers_[c] = multipliers.x[k++];
-  }
-  return Status::Ok();
 }
 
 /// Full Newton steps are taken as long as they bring the residual down; otherwise the step is
 /// halved until the potential energy, with exact penalties for the bounds, falls.
 bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, StaticState* state) {
   for (Eigen::Index c = 0; c < penalties_.size(); ++c) {
-    const double needed = 2.0 * std::max(new_multipliers_[c], state->multipliers_N[c]);
+    const double needed = 2.0 * std::max(step_.multipliers_N()[c], state->multipliers_N[c]);
     penalties_[c] = std::max(needed, 1e-3);
   }
   const double slope = MeritSlope(loads, *state);
@@ -232,55 +184,33 @@ bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, Stat
   const double error_before = ConstraintError(loads, *state);
   constexpr double kShortestStep = 1e-6;
   for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
-    trial_x_ = state->x_m;
-    linearisation_.matrix().AddExpanded(step_, length, trial_x_);
-    const double trial_merit = Merit(loads, trial_x_, &min_J);
+    step_.Apply(length, state->x_m, state->multipliers_N, &trial_.x_m, &trial_.multipliers_N);
+    const double trial_merit = Merit(loads, trial_.x_m, &min_J);
     if (!(min_J > 0.0) || !std::isfinite(trial_merit)) continue;
-    bool accepted = trial_merit <= merit + 1e-4 * length * slope;
-    trial_multipliers_ = state->multipliers_N + length * (new_multipliers_ - state->multipliers_N);
-    if (!accepted && length == 1.0) {
-      StaticState trial{trial_x_, trial_multipliers_, {}};
-      const Status status =
-          linearisation_.UpdateResidual(trial_x_, trial_multipliers_, loads.external_force_N);
-      const double residual = linearisation_.residual_N().norm() / ForceScale(loads, trial);
-      const double error = ConstraintError(loads, trial);
-      accepted = status.ok() && residual <= 0.5 * residual_before + 1e-12 &&
-                 error <= 0.5 * error_before + settings_.constraint_tolerance_m;
-    }
+    const bool accepted =
+        trial_merit <= merit + 1e-4 * length * slope ||
+        (length == 1.0 && HalvesTheResidual(loads, residual_before, error_before));
     if (accepted) {
-      state->x_m = trial_x_;
-      state->multipliers_N = trial_multipliers_;
+      state->x_m = trial_.x_m;
+      state->multipliers_N = trial_.multipliers_N;
       return true;
     }
   }
   return false;
 }
 
+bool StaticSolver::HalvesTheResidual(const LoadState& loads, double residual_before,
+                                     double error_before) {
+  const Status status =
+      linearisation_.UpdateResidual(trial_.x_m, trial_.multipliers_N, loads.external_force_N);
+  const double residual = linearisation_.residual_N().norm() /
+                          ForceScale_N(linearisation_, loads, trial_.multipliers_N);
+  return status.ok() && residual <= 0.5 * residual_before + 1e-12 &&
+         ConstraintError(loads, trial_) <= 0.5 * error_before + settings_.constraint_tolerance_m;
+}
+
 double StaticSolver::ConstraintError(const LoadState& loads, const StaticState& state) const {
-  double error = 0.0;
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
-    if (command.mode != Mode::kUpperBound) continue;
-    const double multiplier = state.multipliers_N[c];
-    const double excess =
-        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
-    if (multiplier >= command.max_multiplier_N) continue;  // the drive cannot pull harder
-    error = std::max(error, multiplier > 0.0 ? std::abs(excess) : excess);
-  }
-  return error;
-}
-
-double StaticSolver::ForceScale(const LoadState& loads, const StaticState& state) const {
-  return std::max({loads.external_force_N.norm(), linearisation_.internal_force_norm_N(),
-                   state.multipliers_N.size() > 0 ? state.multipliers_N.cwiseAbs().maxCoeff() : 0.0,
-                   1e-12});
-}
-
-/// Force that rounding of the positions alone makes: eps |x| times a typical stiffness.
-double StaticSolver::RoundingFloor(const Eigen::VectorXd& x_m) const {
-  const double stiffness = linearisation_.matrix().MeanDiagonal();
-  return 4.0 * std::numeric_limits<double>::epsilon() * x_m.cwiseAbs().maxCoeff() * stiffness *
-         std::sqrt(static_cast<double>(x_m.size()));
+  return ConstraintError_m(linearisation_, loads, state.x_m, state.multipliers_N);
 }
 
 double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
@@ -298,35 +228,20 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
   return merit;
 }
 
-/// Bound on the merit's directional derivative along step_: the linearised bounds hold after it.
+/// Bound on the merit's directional derivative along the step: the linearised bounds hold after
+/// it.
 double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state) const {
-  double slope = -linearisation_.residual_N().dot(step_);
-  Eigen::Index k = 0;
+  double slope = -linearisation_.residual_N().dot(step_.dx());
   for (Eigen::Index c = 0; c < Count(loads); ++c) {
     const ConstraintCommand& command = Command(loads, c);
     if (command.mode != Mode::kUpperBound) continue;
     // The residual holds lambda dg/dx already; the merit does not.
-    slope += state.multipliers_N[c] * gradients_.col(k++).dot(step_);
+    slope += state.multipliers_N[c] * step_.gradient(c).dot(step_.dx());
     const double excess =
         linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
     slope -= penalties_[c] * std::max(0.0, excess);
   }
   return std::min(slope, 0.0);
-}
-
-Status StaticSolver::CheckTensionLimits(const LoadState& loads, const StaticState& state) const {
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
-    if (command.mode != Mode::kUpperBound) continue;
-    const double excess =
-        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
-    if (state.multipliers_N[c] >= command.max_multiplier_N &&
-        excess > settings_.constraint_tolerance_m) {
-      return {StatusCode::kTensionLimit, "constraint " + std::to_string(c) + " needs more than " +
-                                             std::to_string(command.max_multiplier_N) + " N"};
-    }
-  }
-  return Status::Ok();
 }
 
 }  // namespace palpate::fem

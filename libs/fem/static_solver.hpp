@@ -4,41 +4,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
-#include <vector>
 
 #include "libs/core/status.hpp"
-#include "libs/fem/bounded_qp.hpp"
+#include "libs/fem/equilibrium_step.hpp"
 #include "libs/fem/linearisation.hpp"
+#include "libs/fem/load_state.hpp"
+#include "libs/fem/time_budget.hpp"
 
 namespace palpate::fem {
-
-/// What is asked of one constraint.
-struct ConstraintCommand {
-  enum class Mode {
-    kOff,         ///< multiplier 0
-    kMultiplier,  ///< multiplier given (cable tension, N)
-    kUpperBound,  ///< g(x) <= value, 0 <= multiplier <= max_multiplier_N, one of the two equal
-  };
-  Mode mode = Mode::kOff;
-  double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
-  double max_multiplier_N = std::numeric_limits<double>::infinity();
-};
-
-/// Everything that loads the body.
-struct LoadState {
-  Eigen::VectorXd external_force_N;  ///< [3n] dead nodal loads
-  std::vector<ConstraintCommand> commands;
-  /// [3n]; only entries of fixed directions are used.
-  Eigen::VectorXd fixed_position_m;
-};
-
-/// A configuration with the loads it was last brought into balance with.
-struct StaticState {
-  Eigen::VectorXd x_m;            ///< [3n]
-  Eigen::VectorXd multipliers_N;  ///< [constraints]
-  LoadState loads;
-};
 
 struct StaticSettings {
   /// ||r|| <= relative_tolerance * max(||f_ext||, ||F_int||, |lambda|), or rounding.
@@ -69,8 +42,7 @@ struct StaticResult {
 /// Newton's method for r(x, lambda) = 0 (linearisation.hpp): full steps first; where they fail, a
 /// line search on the potential energy; where that fails, load stepping. No step inverts an
 /// element, and only stable equilibria (K positive definite) count. Bounds on constraints are
-/// solved through their compliance W_aa = H_a K^-1 H_a' (paper, eqs. 4 and 5) as a bounded QP in
-/// the multipliers.
+/// solved in each step (equilibrium_step.hpp).
 class StaticSolver {
  public:
   explicit StaticSolver(Linearisation& linearisation, const StaticSettings& settings = {});
@@ -79,8 +51,8 @@ class StaticSolver {
   StaticState RestState() const;
 
   /// Brings `state` into balance with `target`, from where it is. On failure `state` stays what it
-  /// was at the last converged load step.
-  StaticResult Solve(const LoadState& target, StaticState* state);
+  /// was at the last converged load step. kBudgetReached where `budget` was used up before.
+  StaticResult Solve(const LoadState& target, StaticState* state, const TimeBudget& budget = {});
 
  private:
   enum class Steps { kFull, kLineSearch };
@@ -91,25 +63,18 @@ class StaticSolver {
   bool TakeFullStep(StaticState* state);
   LoadState Interpolate(const StaticState& start, const LoadState& target, double fraction) const;
   void ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const;
-  Status ComputeStep(const LoadState& loads, const StaticState& state);
   bool TakeStep(const LoadState& loads, double residual_before, StaticState* state);
+  bool HalvesTheResidual(const LoadState& loads, double residual_before, double error_before);
   double ConstraintError(const LoadState& loads, const StaticState& state) const;
-  double ForceScale(const LoadState& loads, const StaticState& state) const;
-  double RoundingFloor(const Eigen::VectorXd& x_m) const;
   double Merit(const LoadState& loads, const Eigen::VectorXd& x_m, double* min_J) const;
   double MeritSlope(const LoadState& loads, const StaticState& state) const;
-  Status CheckTensionLimits(const LoadState& loads, const StaticState& state) const;
 
   Linearisation& linearisation_;
   StaticSettings settings_;
-  Eigen::MatrixXd columns_;    ///< [Size x (1 + constraints)]: K^-1 r, -K^-1 dg/dx
-  Eigen::VectorXd gradient_;   ///< [3n]
-  Eigen::MatrixXd gradients_;  ///< [Size x constraints], -dg/dx
-  Eigen::VectorXd step_;       ///< [Size]
-  Eigen::VectorXd new_multipliers_;
+  EquilibriumStep step_;
+  const TimeBudget* budget_ = nullptr;  ///< of the present Solve
   Eigen::VectorXd penalties_;
-  Eigen::VectorXd trial_x_;
-  Eigen::VectorXd trial_multipliers_;
+  StaticState trial_;
 };
 
 }  // namespace palpate::fem

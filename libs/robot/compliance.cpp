@@ -47,12 +47,37 @@ void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cabl
   FillColumns(x_m);
   linearisation_.Solve(columns_);
   ObserveColumns();
+  ObserveResponse(x_m, cable_rest_length_m);
+}
+
+void Compliance::ComputeChord(const Eigen::VectorXd& x_m,
+                              const Eigen::VectorXd& cable_rest_length_m,
+                              const Eigen::VectorXd& lambda_a_N,
+                              const Eigen::VectorXd& lambda_f_N) {
+  lambda_a_ = lambda_a_N;
+  lambda_f_ = lambda_f_N;
+  columns_.col(0) = linearisation_.residual_N();
+  linearisation_.Solve(columns_.leftCols(1));
+  ObserveResponse(x_m, cable_rest_length_m);
+}
+
+/// The free values: where effectors and cables are, and what the residual does to them.
+void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
+                                 const Eigen::VectorXd& cable_rest_length_m) {
+  const fem::StiffnessMatrix& matrix = linearisation_.matrix();
   for (size_t e = 0; e < effectors_.size(); ++e) {
-    delta_e_free_.segment<3>(static_cast<Eigen::Index>(3 * e)) += effectors_[e].Position(x_m);
+    auto position = delta_e_free_.segment<3>(static_cast<Eigen::Index>(3 * e));
+    position = effectors_[e].Position(x_m);
+    for (size_t k = 0; k < effectors_[e].nodes.size(); ++k) {
+      const int free_node = matrix.FreeIndex(effectors_[e].nodes[k]);
+      if (free_node < 0) continue;
+      position += effectors_[e].weights[k] * columns_.col(0).segment<3>(3 * free_node);
+    }
   }
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
-    delta_a_free_[c] += cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m);
+    delta_a_free_[c] = cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m) +
+                       directions_.col(c).dot(columns_.col(0));
   }
   // The free values are those without cable and contact forces; the residual holds both.
   delta_e_free_.noalias() -= W_ea_ * lambda_a_;
@@ -78,12 +103,11 @@ void Compliance::FillColumns(const Eigen::VectorXd& x_m) {
   columns_.rightCols(directions_.cols()) = directions_;
 }
 
-/// Rows of H_e and H_a times the solved columns.
+/// Rows of H_e and H_a times the solved columns of cables and forces.
 void Compliance::ObserveColumns() {
   const Eigen::Index a = lambda_a_.size();
   const Eigen::Index f = lambda_f_.size();
   const fem::StiffnessMatrix& matrix = linearisation_.matrix();
-  delta_e_free_.setZero();
   W_ea_.setZero();
   W_ef_.setZero();
   for (size_t e = 0; e < effectors_.size(); ++e) {
@@ -93,7 +117,6 @@ void Compliance::ObserveColumns() {
       if (free_node < 0) continue;
       const double weight = effectors_[e].weights[k];
       const auto moved = columns_.middleRows<3>(3 * free_node);
-      delta_e_free_.segment<3>(row) += weight * moved.col(0);
       W_ea_.middleRows<3>(row) += weight * moved.middleCols(1, a);
       W_ef_.middleRows<3>(row) += weight * moved.middleCols(1 + a, f);
     }
@@ -101,7 +124,6 @@ void Compliance::ObserveColumns() {
   // Dot products, not a matrix product: Eigen's would take its blocking buffers from the heap.
   for (Eigen::Index i = 0; i < a; ++i) {
     const auto H_a = directions_.col(i);
-    delta_a_free_[i] = H_a.dot(columns_.col(0));
     for (Eigen::Index j = 0; j < a; ++j) W_aa_(i, j) = H_a.dot(columns_.col(1 + j));
     for (Eigen::Index j = 0; j < f; ++j) W_af_(i, j) = H_a.dot(columns_.col(1 + a + j));
   }

@@ -40,6 +40,10 @@ class Compliance {
   /// residual was computed with, N.
   void Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
                const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
+  /// The same at another state, with the W of the last Compute (a chord step): only the residual,
+  /// which `linearisation` must have updated there, is solved for, with the old factor.
+  void ComputeChord(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
+                    const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
 
   const Eigen::MatrixXd& W_ea() const { return W_ea_; }                    ///< [3e x a] m/N
   const Eigen::MatrixXd& W_ef() const { return W_ef_; }                    ///< [3e x f] m/N
@@ -61,6 +65,7 @@ class Compliance {
  private:
   void FillColumns(const Eigen::VectorXd& x_m);
   void ObserveColumns();
+  void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
 
   fem::Linearisation& linearisation_;
   std::vector<fem::NodeWeights> effectors_;

@@ -11,13 +11,13 @@
 
 namespace palpate::benchmarks {
 
-/// A robot that is touched on top while its first cable moves to and fro: its feature points are
-/// the markers that are seen, exact and without noise.
+/// A robot that is touched on top and at its side while its first cable moves to and fro by 1 mm a
+/// frame: its feature points are the markers that are seen, exact and without noise.
 class SensingScene {
  public:
   enum class Update {
-    kOneStep,    ///< one linearisation a frame, of 0.05 mm of cable
-    kConverged,  ///< to equilibrium, each frame after 1 mm of cable
+    kOneStep,    ///< one linearisation a frame, and a chord step where it helps
+    kConverged,  ///< to a relative error of 1e-8
   };
 
   /// Throws InputError for a robot that cannot be built, RunError where a frame has no equilibrium.
@@ -44,7 +44,7 @@ class SensingScene {
   void AddFrame(int step, fem::StaticState* equilibrium);
 
   robot::RobotModel model_;
-  force_estimation::FitSite site_;
+  std::vector<force_estimation::FitSite> sites_;
   force_estimation::MarkerFitter fitter_;
   Update update_;
   std::vector<Frame> frames_;  ///< the first half of the cycle; the way back is the same

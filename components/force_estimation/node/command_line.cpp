@@ -27,10 +27,11 @@ app::LogLevel LevelOf(dds::Severity severity) {
   return app::LogLevel::kError;
 }
 
-std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file) {
+std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
+                                             const fem::SolverSettings& solver) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(file, app::LoadYaml));
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
-  return std::make_unique<robot::RobotModel>(std::move(body));
+  return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
 /// Gives the model the calibrated moduli; returns their relative standard error.
@@ -69,7 +70,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 }
 
 std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
-  auto model = LoadRobot(command.robot);
+  auto model = LoadRobot(command.robot, {command.config.solver, command.config.threads});
   const double modulus_error = Calibrate(command.calibration, model.get());
   return std::make_unique<ForceEstimationNode>(
       command.config, std::move(model), modulus_error, command.options.domain_id,

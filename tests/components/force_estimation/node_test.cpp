@@ -26,6 +26,7 @@ constexpr double kCable_m = 0.002;
 
 NodeConfig TestConfig() {
   NodeConfig config;
+  config.frame_tolerance = Config().frame_tolerance;  // forces are compared with the truth
   config.contacts = {"tip: 0, 0.015, 0.03, 0.008"};
   config.cable_wait_s = 0.05;
   return config;

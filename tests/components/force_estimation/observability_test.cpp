@@ -27,7 +27,9 @@ TEST(Observability, ForceAtTheClampIsUnknownNotZero) {
   const MarkerFrame frame = TipForceFrame(*model);
   MarkerForceEstimator alone(*model, WithContacts({"clamp: -0.1, 0.015, 0.015"}));
   const ForceEstimate& estimate = alone.Update(frame);
+  EXPECT_EQ(estimate.status.code(), StatusCode::kUnobservable);
   ASSERT_EQ(estimate.contacts.size(), 1U);
+  EXPECT_EQ(estimate.contacts[0].name, "clamp");
   EXPECT_EQ(estimate.contacts[0].status.code(), StatusCode::kUnobservable);
   EXPECT_TRUE(estimate.contacts[0].force_N.array().isNaN().all());
   EXPECT_TRUE(std::isnan(estimate.contacts[0].ci95_N));
@@ -42,6 +44,15 @@ TEST(Observability, ForceAtTheClampDoesNotSpoilTheOthers) {
   EXPECT_TRUE(estimate.contacts[0].force_N.array().isNaN().all());
   EXPECT_TRUE(estimate.contacts[1].status.ok());
   EXPECT_LT((estimate.contacts[1].force_N - kForce_N).norm(), 1e-6);
+}
+
+TEST(Observability, NoContactBesideAnUnknownForceIsNotNoContact) {
+  const auto model = Build(BeamRobot());
+  MarkerForceEstimator estimator(*model, WithContacts({"clamp: -0.1, 0.015, 0.015", kTipSite}));
+  const ForceEstimate& estimate = estimator.Update(FrameUnder(*model, {}, {}));
+  EXPECT_EQ(estimate.status.code(), StatusCode::kUnobservable);
+  ASSERT_EQ(estimate.contacts.size(), 2U);
+  EXPECT_EQ(estimate.contacts[1].status.code(), StatusCode::kNoContact);
 }
 
 TEST(Observability, GivenDirectionAtTheClampIsUnknown) {
@@ -59,7 +70,9 @@ TEST(Observability, OneMarkerDoesNotTellTwoForces) {
   for (size_t m = 0; m + 1 < frame.markers.size(); ++m) frame.markers[m].valid = false;
   MarkerForceEstimator estimator(*model, WithContacts({kTipSite, "middle: -0.05, 0, 0.015"}));
   const ForceEstimate& estimate = estimator.Update(frame);
+  EXPECT_EQ(estimate.status.code(), StatusCode::kUnobservable);
   ASSERT_EQ(estimate.contacts.size(), 2U);
+  EXPECT_EQ(estimate.contacts[1].name, "middle");
   for (const ContactForce& contact : estimate.contacts) {
     EXPECT_EQ(contact.status.code(), StatusCode::kUnobservable) << contact.name;
     EXPECT_TRUE(contact.force_N.array().isNaN().all()) << contact.name;

@@ -10,14 +10,15 @@
 namespace palpate::force_estimation {
 namespace {
 
-/// four_leg, its cables pulled a little further in each frame, and a growing force on the hub.
-std::vector<MarkerFrame> SlowMotion(robot::RobotModel& model) {
+/// four_leg, its cables pulled up to 1 mm further in each frame, and a growing force on the hub.
+std::vector<MarkerFrame> Motion(robot::RobotModel& model) {
   std::vector<MarkerFrame> frames;
   fem::StaticState state = model.RestState();
   std::mt19937 random(1);
   for (int i = 0; i < 12; ++i) {
     std::vector<robot::CableCommand> cables;
-    for (int c = 0; c < 4; ++c) cables.push_back({Kind::kDisplacement, 0.003 + 2e-5 * i * (c + 1)});
+    for (int c = 0; c < 4; ++c)
+      cables.push_back({Kind::kDisplacement, 0.003 + 2.5e-4 * i * (c + 1)});
     const auto load = LoadAt(model, {0.0, 0.0, 0.125}, 0.008, {0.1, 0.02 * i, -0.5 - 0.01 * i});
     EXPECT_TRUE(model.Solve(cables, {load}, &state).status.ok());
     frames.push_back(FrameOf(model, state, cables));
@@ -29,7 +30,7 @@ std::vector<MarkerFrame> SlowMotion(robot::RobotModel& model) {
 void ExpectNoAllocation(const std::vector<std::string>& contacts) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
   const auto model = Build(FourLegRobot());
-  const std::vector<MarkerFrame> frames = SlowMotion(*model);
+  const std::vector<MarkerFrame> frames = Motion(*model);
   MarkerForceEstimator estimator(*model, WithContacts(contacts), 0.05);
   ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
   for (size_t i = 1; i < frames.size(); ++i) {
@@ -55,6 +56,26 @@ TEST(ForceEstimationAllocation, FramesWithOneGivenContactTakeNoMemory) {
 
 TEST(ForceEstimationAllocation, FramesWithTwoGivenContactsTakeNoMemory) {
   ExpectNoAllocation({"hub: 0, 0, 0.125, 0.008", "a_leg_with_a_long_name: 0, 0.0598, 0.0858"});
+}
+
+TEST(ForceEstimationAllocation, FramesWithoutTimeTakeNoMemory) {
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
+  const auto model = Build(FourLegRobot());
+  const std::vector<MarkerFrame> frames = Motion(*model);
+  Config config = WithContacts({"a_hub_with_a_long_name: 0, 0, 0.125, 0.008"});
+  config.frame_budget_s = 0.5;
+  static double tick_s = 0.0;
+  MarkerForceEstimator estimator(*model, config, 0.05,
+                                 [now_s = 0.0]() mutable { return now_s += tick_s; });
+  ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
+  int late = 0;
+  for (size_t i = 1; i < frames.size(); ++i) {
+    tick_s = i % 2 == 0 ? 0.0 : 1.0;  // every other frame is stopped after its first step
+    const size_t before = test_support::HeapRequestCount();
+    late += estimator.Update(frames[i]).status.code() == StatusCode::kBudgetReached ? 1 : 0;
+    EXPECT_EQ(test_support::HeapRequestCount() - before, 0U) << "frame " << i;
+  }
+  EXPECT_EQ(late, 6);
 }
 
 }  // namespace

@@ -163,6 +163,18 @@ TEST(StaticSolver, ReachesInLoadStepsWhatOneStepCannot) {
   EXPECT_GT(bar.linearisation.min_J(), 0.0);
 }
 
+TEST(StaticSolver, StopsWhereItsTimeIsUsedUp) {
+  double now_s = 0.0;
+  Bar bar(kStable, {}, /*hold_far_end=*/true);
+  bar.TwistTip(3.0);
+  const Eigen::VectorXd before = bar.state.x_m;
+  const TimeBudget budget(0.0035, [&now_s] { return now_s += 0.001; });
+  const StaticResult result = bar.solver.Solve(bar.target, &bar.state, budget);
+  EXPECT_EQ(result.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(result.iterations, 3);
+  EXPECT_EQ(bar.state.x_m, before);
+}
+
 TEST(StaticSolver, AFailureLeavesTheLastBalance) {
   Bar bar(kStable, {}, /*hold_far_end=*/true);
   for (int n = 0; n < bar.mesh.NodeCount(); ++n) {  // the ends would change places

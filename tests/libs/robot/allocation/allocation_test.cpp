@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "libs/robot/compliance.hpp"
+#include "libs/robot/frame_tracker.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
 #include "tests/support/heap_counter.hpp"
@@ -79,6 +80,28 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
   for (int k = 0; k < 3; ++k) frame();
   EXPECT_EQ(test_support::HeapRequestCount(), before);
   EXPECT_TRUE(ok);
+}
+
+TEST(Allocation, FollowingFramesTakesNoMemory) {
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
+  RobotModel model(SoftBox());
+  fem::StaticState state = model.RestState();
+  std::vector<CableCommand> cables(2, {CableCommand::Kind::kDisplacement, 1e-3});
+  ASSERT_TRUE(model.Solve(cables, {}, &state).status.ok());
+  FrameTracker tracker(model, {.relative_tolerance = 1e-8});
+  tracker.Start(state);
+  Eigen::VectorXd force_N = Eigen::VectorXd::Zero(state.x_m.size());
+  for (int k = 0; k < 6; ++k) {
+    cables[0].value += 1e-3;
+    force_N[force_N.size() - 1] = 0.01 * k;
+    const size_t before = test_support::HeapRequestCount();
+    // The third frame has no time: it says so, and the next goes on.
+    const fem::TimeBudget budget(k == 2 ? 0.0 : 1e9);
+    const StatusCode code = tracker.Follow(cables, force_N, budget).status.code();
+    const size_t taken = test_support::HeapRequestCount() - before;
+    EXPECT_TRUE(k == 0 || taken == 0) << taken << " in frame " << k;
+    EXPECT_EQ(code, k == 2 ? StatusCode::kBudgetReached : StatusCode::kOk) << "frame " << k;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/equilibrium_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::fem {
+
+namespace {
+
+using Mode = ConstraintCommand::Mode;
+
+Eigen::Index Count(const LoadState& loads) {
+  return static_cast<Eigen::Index>(loads.commands.size());
+}
+
+const ConstraintCommand& Command(const LoadState& loads, Eigen::Index c) {
+  return loads.commands[static_cast<size_t>(c)];
+}
+
+double Value(const Linearisation& linearisation, Eigen::Index c, const Eigen::VectorXd& x_m) {
+  return linearisation.constraints()[static_cast<size_t>(c)]->Value(x_m);
+}
+
+}  // namespace
+
+EquilibriumStep::EquilibriumStep(Linearisation& linearisation)
+    : linearisation_(linearisation),
+      nodal_(3 * linearisation.body().NodeCount()),
+      step_(linearisation.Size()) {
+  const auto constraints = static_cast<Eigen::Index>(linearisation.constraints().size());
+  PALPATE_CHECK(constraints <= kMaxQpVariables, constraints);
+  columns_.resize(linearisation.Size(), constraints + 1);
+  gradients_.resize(linearisation.Size(), constraints);
+  multipliers_ = Eigen::VectorXd::Zero(constraints);
+}
+
+void EquilibriumStep::ImposeMultipliers(const LoadState& loads, Eigen::VectorXd* multipliers_N) {
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode == Mode::kMultiplier) (*multipliers_N)[c] = command.value;
+    if (command.mode == Mode::kOff) (*multipliers_N)[c] = 0.0;
+  }
+}
+
+Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x_m,
+                                const Eigen::VectorXd& multipliers_N, bool allow_shift) {
+  if (Status status =
+          linearisation_.Update(x_m, multipliers_N, loads.external_force_N, allow_shift);
+      !status.ok()) {
+    return status;
+  }
+  Eigen::Index bounded = 0;
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    if (Command(loads, c).mode != Mode::kUpperBound) continue;
+    nodal_.setZero();
+    linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(x_m, -1.0, nodal_);
+    linearisation_.matrix().Reduce(nodal_, gradients_.col(c));
+    columns_.col(bounded++) = gradients_.col(c);
+  }
+  columns_.col(bounded) = linearisation_.residual_N();
+  linearisation_.Solve(columns_.leftCols(bounded + 1));
+  step_ = columns_.col(bounded);
+  return SolveMultipliers(loads, x_m, multipliers_N);
+}
+
+Status EquilibriumStep::ComputeChord(const LoadState& loads, const Eigen::VectorXd& x_m,
+                                     const Eigen::VectorXd& multipliers_N) {
+  auto column = columns_.rightCols(1);  // not used by the others where all are bounded
+  column.col(0) = linearisation_.residual_N();
+  linearisation_.Solve(column);
+  step_ = column.col(0);
+  return SolveMultipliers(loads, x_m, multipliers_N);
+}
+
+/// From step_ = K^-1 r on.
+Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::VectorXd& x_m,
+                                         const Eigen::VectorXd& multipliers_N) {
+  multipliers_ = multipliers_N;
+  Eigen::Index bounded = 0;
+  std::array<Eigen::Index, kMaxQpVariables> constraint{};
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    if (Command(loads, c).mode == Mode::kUpperBound) constraint[static_cast<size_t>(bounded++)] = c;
+  }
+  if (bounded == 0) return Status::Ok();
+  BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
+               QpVector(bounded)};
+  QpVector present(bounded);
+  for (Eigen::Index k = 0; k < bounded; ++k) {
+    const Eigen::Index c = constraint[static_cast<size_t>(k)];
+    for (Eigen::Index l = 0; l < bounded; ++l) {
+      qp.H(k, l) = gradients_.col(c).dot(columns_.col(l));
+    }
+    qp.c[k] =
+        gradients_.col(c).dot(step_) + Command(loads, c).value - Value(linearisation_, c, x_m);
+    qp.upper[k] = Command(loads, c).max_multiplier_N;
+    present[k] = multipliers_N[c];
+  }
+  qp.c -= qp.H * present;
+  const BoundedQpResult solution = SolveBoundedQp(qp, present);
+  if (!solution.status.ok()) return solution.status;
+  for (Eigen::Index k = 0; k < bounded; ++k) {
+    step_ += (solution.x[k] - present[k]) * columns_.col(k);
+    multipliers_[constraint[static_cast<size_t>(k)]] = solution.x[k];
+  }
+  return Status::Ok();
+}
+
+void EquilibriumStep::Apply(double length, const Eigen::VectorXd& x_m,
+                            const Eigen::VectorXd& multipliers_N, Eigen::VectorXd* new_x_m,
+                            Eigen::VectorXd* new_multipliers_N) const {
+  *new_x_m = x_m;
+  linearisation_.matrix().AddExpanded(step_, length, *new_x_m);
+  *new_multipliers_N = multipliers_N + length * (multipliers_ - multipliers_N);
+}
+
+double ConstraintError_m(const Linearisation& linearisation, const LoadState& loads,
+                         const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N) {
+  double error = 0.0;
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the drive cannot pull harder
+    const double excess = Value(linearisation, c, x_m) - command.value;
+    error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
+  }
+  return error;
+}
+
+double ForceScale_N(const Linearisation& linearisation, const LoadState& loads,
+                    const Eigen::VectorXd& multipliers_N) {
+  const double multiplier = multipliers_N.size() > 0 ? multipliers_N.cwiseAbs().maxCoeff() : 0.0;
+  return std::max(
+      {loads.external_force_N.norm(), linearisation.internal_force_norm_N(), multiplier, 1e-12});
+}
+
+double RoundingForce_N(const Linearisation& linearisation, const Eigen::VectorXd& x_m) {
+  return 4.0 * std::numeric_limits<double>::epsilon() * x_m.cwiseAbs().maxCoeff() *
+         linearisation.matrix().MeanDiagonal() * std::sqrt(static_cast<double>(x_m.size()));
+}
+
+Status CheckLargestMultipliers(const Linearisation& linearisation, const LoadState& loads,
+                               const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
+                               double tolerance_m) {
+  for (Eigen::Index c = 0; c < Count(loads); ++c) {
+    const ConstraintCommand& command = Command(loads, c);
+    if (command.mode != Mode::kUpperBound) continue;
+    const double excess = Value(linearisation, c, x_m) - command.value;
+    if (multipliers_N[c] >= command.max_multiplier_N && excess > tolerance_m) {
+      return {StatusCode::kTensionLimit, "constraint " + std::to_string(c) + " needs more than " +
+                                             std::to_string(command.max_multiplier_N) + " N"};
+    }
+  }
+  return Status::Ok();
+}
+
+}  // namespace palpate::fem

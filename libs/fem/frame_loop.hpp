@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "libs/core/status.hpp"
+#include "libs/fem/time_budget.hpp"
+
+namespace palpate::fem {
+
+struct FrameSettings {
+  /// A frame has converged when its error (FrameProblem::TrialError) is no larger.
+  double relative_tolerance = 1e-8;
+  int max_exact_steps = 40;
+};
+
+/// What came of one frame.
+struct FrameOutcome {
+  /// kOk: converged. kBudgetReached: the last state is sound and nearer, but not converged. All
+  /// else (kNotConverged, kInverted, kNotPositiveDefinite, ...): diverged, the last state is of no
+  /// use.
+  Status status;
+  int exact_steps = 0;  ///< each with its linearisation
+  int chord_steps = 0;  ///< accepted ones
+  double error = 0.0;   ///< relative, of the last state
+
+  bool converged() const { return status.ok(); }
+  bool diverged() const { return !converged() && status.code() != StatusCode::kBudgetReached; }
+};
+
+/// What the frame loop moves: a state, and a step from it.
+class FrameProblem {
+ public:
+  virtual ~FrameProblem() = default;
+
+  /// Linearises at the state and computes the step. On failure there is none.
+  virtual Status PrepareExactStep() = 0;
+  /// Computes the step for the residual at the state, with the factor that is there.
+  virtual Status PrepareChordStep() = 0;
+  /// Evaluates the residual where `length` times the step leads. kInverted: an element would turn
+  /// inside out there. The state stays.
+  virtual Status Try(double length) = 0;
+  /// Error where the last successful Try led, relative, comparable with a tolerance.
+  virtual double TrialError() const = 0;
+  /// The state becomes what the last successful Try evaluated.
+  virtual void AcceptTrial() = 0;
+};
+
+/// The loop of one frame: an exact step (halved while it would invert an element), then a chord
+/// step, kept only if the error fell below 0.3 of what it was, then the next exact step, until the
+/// error is within the tolerance, or the steps or the time are used up. An exact step is not begun
+/// where one as long as the last would overrun the budget; one is always made. Diverged: no step,
+/// an error that is no number, or one that has not fallen for several exact steps. Newton's first
+/// step may raise it: bending bodies pass through stretched states.
+FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
+                      const TimeBudget& budget);
+
+}  // namespace palpate::fem

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+namespace palpate::fem {
+
+/// What is asked of one constraint.
+struct ConstraintCommand {
+  enum class Mode {
+    kOff,         ///< multiplier 0
+    kMultiplier,  ///< multiplier given (cable tension, N)
+    kUpperBound,  ///< g(x) <= value, 0 <= multiplier <= max_multiplier_N, one of the two equal
+  };
+  Mode mode = Mode::kOff;
+  double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
+  double max_multiplier_N = std::numeric_limits<double>::infinity();
+};
+
+/// Everything that loads the body.
+struct LoadState {
+  Eigen::VectorXd external_force_N;  ///< [3n] dead nodal loads
+  std::vector<ConstraintCommand> commands;
+  /// [3n]; only entries of fixed directions are used.
+  Eigen::VectorXd fixed_position_m;
+};
+
+/// A configuration with the loads it was last brought into balance with.
+struct StaticState {
+  Eigen::VectorXd x_m;            ///< [3n]
+  Eigen::VectorXd multipliers_N;  ///< [constraints]
+  LoadState loads;
+};
+
+}  // namespace palpate::fem

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/frame_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace palpate::fem {
+namespace {
+
+/// One unknown x with f(x) = 0 to be found; writes down what the loop asks of it.
+class Scalar final : public FrameProblem {
+ public:
+  Scalar(double start, std::function<double(double)> f, std::function<double(double)> slope)
+      : x(start), f_(std::move(f)), slope_(std::move(slope)) {}
+
+  Status PrepareExactStep() override {
+    calls += 'E';
+    if (exact_fails) return {StatusCode::kNotPositiveDefinite, {}};
+    tangent_ = slope_(x);
+    step_ = -f_(x) / tangent_;
+    return Status::Ok();
+  }
+  Status PrepareChordStep() override {
+    calls += 'C';
+    step_ = -f_(x) / tangent_;
+    return Status::Ok();
+  }
+  Status Try(double length) override {
+    trial_ = x + length * step_;
+    if (trial_ > inverted_above) return {StatusCode::kInverted, {}};
+    lengths.push_back(length);
+    return Status::Ok();
+  }
+  double TrialError() const override { return std::abs(f_(trial_)); }
+  void AcceptTrial() override { x = trial_; }
+
+  double x;
+  std::string calls;
+  std::vector<double> lengths;  ///< of the steps that inverted nothing
+  bool exact_fails = false;
+  double inverted_above = std::numeric_limits<double>::infinity();
+
+ private:
+  std::function<double(double)> f_, slope_;
+  double tangent_ = 0.0, step_ = 0.0, trial_ = 0.0;
+};
+
+Scalar SquareRootOfTwo(double start) {
+  return Scalar(
+      start, [](double x) { return x * x - 2.0; }, [](double x) { return 2.0 * x; });
+}
+
+TEST(FrameLoop, EndsAfterOneExactStepWhereThatIsEnough) {
+  Scalar line(
+      5.0, [](double x) { return 3.0 * x; }, [](double) { return 3.0; });
+  const FrameOutcome outcome = RunFrame(line, {}, TimeBudget());
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_EQ(line.calls, "E");
+  EXPECT_EQ(outcome.exact_steps, 1);
+  EXPECT_EQ(outcome.chord_steps, 0);
+  EXPECT_EQ(line.x, 0.0);
+}
+
+TEST(FrameLoop, ConvergesWithChordStepsBetweenTheExactOnes) {
+  Scalar root = SquareRootOfTwo(1.5);
+  const FrameOutcome outcome = RunFrame(root, {.relative_tolerance = 1e-12}, TimeBudget());
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(outcome.exact_steps, 2);
+  EXPECT_GE(outcome.chord_steps, 1);
+  EXPECT_LE(outcome.error, 1e-12);
+}
+
+TEST(FrameLoop, DropsAChordStepThatGainsTooLittle) {
+  // From far away the old slope is several times too steep: the chord step gains a tenth.
+  Scalar root = SquareRootOfTwo(20.0);
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-12, .max_exact_steps = 1}, TimeBudget());
+  EXPECT_EQ(root.calls, "EC");
+  EXPECT_EQ(outcome.chord_steps, 0);
+  const double after_one_step = 20.0 - (400.0 - 2.0) / 40.0;
+  EXPECT_EQ(root.x, after_one_step);
+  EXPECT_EQ(outcome.error, after_one_step * after_one_step - 2.0);
+}
+
+TEST(FrameLoop, SaysThatItsStepsAreUsedUp) {
+  Scalar root = SquareRootOfTwo(20.0);
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-12, .max_exact_steps = 2}, TimeBudget());
+  EXPECT_EQ(outcome.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(outcome.status.message(), "steps used up");
+  EXPECT_FALSE(outcome.converged());
+  EXPECT_FALSE(outcome.diverged());
+  EXPECT_EQ(outcome.exact_steps, 2);
+  EXPECT_GT(outcome.error, 1e-12);
+}
+
+TEST(FrameLoop, StopsBeforeAStepThatWouldOverrunTheTime) {
+  double now_s = 0.0;
+  Scalar root = SquareRootOfTwo(20.0);
+  // Each look at the clock takes a millisecond: a step takes two or three.
+  const TimeBudget budget(0.007, [&now_s] { return now_s += 0.001; });
+  const FrameOutcome outcome = RunFrame(root, {.relative_tolerance = 1e-12}, budget);
+  EXPECT_EQ(outcome.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(outcome.status.message(), "time used up");
+  EXPECT_LT(now_s, 0.0095);
+  EXPECT_GE(outcome.exact_steps, 1);
+  EXPECT_LT(outcome.exact_steps, 4);
+}
+
+TEST(FrameLoop, MakesOneExactStepHoweverLittleTimeThereIs) {
+  Scalar root = SquareRootOfTwo(1.5);
+  const FrameOutcome outcome = RunFrame(root, {}, TimeBudget(0.0));
+  EXPECT_EQ(outcome.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(root.calls, "E");
+  EXPECT_LT(std::abs(root.x - std::sqrt(2.0)), 0.01);
+}
+
+TEST(FrameLoop, ConvergedIsConvergedAlsoWhenTheTimeIsUp) {
+  Scalar line(
+      5.0, [](double x) { return 3.0 * x; }, [](double) { return 3.0; });
+  EXPECT_TRUE(RunFrame(line, {}, TimeBudget(0.0)).converged());
+}
+
+TEST(FrameLoop, HalvesAStepThatWouldInvertAnElement) {
+  Scalar root = SquareRootOfTwo(0.5);  // the first step leads to 2.25
+  root.inverted_above = 1.0;
+  const FrameOutcome outcome = RunFrame(root, {.max_exact_steps = 1}, TimeBudget(0.0));
+  ASSERT_EQ(root.lengths.size(), 1U);
+  EXPECT_EQ(root.lengths[0], 0.25);
+  EXPECT_EQ(outcome.exact_steps, 1);
+}
+
+TEST(FrameLoop, GivesUpWhereEvenAShortStepInverts) {
+  Scalar root = SquareRootOfTwo(0.5);
+  root.inverted_above = 0.5;
+  const FrameOutcome outcome = RunFrame(root, {}, TimeBudget());
+  EXPECT_TRUE(outcome.diverged());
+  EXPECT_EQ(outcome.status.code(), StatusCode::kInverted);
+  EXPECT_EQ(root.x, 0.5);
+}
+
+TEST(FrameLoop, SaysWhyThereIsNoStep) {
+  Scalar root = SquareRootOfTwo(1.5);
+  root.exact_fails = true;
+  const FrameOutcome outcome = RunFrame(root, {}, TimeBudget());
+  EXPECT_TRUE(outcome.diverged());
+  EXPECT_EQ(outcome.status.code(), StatusCode::kNotPositiveDefinite);
+}
+
+TEST(FrameLoop, GivesUpWhereTheErrorDoesNotFall) {
+  // Newton's method walks between 0 and 1 for ever.
+  Scalar cycle(
+      0.0, [](double x) { return x * x * x - 2.0 * x + 2.0; },
+      [](double x) { return 3.0 * x * x - 2.0; });
+  const FrameOutcome outcome = RunFrame(cycle, {}, TimeBudget());
+  EXPECT_TRUE(outcome.diverged());
+  EXPECT_EQ(outcome.status.code(), StatusCode::kNotConverged);
+  EXPECT_LE(outcome.exact_steps, 8);
+}
+
+TEST(FrameLoop, AFirstStepThatRaisesTheErrorIsNoDivergence) {
+  Scalar root = SquareRootOfTwo(0.05);  // the first step leads to 20
+  const FrameOutcome outcome = RunFrame(root, {}, TimeBudget());
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-8);
+}
+
+TEST(FrameLoop, AnErrorThatIsNoNumberIsDivergence) {
+  Scalar root(
+      -1.0, [](double x) { return std::log(2.0 + x) + 5.0; }, [](double) { return 1.0; });
+  const FrameOutcome outcome = RunFrame(root, {}, TimeBudget());
+  EXPECT_TRUE(outcome.diverged());
+  EXPECT_EQ(root.x, -1.0);
+}
+
+TEST(TimeBudget, CountsFromWhereItWasMade) {
+  double now_s = 100.0;
+  const TimeBudget budget(0.5, [&now_s] { return now_s; });
+  now_s = 100.4;
+  EXPECT_NEAR(budget.Elapsed_s(), 0.4, 1e-12);
+  EXPECT_FALSE(budget.Over());
+  EXPECT_TRUE(budget.Over(0.2));
+  now_s = 100.6;
+  EXPECT_TRUE(budget.Over());
+  EXPECT_FALSE(TimeBudget().Over(1e9));
+}
+
+}  // namespace
+}  // namespace palpate::fem

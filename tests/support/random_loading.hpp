@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "libs/app/yaml.hpp"
+#include "libs/robot/robot_body.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::test_support {
+
+/// The robots that loops have to stand: the paper's, from the folder of measured data, and ours.
+/// Both of linear elements with 51 feature points.
+inline std::optional<robot::RobotDescription> DiamondRobot() {
+  const char* data = std::getenv("PALPATE_DATA_DIR");
+  const std::filesystem::path folder =
+      std::filesystem::path(data != nullptr ? data : PALPATE_SOURCE_DIR "/../shared/data") /
+      "diamond";
+  if (!std::filesystem::exists(folder / "diamond.vtu")) return std::nullopt;
+  constexpr const char* kText = R"(
+name: diamond
+mesh: {file: diamond.vtu, unit: mm, rotate_xyz_deg: [90, 0, 0], translate_mm: [0, 0, 35]}
+element: tet4
+material: {model: stable_neo_hookean, youngs_modulus_Pa: 180e3, poissons_ratio: 0.45}
+mass: {total_kg: 0.5, distribution: per_node}
+fixed: [{box_m: [[-0.015, -0.015, -0.040], [0.015, 0.015, 0.010]]}]
+feature_points: {count: 51}
+cables:
+  - {name: north, path_m: [[0, 0.010, 0.030], [0, 0.097, 0.045]], guide_radius_m: 0}
+  - {name: west, path_m: [[-0.010, 0, 0.030], [-0.097, 0, 0.045]], guide_radius_m: 0}
+  - {name: south, path_m: [[0, -0.010, 0.030], [0, -0.097, 0.045]], guide_radius_m: 0}
+  - {name: east, path_m: [[0.010, 0, 0.030], [0.097, 0, 0.045]], guide_radius_m: 0}
+)";
+  return robot::ReadRobotFile(folder / "robot.yaml", [](const std::filesystem::path& file) {
+    return app::ParseYaml(kText, file.string());
+  });
+}
+
+inline robot::RobotDescription FourLegRobot() {
+  const std::filesystem::path file =
+      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml";
+  robot::RobotDescription robot = robot::ReadRobotFile(file, app::LoadYaml);
+  robot.element = fem::ElementType::kTet4;
+  robot.material.volumetric = fem::Volumetric::kPointwise;
+  return robot;
+}
+
+/// Cables pulled in by up to 20 mm, and up to 2 N on a patch of the surface, reached from rest in
+/// equal frames.
+struct RandomLoading {
+  int frames = 1;
+  std::vector<double> cables_m;  ///< [cables]; 0: not driven
+  Eigen::Vector3d point_m;       ///< on the undeformed surface
+  Eigen::Vector3d force_N;
+  double patch_radius_m = 0.005;
+
+  /// The cables after frame k of 1 to `frames`.
+  std::vector<robot::CableCommand> Cables(int k) const {
+    std::vector<robot::CableCommand> commands;
+    for (const double cable_m : cables_m) {
+      if (cable_m > 0.0) {
+        commands.push_back({robot::CableCommand::Kind::kDisplacement, cable_m * k / frames});
+      } else {
+        commands.emplace_back();
+      }
+    }
+    return commands;
+  }
+};
+
+inline constexpr std::uint32_t kLoadingSeed = 20260101;
+
+/// Loading `index` of the series: the same whenever and however many are made.
+inline RandomLoading MakeRandomLoading(const robot::RobotModel& model, int index) {
+  std::seed_seq seed{kLoadingSeed, static_cast<std::uint32_t>(index)};
+  std::mt19937 engine(seed);
+  const auto uniform = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
+  RandomLoading loading;
+  loading.frames = 1 + static_cast<int>(8.0 * uniform());
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const bool driven = uniform() < 0.5;
+    const double cable_m = 0.020 * uniform();
+    loading.cables_m.push_back(driven ? cable_m : 0.0);
+  }
+  const robot::RobotBody& body = model.body();
+  const auto face =
+      static_cast<Eigen::Index>(uniform() * static_cast<double>(body.boundary.FaceCount()));
+  double a = uniform();
+  double b = uniform();
+  if (a + b > 1.0) {
+    a = 1.0 - a;
+    b = 1.0 - b;
+  }
+  const auto corners = body.boundary.faces.col(face);
+  loading.point_m = (1.0 - a - b) * body.mesh.nodes_m.col(corners[0]) +
+                    a * body.mesh.nodes_m.col(corners[1]) + b * body.mesh.nodes_m.col(corners[2]);
+  const double z = 2.0 * uniform() - 1.0;
+  const double turn = 2.0 * std::numbers::pi * uniform();
+  const double across = std::sqrt(1.0 - z * z);
+  loading.force_N =
+      2.0 * uniform() * Eigen::Vector3d(across * std::cos(turn), across * std::sin(turn), z);
+  return loading;
+}
+
+/// Which loadings a test runs: PALPATE_LOADINGS of them (else `by_default`), or the one that
+/// PALPATE_LOADING names.
+struct LoadingRange {
+  int first = 0;
+  int end = 0;
+};
+
+inline LoadingRange LoadingsToRun(int by_default) {
+  if (const char* one = std::getenv("PALPATE_LOADING"); one != nullptr) {
+    return {std::atoi(one), std::atoi(one) + 1};
+  }
+  const char* many = std::getenv("PALPATE_LOADINGS");
+  return {0, many != nullptr ? std::atoi(many) : by_default};
+}
+
+/// How frames ended.
+struct FrameTally {
+  int converged = 0, budget = 0, diverged = 0;
+  int most_exact_steps = 0;
+  long exact_steps = 0;
+
+  int frames() const { return converged + budget + diverged; }
+  void Print(const std::string& name, int loadings) const {
+    std::printf(
+        "%s: seed %u, %d loadings (PALPATE_LOADINGS=n: so many; PALPATE_LOADING=k: that one), "
+        "%d frames: %d converged, %d budget reached, %d diverged; %.2f exact steps a frame, at "
+        "most %d\n",
+        name.c_str(), kLoadingSeed, loadings, frames(), converged, budget, diverged,
+        static_cast<double>(exact_steps) / std::max(1, frames()), most_exact_steps);
+  }
+};
+
+}  // namespace palpate::test_support
