@@ -163,7 +163,7 @@ double FrontCost(int pivots, int below) {
   constexpr double kPerFront = 500.0;
   constexpr double kPerPivotRow = 60.0;  // the square root and what waits for it
   constexpr double kMultiplyAddsPerCycle = 11.0;
-  constexpr double kPerEntry = 1.2;  // zeroing, and two substitutions
+  constexpr double kPerEntry = 4.0;  // zeroing, storing, and the substitutions of one frame
   const double K = 3.0 * pivots;
   const double rows = dense::PaddedRows(3 * below);
   const double multiply_adds = K * K * K / 6.0 + 0.5 * K * K * rows + 0.5 * K * rows * (rows + 8);

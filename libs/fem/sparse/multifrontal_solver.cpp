@@ -129,7 +129,7 @@ class MultifrontalSolver final : public SparseSolver {
   void PlanSubstitution();
   void SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns);
   void SubstituteForward(int f, int width);
-  void SubstituteBackward(int f, int width);
+  void SubstituteBackward(int f, int width, int thread);
 
   internal::FrontTree tree_;
   internal::FrontSchedule schedule_;
@@ -154,6 +154,7 @@ class MultifrontalSolver final : public SparseSolver {
   internal::AlignedBuffer rows_;
   std::vector<std::vector<int>> forward_rows_;  ///< [fronts] rows of rows_ below the pivots
   std::vector<int> shared_rows_;                ///< rows of the matrix that have such shares
+  std::vector<internal::AlignedBuffer> below_;  ///< [threads] a single column's rows below a front
 };
 
 /// Columns of the panel: what the matrix and the children have in them.
@@ -284,17 +285,33 @@ void MultifrontalSolver::PlanSubstitution() {
   }
   for (const int f : schedule_.together) forward_rows_[At(f)] = FrontOf(f).below_rows;
   rows_ = internal::AlignedBuffer(At(size_ + team_.Size() * shares + kTile) * 2 * kTile);
+  int below = 0;
+  for (const Front& front : tree_.fronts()) below = std::max(below, front.Below());
+  for (int thread = 0; thread < team_.Size(); ++thread) {
+    below_.emplace_back(At(dense::PaddedRows(below)));
+  }
 }
 
 void MultifrontalSolver::SubstituteForward(int f, int width) {
   const int first = 3 * FrontOf(f).first_node;
+  if (width == 1) {
+    kernels_.solve_forward_one(FactorOf(f), inverse_.data() + first, rows_.data() + first,
+                               forward_rows_[At(f)].data(), rows_.data());
+    return;
+  }
   kernels_.solve_forward(FactorOf(f), inverse_.data() + first, width,
                          rows_.data() + static_cast<long>(first) * width,
                          forward_rows_[At(f)].data(), rows_.data());
 }
 
-void MultifrontalSolver::SubstituteBackward(int f, int width) {
+void MultifrontalSolver::SubstituteBackward(int f, int width, int thread) {
   const int first = 3 * FrontOf(f).first_node;
+  if (width == 1) {
+    kernels_.solve_backward_one(FactorOf(f), inverse_.data() + first, rows_.data() + first,
+                                FrontOf(f).below_rows.data(), rows_.data(),
+                                below_[At(thread)].data());
+    return;
+  }
   kernels_.solve_backward(FactorOf(f), inverse_.data() + first, width,
                           rows_.data() + static_cast<long>(first) * width,
                           FrontOf(f).below_rows.data(), rows_.data());
@@ -302,7 +319,7 @@ void MultifrontalSolver::SubstituteBackward(int f, int width) {
 
 void MultifrontalSolver::SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns) {
   const int count = static_cast<int>(columns.cols());
-  const int width = count <= kTile ? kTile : 2 * kTile;
+  const int width = count == 1 ? 1 : count <= kTile ? kTile : 2 * kTile;
   const auto& tree_order = tree_.fronts();
   team_.Run([&](int thread) {
     const std::vector<int>& own = schedule_.own[At(thread)];
@@ -341,13 +358,13 @@ void MultifrontalSolver::SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns) {
       }
       for (const int f : schedule_.together) SubstituteForward(f, width);
       for (auto f = schedule_.together.rbegin(); f != schedule_.together.rend(); ++f) {
-        SubstituteBackward(*f, width);
+        SubstituteBackward(*f, width, thread);
         write(*f);
       }
     }
     team_.Barrier();
     for (auto f = own.rbegin(); f != own.rend(); ++f) {
-      SubstituteBackward(*f, width);
+      SubstituteBackward(*f, width, thread);
       write(*f);
     }
   });

@@ -94,6 +94,12 @@ struct FrontKernels {
   /// the factor's transpose make of them.
   void (*solve_backward)(const FactorPanel& factor, const double* inverse, int width,
                          double* pivot_rows, const int* below_rows, const double* all_rows);
+  /// The same for a single right-hand side.
+  void (*solve_forward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
+                            const int* below_rows, double* all_rows);
+  /// `below` [PaddedRows(below)] is room to work in, aligned like a panel.
+  void (*solve_backward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
+                             const int* below_rows, const double* all_rows, double* below);
 };
 
 const FrontKernels& SelectFrontKernels(InstructionSet set);

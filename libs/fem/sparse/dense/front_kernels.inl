@@ -38,7 +38,7 @@ constexpr int Group(int packs) { return std::clamp(PALPATE_ACCUMULATORS / packs,
 /// Columns that one pass over a large front eliminates or multiplies: what a pass reads stays in
 /// the second-level cache.
 constexpr int kPassColumns = 192;
-constexpr int kPassRows = 240;
+constexpr int kPassRows = 480;
 
 /// body(index) for the indices [begin, end), each known when this is built: loops over registers.
 template <int begin, int end, typename Body>
@@ -312,11 +312,20 @@ void StoreFactor(const Panel& panel, const FactorPanel& factor, int tile_begin, 
 }  // namespace
 
 #include "libs/fem/sparse/dense/front_substitution.inl"
+#include "libs/fem/sparse/dense/front_substitution_one.inl"
 
 namespace {
 
-constexpr FrontKernels kKernels{Clear,           ExtendAdd,   FactorAnyTile, EliminateAnyRows,
-                                UpdatePivots,    UpdateBelow, StoreFactor,   SolveForwardAny,
-                                SolveBackwardAny};
+constexpr FrontKernels kKernels{Clear,
+                                ExtendAdd,
+                                FactorAnyTile,
+                                EliminateAnyRows,
+                                UpdatePivots,
+                                UpdateBelow,
+                                StoreFactor,
+                                SolveForwardAny,
+                                SolveBackwardAny,
+                                SolveForwardOne,
+                                SolveBackwardOne};
 
 }  // namespace

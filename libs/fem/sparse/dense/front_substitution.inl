@@ -41,8 +41,10 @@ void SolveForward(const FactorPanel& factor, const double* inverse, double* pivo
   const double* tile = factor.values;
   for (int first = 0; first < factor.pivots; first += kTile) {
     const int rows = std::min(kTile, factor.pivots - first);
-    Pack sum[kTile][packs];
-    for (int r = 0; r < kTile; ++r) LoadRow(pivot_rows + (first + r) * width, sum[r]);
+    Pack sum[kTile][packs] = {};
+    Unroll<0, kTile>([&](auto r) __attribute__((always_inline)) {
+      if (r < rows) LoadRow(pivot_rows + (first + r) * width, sum[r]);
+    });
     SubtractRows<packs>(tile, first, pivot_rows, sum);
     tile += first * kTile;
     Unroll<0, kTile>([&](auto r) __attribute__((always_inline)) {
