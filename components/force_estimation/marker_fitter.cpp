@@ -134,7 +134,7 @@ Status MarkerFitter::PrepareExactStep() {
   return status;
 }
 
-Status MarkerFitter::Try(double length) {
+Status MarkerFitter::Try(double length, bool last) {
   const ModelState& state = *frame_.state;
   trial_.x_m = state.x_m;
   compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.x_m);
@@ -144,6 +144,9 @@ Status MarkerFitter::Try(double length) {
   Status status =
       model_.linearisation().UpdateResidual(trial_.x_m, trial_.lambda_a_N, external_force_N_);
   if (!status.ok()) return status;
+  // What the next step would change takes a substitution to know.
+  trial_error_ = BalanceError(trial_);
+  if (last && trial_error_ > config_.frame_tolerance) return status;
   compliance_.ComputeChord(trial_.x_m, model_.cable_rest_length_m(), trial_.lambda_a_N,
                            trial_.lambda_f_N);
   status = SolveQp(*frame_.targets, *frame_.cables, trial_);
@@ -265,9 +268,14 @@ Status MarkerFitter::SolveQp(const MarkerTargets& targets,
 
 /// At the state that the linearisation and the QP were updated at last.
 double MarkerFitter::Error(const ModelState& state) const {
+  return std::max(BalanceError(state), LargestChange(state));
+}
+
+/// At the state that the linearisation was updated at last.
+double MarkerFitter::BalanceError(const ModelState& state) const {
   const fem::Linearisation& linearisation = model_.linearisation();
   const double residual_N = linearisation.residual_N().norm();
-  double error = std::max(CableError(state), LargestChange(state));
+  double error = CableError(state);
   if (residual_N > fem::RoundingForce_N(linearisation, state.x_m)) {
     const double scale_N = std::max(
         {linearisation.internal_force_norm_N(), weight_N_.norm(), state.lambda_f_N.norm(), 1e-9});

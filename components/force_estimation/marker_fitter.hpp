@@ -97,7 +97,7 @@ class MarkerFitter final : private fem::FrameProblem {
 
   Status PrepareExactStep() override;
   Status PrepareChordStep() override { return Status::Ok(); }  // Try has solved for it
-  Status Try(double length) override;
+  Status Try(double length, bool last) override;
   double TrialError() const override { return trial_error_; }
   void AcceptTrial() override;
 
@@ -109,6 +109,7 @@ class MarkerFitter final : private fem::FrameProblem {
   Status SolveQp(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
                  const ModelState& state);
   double Error(const ModelState& state) const;
+  double BalanceError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
   double LargestChange(const ModelState& state) const;
   void UpdateWeight();

@@ -17,12 +17,12 @@ constexpr double kChordGuard = 0.3;
 constexpr int kPatience = 4;
 
 /// The step, or the largest of its halves that inverts no element.
-Status TakeExactStep(FrameProblem& problem, FrameOutcome* outcome) {
+Status TakeExactStep(FrameProblem& problem, const TimeBudget& budget, FrameOutcome* outcome) {
   Status status = problem.PrepareExactStep();
   if (!status.ok()) return status;
   ++outcome->exact_steps;
   for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
-    status = problem.Try(length);
+    status = problem.Try(length, budget.Over());
     if (status.code() != StatusCode::kInverted) break;
   }
   if (!status.ok()) return status;
@@ -38,7 +38,7 @@ void TakeChordSteps(FrameProblem& problem, double tolerance, const TimeBudget& b
                     FrameOutcome* outcome) {
   double expected = 0.0;
   while (expected <= tolerance && outcome->error > tolerance && !budget.Over()) {
-    if (!problem.PrepareChordStep().ok() || !problem.Try(1.0).ok()) return;
+    if (!problem.PrepareChordStep().ok() || !problem.Try(1.0, budget.Over()).ok()) return;
     const double ratio = problem.TrialError() / outcome->error;
     if (!(ratio < kChordGuard)) return;
     problem.AcceptTrial();
@@ -57,7 +57,7 @@ FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
   int steps_without_gain = 0;
   while (outcome.exact_steps < settings.max_exact_steps) {
     const double begin_s = budget.Elapsed_s();
-    outcome.status = TakeExactStep(problem, &outcome);
+    outcome.status = TakeExactStep(problem, budget, &outcome);
     if (!outcome.status.ok()) return outcome;
     const double exact_step_s = budget.Elapsed_s() - begin_s;
     TakeChordSteps(problem, settings.relative_tolerance, budget, &outcome);

@@ -38,8 +38,9 @@ class FrameProblem {
   /// Computes the step for the residual at the state, with the factor that is there.
   virtual Status PrepareChordStep() = 0;
   /// Evaluates the residual where `length` times the step leads. kInverted: an element would turn
-  /// inside out there. The state stays.
-  virtual Status Try(double length) = 0;
+  /// inside out there. The state stays. `last`: no time is left for a step from there, so that an
+  /// error above the tolerance need only be bounded from below.
+  virtual Status Try(double length, bool last) = 0;
   /// Error where the last successful Try led, relative, comparable with a tolerance.
   virtual double TrialError() const = 0;
   /// The state becomes what the last successful Try evaluated.

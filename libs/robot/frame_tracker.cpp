@@ -56,7 +56,7 @@ Status FrameTracker::PrepareChordStep() {
   return step_.ComputeChord(state_.loads, state_.x_m, state_.multipliers_N);
 }
 
-Status FrameTracker::Try(double length) {
+Status FrameTracker::Try(double length, bool /*last*/) {
   step_.Apply(length, state_.x_m, state_.multipliers_N, &trial_x_m_, &trial_multipliers_N_);
   Status status = model_.linearisation().UpdateResidual(trial_x_m_, trial_multipliers_N_,
                                                         state_.loads.external_force_N);

@@ -39,7 +39,7 @@ class FrameTracker final : private fem::FrameProblem {
  private:
   Status PrepareExactStep() override;
   Status PrepareChordStep() override;
-  Status Try(double length) override;
+  Status Try(double length, bool last) override;
   double TrialError() const override { return trial_error_; }
   void AcceptTrial() override;
 

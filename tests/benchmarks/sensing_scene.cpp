@@ -108,7 +108,10 @@ void SensingScene::TakeFrame() {
   next_ = (next_ + 1) % (2 * frames_.size() - 2);
   const Frame& frame = frames_[next_ < frames_.size() ? next_ : 2 * frames_.size() - 2 - next_];
   state_.balanced = false;
-  const force_estimation::MarkerFit& fit = fitter_.Fit(frame.targets, frame.cables, &state_);
+  const fem::TimeBudget budget =
+      update_ == Update::kOneStep ? fem::TimeBudget(0.0) : fem::TimeBudget();
+  const force_estimation::MarkerFit& fit =
+      fitter_.Fit(frame.targets, frame.cables, &state_, budget);
   qp_steps_ = fit.iterations;
   if (fit.restorations > 0) throw RunError("the frame needed a static solve");
   const bool reached = update_ == Update::kConverged

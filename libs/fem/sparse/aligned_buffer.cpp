@@ -3,6 +3,8 @@
 
 #include "libs/fem/sparse/aligned_buffer.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <new>
 
 #if defined(__linux__)
@@ -23,6 +25,7 @@ AlignedBuffer::AlignedBuffer(size_t size) : size_(size) {
   // Advice only: where the system does not follow it, nothing but speed is lost.
   if (unit == kLargePage) static_cast<void>(madvise(data_.get(), allocated, MADV_HUGEPAGE));
 #endif
+  std::fill_n(data_.get(), allocated / sizeof(double), std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace palpate::fem::internal

@@ -9,8 +9,9 @@
 
 namespace palpate::fem::internal {
 
-/// Uninitialised doubles at an address that is a multiple of a page of 2 MiB; large buffers ask the
-/// system for such pages, because columns far apart would miss the address cache otherwise.
+/// Doubles at the start of a cache line, large buffers at that of a page of 2 MiB: they ask the
+/// system for such pages, because columns far apart would miss the address cache otherwise. NaN at
+/// first: what is read before it was written shows, and the memory is the program's from here on.
 class AlignedBuffer {
  public:
   AlignedBuffer() = default;

@@ -10,6 +10,7 @@
 #include "libs/core/check.hpp"
 #include "libs/fem/sparse/amalgamation.hpp"
 #include "libs/fem/sparse/cholmod_context.hpp"
+#include "libs/fem/sparse/minimum_fill.hpp"
 
 namespace palpate::fem {
 
@@ -59,11 +60,16 @@ EliminationOrder FindEliminationOrder(int node_count, const NodePairs& pairs) {
   cholmod_sparse* sparse = ToCholmod(graph, common);
   internal::Amalgamated best;
   best.cost = std::numeric_limits<double>::infinity();
-  for (const int method : {CHOLMOD_AMD, CHOLMOD_METIS, CHOLMOD_NESDIS}) {
-    internal::Amalgamated candidate = internal::Amalgamate(graph, Order(sparse, method, common));
+  const auto compare = [&](const std::vector<int>& order) {
+    internal::Amalgamated candidate = internal::Amalgamate(graph, order);
     if (candidate.cost < best.cost) best = std::move(candidate);
+  };
+  for (const int method : {CHOLMOD_AMD, CHOLMOD_METIS, CHOLMOD_NESDIS}) {
+    compare(Order(sparse, method, common));
   }
   cholmod_free_sparse(&sparse, common);
+  const std::vector<int> fill_order = internal::MinimumMeanFillOrder(graph);
+  if (static_cast<int>(fill_order.size()) == node_count) compare(fill_order);
   return std::move(best.order);
 }
 

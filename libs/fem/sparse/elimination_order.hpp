@@ -21,8 +21,9 @@ struct EliminationOrder {
   std::vector<int> supernode_start;
 };
 
-/// The best of AMD, METIS and nested dissection (through CHOLMOD, on the node graph), with
-/// supernodes merged as long as the time that a factorisation is expected to take falls.
+/// The best of AMD, METIS and nested dissection (through CHOLMOD, on the node graph) and minimum
+/// local fill, with supernodes merged as long as the time that a factorisation and its substitutions
+/// are expected to take falls.
 EliminationOrder FindEliminationOrder(int node_count, const NodePairs& pairs);
 
 }  // namespace palpate::fem

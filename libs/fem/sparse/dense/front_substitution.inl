@@ -114,11 +114,9 @@ void SolveBackward(const FactorPanel& factor, const double* inverse, double* piv
     });
     Unroll<0, kTile>([&](auto k) __attribute__((always_inline)) {
       constexpr int c = kTile - 1 - k;
-      // The rows that pad a tile are zero, and so is what they are multiplied with.
-      if (c < rows) {
-        for (int i = 0; i < packs; ++i) sum[c][i] *= inverse[first + c];
-        StoreRow(pivot_rows + (first + c) * width, sum[c]);
-      }
+      if (c >= rows) return;
+      for (int i = 0; i < packs; ++i) sum[c][i] *= inverse[first + c];
+      StoreRow(pivot_rows + (first + c) * width, sum[c]);
       Unroll<0, c>([&](auto r) __attribute__((always_inline)) {
         for (int i = 0; i < packs; ++i) sum[r][i] -= sum[c][i] * diagonal[r * kTile + c];
       });

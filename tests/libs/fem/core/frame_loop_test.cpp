@@ -32,7 +32,8 @@ class Scalar final : public FrameProblem {
     step_ = -f_(x) / tangent_;
     return Status::Ok();
   }
-  Status Try(double length) override {
+  Status Try(double length, bool last) override {
+    told_last.push_back(last);
     trial_ = x + length * step_;
     if (trial_ > inverted_above) return {StatusCode::kInverted, {}};
     lengths.push_back(length);
@@ -44,6 +45,7 @@ class Scalar final : public FrameProblem {
   double x;
   std::string calls;
   std::vector<double> lengths;  ///< of the steps that inverted nothing
+  std::vector<bool> told_last;
   bool exact_fails = false;
   double inverted_above = std::numeric_limits<double>::infinity();
 
@@ -120,7 +122,15 @@ TEST(FrameLoop, MakesOneExactStepHoweverLittleTimeThereIs) {
   const FrameOutcome outcome = RunFrame(root, {}, TimeBudget(0.0));
   EXPECT_EQ(outcome.status.code(), StatusCode::kBudgetReached);
   EXPECT_EQ(root.calls, "E");
+  EXPECT_EQ(root.told_last, std::vector<bool>{true});
   EXPECT_LT(std::abs(root.x - std::sqrt(2.0)), 0.01);
+}
+
+TEST(FrameLoop, SaysThatMoreStepsMayFollowAsLongAsThereIsTime) {
+  Scalar root = SquareRootOfTwo(1.5);
+  ASSERT_TRUE(RunFrame(root, {}, TimeBudget()).converged());
+  ASSERT_GE(root.told_last.size(), 2U);
+  for (const bool last : root.told_last) EXPECT_FALSE(last);
 }
 
 TEST(FrameLoop, ConvergedIsConvergedAlsoWhenTheTimeIsUp) {
