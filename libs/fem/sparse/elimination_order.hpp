@@ -22,8 +22,8 @@ struct EliminationOrder {
 };
 
 /// The best of AMD, METIS and nested dissection (through CHOLMOD, on the node graph) and minimum
-/// local fill, with supernodes merged as long as the time that a factorisation and its substitutions
-/// are expected to take falls.
+/// local fill, with supernodes merged as long as the time that a factorisation and its
+/// substitutions are expected to take falls.
 EliminationOrder FindEliminationOrder(int node_count, const NodePairs& pairs);
 
 }  // namespace palpate::fem

@@ -15,8 +15,10 @@ size_t At(int index) { return static_cast<size_t>(index); }
 /// The graph of what is left of a matrix after some nodes were eliminated.
 class EliminationGraph {
  public:
-  explicit EliminationGraph(const NodeGraph& graph)
-      : mark_(At(graph.NodeCount()), -1), missing_(mark_.size(), 0), score_(mark_.size(), 0.0) {
+  explicit EliminationGraph(const NodeGraph& graph) {
+    mark_.assign(At(graph.NodeCount()), -1);
+    missing_.assign(mark_.size(), 0);
+    score_.assign(mark_.size(), 0.0);
     for (int node = 0; node < graph.NodeCount(); ++node) {
       neighbours_.emplace_back(graph.neighbours.begin() + graph.start[At(node)],
                                graph.neighbours.begin() + graph.start[At(node) + 1]);
@@ -79,8 +81,8 @@ class EliminationGraph {
       *place = list.back();
       list.pop_back();
       work_ += 2 * static_cast<long>(list.size());
-      const auto apart = std::count_if(list.begin(), list.end(),
-                                       [&](int other) { return !IsMarked(other); });
+      const auto apart =
+          std::count_if(list.begin(), list.end(), [&](int other) { return !IsMarked(other); });
       missing_[At(neighbour)] -= apart;
       changed_.push_back(neighbour);
     }

@@ -316,16 +316,8 @@ void StoreFactor(const Panel& panel, const FactorPanel& factor, int tile_begin, 
 
 namespace {
 
-constexpr FrontKernels kKernels{Clear,
-                                ExtendAdd,
-                                FactorAnyTile,
-                                EliminateAnyRows,
-                                UpdatePivots,
-                                UpdateBelow,
-                                StoreFactor,
-                                SolveForwardAny,
-                                SolveBackwardAny,
-                                SolveForwardOne,
-                                SolveBackwardOne};
+constexpr FrontKernels kKernels{
+    Clear,       ExtendAdd,       FactorAnyTile,    EliminateAnyRows, UpdatePivots,    UpdateBelow,
+    StoreFactor, SolveForwardAny, SolveBackwardAny, SolveForwardOne,  SolveBackwardOne};
 
 }  // namespace

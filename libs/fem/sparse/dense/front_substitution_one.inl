@@ -79,7 +79,8 @@ using ColumnSums = Pack[kColumnGroup][kTilePacks];
 PALPATE_INLINE void AddProducts(const double* tile, const Pack (&known)[kTilePacks],
                                 ColumnSums& sum) {
   for (int c = 0; c < kColumnGroup; ++c) {
-    for (int i = 0; i < kTilePacks; ++i) sum[c][i] += Load(tile + c * kTile + i * kLanes) * known[i];
+    for (int i = 0; i < kTilePacks; ++i)
+      sum[c][i] += Load(tile + c * kTile + i * kLanes) * known[i];
   }
 }
 
