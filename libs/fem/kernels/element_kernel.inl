@@ -84,14 +84,16 @@ PALPATE_INLINE void EvaluateLanes(const Block& block, int lane, const double* x_
       volume += point.weight;
       deformed_volume += point.weight * point.J;
     }
-    mean_law = EvaluateVolumetric<model>(deformed_volume / volume, moduli.lambda);
+    // mu times the volumetric energy resists the change of volume within the element.
+    mean_law = EvaluateVolumetric<model>(deformed_volume / volume, moduli.lambda - moduli.mu);
   }
   Pack energy = volume * mean_law.U;
   Pack min_J = points[0].J;
   for (Point& point : points) {
-    VolumetricLaw law = {Splat(0.0), mean_law.dU, Splat(0.0)};
-    if constexpr (Traits<model>::kVolumetric && !kMean) {
-      law = EvaluateVolumetric<model>(point.J, moduli.lambda);
+    VolumetricLaw law = {};
+    if constexpr (Traits<model>::kVolumetric) {
+      law = EvaluateVolumetric<model>(point.J, kMean ? moduli.mu : moduli.lambda);
+      law.dU += mean_law.dU;  // zero where !kMean
     }
     EvaluateLaw<model>(law, moduli, output.energy != nullptr, point);
     energy += point.weight * point.energy;
