@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
-#include "libs/robot/sensitivity.hpp"
+#include "libs/robot/sensitivity/equilibrium_sensitivity.hpp"
 
 namespace palpate::calibration {
 

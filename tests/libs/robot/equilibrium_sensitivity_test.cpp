@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/robot/sensitivity.hpp"
+#include "libs/robot/sensitivity/equilibrium_sensitivity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/sensitivity/equilibrium_point.hpp"
+
+#include "libs/core/check.hpp"
+
+namespace palpate::robot {
+
+EquilibriumPoint::EquilibriumPoint(RobotModel& model)
+    : model_(model),
+      paths_(static_cast<size_t>(model.CableCount())),
+      rest_paths_(paths_.size()),
+      path_m_(paths_.size()),
+      force_(paths_.size()) {
+  const Eigen::VectorXd& rest_m = model.elastic_body().rest_m();
+  for (int c = 0; c < model.CableCount(); ++c) {
+    rest_paths_[static_cast<size_t>(c)].Evaluate(model.cable(c).Path_m(rest_m), 0.0);
+  }
+}
+
+void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
+                           const fem::StaticState& state) {
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model_.CableCount(), commands.size());
+  PALPATE_CHECK(state.x_m.size() == 3 * model_.elastic_body().NodeCount(), state.x_m.size());
+  commands_ = commands;
+  x_m_ = state.x_m;
+  tension_N_ = state.multipliers_N;
+  has_lame_forces_ = false;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const Cable& cable = model_.cable(c);
+    Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
+    cable.FindPath(x_m_, &path_m);
+    paths_[static_cast<size_t>(c)].Evaluate(path_m, cable.friction().SignedCoefficient());
+  }
+}
+
+size_t EquilibriumPoint::Index(int cable) const {
+  PALPATE_CHECK(cable >= 0 && cable < model_.CableCount(), cable);
+  return static_cast<size_t>(cable);
+}
+
+bool EquilibriumPoint::KeepsLength(int cable) const {
+  const double limit_N = model_.body().cables[static_cast<size_t>(cable)].max_tension_N;
+  return command(cable).kind == CableCommand::Kind::kDisplacement && tension_N(cable) > 0.0 &&
+         tension_N(cable) < limit_N;
+}
+
+bool EquilibriumPoint::Holds(Eigen::Index node, Eigen::Index direction) const {
+  return model_.linearisation().fixed()(direction, node);
+}
+
+const Eigen::VectorXd& EquilibriumPoint::force_on_base_N() const {
+  return model_.linearisation().nodal_residual_N();
+}
+
+const fem::ElementDerivative& EquilibriumPoint::elements() const {
+  if (!elements_) {
+    elements_ = std::make_unique<fem::ElementDerivative>(model_.body().mesh,
+                                                         model_.body().material_of_cell);
+  }
+  return *elements_;
+}
+
+void EquilibriumPoint::EvaluateLameForces() const {
+  if (has_lame_forces_) return;
+  elements().LameForces(materials(), x_m_, &per_lambda_m2_, &per_mu_m2_);
+  has_lame_forces_ = true;
+}
+
+const Eigen::MatrixXd& EquilibriumPoint::forces_per_lambda_m2() const {
+  EvaluateLameForces();
+  return per_lambda_m2_;
+}
+
+const Eigen::MatrixXd& EquilibriumPoint::forces_per_mu_m2() const {
+  EvaluateLameForces();
+  return per_mu_m2_;
+}
+
+void EquilibriumPoint::PathMotion(int cable, const Eigen::VectorXd& nodal_m,
+                                  Eigen::Matrix3Xd* motion_m) const {
+  const std::vector<fem::NodeWeights>& eyelets = model_.cable(cable).eyelets();
+  motion_m->resize(3, static_cast<Eigen::Index>(eyelets.size()) + 1);
+  motion_m->col(0).setZero();
+  for (size_t e = 0; e < eyelets.size(); ++e) {
+    motion_m->col(static_cast<Eigen::Index>(e) + 1) = eyelets[e].Position(nodal_m);
+  }
+}
+
+void EquilibriumPoint::MovePath(int cable, const Eigen::Matrix3Xd& motion_m,
+                                ParameterColumn* column) const {
+  const CablePath& moved = path(cable);
+  column->length_m[cable] += moved.LengthAlong(motion_m);
+  Eigen::Matrix3Xd& force = force_[static_cast<size_t>(cable)];
+  moved.ForceAlong(motion_m, &force);
+  PullPath(cable, tension_N(cable), force, column);
+}
+
+void EquilibriumPoint::PullPath(int cable, double tension_N, const Eigen::Matrix3Xd& force,
+                                ParameterColumn* column) const {
+  if (tension_N == 0.0) return;
+  const std::vector<fem::NodeWeights>& eyelets = model_.cable(cable).eyelets();
+  for (size_t e = 0; e < eyelets.size(); ++e) {
+    column->AddForce(eyelets[e], tension_N * force.col(static_cast<Eigen::Index>(e) + 1));
+  }
+}
+
+void EquilibriumPoint::MoveHeldNode(Eigen::Index node, const Eigen::Vector3d& motion_m,
+                                    ParameterColumn* column) const {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (Holds(node, i)) column->held_motion_m()[3 * node + i] += motion_m[i];
+  }
+}
+
+void EquilibriumPoint::ApplyHeldMotion(ParameterColumn* column) const {
+  if (!column->HasHeldMotion()) return;
+  const Eigen::VectorXd& motion_m = column->held_motion_m();
+  elements().AddAlongPositions(materials(), x_m_, motion_m, -1.0, column->force_N());
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    Eigen::Matrix3Xd& path_motion_m = path_m_[static_cast<size_t>(c)];
+    PathMotion(c, motion_m, &path_motion_m);
+    MovePath(c, path_motion_m, column);
+  }
+}
+
+void EquilibriumPoint::Complete(ParameterColumn* column) const {
+  ApplyHeldMotion(column);
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const double more_N = column->commanded_tension_N[c];
+    if (command(c).kind != CableCommand::Kind::kTension) PALPATE_CHECK(more_N == 0.0, c, more_N);
+    PullPath(c, more_N, path(c).force(), column);
+  }
+}
+
+}  // namespace palpate::robot

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/fem/node_weights.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/equilibrium_point.hpp"
+#include "libs/robot/sensitivity/parameter.hpp"
+
+namespace palpate::robot {
+
+/// Whether the factor of K must be made, or the one of the model's linearisation is at the state
+/// already (as after RobotModel::Solve, with nothing computed since).
+enum class Factor { kRenew, kPresent };
+
+/// How an equilibrium moves with parameters p, to first order and exactly. With the load column
+/// r_p = dr/dp at fixed x and tensions T (held nodes moved along), H_c the direction of cable c's
+/// forces and l_c its length,
+///   K dx/dp = r_p + sum_c H_c dT_c/dp,
+///   taut and driven by displacement: dl_c/dp = d(commanded length)/dp;
+///   driven by tension:               dT_c/dp = d(commanded tension)/dp;
+///   slack, not driven, at max_tension_N or beyond: dT_c/dp = 0.
+/// So slack cables stay slack and have no tension, and one that pulls at its limit keeps pulling
+/// with it; where a cable is just about to change between these, the derivative is one-sided.
+/// K is factorised once; one further column for each parameter that loads the body, for each taut
+/// cable and for each turn of a cable with friction, all solved in one block. That friction makes K
+/// unsymmetric by one rank for each turn, which the Woodbury formula adds.
+///
+/// Buffers grow at first; called again alike, it allocates nothing, friction and parameters that
+/// move held nodes, guides or the rest shape aside. For one thread.
+class SensitivitySolver {
+ public:
+  /// `model` must outlive it and keep its mesh.
+  explicit SensitivitySolver(RobotModel& model);
+
+  /// Everything below is about this equilibrium and these parameters. `cables` are the commands
+  /// that `state` was solved with. Not ok where the state is inverted or not finite, K has no
+  /// Cholesky factor (also where only the cables' held lengths make the balance stable), or two
+  /// taut cables act alike (kUnobservable); then there are no results: ParameterCount() is 0.
+  Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+                 std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
+
+  int ParameterCount() const { return static_cast<int>(columns_of_.size()); }
+
+  /// [3 x p] motion of a point of the body, m per unit of each parameter.
+  Eigen::Matrix3Xd PointMotion(const fem::NodeWeights& point) const;
+  /// [3 points x p] of many points, into memory that is kept.
+  void PointMotions(std::span<const fem::NodeWeights> points, Eigen::MatrixXd* motions_m) const;
+  /// [3n] motion of all nodes with one parameter.
+  void NodalMotion(int parameter, Eigen::VectorXd* motion_m) const;
+  /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.
+  const Eigen::MatrixXd& length_m() const { return length_m_; }
+  const Eigen::MatrixXd& tension_N() const { return tension_N_; }
+
+ private:
+  /// A sparse row over the reduced system.
+  struct NodalRow {
+    std::vector<std::pair<int, Eigen::Vector3d>> entries;  ///< (free node, its three entries)
+
+    double Dot(const Eigen::Ref<const Eigen::VectorXd>& column) const;
+  };
+
+  Status TryCompute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+                    std::span<const ParameterPtr> parameters, Factor factor);
+  void DescribeParameters(std::span<const ParameterPtr> parameters);
+  void FindTautCables();
+  bool Rubs(int cable) const;
+  void FillColumns();
+  void AddFrictionColumns(int cable);
+  void FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow* row) const;
+  Status CoupleFriction();
+  Status EliminateTautCables();
+
+  RobotModel& model_;
+  EquilibriumPoint point_;
+  std::vector<ParameterColumn> columns_of_;
+  std::vector<int> load_of_;       ///< [p] which of the load columns, or -1: loads nothing
+  std::vector<int> taut_;          ///< cables that keep their commanded length
+  std::vector<NodalRow> lengths_;  ///< [cables] dlength/dx
+  std::vector<NodalRow> angles_;   ///< [turns with friction] dangle/dx
+  Eigen::Index turns_ = 0;
+  Eigen::Index loads_ = 0;
+  Eigen::MatrixXd columns_;  ///< [Size x >= taut + loads + turns], in this order
+  Eigen::VectorXd nodal_;    ///< [3n]
+  Eigen::Matrix3Xd turn_force_, turn_angle_;
+  ParameterColumn turn_column_;
+  Eigen::MatrixXd length_m_, tension_N_;
+};
+
+}  // namespace palpate::robot
