@@ -31,6 +31,10 @@ std::string_view ToString(MaterialModel model) {
   return {};
 }
 
+std::string_view ToString(Volumetric volumetric) {
+  return volumetric == Volumetric::kMeanDilatation ? "mean_dilatation" : "pointwise";
+}
+
 bool ParseMaterialModel(std::string_view name, MaterialModel* model) {
   for (const auto& [known_model, known_name] : kNames) {
     if (known_name == name) {

@@ -49,6 +49,8 @@ struct Material {
 /// Names as robot files spell them: linear, corotational, st_venant_kirchhoff, neo_hookean,
 /// stable_neo_hookean, yeoh.
 std::string_view ToString(MaterialModel model);
+/// pointwise, mean_dilatation
+std::string_view ToString(Volumetric volumetric);
 /// The model of that name; false where there is none.
 bool ParseMaterialModel(std::string_view name, MaterialModel* model);
 std::vector<std::string> MaterialModelNames();

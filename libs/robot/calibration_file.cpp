@@ -54,8 +54,12 @@ CalibrationFile DescribeForCalibration(const RobotModel& model) {
   calibration.robot = body.name;
   calibration.mesh_hash = body.mesh_hash;
   calibration.element = ElementName(body.mesh.element_type());
-  calibration.model = fem::ToString(body.materials.front().model);
-  calibration.poissons_ratio = body.materials.front().poissons_ratio;
+  const fem::Material& material = body.materials.front();
+  calibration.model = fem::ToString(material.model);
+  calibration.poissons_ratio = material.poissons_ratio;
+  calibration.volumetric = fem::ToString(material.volumetric);
+  calibration.c20_over_c10 = material.c20_over_c10;
+  calibration.c30_over_c10 = material.c30_over_c10;
   return calibration;
 }
 
@@ -69,6 +73,11 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   calibration.model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
   calibration.poissons_ratio =
       ReadNumber(map.Require("poissons_ratio"), {.min = -1.0, .max = 0.5, .max_open = true});
+  if (const ConfigNode* volumetric = map.Optional("volumetric")) {
+    calibration.volumetric = ReadChoice(*volumetric, {"pointwise", "mean_dilatation"});
+  }
+  calibration.c20_over_c10 = map.Number("c20_over_c10", calibration.c20_over_c10);
+  calibration.c30_over_c10 = map.Number("c30_over_c10", calibration.c30_over_c10);
   calibration.date_utc = ReadText(map.Require("date_utc"));
   calibration.data = ReadText(map.Require("data"));
   calibration.data_hash = ReadText(map.Require("data_hash"));
@@ -91,6 +100,11 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   text += "element: " + calibration.element + "\n";
   text += "model: " + calibration.model + "\n";
   text += "poissons_ratio: " + FormatNumber(calibration.poissons_ratio) + "\n";
+  if (!calibration.volumetric.empty()) text += "volumetric: " + calibration.volumetric + "\n";
+  if (calibration.model == fem::ToString(fem::MaterialModel::kYeoh)) {
+    text += "c20_over_c10: " + FormatNumber(calibration.c20_over_c10) + "\n";
+    text += "c30_over_c10: " + FormatNumber(calibration.c30_over_c10) + "\n";
+  }
   text += "date_utc: " + Quoted(calibration.date_utc) + "\n";
   text += "data: " + Quoted(calibration.data) + "\n";
   text += "data_hash: " + Quoted(calibration.data_hash) + "\n";
@@ -114,6 +128,13 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
   RequireSame("material", calibration.model, present.model);
   RequireSame("Poisson's ratio", FormatNumber(calibration.poissons_ratio),
               FormatNumber(present.poissons_ratio));
+  if (!calibration.volumetric.empty()) {
+    RequireSame("volumetric treatment", calibration.volumetric, present.volumetric);
+  }
+  RequireSame("c20_over_c10", FormatNumber(calibration.c20_over_c10),
+              FormatNumber(present.c20_over_c10));
+  RequireSame("c30_over_c10", FormatNumber(calibration.c30_over_c10),
+              FormatNumber(present.c30_over_c10));
   std::vector<int> materials;  // all of them first, so that a refusal leaves the model as it was
   for (const CalibratedModulus& modulus : calibration.moduli) {
     materials.push_back(MaterialIndex(model->body(), modulus.part));

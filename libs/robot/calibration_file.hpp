@@ -28,6 +28,10 @@ struct CalibrationFile {
   std::string element;    ///< "tet4" | "tet10"
   std::string model;      ///< material model
   double poissons_ratio = 0.0;
+  /// "pointwise" | "mean_dilatation"; empty: not said, and not compared
+  std::string volumetric;
+  double c20_over_c10 = 0.0;  ///< of the Yeoh material, as c30_over_c10
+  double c30_over_c10 = 0.0;
   std::string date_utc;  ///< "2026-01-31T12:00:00Z"
   std::string data;      ///< what it was fitted to, for people
   std::string data_hash;

@@ -46,11 +46,10 @@ std::string MeshText(const MeshSettings& mesh, const std::filesystem::path& fold
 }
 
 std::string MaterialText(const fem::Material& material) {
-  const bool mean = material.volumetric == fem::Volumetric::kMeanDilatation;
   std::string text = "material:\n  model: " + std::string(fem::ToString(material.model)) +
                      "\n  youngs_modulus_Pa: " + FormatNumber(material.youngs_modulus_Pa) +
                      "\n  poissons_ratio: " + FormatNumber(material.poissons_ratio) +
-                     "\n  volumetric: " + (mean ? "mean_dilatation" : "pointwise") + "\n";
+                     "\n  volumetric: " + std::string(fem::ToString(material.volumetric)) + "\n";
   if (material.model == fem::MaterialModel::kYeoh) {
     text += "  c20_over_c10: " + FormatNumber(material.c20_over_c10) +
             "\n  c30_over_c10: " + FormatNumber(material.c30_over_c10) + "\n";

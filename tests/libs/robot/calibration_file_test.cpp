@@ -74,6 +74,7 @@ TEST_F(CalibrationFileTest, IsReadAsItWasWritten) {
   EXPECT_EQ(read.element, "tet10");
   EXPECT_EQ(read.model, "stable_neo_hookean");
   EXPECT_EQ(read.poissons_ratio, 0.45);
+  EXPECT_EQ(read.volumetric, "pointwise");
   EXPECT_EQ(read.date_utc, written.date_utc);
   EXPECT_EQ(read.data, written.data);
   EXPECT_EQ(read.data_hash, written.data_hash);
@@ -114,6 +115,30 @@ TEST_F(CalibrationFileTest, RefusesWhatItWasNotMadeFor) {
   other = Example();
   other.poissons_ratio = 0.49;
   EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("0.49"), HasSubstr("0.45")));
+  other = Example();
+  other.volumetric = "mean_dilatation";
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("'mean_dilatation'"), HasSubstr("'pointwise'")));
+  other = Example();
+  other.c20_over_c10 = 0.1;
+  EXPECT_THAT(ApplyRefusal(other), AllOf(HasSubstr("c20_over_c10"), HasSubstr("0.1")));
+}
+
+TEST_F(CalibrationFileTest, HoldsTheConstantsOfYeoh) {
+  CalibrationFile written = Example();
+  written.model = "yeoh";
+  written.c20_over_c10 = 0.125;
+  written.c30_over_c10 = 0.25;
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  EXPECT_EQ(read.c20_over_c10, 0.125);
+  EXPECT_EQ(read.c30_over_c10, 0.25);
+}
+
+TEST_F(CalibrationFileTest, MayLeaveTheVolumetricTreatmentOut) {
+  WriteFile(file_, Altered("volumetric: pointwise\n", ""));
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  EXPECT_EQ(read.volumetric, "");
+  ApplyCalibration(read, model_.get());
 }
 
 TEST_F(CalibrationFileTest, ARefusedRegionLeavesTheModelAsItWas) {
