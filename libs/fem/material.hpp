@@ -26,7 +26,9 @@ enum class MaterialModel {
 /// How the volumetric part sees the volume change of an element.
 enum class Volumetric {
   kPointwise,       ///< J of each integration point
-  kMeanDilatation,  ///< J averaged over the element, against locking of tet10 near nu = 0.5
+  /// Against locking of tet10 near nu = 0.5: (lambda - mu) U(mean J of the element) + mu U(J) instead
+  /// of lambda U(J).
+  kMeanDilatation,
 };
 
 struct Material {
