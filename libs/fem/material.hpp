@@ -25,9 +25,9 @@ enum class MaterialModel {
 
 /// How the volumetric part sees the volume change of an element.
 enum class Volumetric {
-  kPointwise,       ///< J of each integration point
-  /// Against locking of tet10 near nu = 0.5: (lambda - mu) U(mean J of the element) + mu U(J) instead
-  /// of lambda U(J).
+  kPointwise,  ///< J of each integration point
+  /// Against locking of tet10 near nu = 0.5: (lambda - mu) U(mean J of the element) + mu U(J)
+  /// instead of lambda U(J).
   kMeanDilatation,
 };
 

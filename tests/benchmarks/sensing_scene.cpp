@@ -14,15 +14,16 @@ namespace palpate::benchmarks {
 namespace {
 
 constexpr int kSteps = 4;
+constexpr int kStepsOfLarge = 2;
 constexpr double kCableAtRest_m = 5e-3;
 constexpr double kCableStep_m = 1e-3;
 constexpr double kPatchRadius_m = 5e-3;
 constexpr double kMarkerSigma_m = 1e-4;
 
-robot::RobotBody MakeBody(robot::RobotDescription description, int feature_points) {
-  description.feature_points_m.resize(3, 0);
-  description.feature_point_count = feature_points;
-  robot::RobotBody body = robot::BuildRobotBody(description);
+robot::RobotBody MakeBody(NamedRobot robot, int feature_points) {
+  robot.description.feature_points_m.resize(3, 0);
+  robot.description.feature_point_count = feature_points;
+  robot::RobotBody body = BuildBody(robot);
   body.markers.clear();
   for (size_t k = 0; k < body.feature_points.size(); ++k) {
     body.markers.push_back({"feature_" + std::to_string(k), body.feature_points[k]});
@@ -33,7 +34,7 @@ robot::RobotBody MakeBody(robot::RobotDescription description, int feature_point
 force_estimation::Config MakeConfig(SensingScene::Update update) {
   force_estimation::Config config;
   config.frame_tolerance = 1e-8;
-  if (update == SensingScene::Update::kOneStep) config.max_iterations = 1;
+  if (update == SensingScene::Update::kWithChord) config.max_iterations = 1;
   return config;
 }
 
@@ -61,21 +62,34 @@ Eigen::VectorXd ContactForces_N(int step) {
 
 }  // namespace
 
-SensingScene::SensingScene(robot::RobotDescription description, int feature_points, Update update)
-    : model_(MakeBody(std::move(description), feature_points)),
+SensingScene::SensingScene(robot::RobotBody body, const Settings& settings)
+    : model_(std::move(body), {}, settings.solver),
       sites_(MakeSites(model_)),
-      fitter_(model_, MakeConfig(update)),
-      update_(update) {
+      fitter_(model_, MakeConfig(settings.update)),
+      update_(settings.update) {
   fitter_.SetSites(sites_);
+}
+
+SensingScene::SensingScene(const NamedRobot& robot, const Settings& settings)
+    : SensingScene(MakeBody(robot, settings.feature_points), settings) {
   fem::StaticState equilibrium = model_.RestState();
   AddFrame(0, &equilibrium);
   external_force_N_ = equilibrium.loads.external_force_N;
-  state_ = {.valid = true,
-            .balanced = true,
-            .x_m = equilibrium.x_m,
-            .lambda_a_N = equilibrium.multipliers_N,
-            .lambda_f_N = ContactForces_N(0)};
-  for (int step = 1; step < kSteps; ++step) AddFrame(step, &equilibrium);
+  first_state_ = {.valid = true,
+                  .balanced = true,
+                  .x_m = equilibrium.x_m,
+                  .lambda_a_N = equilibrium.multipliers_N,
+                  .lambda_f_N = ContactForces_N(0)};
+  state_ = first_state_;
+  const int steps = robot.large ? kStepsOfLarge : kSteps;
+  for (int step = 1; step < steps; ++step) AddFrame(step, &equilibrium);
+}
+
+SensingScene::SensingScene(const SensingScene& computed, const Settings& settings)
+    : SensingScene(computed.model_.body(), settings) {
+  frames_ = computed.frames_;
+  first_state_ = state_ = computed.first_state_;
+  external_force_N_ = computed.external_force_N_;
 }
 
 void SensingScene::AddFrame(int step, fem::StaticState* equilibrium) {

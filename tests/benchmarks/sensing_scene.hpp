@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "components/force_estimation/marker_fitter.hpp"
-#include "libs/robot/robot_description.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/benchmarks/robots.hpp"
 
 namespace palpate::benchmarks {
 
@@ -16,12 +17,21 @@ namespace palpate::benchmarks {
 class SensingScene {
  public:
   enum class Update {
-    kOneStep,    ///< one linearisation a frame, and a chord step where it helps
+    kOneStep,    ///< one linearisation a frame, and the residual of where it leads
+    kWithChord,  ///< and a chord step where it helps
     kConverged,  ///< to a relative error of 1e-8
   };
 
+  struct Settings {
+    int feature_points = 51;
+    Update update = Update::kOneStep;
+    fem::SolverSettings solver;
+  };
+
   /// Throws InputError for a robot that cannot be built, RunError where a frame has no equilibrium.
-  SensingScene(robot::RobotDescription description, int feature_points, Update update);
+  SensingScene(const NamedRobot& robot, const Settings& settings);
+  /// The same frames as `computed`, of the same robot and feature points, without computing them.
+  SensingScene(const SensingScene& computed, const Settings& settings);
   SensingScene(const SensingScene&) = delete;
   SensingScene& operator=(const SensingScene&) = delete;
 
@@ -30,8 +40,9 @@ class SensingScene {
   void TakeFrame();
 
   robot::RobotModel& model() { return model_; }
-  const force_estimation::ModelState& state() const { return state_; }
-  /// The loads that `state` balances before the first frame.
+  /// Before the first frame, with both contact forces.
+  const force_estimation::ModelState& first_state() const { return first_state_; }
+  /// The loads that `first_state` balances.
   const Eigen::VectorXd& external_force_N() const { return external_force_N_; }
   int qp_steps() const { return qp_steps_; }  ///< of the last frame, each with its linearisation
 
@@ -41,6 +52,8 @@ class SensingScene {
     force_estimation::MarkerTargets targets;
   };
 
+  SensingScene(robot::RobotBody body, const Settings& settings);
+
   void AddFrame(int step, fem::StaticState* equilibrium);
 
   robot::RobotModel model_;
@@ -49,6 +62,7 @@ class SensingScene {
   Update update_;
   std::vector<Frame> frames_;  ///< the first half of the cycle; the way back is the same
   size_t next_ = 0;
+  force_estimation::ModelState first_state_;
   force_estimation::ModelState state_;
   Eigen::VectorXd external_force_N_;
   int qp_steps_ = 0;

@@ -3,163 +3,186 @@
 
 #include "tests/benchmarks/suite.hpp"
 
-#include <benchmark/benchmark.h>
-
-#include <algorithm>
-#include <exception>
-#include <functional>
 #include <memory>
 #include <utility>
 
 #include "libs/fem/mesh_io/read_mesh.hpp"
-#include "tests/benchmarks/memory.hpp"
+#include "tests/benchmarks/lazy.hpp"
+#include "tests/benchmarks/measure.hpp"
 #include "tests/benchmarks/robots.hpp"
-#include "tests/benchmarks/sensing_scene.hpp"
-#include "tests/benchmarks/stages.hpp"
+#include "tests/benchmarks/workbench.hpp"
 
 namespace palpate::benchmarks {
 
 namespace {
 
-constexpr double kMebibyte = 1024.0 * 1024.0;
-constexpr int kManyPoints = 51;
+using SharedBench = std::shared_ptr<Workbench>;
+
+constexpr int kDgemmSize = 768;
 constexpr int kFewPoints = 5;
 
-/// Something expensive, made when it is first asked for.
-template <typename T>
-class Lazy {
- public:
-  explicit Lazy(std::function<std::unique_ptr<T>()> make) : make_(std::move(make)) {}
-  T& Get() {
-    if (!made_) made_ = make_();
-    return *made_;
+std::string Heading(const NamedRobot& robot) { return robot.name + ": " + robot.note; }
+
+/// On a large mesh a contender that works entry by entry takes tens of seconds a call.
+int MaxRepetitions(const NamedRobot& robot, const Contender& contender) {
+  return robot.large && contender.by_entries ? 1 : robot.max_repetitions;
+}
+
+/// Threads that have slept take some calls until they start at once, each on a core of its own. A
+/// large mesh does not fit into the caches anyway.
+WarmUp ChooseWarmUp(const NamedRobot& robot, const Contender& contender) {
+  if (robot.large) return {.first = contender.by_entries ? 0 : 1, .each = 0};
+  return {.first = 0, .each = contender.settings.threads > 1 ? 4 : 1};
+}
+
+/// A scene that no other benchmark uses.
+Benchmark UpdateAlone(const NamedRobot& robot, const std::string& name,
+                      const SensingScene::Settings& settings) {
+  const auto scene = MakeLazy<SensingScene>(
+      [robot, settings] { return std::make_unique<SensingScene>(robot, settings); });
+  return {
+      .name = robot.name + "/" + name,
+      .measure = [scene](benchmark::State& state) { MeasureUpdate(state, scene->Get(), WarmUp()); },
+      .max_repetitions = robot.max_repetitions};
+}
+
+Block UpdateBlock(const SharedBench& bench) {
+  const NamedRobot& robot = bench->robot();
+  Block block{.heading = Heading(robot), .benchmarks = {}};
+  for (const Contender& contender : ModelContenders()) {
+    const WarmUp warm_up = ChooseWarmUp(robot, contender);
+    block.benchmarks.push_back({.name = robot.name + "/update_51_points/" + contender.name,
+                                .measure =
+                                    [bench, contender, warm_up](benchmark::State& state) {
+                                      MeasureUpdate(state, bench->Scene(contender), warm_up);
+                                    },
+                                .threads = contender.settings.threads,
+                                .max_repetitions = MaxRepetitions(robot, contender)});
   }
-
- private:
-  std::function<std::unique_ptr<T>()> make_;
-  std::unique_ptr<T> made_;
-};
-
-using Measured = std::function<void(benchmark::State&)>;
-
-double Smallest(const std::vector<double>& times) {
-  return *std::min_element(times.begin(), times.end());
-}
-
-/// One call for each repetition, so that the median is one over calls.
-void Register(std::vector<Row>* rows, const std::string& name, const std::string& reference,
-              const Measured& measured) {
-  const auto guarded = [measured](benchmark::State& state) {
-    try {
-      measured(state);
-    } catch (const std::exception& error) {
-      state.SkipWithError(error.what());
-    }
-  };
-  benchmark::RegisterBenchmark(name.c_str(), guarded)
-      ->Iterations(1)
-      ->ComputeStatistics("min", Smallest)
-      ->Unit(benchmark::kMillisecond);
-  rows->push_back({name, reference});
-}
-
-void MeasureUpdate(benchmark::State& state, SensingScene& scene) {
-  scene.TakeFrame();
-  for ([[maybe_unused]] auto iteration : state) scene.TakeFrame();
-  const fem::SparseSolver& solver = scene.model().linearisation().solver();
-  state.counters["memory_MiB"] = static_cast<double>(solver.MemoryBytes()) / kMebibyte;
-  state.counters["qp_steps"] = scene.qp_steps();
-  state.counters["peak_rss_MiB"] = PeakResidentBytes() / kMebibyte;
-}
-
-void RegisterUpdate(std::vector<Row>* rows, const NamedRobot& robot, const std::string& name,
-                    const std::string& reference, int points, SensingScene::Update update) {
-  const auto scene =
-      std::make_shared<Lazy<SensingScene>>([description = robot.description, points, update] {
-        return std::make_unique<SensingScene>(description, points, update);
-      });
-  Register(rows, robot.name + "/" + name, reference,
-           [scene](benchmark::State& state) { MeasureUpdate(state, scene->Get()); });
-}
-
-void RegisterAssembly(std::vector<Row>* rows, const NamedRobot& robot, fem::MaterialModel model,
-                      const std::string& reference) {
-  robot::RobotDescription description = robot.description;
-  description.material.model = model;
-  const auto stages = std::make_shared<Lazy<Stages>>(
-      [description] { return std::make_unique<Stages>(description); });
-  Register(rows, robot.name + "/assemble_" + std::string(fem::ToString(model)), reference,
-           [stages](benchmark::State& state) {
-             stages->Get().Assemble();
-             for ([[maybe_unused]] auto iteration : state) stages->Get().Assemble();
-           });
-}
-
-void RegisterSolver(std::vector<Row>* rows, const NamedRobot& robot, const std::string& reference) {
-  const auto stages = std::make_shared<Lazy<Stages>>(
-      [description = robot.description] { return std::make_unique<Stages>(description); });
-  Register(rows, robot.name + "/factorize", reference, [stages](benchmark::State& state) {
-    Stages& ready = stages->Get();
-    ready.Factorize();
-    for ([[maybe_unused]] auto iteration : state) ready.Factorize();
-    state.counters["memory_MiB"] = static_cast<double>(ready.solver().MemoryBytes()) / kMebibyte;
-    state.counters["rows"] = ready.Size();
-    state.counters["factor_nonzeros"] = static_cast<double>(ready.solver().FactorNonzeros());
-    state.counters["factor_flops"] = ready.solver().FactorFlops();
-  });
-  Register(rows, robot.name + "/solve_8_columns", reference, [stages](benchmark::State& state) {
-    Stages& ready = stages->Get();
-    ready.Factorize();
-    ready.ResetColumns();
-    ready.Solve();
-    ready.ResetColumns();
-    for ([[maybe_unused]] auto iteration : state) ready.Solve();
-  });
-}
-
-void RegisterRobot(std::vector<Row>* rows, const NamedRobot& robot,
-                   const std::vector<fem::MaterialModel>& models) {
+  if (robot.refinements > 0) return block;
+  block.benchmarks.push_back(
+      UpdateAlone(robot, "update_5_points", {.feature_points = kFewPoints, .solver = {}}));
   using Update = SensingScene::Update;
-  const std::string whole = robot.name + "/update_51_points";
-  const std::string compared = rows->empty() ? whole : rows->front().name;
-  RegisterUpdate(rows, robot, "update_51_points", compared, kManyPoints, Update::kOneStep);
-  RegisterUpdate(rows, robot, "update_5_points", whole, kFewPoints, Update::kOneStep);
-  RegisterUpdate(rows, robot, "converged_frame_51_points", whole, kManyPoints, Update::kConverged);
-  for (const fem::MaterialModel model : models) RegisterAssembly(rows, robot, model, whole);
-  RegisterSolver(rows, robot, whole);
+  block.benchmarks.push_back(UpdateAlone(robot, "update_with_chord_51_points",
+                                         {.update = Update::kWithChord, .solver = {}}));
+  block.benchmarks.push_back(UpdateAlone(robot, "converged_frame_51_points",
+                                         {.update = Update::kConverged, .solver = {}}));
+  return block;
 }
 
-void RegisterReading(std::vector<Row>* rows, const NamedRobot& robot,
-                     const std::string& reference) {
-  const robot::MeshSettings mesh = robot.description.mesh;
-  const std::string name = "read_mesh/" + mesh.file.filename().string();
-  Register(rows, name, reference, [mesh](benchmark::State& state) {
+Block AssemblyBlock(const SharedBench& bench) {
+  const NamedRobot& robot = bench->robot();
+  const std::string name =
+      robot.name + "/assemble_" + std::string(fem::ToString(robot.description.material.model));
+  Block block{.heading = Heading(robot), .benchmarks = {}};
+  for (const Contender& contender : ModelContenders()) {
+    if (contender.settings.solver != ModelContenders().front().settings.solver) continue;
+    const int threads = contender.settings.threads;
+    const WarmUp warm_up = ChooseWarmUp(robot, contender);
+    const auto assembly = MakeLazy<Assembly>(
+        [bench, contender] { return std::make_unique<Assembly>(bench->Scene(contender)); });
+    block.benchmarks.push_back(
+        {.name = name + "/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads"),
+         .measure =
+             [assembly, warm_up](benchmark::State& state) {
+               MeasureAssembly(state, assembly->Get(), warm_up);
+             },
+         .threads = threads,
+         .max_repetitions = robot.max_repetitions});
+  }
+  return block;
+}
+
+Block FactorizationBlock(const SharedBench& bench) {
+  const NamedRobot& robot = bench->robot();
+  Block block{.heading = Heading(robot), .benchmarks = {}};
+  for (const Contender& contender : AllContenders()) {
+    const WarmUp warm_up = ChooseWarmUp(robot, contender);
+    block.benchmarks.push_back({.name = robot.name + "/factorize/" + contender.name,
+                                .measure =
+                                    [bench, contender, warm_up](benchmark::State& state) {
+                                      MeasureFactorization(state, bench->Solver(contender),
+                                                           warm_up);
+                                    },
+                                .threads = contender.settings.threads,
+                                .max_repetitions = MaxRepetitions(robot, contender)});
+  }
+  return block;
+}
+
+Block SolutionBlock(const SharedBench& bench, int columns, const std::string& name) {
+  const NamedRobot& robot = bench->robot();
+  Block block{.heading = Heading(robot), .benchmarks = {}};
+  for (const Contender& contender : AllContenders()) {
+    const WarmUp warm_up = ChooseWarmUp(robot, contender);
+    block.benchmarks.push_back({.name = robot.name + "/" + name + "/" + contender.name,
+                                .measure =
+                                    [bench, contender, columns, warm_up](benchmark::State& state) {
+                                      MeasureSolution(state, bench->Solver(contender), columns,
+                                                      warm_up);
+                                    },
+                                .threads = contender.settings.threads,
+                                .max_repetitions = robot.max_repetitions});
+  }
+  return block;
+}
+
+void AddRobot(std::vector<Block>* blocks, const NamedRobot& robot) {
+  const auto bench = std::make_shared<Workbench>(robot);
+  blocks->push_back(UpdateBlock(bench));
+  blocks->push_back(AssemblyBlock(bench));
+  blocks->push_back(FactorizationBlock(bench));
+  blocks->push_back(SolutionBlock(bench, 1, "solve_1_column"));
+  blocks->push_back(SolutionBlock(bench, 8, "solve_8_columns"));
+}
+
+void AddAssembly(std::vector<Block>* blocks, NamedRobot robot, fem::MaterialModel model) {
+  robot.description.material.model = model;
+  blocks->push_back(AssemblyBlock(std::make_shared<Workbench>(robot)));
+}
+
+Block ReadingBlock(const robot::MeshSettings& mesh) {
+  const auto read = [mesh](benchmark::State& state) {
     for ([[maybe_unused]] auto iteration : state) {
       benchmark::DoNotOptimize(fem::ReadMesh(mesh.file, mesh.metres_per_unit));
     }
-  });
+  };
+  return {.heading = "reading a mesh",
+          .benchmarks = {{.name = "read_mesh/" + mesh.file.filename().string(), .measure = read}}};
+}
+
+Block MachineBlock() {
+  return {.heading = "what one core can do",
+          .benchmarks = {
+              {.name = "dgemm_" + std::to_string(kDgemmSize),
+               .measure = [](benchmark::State& state) { MeasureDgemm(state, kDgemmSize); }}}};
 }
 
 }  // namespace
 
-std::vector<Row> RegisterAll() {
-  using fem::MaterialModel;
-  const NamedRobot paper = PaperRobot();
-  const NamedRobot linear = OwnRobot("four_leg", fem::ElementType::kTet4);
-  const NamedRobot quadratic = OwnRobot("four_leg", fem::ElementType::kTet10);
-  const NamedRobot beam = OwnRobot("beam", fem::ElementType::kTet10);
-  std::vector<Row> rows;
-  RegisterRobot(&rows, paper, {MaterialModel::kCorotational, MaterialModel::kStableNeoHookean});
-  for (const NamedRobot& robot : {linear, quadratic, beam}) {
-    RegisterRobot(&rows, robot, {MaterialModel::kStableNeoHookean});
+Suite MakeSuite() {
+  using fem::ElementType;
+  const NamedRobot paper = PaperRobot(ElementType::kTet4);
+  const NamedRobot linear = OwnRobot("four_leg", ElementType::kTet4);
+  const NamedRobot beam = OwnRobot("beam", ElementType::kTet10);
+  Suite suite;
+  suite.blocks.push_back(MachineBlock());
+  AddRobot(&suite.blocks, paper);
+  AddAssembly(&suite.blocks, paper, fem::MaterialModel::kCorotational);
+  for (const NamedRobot& robot :
+       {PaperRobot(ElementType::kTet10), linear, OwnRobot("four_leg", ElementType::kTet10), beam,
+        PaperRobot(ElementType::kTet4, 1), PaperRobot(ElementType::kTet4, 2)}) {
+    AddRobot(&suite.blocks, robot);
   }
-  const std::string first_update = rows.front().name;
-  RegisterReading(&rows, paper, first_update);
+  suite.blocks.push_back(ReadingBlock(linear.description.mesh));
+  suite.blocks.push_back(ReadingBlock(beam.description.mesh));
   if (paper.description.mesh.file != linear.description.mesh.file) {
-    RegisterReading(&rows, linear, first_update);
+    suite.blocks.push_back(ReadingBlock(paper.description.mesh));
   }
-  RegisterReading(&rows, beam, first_update);
-  return rows;
+  for (const int refinements : {0, 1, 2}) {
+    suite.family.push_back(PaperRobot(ElementType::kTet4, refinements).name);
+  }
+  return suite;
 }
 
 }  // namespace palpate::benchmarks

@@ -6,16 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "tests/benchmarks/block.hpp"
+
 namespace palpate::benchmarks {
 
-/// A line of the table.
-struct Row {
-  std::string name;       ///< of the benchmark
-  std::string reference;  ///< the benchmark whose median its own is divided by
+struct Suite {
+  /// In the order in which they run. What a benchmark needs is built when it first runs, so that a
+  /// filter saves that time, and goes with the last benchmark that holds it.
+  std::vector<Block> blocks;
+  /// First parts of the names of benchmarks whose meshes differ in nothing but their refinement.
+  std::vector<std::string> family;
 };
 
-/// Registers every benchmark with Google Benchmark. What a benchmark needs is built when it first
-/// runs, so that a filter saves that time, too. Throws InputError for a robot file that is wrong.
-std::vector<Row> RegisterAll();
+/// Throws InputError for a robot file that is wrong.
+Suite MakeSuite();
 
 }  // namespace palpate::benchmarks
