@@ -113,6 +113,13 @@ void AppendBlock(const CellBlocks& law, int block, const RowOrder& order,
   }
 }
 
+/// Those of its rows that are columns of the matrix, too.
+int FreeRows(const RowOrder& order, const StiffnessMatrix& stiffness, const AssemblyShare& share) {
+  const auto first = order.node_of_row.begin();
+  return static_cast<int>(std::count_if(first + share.first_row, first + share.end_row,
+                                        [&](int node) { return stiffness.FreeIndex(node) >= 0; }));
+}
+
 }  // namespace
 
 RowOrder NaturalRowOrder(int node_count) {
@@ -163,6 +170,10 @@ std::vector<AssemblyShare> ShareOut(const std::vector<CellBlocks>& laws, const R
     AssemblyShare& share = shares.emplace_back();
     share.first_row = cuts[thread];
     share.end_row = cuts[thread + 1];
+    if (stiffness != nullptr) {
+      share.first_column = shares.size() > 1 ? shares[shares.size() - 2].end_column : 0;
+      share.end_column = share.first_column + FreeRows(order, *stiffness, share);
+    }
     share.spare_row = rows + static_cast<int>(thread) * kSpareRowsPerThread;
     size_t first_block = 0;
     for (const CellBlocks& law : laws) {

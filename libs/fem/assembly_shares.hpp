@@ -36,6 +36,8 @@ struct AssemblyShare {
   };
   int first_row = 0;
   int end_row = 0;
+  int first_column = 0;  ///< of the matrix; without one, 0
+  int end_column = 0;
   int spare_row = 0;  ///< takes forces that nobody reads
   std::vector<OfLaw> laws;
 };

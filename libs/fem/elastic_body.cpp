@@ -137,20 +137,22 @@ void ElasticBody::AddRows(const AssemblyShare& share, Eigen::VectorXd& force_N) 
 }
 
 double ElasticBody::AddShare(const AssemblyShare& share, const double* x_m,
-                             Eigen::VectorXd& force_N, double* stiffness) const {
+                             Eigen::VectorXd& force_N, StiffnessMatrix* stiffness) const {
   std::array<double, kLanes> min_J_of_block;
   double min_J = kInfinity;
   ClearRows(share);
+  if (stiffness != nullptr) stiffness->SetZero(share.first_column, share.end_column);
+  double* values = stiffness == nullptr ? nullptr : stiffness->Values().data();
   for (size_t l = 0; l < laws_.size(); ++l) {
     const AssemblyShare::OfLaw& of_law = share.laws[l];
     const auto nodes = laws_[l].NodesPerCell();
     const int* force_rows = of_law.force_rows.data();
-    const int* addresses = stiffness == nullptr ? nullptr : of_law.addresses.data();
+    const int* addresses = values == nullptr ? nullptr : of_law.addresses.data();
     for (const int block : of_law.blocks) {
       laws_[l].Evaluate(block, x_m,
                         {.force = force_rows_.front().N,
                          .force_rows = force_rows,
-                         .stiffness = stiffness,
+                         .stiffness = values,
                          .addresses = addresses,
                          .min_J = min_J_of_block.data()});
       min_J = SmallestOf(min_J_of_block, min_J);
@@ -167,12 +169,11 @@ double ElasticBody::AddForces(const Eigen::VectorXd& x_m, Eigen::VectorXd& force
       [&](const AssemblyShare& share) { return AddShare(share, x_m.data(), force_N, nullptr); });
 }
 
-double ElasticBody::AddForcesAndTangent(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N,
-                                        StiffnessMatrix& stiffness) const {
+double ElasticBody::AddForcesAndSetTangent(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N,
+                                           StiffnessMatrix& stiffness) const {
   PALPATE_CHECK(bound_);
-  double* values = stiffness.Values().data();
   return OnEveryShare(
-      [&](const AssemblyShare& share) { return AddShare(share, x_m.data(), force_N, values); });
+      [&](const AssemblyShare& share) { return AddShare(share, x_m.data(), force_N, &stiffness); });
 }
 
 void ElasticBody::AddForcesOfMaterial(int material, const Eigen::VectorXd& x_m,

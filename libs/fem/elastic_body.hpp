@@ -46,10 +46,10 @@ class ElasticBody {
   /// dF_int/dE = this / E.
   void AddForcesOfMaterial(int material, const Eigen::VectorXd& x_m,
                            Eigen::VectorXd& force_N) const;
-  /// Adds F_int(x) to `force_N` and K(x) to `stiffness`, to which BindTo was called. Returns the
-  /// smallest det F.
-  double AddForcesAndTangent(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N,
-                             StiffnessMatrix& stiffness) const;
+  /// Adds F_int(x) to `force_N` and sets `stiffness`, to which BindTo was called, to K(x). Returns
+  /// the smallest det F.
+  double AddForcesAndSetTangent(const Eigen::VectorXd& x_m, Eigen::VectorXd& force_N,
+                                StiffnessMatrix& stiffness) const;
   /// Elastic energy, J; `min_J` gets the smallest det F.
   double Energy(const Eigen::VectorXd& x_m, double* min_J) const;
 
@@ -72,10 +72,10 @@ class ElasticBody {
   /// Calls work(thread index) for every share; gives the smallest det F that they found.
   template <typename Work>
   double OnEveryShare(const Work& work) const;
-  /// Evaluates the blocks of one share: adds its rows to `force_N`, and its block columns to
+  /// Evaluates the blocks of one share: adds its rows to `force_N`, and sets its block columns of
   /// `stiffness` unless that is null. Returns the smallest det F.
   double AddShare(const AssemblyShare& share, const double* x_m, Eigen::VectorXd& force_N,
-                  double* stiffness) const;
+                  StiffnessMatrix* stiffness) const;
   void AddShareOfMaterial(const AssemblyShare& share, int material, const double* x_m,
                           Eigen::VectorXd& force_N) const;
   double EnergiesOfShare(const AssemblyShare& share, const double* x_m) const;

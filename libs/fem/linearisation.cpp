@@ -59,8 +59,7 @@ Status Linearisation::Update(const Eigen::VectorXd& x_m, const Eigen::VectorXd& 
                              const Eigen::VectorXd& external_force_N, bool allow_shift) {
   nodal_.setZero();
   shifted_ = false;
-  matrix_.SetZero();
-  min_J_ = body_.AddForcesAndTangent(x_m, nodal_, matrix_);
+  min_J_ = body_.AddForcesAndSetTangent(x_m, nodal_, matrix_);
   internal_norm_ = nodal_.norm();
   for (size_t c = 0; c < constraints_.size(); ++c) {
     const double multiplier = multipliers_N[static_cast<Eigen::Index>(c)];

@@ -84,7 +84,10 @@ BlockSlot StiffnessMatrix::Slot(int node_a, int node_b) const {
   return {.address = kBlockEntries * static_cast<int>(found - row_.begin()), .transposed = a < b};
 }
 
-void StiffnessMatrix::SetZero() { std::fill(values_.begin(), values_.end(), 0.0); }
+void StiffnessMatrix::SetZero(int begin, int end) {
+  std::fill(values_.begin() + kBlockEntries * column_start_[At(begin)],
+            values_.begin() + kBlockEntries * column_start_[At(end)], 0.0);
+}
 
 double StiffnessMatrix::MeanDiagonal() const {
   double sum = 0.0;

@@ -37,7 +37,8 @@ class StiffnessMatrix {
   /// The slot of block (a, b). Checks that the pair was declared.
   BlockSlot Slot(int node_a, int node_b) const;
 
-  void SetZero();
+  /// The columns of the free nodes [begin, end).
+  void SetZero(int begin, int end);
   /// Adds `block` = dforce_a/dx_b at slot (a, b); for a == b it must be symmetric.
   /// `block` may be any 3x3 accessor block(row, column).
   template <typename Block>

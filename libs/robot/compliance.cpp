@@ -36,6 +36,12 @@ void Compliance::SetForces(std::vector<ForceDirection> forces) {
   delta_a_free_.resize(a);
   lambda_a_.resize(a);
   lambda_f_.resize(f);
+  cable_rows_.resize(static_cast<size_t>(a));
+  for (Eigen::Index k = 0; k < f; ++k) {
+    nodal_.setZero();
+    forces_[static_cast<size_t>(k)].AddForce(1.0, nodal_);
+    linearisation_.matrix().Reduce(nodal_, directions_.col(a + k));
+  }
 }
 
 void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
@@ -77,7 +83,7 @@ void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
     delta_a_free_[c] = cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m) +
-                       directions_.col(c).dot(columns_.col(0));
+                       AlongCable(c, columns_.col(0));
   }
   // The free values are those without cable and contact forces; the residual holds both.
   delta_e_free_.noalias() -= W_ea_ * lambda_a_;
@@ -91,16 +97,25 @@ void Compliance::FillColumns(const Eigen::VectorXd& x_m) {
   for (size_t c = 0; c < cables.size(); ++c) {
     nodal_.setZero();
     cables[c]->AddGradient(x_m, -1.0, nodal_);
-    linearisation_.matrix().Reduce(nodal_, directions_.col(static_cast<Eigen::Index>(c)));
-  }
-  for (size_t f = 0; f < forces_.size(); ++f) {
-    nodal_.setZero();
-    forces_[f].AddForce(1.0, nodal_);
-    linearisation_.matrix().Reduce(nodal_,
-                                   directions_.col(static_cast<Eigen::Index>(cables.size() + f)));
+    auto direction = directions_.col(static_cast<Eigen::Index>(c));
+    linearisation_.matrix().Reduce(nodal_, direction);
+    cable_rows_[c].clear();
+    for (Eigen::Index row = 0; row < direction.size(); ++row) {
+      if (direction[row] != 0.0) cable_rows_[c].push_back(row);
+    }
   }
   columns_.col(0) = linearisation_.residual_N();
   columns_.rightCols(directions_.cols()) = directions_;
+}
+
+/// Row of H_a times a column, few of whose entries it touches.
+double Compliance::AlongCable(Eigen::Index cable,
+                              const Eigen::Ref<const Eigen::VectorXd>& column) const {
+  double sum = 0.0;
+  for (const Eigen::Index row : cable_rows_[static_cast<size_t>(cable)]) {
+    sum += directions_(row, cable) * column[row];
+  }
+  return sum;
 }
 
 /// Rows of H_e and H_a times the solved columns of cables and forces.
@@ -121,11 +136,9 @@ void Compliance::ObserveColumns() {
       W_ef_.middleRows<3>(row) += weight * moved.middleCols(1 + a, f);
     }
   }
-  // Dot products, not a matrix product: Eigen's would take its blocking buffers from the heap.
   for (Eigen::Index i = 0; i < a; ++i) {
-    const auto H_a = directions_.col(i);
-    for (Eigen::Index j = 0; j < a; ++j) W_aa_(i, j) = H_a.dot(columns_.col(1 + j));
-    for (Eigen::Index j = 0; j < f; ++j) W_af_(i, j) = H_a.dot(columns_.col(1 + a + j));
+    for (Eigen::Index j = 0; j < a; ++j) W_aa_(i, j) = AlongCable(i, columns_.col(1 + j));
+    for (Eigen::Index j = 0; j < f; ++j) W_af_(i, j) = AlongCable(i, columns_.col(1 + a + j));
   }
 }
 

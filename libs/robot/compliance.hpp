@@ -64,16 +64,18 @@ class Compliance {
 
  private:
   void FillColumns(const Eigen::VectorXd& x_m);
+  double AlongCable(Eigen::Index cable, const Eigen::Ref<const Eigen::VectorXd>& column) const;
   void ObserveColumns();
   void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
 
   fem::Linearisation& linearisation_;
   std::vector<fem::NodeWeights> effectors_;
   std::vector<ForceDirection> forces_;
-  Eigen::MatrixXd directions_;  ///< [reduced x a + f], H_a' and H_f'
-  Eigen::MatrixXd columns_;     ///< [reduced x 1 + a + f], K^-1 of r, H_a', H_f'
-  Eigen::VectorXd nodal_;       ///< [3n]
-  Eigen::VectorXd step_;        ///< [reduced]
+  Eigen::MatrixXd directions_;                         ///< [reduced x a + f], H_a' and H_f'
+  std::vector<std::vector<Eigen::Index>> cable_rows_;  ///< [a] nonzeros of H_a'
+  Eigen::MatrixXd columns_;  ///< [reduced x 1 + a + f], K^-1 of r, H_a', H_f'
+  Eigen::VectorXd nodal_;    ///< [3n]
+  Eigen::VectorXd step_;     ///< [reduced]
   Eigen::VectorXd lambda_a_, lambda_f_;
   Eigen::MatrixXd W_ea_, W_ef_, W_aa_, W_af_;
   Eigen::VectorXd delta_e_free_, delta_a_free_;

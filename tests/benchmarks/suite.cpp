@@ -28,11 +28,12 @@ int MaxRepetitions(const NamedRobot& robot, const Contender& contender) {
   return robot.large && contender.by_entries ? 1 : robot.max_repetitions;
 }
 
-/// Threads that have slept take some calls until they start at once, each on a core of its own. A
-/// large mesh does not fit into the caches anyway.
+/// Frames follow one another, so the caches know the model. Threads that have slept take some calls
+/// until they start at once, each on a core of its own. A large mesh does not fit into the caches
+/// anyway.
 WarmUp ChooseWarmUp(const NamedRobot& robot, const Contender& contender) {
   if (robot.large) return {.first = contender.by_entries ? 0 : 1, .each = 0};
-  return {.first = 0, .each = contender.settings.threads > 1 ? 4 : 1};
+  return {.first = 0, .each = contender.settings.threads > 1 ? 4 : 3};
 }
 
 /// A scene that no other benchmark uses.

@@ -51,9 +51,8 @@ class Assembly {
 
   int Size() const { return matrix_.Size(); }
   void Assemble() {
-    matrix_.SetZero();
     force_N_.setZero();
-    body_.AddForcesAndTangent(x_m_, force_N_, matrix_);
+    body_.AddForcesAndSetTangent(x_m_, force_N_, matrix_);
   }
 
  private:

@@ -103,7 +103,11 @@ TEST(StiffnessMatrix, EqualsTheDenseAssemblyOverTheFreeNodes) {
   EXPECT_LE(
       (Dense(K) - dense - 0.5 * dense.diagonal().mean() * Eigen::MatrixXd::Identity(72, 72)).norm(),
       1e-12);
-  K.SetZero();
+  const double before = Dense(K)(0, 0);
+  K.SetZero(1, 24);
+  EXPECT_EQ(Dense(K).bottomRightCorner(69, 69).norm(), 0.0);
+  EXPECT_EQ(Dense(K)(0, 0), before);
+  K.SetZero(0, 1);
   EXPECT_EQ(Dense(K).norm(), 0.0);
 }
 

@@ -136,7 +136,7 @@ TEST_P(ElementLaw, TangentIsDerivativeOfForces) {
                           body.CoupledPairs());
   body.BindTo(tangent);
   Eigen::VectorXd force_N = zero;
-  ASSERT_GT(body.AddForcesAndTangent(x_m, force_N, tangent), 0.0);
+  ASSERT_GT(body.AddForcesAndSetTangent(x_m, force_N, tangent), 0.0);
 
   const auto forces_at = [&](double step_m) {
     Eigen::VectorXd force = zero;
