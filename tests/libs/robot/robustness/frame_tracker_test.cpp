@@ -19,7 +19,8 @@ constexpr auto kPull = CableCommand::Kind::kDisplacement;
 /// point changes.
 class Sweep {
  public:
-  explicit Sweep(const RobotDescription& robot) : model_(BuildRobotBody(robot)) {
+  explicit Sweep(const RobotDescription& robot, const fem::SolverSettings& solver = {})
+      : model_{BuildRobotBody(robot), {}, solver} {
     Eigen::Index highest = 0;
     model_.body().mesh.nodes_m.row(2).maxCoeff(&highest);
     patch_ = model_.Patch(model_.body().mesh.nodes_m.col(highest), 0.005).weights;
@@ -69,6 +70,42 @@ class Sweep {
   fem::NodeWeights patch_;
   fem::StaticState truth_;
 };
+
+/// All feature points after the first ten frames, each converged, one after another.
+Eigen::VectorXd PathOfFeaturePoints(const RobotDescription& robot,
+                                    const fem::SolverSettings& solver) {
+  Sweep sweep(robot, solver);
+  FrameTracker tracker(sweep.model(), {.relative_tolerance = 1e-11});
+  tracker.Start(sweep.truth());
+  std::vector<double> path_m;
+  for (int frame = 1; frame <= 10; ++frame) {
+    EXPECT_TRUE(tracker.Follow(sweep.Cables(frame), sweep.NodalForce_N(frame)).converged());
+    for (const fem::BodyPoint& point : sweep.model().body().feature_points) {
+      const Eigen::Vector3d position_m = point.weights.Position(tracker.state().x_m);
+      path_m.insert(path_m.end(), position_m.begin(), position_m.end());
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(path_m.data(), static_cast<Eigen::Index>(path_m.size()));
+}
+
+TEST(FrameTracker, FollowsAlikeOnAnyNumberOfThreads) {
+  const RobotDescription robot = test_support::FourLegRobot();
+  const Eigen::VectorXd alone_m = PathOfFeaturePoints(robot, {.threads = 1});
+  for (const int threads : {2, 3}) {
+    const Eigen::VectorXd path_m = PathOfFeaturePoints(robot, {.threads = threads});
+    ASSERT_EQ(path_m.size(), alone_m.size());
+    EXPECT_LE((path_m - alone_m).norm(), 1e-12 * alone_m.norm()) << threads << " threads";
+  }
+}
+
+TEST(FrameTracker, FollowsAlikeWithEachSolver) {
+  const RobotDescription robot = test_support::FourLegRobot();
+  const Eigen::VectorXd expected_m = PathOfFeaturePoints(robot, {.solver = "cholmod_simplicial"});
+  for (const char* solver : {"multifrontal", "cholmod_supernodal"}) {
+    const Eigen::VectorXd path_m = PathOfFeaturePoints(robot, {.solver = solver});
+    EXPECT_LE((path_m - expected_m).norm(), 1e-9 * expected_m.norm()) << solver;
+  }
+}
 
 void ExpectConvergenceInFourSteps(const RobotDescription& robot) {
   Sweep sweep(robot);
