@@ -15,14 +15,20 @@ inline void Pause() {
 #endif
 }
 
-/// Returns when `value` is no longer `old`. Sleeps after some tens of microseconds: longer than
-/// threads of one section are apart, shorter than the time between two frames.
+/// Returns when `value` is no longer `old`. Sleeps after some tenths of a millisecond: longer than
+/// threads of one section, and the sections of one frame, are apart, shorter than the time between
+/// two frames. Most of that time it lets others run on its core, such as the thread it waits for.
 template <typename T>
 void WaitForChange(const std::atomic<T>& value, T old) {
   constexpr int kLooks = 2000;
-  for (int look = 0; look < kLooks; ++look) {
+  constexpr int kPatientLooks = 1000;
+  for (int look = 0; look < kLooks + kPatientLooks; ++look) {
     if (value.load(std::memory_order_acquire) != old) return;
-    Pause();
+    if (look < kLooks) {
+      Pause();
+    } else {
+      std::this_thread::yield();
+    }
   }
   while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
 }

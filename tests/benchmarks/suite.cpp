@@ -33,7 +33,7 @@ int MaxRepetitions(const NamedRobot& robot, const Contender& contender) {
 /// anyway.
 WarmUp ChooseWarmUp(const NamedRobot& robot, const Contender& contender) {
   if (robot.large) return {.first = contender.by_entries ? 0 : 1, .each = 0};
-  return {.first = 0, .each = contender.settings.threads > 1 ? 4 : 3};
+  return {.first = 0, .each = contender.by_entries ? 1 : 6};
 }
 
 /// A scene that no other benchmark uses.
