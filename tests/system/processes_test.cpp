@@ -35,11 +35,19 @@ using Outcomes = std::map<std::pair<std::string, int64_t>, Outcome>;
 /// Listens to /forces.
 class Listener {
  public:
-  Listener() : node_("listener"), forces_(node_.participant.CreateReader(dds::kForcesTopic)) {
+  Listener()
+      : node_("listener"),
+        forces_(node_.participant.CreateReader(dds::kForcesTopic, node_.Waker())) {
     node_.loop.Attach(forces_, [this] { Take(); });
   }
 
   const Outcomes& outcomes() const { return outcomes_; }
+  void Forget() { outcomes_.clear(); }
+
+  /// What an estimator says before it and this listener know of each other is lost.
+  bool WaitForEstimator() {
+    return WaitFor([this] { return forces_.matched() > 0; });
+  }
 
   /// Waits, at most 90 s, until `condition` holds.
   template <typename Condition>
@@ -123,6 +131,7 @@ void ExpectProcessesToEqualTheDesk(const Sample& sample, const TestFolder& folde
   EXPECT_GE(CountWithForces(desk), 3u);
   Listener listener;
   Process estimator("palpate-force-estimation", EstimatorArguments(sample), folder / "fe.log");
+  ASSERT_TRUE(listener.WaitForEstimator());
   Process player("palpate-player", {"--data", sample.data.string(), "--step"},
                  folder / "player.log");
   EXPECT_TRUE(listener.WaitFor([&] { return listener.outcomes().size() == desk.size(); }));
@@ -146,16 +155,16 @@ TEST(Processes, RecoverWhenTheEstimatorIsKilledAndStartedAgain) {
   const TestFolder folder;
   const Sample sample = WriteBeamSample(folder, 10);
   const size_t frame_count = EstimateAtTheDesk(sample, folder).size();
+  Listener listener;
   Process player("palpate-player", {"--data", sample.data.string(), "--step"},
                  folder / "player.log");
   {
-    Listener listener;
     Process first("palpate-force-estimation", EstimatorArguments(sample), folder / "fe1.log");
     ASSERT_TRUE(listener.WaitFor([&] { return CountWithForces(listener.outcomes()) >= 1; }));
     first.Signal(SIGKILL);
     EXPECT_EQ(first.Wait(seconds(10)), -SIGKILL);
   }
-  Listener listener;
+  listener.Forget();
   Process second("palpate-force-estimation", EstimatorArguments(sample), folder / "fe2.log");
   EXPECT_EQ(player.Wait(seconds(120)), 0) << player.Output();
   EXPECT_THAT(player.Output(), HasSubstr("the recording begins again"));
@@ -168,6 +177,7 @@ TEST(Processes, RecoverWhenThePlayerIsKilledAndStartedAgain) {
   const Outcomes desk = EstimateAtTheDesk(sample, folder);
   Listener listener;
   Process estimator("palpate-force-estimation", EstimatorArguments(sample), folder / "fe.log");
+  ASSERT_TRUE(listener.WaitForEstimator());
   {
     Process first("palpate-player", {"--data", sample.data.string(), "--step"},
                   folder / "player1.log");
