@@ -65,6 +65,37 @@ TEST_P(MultifrontalSolver, SolvesLikeCholmod) {
   }
 }
 
+/// A single front, so that nothing but the end of its memory lies behind its last tile.
+TEST_P(MultifrontalSolver, SolvesWithAFrontOfAnySize) {
+  ThreadTeam team(1);
+  for (int nodes = 1; nodes <= 9; ++nodes) {
+    std::vector<int> column_start{0};
+    std::vector<int> row;
+    std::vector<double> values;
+    const Eigen::MatrixXd root = RandomColumns(3 * nodes, 3 * nodes);
+    const Eigen::MatrixXd dense =
+        root * root.transpose() + Eigen::MatrixXd::Identity(3 * nodes, 3 * nodes);
+    for (int column = 0; column < nodes; ++column) {
+      for (int a = column; a < nodes; ++a) {
+        const Eigen::Matrix3d block = dense.block<3, 3>(3 * a, 3 * column);
+        row.push_back(a);
+        values.insert(values.end(), block.data(), block.data() + kBlockEntries);
+      }
+      column_start.push_back(static_cast<int>(row.size()));
+    }
+    const std::vector<int> supernode_start{0, nodes};
+    const auto solver =
+        MakeMultifrontalSolver({column_start, row, supernode_start}, team, GetParam());
+    ASSERT_TRUE(solver->Factorize(values).ok());
+    for (const int columns : {1, 3, 12}) {
+      const Eigen::MatrixXd b = RandomColumns(3 * nodes, columns);
+      Eigen::MatrixXd x = b;
+      solver->Solve(x);
+      EXPECT_LE((dense * x - b).norm(), 1e-12 * b.norm()) << nodes << " nodes, " << columns;
+    }
+  }
+}
+
 TEST_P(MultifrontalSolver, SaysThatAMatrixIsNotPositiveDefinite) {
   const StiffnessMatrix good = MakeGridMatrix(25.0, 1);
   const StiffnessMatrix indefinite = MakeGridMatrix(2.0, 1);
