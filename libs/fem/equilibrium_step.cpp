@@ -17,14 +17,6 @@ namespace {
 
 using Mode = ConstraintCommand::Mode;
 
-Eigen::Index Count(const LoadState& loads) {
-  return static_cast<Eigen::Index>(loads.commands.size());
-}
-
-const ConstraintCommand& Command(const LoadState& loads, Eigen::Index c) {
-  return loads.commands[static_cast<size_t>(c)];
-}
-
 double Value(const Linearisation& linearisation, Eigen::Index c, const Eigen::VectorXd& x_m) {
   return linearisation.constraints()[static_cast<size_t>(c)]->Value(x_m);
 }
@@ -43,8 +35,8 @@ EquilibriumStep::EquilibriumStep(Linearisation& linearisation)
 }
 
 void EquilibriumStep::ImposeMultipliers(const LoadState& loads, Eigen::VectorXd* multipliers_N) {
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    const ConstraintCommand& command = loads.command(c);
     if (command.mode == Mode::kMultiplier) (*multipliers_N)[c] = command.value;
     if (command.mode == Mode::kOff) (*multipliers_N)[c] = 0.0;
   }
@@ -58,8 +50,8 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
     return status;
   }
   Eigen::Index bounded = 0;
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    if (Command(loads, c).mode != Mode::kUpperBound) continue;
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    if (loads.command(c).mode != Mode::kUpperBound) continue;
     nodal_.setZero();
     linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(x_m, -1.0, nodal_);
     linearisation_.matrix().Reduce(nodal_, gradients_.col(c));
@@ -86,8 +78,8 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
   multipliers_ = multipliers_N;
   Eigen::Index bounded = 0;
   std::array<Eigen::Index, kMaxQpVariables> constraint{};
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    if (Command(loads, c).mode == Mode::kUpperBound) constraint[static_cast<size_t>(bounded++)] = c;
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    if (loads.command(c).mode == Mode::kUpperBound) constraint[static_cast<size_t>(bounded++)] = c;
   }
   if (bounded == 0) return Status::Ok();
   BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
@@ -98,9 +90,8 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
     for (Eigen::Index l = 0; l < bounded; ++l) {
       qp.H(k, l) = gradients_.col(c).dot(columns_.col(l));
     }
-    qp.c[k] =
-        gradients_.col(c).dot(step_) + Command(loads, c).value - Value(linearisation_, c, x_m);
-    qp.upper[k] = Command(loads, c).max_multiplier_N;
+    qp.c[k] = gradients_.col(c).dot(step_) + loads.command(c).value - Value(linearisation_, c, x_m);
+    qp.upper[k] = loads.command(c).max_multiplier_N;
     present[k] = multipliers_N[c];
   }
   qp.c -= qp.H * present;
@@ -124,8 +115,8 @@ void EquilibriumStep::Apply(double length, const Eigen::VectorXd& x_m,
 double ConstraintError_m(const Linearisation& linearisation, const LoadState& loads,
                          const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N) {
   double error = 0.0;
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    const ConstraintCommand& command = loads.command(c);
     if (command.mode != Mode::kUpperBound) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the drive cannot pull harder
     const double excess = Value(linearisation, c, x_m) - command.value;
@@ -149,8 +140,8 @@ double RoundingForce_N(const Linearisation& linearisation, const Eigen::VectorXd
 Status CheckLargestMultipliers(const Linearisation& linearisation, const LoadState& loads,
                                const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
                                double tolerance_m) {
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    const ConstraintCommand& command = loads.command(c);
     if (command.mode != Mode::kUpperBound) continue;
     const double excess = Value(linearisation, c, x_m) - command.value;
     if (multipliers_N[c] >= command.max_multiplier_N && excess > tolerance_m) {

@@ -27,6 +27,11 @@ struct LoadState {
   std::vector<ConstraintCommand> commands;
   /// [3n]; only entries of fixed directions are used.
   Eigen::VectorXd fixed_position_m;
+
+  Eigen::Index CommandCount() const { return static_cast<Eigen::Index>(commands.size()); }
+  const ConstraintCommand& command(Eigen::Index c) const {
+    return commands[static_cast<size_t>(c)];
+  }
 };
 
 /// A configuration with the loads it was last brought into balance with.

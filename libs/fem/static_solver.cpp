@@ -14,14 +14,6 @@ namespace {
 
 using Mode = ConstraintCommand::Mode;
 
-Eigen::Index Count(const LoadState& loads) {
-  return static_cast<Eigen::Index>(loads.commands.size());
-}
-
-const ConstraintCommand& Command(const LoadState& loads, Eigen::Index c) {
-  return loads.commands[static_cast<size_t>(c)];
-}
-
 /// Smaller load steps would not help.
 bool IsFinal(const Status& status) {
   return status.code() == StatusCode::kTensionLimit || status.code() == StatusCode::kBudgetReached;
@@ -49,7 +41,7 @@ StaticResult StaticSolver::Solve(const LoadState& target, StaticState* state,
                                  const TimeBudget& budget) {
   StaticResult result;
   budget_ = &budget;
-  PALPATE_CHECK(Count(target) == state->multipliers_N.size(), Count(target));
+  PALPATE_CHECK(target.CommandCount() == state->multipliers_N.size(), target.CommandCount());
   StaticState start = *state;
   StaticState attempt = start;
   double remaining_fraction = 1.0;
@@ -90,7 +82,7 @@ LoadState StaticSolver::Interpolate(const StaticState& start, const LoadState& t
       (1.0 - fraction) * start.loads.external_force_N + fraction * target.external_force_N;
   loads.fixed_position_m =
       (1.0 - fraction) * start.loads.fixed_position_m + fraction * target.fixed_position_m;
-  for (Eigen::Index c = 0; c < Count(target); ++c) {
+  for (Eigen::Index c = 0; c < target.CommandCount(); ++c) {
     ConstraintCommand& command = loads.commands[static_cast<size_t>(c)];
     double from = start.multipliers_N[c];
     if (command.mode == Mode::kUpperBound) {
@@ -217,8 +209,8 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
                            double* min_J) const {
   double merit = linearisation_.body().Energy(x_m, min_J) -
                  loads.external_force_N.dot(x_m - linearisation_.body().rest_m());
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    const ConstraintCommand& command = loads.command(c);
     if (command.mode == Mode::kOff) continue;
     const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(x_m);
     merit += command.mode == Mode::kMultiplier
@@ -232,8 +224,8 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
 /// it.
 double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state) const {
   double slope = -linearisation_.residual_N().dot(step_.dx());
-  for (Eigen::Index c = 0; c < Count(loads); ++c) {
-    const ConstraintCommand& command = Command(loads, c);
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    const ConstraintCommand& command = loads.command(c);
     if (command.mode != Mode::kUpperBound) continue;
     // The residual holds lambda dg/dx already; the merit does not.
     slope += state.multipliers_N[c] * step_.gradient(c).dot(step_.dx());

@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -13,35 +12,11 @@
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_io/write_vtu.hpp"
 #include "tests/benchmarks/refine.hpp"
+#include "tests/support/paper_robot.hpp"
 
 namespace palpate::benchmarks {
 
 namespace {
-
-constexpr const char* kDiamond = R"(
-name: diamond
-mesh: {file: diamond.vtu, unit: mm, rotate_xyz_deg: [90, 0, 0], translate_mm: [0, 0, 35]}
-element: tet4
-material: {model: stable_neo_hookean, youngs_modulus_Pa: 180e3, poissons_ratio: 0.45}
-mass: {total_kg: 0.5, distribution: per_node}
-fixed: [{box_m: [[-0.015, -0.015, -0.040], [0.015, 0.015, 0.010]]}]
-cables:
-  - {name: north, path_m: [[0, 0.010, 0.030], [0, 0.097, 0.045]], guide_radius_m: 0}
-  - {name: west, path_m: [[-0.010, 0, 0.030], [-0.097, 0, 0.045]], guide_radius_m: 0}
-  - {name: south, path_m: [[0, -0.010, 0.030], [0, -0.097, 0.045]], guide_radius_m: 0}
-  - {name: east, path_m: [[0.010, 0, 0.030], [0.097, 0, 0.045]], guide_radius_m: 0}
-)";
-
-std::filesystem::path DataFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data";
-}
-
-robot::RobotDescription Diamond(const std::filesystem::path& folder) {
-  return robot::ReadRobotFile(folder / "robot.yaml", [](const std::filesystem::path& file) {
-    return app::ParseYaml(kDiamond, file.string());
-  });
-}
 
 /// The paper's 180 kPa belong to its mesh, which locks and is 2.5 times too stiff; without that the
 /// body would buckle under its weight.
@@ -81,12 +56,11 @@ class RefinedMeshFile {
 }  // namespace
 
 NamedRobot PaperRobot(fem::ElementType element, int refinements) {
-  const std::filesystem::path folder = DataFolder() / "diamond";
   NamedRobot robot = OwnRobot("four_leg", element);
-  if (std::filesystem::exists(folder / "diamond.vtu")) {
+  if (const auto diamond = test_support::DiamondRobot()) {
     robot.name = "diamond";
     robot.note = "the paper's mesh, four cables";
-    robot.description = Diamond(folder);
+    robot.description = *diamond;
     robot.description.element = element;
     const bool locks = element == fem::ElementType::kTet4 && refinements == 0;
     if (!locks) {
@@ -95,7 +69,8 @@ NamedRobot PaperRobot(fem::ElementType element, int refinements) {
     }
   } else {
     robot.name = "stand_in";
-    robot.note = "our robot four_leg, because the paper's mesh is not in " + DataFolder().string();
+    robot.note = "our robot four_leg, because the paper's mesh is not in " +
+                 test_support::DataFolder().string();
   }
   if (refinements > 0) {
     const std::string cells = std::to_string(1 << (3 * refinements));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "libs/core/error.hpp"
+#include "tests/support/feature_point_targets.hpp"
 
 namespace palpate::benchmarks {
 
@@ -23,12 +24,7 @@ constexpr double kMarkerSigma_m = 1e-4;
 robot::RobotBody MakeBody(NamedRobot robot, int feature_points) {
   robot.description.feature_points_m.resize(3, 0);
   robot.description.feature_point_count = feature_points;
-  robot::RobotBody body = BuildBody(robot);
-  body.markers.clear();
-  for (size_t k = 0; k < body.feature_points.size(); ++k) {
-    body.markers.push_back({"feature_" + std::to_string(k), body.feature_points[k]});
-  }
-  return body;
+  return test_support::WithFeaturePointsAsMarkers(BuildBody(robot));
 }
 
 force_estimation::Config MakeConfig(SensingScene::Update update) {
@@ -106,15 +102,7 @@ void SensingScene::AddFrame(int step, fem::StaticState* equilibrium) {
   }
   const fem::StaticResult result = model_.Solve(frame.cables, loads, equilibrium);
   if (!result.status.ok()) throw RunError("no equilibrium: " + result.status.message());
-  const auto& markers = model_.body().markers;
-  const auto rows = static_cast<Eigen::Index>(3 * markers.size());
-  frame.targets.rows = static_cast<int>(rows);
-  frame.targets.weight = Eigen::VectorXd::Constant(rows, 1.0 / (kMarkerSigma_m * kMarkerSigma_m));
-  frame.targets.position_m.resize(rows);
-  for (size_t m = 0; m < markers.size(); ++m) {
-    frame.targets.position_m.segment<3>(static_cast<Eigen::Index>(3 * m)) =
-        markers[m].point.weights.Position(equilibrium->x_m);
-  }
+  frame.targets = test_support::ExactTargets(model_, equilibrium->x_m, kMarkerSigma_m);
   frames_.push_back(std::move(frame));
 }
 

@@ -20,36 +20,11 @@
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/paper_robot.hpp"
 
 namespace palpate::test_support {
 
-/// The robots that loops have to stand: the paper's, from the folder of measured data, and ours.
-/// Both of linear elements with 51 feature points.
-inline std::optional<robot::RobotDescription> DiamondRobot() {
-  const char* data = std::getenv("PALPATE_DATA_DIR");
-  const std::filesystem::path folder =
-      std::filesystem::path(data != nullptr ? data : PALPATE_SOURCE_DIR "/../shared/data") /
-      "diamond";
-  if (!std::filesystem::exists(folder / "diamond.vtu")) return std::nullopt;
-  constexpr const char* kText = R"(
-name: diamond
-mesh: {file: diamond.vtu, unit: mm, rotate_xyz_deg: [90, 0, 0], translate_mm: [0, 0, 35]}
-element: tet4
-material: {model: stable_neo_hookean, youngs_modulus_Pa: 180e3, poissons_ratio: 0.45}
-mass: {total_kg: 0.5, distribution: per_node}
-fixed: [{box_m: [[-0.015, -0.015, -0.040], [0.015, 0.015, 0.010]]}]
-feature_points: {count: 51}
-cables:
-  - {name: north, path_m: [[0, 0.010, 0.030], [0, 0.097, 0.045]], guide_radius_m: 0}
-  - {name: west, path_m: [[-0.010, 0, 0.030], [-0.097, 0, 0.045]], guide_radius_m: 0}
-  - {name: south, path_m: [[0, -0.010, 0.030], [0, -0.097, 0.045]], guide_radius_m: 0}
-  - {name: east, path_m: [[0.010, 0, 0.030], [0.097, 0, 0.045]], guide_radius_m: 0}
-)";
-  return robot::ReadRobotFile(folder / "robot.yaml", [](const std::filesystem::path& file) {
-    return app::ParseYaml(kText, file.string());
-  });
-}
-
+/// Ours, of linear elements.
 inline robot::RobotDescription FourLegRobot() {
   const std::filesystem::path file =
       std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml";

@@ -6,6 +6,7 @@
 #include "components/force_estimation/marker_fitter.hpp"
 #include "libs/robot/frame_tracker.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
+#include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
 
 namespace palpate::force_estimation {
@@ -18,26 +19,12 @@ using test_support::RandomLoading;
 /// static solver once in each iteration.
 constexpr double kLooks = 60.0;
 
-/// The body with its feature points as markers.
-robot::RobotBody BodyOf(const robot::RobotDescription& robot) {
-  robot::RobotBody body = robot::BuildRobotBody(robot);
-  body.markers.clear();
-  for (const fem::BodyPoint& point : body.feature_points) {
-    body.markers.push_back({"f" + std::to_string(body.markers.size()), point});
-  }
-  return body;
-}
-
-MarkerTargets TargetsAt(const robot::RobotModel& model, const fem::StaticState& truth,
-                        std::mt19937& random) {
-  const auto& markers = model.body().markers;
-  MarkerTargets targets;
-  targets.rows = static_cast<int>(3 * markers.size());
-  targets.weight = Eigen::VectorXd::Constant(targets.rows, 1e8);
-  targets.position_m.resize(targets.rows);
-  for (size_t m = 0; m < markers.size(); ++m) {
-    targets.position_m.segment<3>(static_cast<Eigen::Index>(3 * m)) =
-        markers[m].point.weights.Position(truth.x_m) + NormalNoise(1e-4, random);
+MarkerTargets NoisyTargets(const robot::RobotModel& model, const fem::StaticState& truth,
+                           std::mt19937& random) {
+  constexpr double kSigma_m = 1e-4;
+  MarkerTargets targets = test_support::ExactTargets(model, truth.x_m, kSigma_m);
+  for (int row = 0; row < targets.rows; row += 3) {
+    targets.position_m.segment<3>(row) += NormalNoise(kSigma_m, random);
   }
   return targets;
 }
@@ -84,7 +71,7 @@ void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
     const fem::TimeBudget budget(kLooks, [&looks] { return looks += 1.0; });
     state.balanced = false;
     const MarkerFit& fit =
-        fitter->Fit(TargetsAt(model, truth.state(), random), loading.Cables(k), &state, budget);
+        fitter->Fit(NoisyTargets(model, truth.state(), random), loading.Cables(k), &state, budget);
     ASSERT_TRUE(IsFinite(state)) << "frame " << k;
     if (fit.status.ok()) {
       ASSERT_LE(ResidualOf(model, patch.weights, state), 1e-7) << "frame " << k;
@@ -102,7 +89,7 @@ void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
 }
 
 void FitLoadings(const std::string& name, const robot::RobotDescription& robot, int by_default) {
-  robot::RobotModel model(BodyOf(robot));
+  robot::RobotModel model(test_support::WithFeaturePointsAsMarkers(robot::BuildRobotBody(robot)));
   fem::StaticState at_rest = model.RestState();
   const std::vector<robot::CableCommand> slack(static_cast<size_t>(model.CableCount()));
   ASSERT_TRUE(model.Solve(slack, {}, &at_rest).status.ok());

@@ -8,6 +8,7 @@
 
 #include "components/force_estimation/marker_fitter.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
+#include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
 
 namespace palpate::force_estimation {
@@ -17,7 +18,8 @@ namespace {
 /// 20 mm and back by 1 mm a frame.
 class Sweep {
  public:
-  explicit Sweep(const robot::RobotDescription& robot) : model_(BodyOf(robot)) {
+  explicit Sweep(const robot::RobotDescription& robot)
+      : model_(test_support::WithFeaturePointsAsMarkers(robot::BuildRobotBody(robot))) {
     const auto& points = model_.body().feature_points;
     const auto by_height = [](const fem::BodyPoint& a, const fem::BodyPoint& b) {
       return a.rest_m.z() < b.rest_m.z();
@@ -59,18 +61,7 @@ class Sweep {
         0.15 * std::cos(0.25 * frame), -0.1 * std::sin(0.2 * frame);
     return forces_N;
   }
-  MarkerTargets Targets() const {
-    const auto& markers = model_.body().markers;
-    MarkerTargets targets;
-    targets.rows = static_cast<int>(3 * markers.size());
-    targets.weight = Eigen::VectorXd::Constant(targets.rows, 1e8);
-    targets.position_m.resize(targets.rows);
-    for (size_t m = 0; m < markers.size(); ++m) {
-      targets.position_m.segment<3>(static_cast<Eigen::Index>(3 * m)) =
-          markers[m].point.weights.Position(truth_.x_m);
-    }
-    return targets;
-  }
+  MarkerTargets Targets() const { return test_support::ExactTargets(model_, truth_.x_m, 1e-4); }
   ModelState Start() const {
     return {.valid = true,
             .balanced = true,
@@ -93,15 +84,6 @@ class Sweep {
   const std::vector<FitSite>& sites() const { return sites_; }
 
  private:
-  static robot::RobotBody BodyOf(const robot::RobotDescription& robot) {
-    robot::RobotBody body = robot::BuildRobotBody(robot);
-    body.markers.clear();
-    for (const fem::BodyPoint& point : body.feature_points) {
-      body.markers.push_back({"f" + std::to_string(body.markers.size()), point});
-    }
-    return body;
-  }
-
   robot::RobotModel model_;
   std::vector<FitSite> sites_;
   fem::StaticState truth_;
