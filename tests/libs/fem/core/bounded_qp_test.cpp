@@ -208,6 +208,24 @@ TEST(BoundedQp, EqualBoundsHoldTheirVariable) {
   }
 }
 
+/// The flat direction is (1, -1, 0, ..) up to rounding, whose bounds must not count as an end.
+TEST(BoundedQp, RoundingOfTheFlatDirectionFindsNoBound) {
+  std::mt19937 engine(17);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int n = 3 + trial % 10;
+    Eigen::MatrixXd G = laws::RandomVector(n * n, 1.0, &engine).reshaped(n, n);
+    G.col(1) = G.col(0);
+    BoundedQp qp{G.transpose() * G, QpVector::Zero(n), QpVector::Constant(n, -1.0),
+                 QpVector::Constant(n, 1.0)};
+    qp.c[0] = 1.0;
+    qp.c[1] = -1.0;
+    qp.lower.head(2).setConstant(-kInfinity);
+    qp.upper.head(2).setConstant(kInfinity);
+    EXPECT_EQ(SolveBoundedQp(qp, QpVector::Zero(n)).status.code(), StatusCode::kUnobservable)
+        << trial;
+  }
+}
+
 TEST(BoundedQp, AVariableOnWhichNothingActsGoesWhereItsCostSendsIt) {
   QpMatrix H = QpMatrix::Zero(4, 4);
   H(0, 0) = 4.0;
