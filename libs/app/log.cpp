@@ -25,14 +25,14 @@ std::shared_ptr<spdlog::logger> MakeLogger(const std::string& program,
   return logger;
 }
 
-spdlog::level::level_enum SpdlogLevel(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug: return spdlog::level::debug;
-    case LogLevel::kInfo: return spdlog::level::info;
-    case LogLevel::kWarning: return spdlog::level::warn;
-    case LogLevel::kError: return spdlog::level::err;
+spdlog::level::level_enum SpdlogLevel(Severity severity) {
+  switch (severity) {
+    case Severity::kDebug: return spdlog::level::debug;
+    case Severity::kInfo: return spdlog::level::info;
+    case Severity::kWarning: return spdlog::level::warn;
+    case Severity::kError: return spdlog::level::err;
   }
-  PALPATE_CHECK(false, static_cast<int>(level));
+  PALPATE_CHECK(false, static_cast<int>(severity));
   return spdlog::level::err;
 }
 
@@ -56,6 +56,6 @@ void StartLog(const std::string& program, const NodeOptions& options) {
   }
 }
 
-void Log(LogLevel level, std::string_view text) { Logger()->log(SpdlogLevel(level), text); }
+void Log(Severity severity, std::string_view text) { Logger()->log(SpdlogLevel(severity), text); }
 
 }  // namespace palpate::app

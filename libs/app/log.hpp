@@ -9,10 +9,9 @@
 #include <string_view>
 
 #include "libs/app/node_options.hpp"
+#include "libs/core/severity.hpp"
 
 namespace palpate::app {
-
-enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 /// Sets up logging to the standard error output, with time, level and program, and writes the one
 /// line of the start: version, settings file and its hash, domain. Call once, in main().
@@ -20,23 +19,23 @@ void StartLog(const std::string& program, const NodeOptions& options);
 
 /// One line of the log. For nodes and main() only: algorithms return diagnostics. Safe to call
 /// from any thread; before StartLog() only warnings and errors are written.
-void Log(LogLevel level, std::string_view text);
+void Log(Severity severity, std::string_view text);
 
 template <typename... Values>
 void LogDebug(fmt::format_string<Values...> format, Values&&... values) {
-  Log(LogLevel::kDebug, fmt::format(format, std::forward<Values>(values)...));
+  Log(Severity::kDebug, fmt::format(format, std::forward<Values>(values)...));
 }
 template <typename... Values>
 void LogInfo(fmt::format_string<Values...> format, Values&&... values) {
-  Log(LogLevel::kInfo, fmt::format(format, std::forward<Values>(values)...));
+  Log(Severity::kInfo, fmt::format(format, std::forward<Values>(values)...));
 }
 template <typename... Values>
 void LogWarning(fmt::format_string<Values...> format, Values&&... values) {
-  Log(LogLevel::kWarning, fmt::format(format, std::forward<Values>(values)...));
+  Log(Severity::kWarning, fmt::format(format, std::forward<Values>(values)...));
 }
 template <typename... Values>
 void LogError(fmt::format_string<Values...> format, Values&&... values) {
-  Log(LogLevel::kError, fmt::format(format, std::forward<Values>(values)...));
+  Log(Severity::kError, fmt::format(format, std::forward<Values>(values)...));
 }
 
 }  // namespace palpate::app

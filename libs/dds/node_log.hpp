@@ -8,12 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "libs/core/severity.hpp"
 #include "libs/dds/participant.hpp"
 
 namespace palpate::dds {
-
-/// Severities of ROS 2 (rcl_interfaces/msg/Log).
-enum class Severity : uint8_t { kDebug = 10, kInfo = 20, kWarning = 30, kError = 40 };
 
 /// The log of a node: each line goes to /rosout and to the log of the process. Safe from any
 /// thread.

@@ -15,11 +15,27 @@ TopicNameAndType NameAndType(const Topic<T>& topic) {
 }  // namespace
 
 std::vector<TopicNameAndType> AllTopics() {
-  return {NameAndType(kMarkersTopic),     NameAndType(kJointStatesTopic),
-          NameAndType(kForcesTopic),      NameAndType(kWrenchTopic),
-          NameAndType(kMeshStateTopic),   NameAndType(kMeshTopic),
-          NameAndType(kModelGapTopic),    NameAndType(kComponentStatusTopic),
-          NameAndType(kDiagnosticsTopic), NameAndType(kRosoutTopic)};
+  return {NameAndType(kDepthImageTopic),
+          NameAndType(kDepthCameraInfoTopic),
+          NameAndType(kColorImageTopic),
+          NameAndType(kColorCameraInfoTopic),
+          NameAndType(kFrameInfoTopic),
+          NameAndType(kCameraSetupTopic),
+          NameAndType(kMarkersTopic),
+          NameAndType(kJointStatesTopic),
+          NameAndType(kRobotCommandTopic),
+          NameAndType(kForcesTopic),
+          NameAndType(kWrenchTopic),
+          NameAndType(kMeshStateTopic),
+          NameAndType(kMeshTopic),
+          NameAndType(kModelGapTopic),
+          NameAndType(kTrueForcesTopic),
+          NameAndType(kTrueMeshTopic),
+          NameAndType(kTrueMeshStateTopic),
+          NameAndType(kBenchStateTopic),
+          NameAndType(kComponentStatusTopic),
+          NameAndType(kDiagnosticsTopic),
+          NameAndType(kRosoutTopic)};
 }
 
 }  // namespace palpate::dds

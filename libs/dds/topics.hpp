@@ -8,13 +8,18 @@
 
 #include "diagnostic_msgs/msg/DiagnosticArray.hpp"
 #include "geometry_msgs/msg/WrenchStamped.hpp"
+#include "palpate_msgs/msg/BenchState.hpp"
+#include "palpate_msgs/msg/CameraSetup.hpp"
 #include "palpate_msgs/msg/ComponentStatus.hpp"
 #include "palpate_msgs/msg/ForceArray.hpp"
+#include "palpate_msgs/msg/FrameInfo.hpp"
 #include "palpate_msgs/msg/MarkerArray3.hpp"
 #include "palpate_msgs/msg/Mesh.hpp"
 #include "palpate_msgs/msg/MeshState.hpp"
 #include "palpate_msgs/msg/ModelGap.hpp"
 #include "rcl_interfaces/msg/Log.hpp"
+#include "sensor_msgs/msg/CameraInfo.hpp"
+#include "sensor_msgs/msg/Image.hpp"
 #include "sensor_msgs/msg/JointState.hpp"
 
 namespace palpate::dds {
@@ -26,13 +31,28 @@ struct Topic {
   std::string_view name;
 };
 
+inline constexpr Topic<idl::sensor_msgs::Image> kDepthImageTopic{"/camera/depth/image_raw"};
+inline constexpr Topic<idl::sensor_msgs::CameraInfo> kDepthCameraInfoTopic{
+    "/camera/depth/camera_info"};
+inline constexpr Topic<idl::sensor_msgs::Image> kColorImageTopic{"/camera/color/image_raw"};
+inline constexpr Topic<idl::sensor_msgs::CameraInfo> kColorCameraInfoTopic{
+    "/camera/color/camera_info"};
+inline constexpr Topic<idl::palpate_msgs::FrameInfo> kFrameInfoTopic{"/camera/frame_info"};
+inline constexpr Topic<idl::palpate_msgs::CameraSetup> kCameraSetupTopic{"/camera/setup"};
 inline constexpr Topic<idl::palpate_msgs::MarkerArray3> kMarkersTopic{"/perception/markers"};
 inline constexpr Topic<idl::sensor_msgs::JointState> kJointStatesTopic{"/robot/joint_states"};
+/// What the drives are told: name = cable, position = displacement in m (NaN: not driven).
+inline constexpr Topic<idl::sensor_msgs::JointState> kRobotCommandTopic{"/robot/command"};
 inline constexpr Topic<idl::palpate_msgs::ForceArray> kForcesTopic{"/forces"};
 inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kWrenchTopic{"/forces/<name>/wrench"};
 inline constexpr Topic<idl::palpate_msgs::MeshState> kMeshStateTopic{"/robot/mesh_state"};
 inline constexpr Topic<idl::palpate_msgs::Mesh> kMeshTopic{"/robot/mesh"};
 inline constexpr Topic<idl::palpate_msgs::ModelGap> kModelGapTopic{"/model_gap"};
+/// The virtual bench's own; no estimator may read them.
+inline constexpr Topic<idl::palpate_msgs::ForceArray> kTrueForcesTopic{"/truth/forces"};
+inline constexpr Topic<idl::palpate_msgs::Mesh> kTrueMeshTopic{"/truth/mesh"};
+inline constexpr Topic<idl::palpate_msgs::MeshState> kTrueMeshStateTopic{"/truth/mesh_state"};
+inline constexpr Topic<idl::palpate_msgs::BenchState> kBenchStateTopic{"/truth/bench_state"};
 inline constexpr Topic<idl::palpate_msgs::ComponentStatus> kComponentStatusTopic{
     "/component_status"};
 inline constexpr Topic<idl::diagnostic_msgs::DiagnosticArray> kDiagnosticsTopic{"/diagnostics"};

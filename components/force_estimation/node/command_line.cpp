@@ -17,16 +17,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-app::LogLevel LevelOf(dds::Severity severity) {
-  switch (severity) {
-    case dds::Severity::kDebug: return app::LogLevel::kDebug;
-    case dds::Severity::kInfo: return app::LogLevel::kInfo;
-    case dds::Severity::kWarning: return app::LogLevel::kWarning;
-    case dds::Severity::kError: return app::LogLevel::kError;
-  }
-  return app::LogLevel::kError;
-}
-
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
                                              const fem::SolverSettings& solver) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(file, app::LoadYaml));
@@ -74,8 +64,7 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
   const double modulus_error = Calibrate(command.calibration, model.get());
   return std::make_unique<ForceEstimationNode>(
       command.config, std::move(model), modulus_error, command.options.domain_id,
-      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml),
-      [](dds::Severity severity, std::string_view text) { app::Log(LevelOf(severity), text); });
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::force_estimation

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -13,13 +14,6 @@ namespace {
 
 const Eigen::Vector3d kUnknown =
     Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-
-template <typename Target>
-void Set(Target& target, const Eigen::Vector3d& source) {
-  target.x = source.x();
-  target.y = source.y();
-  target.z = source.z();
-}
 
 void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns) {
   dds::SetHeader(header, stamp_ns, geometry::kRobotFrame);
@@ -57,9 +51,9 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(
     const ContactForce& contact = contacts[i];
     auto& force = message->forces._buffer[i];
     dds::SetText(force.name, contact.name);
-    Set(force.position_m, contact.position_m);
+    dds::SetVector(force.position_m, contact.position_m);
     const bool known = contact.status.code() != StatusCode::kUnobservable;
-    Set(force.force_n, known ? contact.force_N : kUnknown);
+    dds::SetVector(force.force_n, known ? contact.force_N : kUnknown);
     force.ci95_n = known ? contact.ci95_N : kUnknown.x();
     force.location_ci95_m = contact.location_ci95_m;
     dds::SetText(force.status, ToString(contact.status.code()));
@@ -72,8 +66,8 @@ dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
                                                          const ContactForce& contact) {
   dds::Message<idl::geometry_msgs::WrenchStamped> message;
   SetHeader(message->header, stamp_ns);
-  Set(message->wrench.force, contact.force_N);
-  Set(message->wrench.torque, contact.position_m.cross(contact.force_N));
+  dds::SetVector(message->wrench.force, contact.force_N);
+  dds::SetVector(message->wrench.torque, contact.position_m.cross(contact.force_N));
   return message;
 }
 
@@ -91,20 +85,9 @@ dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result
 }
 
 dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64_t stamp_ns) {
-  dds::Message<idl::palpate_msgs::Mesh> message;
-  SetHeader(message->header, stamp_ns);
-  dds::SetText(message->robot, body.name);
-  dds::SetText(message->mesh_hash, body.mesh_hash);
-  message->nodes_per_cell = static_cast<uint8_t>(body.mesh.cells.rows());
-  dds::SetText(message->element, body.mesh.cells.rows() == 4 ? "tet4" : "tet10");
-  const auto& nodes_m = body.mesh.nodes_m;
-  dds::SetNumbers(message->nodes_m, nodes_m.data(), static_cast<size_t>(nodes_m.size()));
-  const auto& cells = body.mesh.cells;
-  dds::SetNumbers(message->cells, cells.data(), static_cast<size_t>(cells.size()));
-  const Eigen::Matrix3Xi triangles = body.boundary.DrawnTriangles();
-  dds::SetNumbers(message->surface_triangles, triangles.data(),
-                  static_cast<size_t>(triangles.size()));
-  return message;
+  return dds::ToMesh({body.name, body.mesh_hash, body.mesh.nodes_m, body.mesh.cells,
+                      body.boundary.DrawnTriangles()},
+                     stamp_ns);
 }
 
 dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result) {

@@ -104,7 +104,7 @@ void ForceEstimationNode::Refuse(const FrameHead& head, const Status& status) {
   ++counts_.refused;
   last_status_ = status;
   if (std::exchange(last_refusal_, status.message()) != status.message()) {
-    log_.Write(dds::Severity::kWarning, "markers refused: " + status.message());
+    log_.Write(Severity::kWarning, "markers refused: " + status.message());
   }
   outputs_.PublishRefusal(head, status);
 }

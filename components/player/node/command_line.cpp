@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
@@ -24,16 +23,6 @@ void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible, P
     throw InputError("--rate: must be above 0, not " + FormatNumber(playback->rate));
   }
   if (as_fast_as_possible) playback->rate = std::numeric_limits<double>::infinity();
-}
-
-app::LogLevel LevelOf(dds::Severity severity) {
-  switch (severity) {
-    case dds::Severity::kDebug: return app::LogLevel::kDebug;
-    case dds::Severity::kInfo: return app::LogLevel::kInfo;
-    case dds::Severity::kWarning: return app::LogLevel::kWarning;
-    case dds::Severity::kError: return app::LogLevel::kError;
-  }
-  return app::LogLevel::kError;
 }
 
 }  // namespace
@@ -62,10 +51,6 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 ExperimentPlayer OpenExperiment(const Command& command) {
   return ExperimentPlayer(experiment::ReadExperiment(command.data, app::LoadYaml),
                           command.recording, command.config.frame == "robot");
-}
-
-dds::NodeLog::ProcessLog LogOfProcess() {
-  return [](dds::Severity severity, std::string_view text) { app::Log(LevelOf(severity), text); };
 }
 
 }  // namespace palpate::player

@@ -26,7 +26,4 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv);
 /// Reads the experiment of the command. Throws InputError.
 ExperimentPlayer OpenExperiment(const Command& command);
 
-/// Lines of the node for the log of this process.
-dds::NodeLog::ProcessLog LogOfProcess();
-
 }  // namespace palpate::player

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     player::PlayerNode node(command->config, command->playback, player::OpenExperiment(*command),
                             command->options.domain_id,
                             dds::LoadTopicTable(command->config.dds, app::LoadYaml, app::ParseYaml),
-                            player::LogOfProcess());
+                            app::Log);
     app::StopSignal stop([&] { node.Stop(); });
     node.Run();
     return app::kExitDone;

@@ -52,12 +52,12 @@ void PlayerNode::Run() {
   ReportHealth();
   if (loop_.stopped()) return;
   if (!markers_.WaitUntilReceived(kLastMessagesWait)) {
-    log_.Write(dds::Severity::kWarning, "a reader has not confirmed the last markers");
+    log_.Write(Severity::kWarning, "a reader has not confirmed the last markers");
   }
 }
 
 void PlayerNode::WaitForReaders() {
-  log_.Write(dds::Severity::kInfo, "waiting for readers of /perception/markers");
+  log_.Write(Severity::kInfo, "waiting for readers of /perception/markers");
   const Clock::time_point deadline = Clock::now() + Seconds(config_.reader_deadline_s);
   if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
   if (loop_.stopped()) return;
@@ -136,7 +136,7 @@ bool PlayerNode::NewEstimator() const {
 }
 
 void PlayerNode::Rewind() {
-  log_.Write(dds::Severity::kInfo, "a force estimator appeared: the recording begins again");
+  log_.Write(Severity::kInfo, "a force estimator appeared: the recording begins again");
   if (config_.wait_for_readers) WaitForReaders();
   known_estimators_ = forces_.counters().matched_ever;
   answered_stamp_ns_.reset();

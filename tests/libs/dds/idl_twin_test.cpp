@@ -34,9 +34,10 @@ Lines CodeLines(const std::filesystem::path& file, const std::string& comment) {
 /// IDL's word for a type of a .msg file, after the mapping of DDS.md.
 std::string IdlType(const std::string& type) {
   static const std::map<std::string, std::string> kPrimitive{
-      {"bool", "boolean"},         {"byte", "octet"},     {"uint8", "octet"},
-      {"uint32", "unsigned long"}, {"int32", "long"},     {"uint64", "unsigned long long"},
-      {"float32", "float"},        {"float64", "double"}, {"string", "string"}};
+      {"bool", "boolean"},         {"byte", "octet"},    {"uint8", "octet"},
+      {"uint32", "unsigned long"}, {"int32", "long"},    {"uint64", "unsigned long long"},
+      {"int64", "long long"},      {"float32", "float"}, {"float64", "double"},
+      {"string", "string"}};
   if (const auto found = kPrimitive.find(type); found != kPrimitive.end()) return found->second;
   const size_t slash = type.find('/');
   const std::string package = slash == type.npos ? "palpate_msgs" : type.substr(0, slash);
