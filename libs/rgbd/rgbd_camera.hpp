@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+
+#include "libs/core/config_node.hpp"
+#include "libs/core/config_reader.hpp"
+#include "libs/rgbd/camera_model.hpp"
+
+namespace palpate::rgbd {
+
+/// A depth camera and the colour camera beside it: camera.yaml of a recording (ARCHITECTURE,
+/// "Measured data").
+struct RgbdCamera {
+  CameraModel depth;
+  double depth_unit_m = 1e-4;     ///< metres in one step of the depth image, > 0
+  int invalid_value = 0;          ///< of a pixel without depth, [0, 65535]
+  double baseline_m = 0.0;        ///< of a stereo camera, >= 0; 0: unknown or no stereo camera
+  CameraModel color;              ///< width_px = 0: there is no colour camera
+  bool color_registered = false;  ///< colour pixels are those of the depth image
+  /// p_depth = T_depth_color * p_color.
+  Eigen::Isometry3d T_depth_color = Eigen::Isometry3d::Identity();
+};
+
+/// Reads camera.yaml strictly; throws InputError with file:line:column. These may be missing:
+/// `color`, `distortion` (none), `invalid_value` (0), `baseline_m` (0), `registered_to_depth`
+/// (false); `T_depth_color` of a registered image only, whose intrinsics must be those of `depth`.
+RgbdCamera ReadCameraFile(const std::filesystem::path& file, const ConfigLoader& load);
+/// The same from a tree that stands inside another file.
+RgbdCamera ReadCamera(const ConfigNode& node);
+/// The same from the keys `depth` and `color` of a map that has other keys as well.
+RgbdCamera ReadCamera(MapReader& reader);
+/// The text that ReadCameraFile reads back exactly (a rotation to the last bit or two).
+std::string FormatCameraFile(const RgbdCamera& camera);
+
+}  // namespace palpate::rgbd
