@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "libs/core/config_reader.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/yaml_values.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::experiment {
 
@@ -83,6 +85,15 @@ std::map<std::string, double> ReadTolerances(const ConfigNode& node) {
   return tolerances;
 }
 
+std::string ReadSha256(const ConfigNode& node) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = node.kind == ConfigNode::Kind::kScalar ? node.text : "";
+  if (text.size() != 64 || text.find_first_not_of(kDigits) != std::string::npos) {
+    Refuse(node, "must be a SHA-256: 64 digits of 0-9 and a-f");
+  }
+  return text;
+}
+
 fs::path Resolve(const fs::path& file, const std::string& named) {
   return (file.parent_path() / named).lexically_normal();
 }
@@ -108,7 +119,7 @@ Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load
     experiment.frame = ParseMeasurementFrame(ReadText(*node), node->where);
   }
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
-    experiment.T_robot_camera = ReadPose(*node);
+    experiment.T_robot_camera = geometry::ReadPose(*node);
   }
   if (const ConfigNode* node = reader.Optional("markers_sigma_m")) {
     experiment.markers_sigma_m = ReadSigma(*node);
@@ -123,6 +134,9 @@ Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load
     experiment.rest_between_s = ReadNumber(*node, kNonNegative);
   }
   if (const ConfigNode* node = reader.Optional("notes")) experiment.notes = ReadText(*node);
+  if (const ConfigNode* node = reader.Optional("answer_sha256")) {
+    experiment.answer_sha256 = ReadSha256(*node);
+  }
   reader.Finish();
   return experiment;
 }
@@ -136,10 +150,10 @@ void WriteExperimentSettings(const Experiment& experiment, const fs::path& file)
   }
   text += "frame: " + ToString(experiment.frame) + "\n";
   if (experiment.T_robot_camera) {
-    text += "T_robot_camera: " + FormatPose(*experiment.T_robot_camera) + "\n";
+    text += "T_robot_camera: " + geometry::FormatPose(*experiment.T_robot_camera) + "\n";
   }
   if (experiment.markers_sigma_m) {
-    text += "markers_sigma_m: " + FormatVector(*experiment.markers_sigma_m) + "\n";
+    text += "markers_sigma_m: " + geometry::FormatVector(*experiment.markers_sigma_m) + "\n";
   }
   if (experiment.depth_noise) {
     text += "depth_noise: {subpixel_px: " + FormatNumber(experiment.depth_noise->subpixel_px) +
@@ -150,6 +164,9 @@ void WriteExperimentSettings(const Experiment& experiment, const fs::path& file)
     text += "rest_between_s: " + FormatNumber(*experiment.rest_between_s) + "\n";
   }
   if (!experiment.notes.empty()) text += "notes: " + QuoteText(experiment.notes) + "\n";
+  if (experiment.answer_sha256) {
+    text += "answer_sha256: " + QuoteText(*experiment.answer_sha256) + "\n";
+  }
   WriteFile(file, text);
 }
 

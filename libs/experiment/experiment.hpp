@@ -34,6 +34,10 @@ struct Experiment {
   std::map<std::string, double> tolerances;  ///< cause id (or *_m, *_rad) -> tau > 0
   std::optional<double> rest_between_s;      ///< >= 0; absent: unknown
   std::string notes;
+  /// `answer_sha256`: 64 hexadecimal digits, the seal of the answer file that belongs to a blind
+  /// test
+  /// (`palpate simulate`).
+  std::optional<std::string> answer_sha256;
   std::vector<Recording> recordings;  ///< by name, at least one
 };
 

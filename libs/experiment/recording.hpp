@@ -99,6 +99,10 @@ void CheckCables(const Recording& recording, const std::vector<std::string>& nam
 /// wrong, so that nothing is ever half-read.
 Recording ReadRecording(const std::filesystem::path& folder, const ConfigLoader& load);
 
+/// The .pcd and .ply files of a folder, whose names are their times; other files are left alone.
+/// Throws InputError for another name, or two of one time.
+std::vector<StampedFile> ListClouds(const std::filesystem::path& folder);
+
 /// Writes one recording folder, images copied. Throws InputError where the folder holds one
 /// already, RunError where it cannot be written.
 void WriteRecording(const Recording& recording, const std::filesystem::path& folder);

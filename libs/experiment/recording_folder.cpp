@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
@@ -49,13 +50,7 @@ StampedFile ParseStampedFile(const fs::path& file, const std::vector<std::string
   return stamped;
 }
 
-std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
-                                          const std::vector<std::string>& extensions) {
-  std::vector<StampedFile> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const fs::path& file : EntriesOf(folder)) {
-    files.push_back(ParseStampedFile(file, extensions));
-  }
+std::vector<StampedFile> SortByTime(std::vector<StampedFile> files) {
   const auto by_time = [](const StampedFile& a, const StampedFile& b) { return a.t_ns < b.t_ns; };
   std::sort(files.begin(), files.end(), by_time);
   for (std::size_t i = 1; i < files.size(); ++i) {
@@ -65,6 +60,16 @@ std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
     }
   }
   return files;
+}
+
+std::vector<StampedFile> ListStampedFiles(const fs::path& folder,
+                                          const std::vector<std::string>& extensions) {
+  std::vector<StampedFile> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const fs::path& file : EntriesOf(folder)) {
+    files.push_back(ParseStampedFile(file, extensions));
+  }
+  return SortByTime(std::move(files));
 }
 
 void CheckWindowHoldsFrames(const MarkerTracks& markers, const TimeWindow& window,
@@ -97,6 +102,15 @@ void CopyFiles(const std::vector<StampedFile>& files, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<StampedFile> ListClouds(const fs::path& folder) {
+  std::vector<StampedFile> files;
+  for (const fs::path& file : EntriesOf(folder)) {
+    const bool cloud = file.extension() == ".pcd" || file.extension() == ".ply";
+    if (cloud) files.push_back(ParseStampedFile(file, {".pcd", ".ply"}));
+  }
+  return SortByTime(std::move(files));
+}
 
 Recording ReadRecording(const fs::path& folder, const ConfigLoader& load) {
   if (!fs::is_directory(folder)) {

@@ -5,6 +5,7 @@
 
 #include "libs/core/config_reader.hpp"
 #include "libs/experiment/yaml_values.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::experiment {
 
@@ -48,7 +49,7 @@ void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader
     recording.camera_on_base = ReadBool(*node);
   }
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
-    recording.T_robot_camera = ReadPose(*node);
+    recording.T_robot_camera = geometry::ReadPose(*node);
   }
   if (const ConfigNode* node = reader.Optional("reference")) {
     recording.reference = ReadReference(*node);
@@ -64,11 +65,11 @@ std::string FormatRecordingSettings(const Recording& recording) {
   std::string text = "kind: " + ToString(recording.kind) + "\n";
   if (recording.frame) text += "frame: " + ToString(*recording.frame) + "\n";
   if (recording.base_tilt_deg) {
-    text += "base_tilt_deg: " + FormatVector(*recording.base_tilt_deg) + "\n";
+    text += "base_tilt_deg: " + geometry::FormatVector(*recording.base_tilt_deg) + "\n";
   }
   if (!recording.camera_on_base) text += "camera_on_base: false\n";
   if (recording.T_robot_camera) {
-    text += "T_robot_camera: " + FormatPose(*recording.T_robot_camera) + "\n";
+    text += "T_robot_camera: " + geometry::FormatPose(*recording.T_robot_camera) + "\n";
   }
   if (recording.reference) {
     const bool undeformed = recording.reference->shape == ReferenceShape::kUndeformed;

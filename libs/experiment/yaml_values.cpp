@@ -4,7 +4,6 @@
 #include "libs/experiment/yaml_values.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "libs/core/config_reader.hpp"
@@ -12,61 +11,11 @@
 
 namespace palpate::experiment {
 
-namespace {
-
-constexpr double kNormTolerance = 1e-3;
-
-Eigen::Quaterniond ReadQuaternion(const ConfigNode& node) {
-  Eigen::Quaterniond rotation;
-  if (node.kind == ConfigNode::Kind::kList) {
-    const std::vector<double> xyzw = ReadNumbers(node);
-    if (xyzw.size() != 4) Refuse(node, "must be [x, y, z, w] or {x, y, z, w}");
-    rotation = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-  } else {
-    MapReader reader(node);
-    rotation.x() = ReadNumber(reader.Require("x"));
-    rotation.y() = ReadNumber(reader.Require("y"));
-    rotation.z() = ReadNumber(reader.Require("z"));
-    rotation.w() = ReadNumber(reader.Require("w"));
-    reader.Finish();
-  }
-  if (std::abs(rotation.norm() - 1.0) > kNormTolerance) {
-    Refuse(node, "a rotation is a quaternion of norm 1, not " + FormatNumber(rotation.norm()));
-  }
-  return rotation.normalized();
-}
-
-}  // namespace
-
-Eigen::Isometry3d ReadPose(const ConfigNode& node) {
-  MapReader reader(node);
-  const Eigen::Vector3d translation_m = ReadVector3(reader.Require("translation_m"));
-  const Eigen::Quaterniond rotation = ReadQuaternion(reader.Require("rotation_xyzw"));
-  reader.Finish();
-  return Eigen::Translation3d(translation_m) * rotation;
-}
-
 TimeWindow ReadWindow(const ConfigNode& node) {
   const std::vector<double> ends = ReadNumbers(node);
   if (ends.size() != 2) Refuse(node, "must be [begin, end] in seconds");
   if (ends[0] >= ends[1]) Refuse(node, "the window must end after it begins");
   return {ends[0], ends[1]};
-}
-
-std::string FormatVector(const Eigen::VectorXd& vector) {
-  std::string text = "[";
-  for (Eigen::Index i = 0; i < vector.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + FormatNumber(vector[i]);
-  }
-  return text + "]";
-}
-
-std::string FormatPose(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond rotation(pose.rotation());
-  return "{translation_m: " + FormatVector(pose.translation()) +
-         ", rotation_xyzw: {x: " + FormatNumber(rotation.x()) +
-         ", y: " + FormatNumber(rotation.y()) + ", z: " + FormatNumber(rotation.z()) +
-         ", w: " + FormatNumber(rotation.w()) + "}}";
 }
 
 std::string FormatWindow(const TimeWindow& window) {

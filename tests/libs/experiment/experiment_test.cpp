@@ -22,7 +22,8 @@ constexpr const char* kExperiment =
     "w: 0.7071068}}\n"
     "markers_sigma_m: [1.0e-5, 2.0e-5, 3.0e-5]\ndepth_noise: {subpixel_px: 0.1, unit_m: 1.0e-4}\n"
     "tolerances: {youngs_modulus: 0.03, marker_bias_m: 1.0e-4}\nrest_between_s: 30\n"
-    "notes: \"a: 'b' \\\"c\\\"\\nd\"\n";
+    "notes: \"a: 'b' \\\"c\\\"\\nd\"\n"
+    "answer_sha256: e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855\n";
 constexpr const char* kRecording =
     "kind: known_load\nbase_tilt_deg: [10, -20]\ncamera_on_base: false\n"
     "reference: {window_s: [0, 0.5], shape: equilibrium}\nsteady_window_s: [0.9, 2]\n";
@@ -57,6 +58,8 @@ void ExpectWhole(const Experiment& experiment) {
   EXPECT_EQ(experiment.tolerances.at("marker_bias_m"), 1e-4);
   EXPECT_EQ(experiment.rest_between_s, 30.0);
   EXPECT_EQ(experiment.notes, "a: 'b' \"c\"\nd");
+  EXPECT_EQ(experiment.answer_sha256,
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   ASSERT_EQ(experiment.recordings.size(), 2u);
   EXPECT_EQ(experiment.recordings[0].name, "a");
   EXPECT_EQ(experiment.recordings[0].kind, RecordingKind::kRest);
@@ -141,6 +144,10 @@ TEST(Experiment, RefusesWrongValuesWithFileAndLine) {
   EXPECT_THAT(RefusalWith("experiment.yaml", "rest_between_s: -1\n"), HasSubstr(">= 0"));
   EXPECT_THAT(RefusalWith("experiment.yaml", "depth_noise: {unit_m: 1}\n"),
               HasSubstr("subpixel_px"));
+  for (const std::string& seal : {std::string(63, '0'), std::string(64, 'E'), std::string("[1]")}) {
+    EXPECT_THAT(RefusalWith("experiment.yaml", "answer_sha256: " + seal + "\n"),
+                AllOf(HasSubstr("experiment.yaml:1:16"), HasSubstr("64 digits of 0-9 and a-f")));
+  }
   EXPECT_THAT(RefusalWith("recordings/b/recording.yaml", "kind: resting\n"),
               HasSubstr("kind 'resting' is not known"));
   EXPECT_THAT(RefusalWith("recordings/b/recording.yaml", "frame: robot\n"), HasSubstr("'kind'"));

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/experiment/cloud/ply.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/experiment/cloud/cloud_builder.hpp"
+#include "libs/experiment/cloud/ply_header.hpp"
+#include "libs/experiment/cloud/scalar.hpp"
+
+namespace palpate::experiment {
+
+namespace {
+
+/// Which numbers of a vertex are wanted: x, y, z, red, green, blue.
+constexpr std::array<std::string_view, 6> kWanted = {"x", "y", "z", "red", "green", "blue"};
+using Vertex = std::array<double, kWanted.size()>;
+
+/// Hands out one number after the other, from text or bytes.
+class NumberSource {
+ public:
+  NumberSource(std::string file, const PlyHeader& header, std::string_view rest)
+      : file_(std::move(file)), format_(header.format), line_number_(header.lines), rest_(rest) {}
+
+  /// Text has one line for each item.
+  void BeginItem() {
+    if (format_ != PlyFormat::kAscii) return;
+    if (rest_.empty()) RefuseShort();
+    line_ = TakeLine(&rest_);
+    ++line_number_;
+  }
+
+  double Next(const Scalar& scalar) {
+    if (format_ == PlyFormat::kAscii) return NextWord(scalar);
+    if (rest_.size() < scalar.bytes) RefuseShort();
+    const double value = scalar.Load(
+        rest_.data(), format_ == PlyFormat::kBig ? ByteOrder::kBig : ByteOrder::kLittle);
+    rest_.remove_prefix(scalar.bytes);
+    return value;
+  }
+
+  void SkipProperty(const PlyProperty& property) {
+    if (!property.list) {
+      Next(property.scalar);
+      return;
+    }
+    const double count = Next(property.count);
+    for (double i = 0.0; i < count; ++i) Next(property.scalar);
+  }
+
+  /// Each number takes at least one byte: refuses counts that cannot be before memory is taken.
+  void CheckHolds(std::uint64_t numbers) const {
+    if (rest_.size() < numbers) RefuseShort();
+  }
+
+ private:
+  [[noreturn]] void RefuseShort() const {
+    throw InputError(SourceLocation{file_}, "is cut short: the header promises more");
+  }
+
+  double NextWord(const Scalar& scalar) {
+    const std::string_view word = TakeWord(&line_);
+    double value = 0.0;
+    if (!scalar.Parse(word, &value)) {
+      throw InputError(SourceLocation{file_, line_number_},
+                       word.empty() ? "the line has too few values"
+                                    : "'" + std::string(word.substr(0, 20)) + "' is no number");
+    }
+    return value;
+  }
+
+  std::string file_;
+  PlyFormat format_;
+  int line_number_;
+  std::string_view rest_;
+  std::string_view line_;
+};
+
+/// Index into a Vertex for each property of the element; nullopt: skipped.
+std::vector<std::optional<std::size_t>> PlacesOf(const PlyElement& vertex) {
+  std::vector<std::optional<std::size_t>> places;
+  for (const PlyProperty& property : vertex.properties) {
+    const auto wanted = std::find(kWanted.begin(), kWanted.end(), property.name);
+    const auto place = static_cast<std::size_t>(wanted - kWanted.begin());
+    const bool byte = property.scalar.kind == Scalar::Kind::kUnsigned && property.scalar.bytes == 1;
+    const bool usable = wanted != kWanted.end() && !property.list && (place < 3 || byte);
+    places.push_back(usable ? std::optional(place) : std::nullopt);
+  }
+  return places;
+}
+
+std::size_t CountOf(const std::vector<std::optional<std::size_t>>& places, std::size_t first) {
+  std::size_t count = 0;
+  for (std::size_t wanted = first; wanted < first + 3; ++wanted) {
+    if (std::find(places.begin(), places.end(), std::optional(wanted)) != places.end()) ++count;
+  }
+  return count;
+}
+
+CloudBuilder MakeBuilder(const PlyHeader& header, const PlyElement& vertex, bool colored) {
+  const bool organised = header.rows > 1 && header.columns * header.rows == vertex.count;
+  return organised ? CloudBuilder(header.columns, header.rows, colored)
+                   : CloudBuilder(vertex.count, 1, colored);
+}
+
+PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const PlyElement& vertex,
+                        NumberSource* source) {
+  const auto places = PlacesOf(vertex);
+  if (CountOf(places, 0) != 3) {
+    throw InputError(SourceLocation{file}, "the vertices have no properties x, y and z");
+  }
+  const bool colored = CountOf(places, 3) == 3;
+  source->CheckHolds(vertex.count * vertex.properties.size());
+  CloudBuilder builder = MakeBuilder(header, vertex, colored);
+  for (std::uint64_t i = 0; i < vertex.count; ++i) {
+    Vertex numbers{};
+    source->BeginItem();
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const PlyProperty& property = vertex.properties[p];
+      if (places[p]) {
+        numbers[*places[p]] = source->Next(property.scalar);
+      } else {
+        source->SkipProperty(property);
+      }
+    }
+    builder.Add({numbers[0], numbers[1], numbers[2]});
+    if (!colored) continue;
+    const auto byte = [&](std::size_t channel) {
+      return static_cast<std::uint8_t>(std::clamp(numbers[channel], 0.0, 255.0));
+    };
+    builder.AddColor(byte(3), byte(4), byte(5));
+  }
+  return builder.Take();
+}
+
+}  // namespace
+
+PointCloud ReadPly(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string bytes = ReadFile(path);
+  std::string_view rest = bytes;
+  const PlyHeader header = TakePlyHeader(file, &rest);
+  NumberSource source(file, header, rest);
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex") return ReadVertices(file, header, element, &source);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      source.BeginItem();
+      for (const PlyProperty& property : element.properties) source.SkipProperty(property);
+    }
+  }
+  throw InputError(SourceLocation{file}, "has no element 'vertex'");
+}
+
+void WritePly(const PointCloud& cloud, const std::filesystem::path& file) {
+  CheckShape(cloud);
+  const bool colored = !cloud.colors_rgb.empty();
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n";
+  if (cloud.organised()) {
+    bytes += "obj_info num_cols " + std::to_string(cloud.width) + "\nobj_info num_rows " +
+             std::to_string(cloud.height) + "\n";
+  }
+  bytes += "element vertex " + std::to_string(cloud.points_m.cols()) +
+           "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (colored) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  bytes += "end_header\n";
+  for (Eigen::Index i = 0; i < cloud.points_m.cols(); ++i) {
+    for (const double value : cloud.points_m.col(i)) {
+      AppendLittleEndian(static_cast<float>(value), &bytes);
+    }
+    if (!colored) continue;
+    for (Eigen::Index c = 3 * i; c < 3 * i + 3; ++c) {
+      bytes.push_back(static_cast<char>(cloud.colors_rgb[static_cast<std::size_t>(c)]));
+    }
+  }
+  WriteFile(file, bytes);
+}
+
+}  // namespace palpate::experiment
