@@ -87,7 +87,8 @@ void CellBlocks::FillLane(const TetMesh& mesh, int cell, const std::vector<int>&
 }
 
 void CellBlocks::SetModuli(const std::vector<Material>& materials,
-                           const std::vector<int>& material_of_cell) {
+                           const std::vector<int>& material_of_cell,
+                           const Eigen::VectorXd& factor_of_cell) {
   lambda_Pa_.clear();
   mu_Pa_.clear();
   c20_over_c10_.clear();
@@ -95,8 +96,9 @@ void CellBlocks::SetModuli(const std::vector<Material>& materials,
   for (const int cell : cells_) {
     const int known_cell = cell < 0 ? cells_.front() : cell;
     const Material& material = materials[At(material_of_cell[At(known_cell)])];
-    lambda_Pa_.push_back(material.LameLambda_Pa());
-    mu_Pa_.push_back(material.LameMu_Pa());
+    const double factor = factor_of_cell.size() == 0 ? 1.0 : factor_of_cell[known_cell];
+    lambda_Pa_.push_back(factor * material.LameLambda_Pa());
+    mu_Pa_.push_back(factor * material.LameMu_Pa());
     c20_over_c10_.push_back(material.c20_over_c10);
     c30_over_c10_.push_back(material.c30_over_c10);
   }

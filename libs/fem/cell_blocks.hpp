@@ -33,7 +33,9 @@ class CellBlocks {
     return nodes_[static_cast<size_t>((block * nodes_per_cell_ + node) * kernels::kLanes + lane)];
   }
 
-  void SetModuli(const std::vector<Material>& materials, const std::vector<int>& material_of_cell);
+  /// `factor_of_cell` [cells of the mesh] multiplies the moduli; empty: 1.
+  void SetModuli(const std::vector<Material>& materials, const std::vector<int>& material_of_cell,
+                 const Eigen::VectorXd& factor_of_cell);
 
   void Evaluate(int block, const double* x_m, const kernels::Output& output) const {
     kernel_(View(block), x_m, output);

@@ -88,14 +88,21 @@ void ElasticBody::MakeBlocks(const RowOrder& order) {
     SortByRows(mesh_.cells, order.row_of_node, &cells);
     const Material& material = materials_[At(material_of_cell_[At(cells.front())])];
     laws_.emplace_back(mesh_, cells, material, order.row_of_node);
-    laws_.back().SetModuli(materials_, material_of_cell_);
+    laws_.back().SetModuli(materials_, material_of_cell_, factor_of_cell_);
   }
 }
 
 void ElasticBody::SetYoungsModulus(int material, double youngs_modulus_Pa) {
   PALPATE_CHECK(youngs_modulus_Pa > 0.0, youngs_modulus_Pa);
   materials_.at(At(material)).youngs_modulus_Pa = youngs_modulus_Pa;
-  for (CellBlocks& law : laws_) law.SetModuli(materials_, material_of_cell_);
+  for (CellBlocks& law : laws_) law.SetModuli(materials_, material_of_cell_, factor_of_cell_);
+}
+
+void ElasticBody::SetCellFactors(const Eigen::VectorXd& factor) {
+  PALPATE_CHECK(factor.size() == mesh_.CellCount(), factor.size(), mesh_.CellCount());
+  PALPATE_CHECK((factor.array() > 0.0).all());
+  factor_of_cell_ = factor;
+  for (CellBlocks& law : laws_) law.SetModuli(materials_, material_of_cell_, factor_of_cell_);
 }
 
 NodePairs ElasticBody::CoupledPairs() const {
@@ -211,7 +218,8 @@ void ElasticBody::AddShareOfMaterial(const AssemblyShare& share, int material, c
   AddRows(share, force_N);
 }
 
-double ElasticBody::EnergiesOfShare(const AssemblyShare& share, const double* x_m) const {
+double ElasticBody::EnergiesOfShare(const AssemblyShare& share, const double* x_m,
+                                    double* of_cell_J) const {
   std::array<double, kLanes> energy_of_lane;
   std::array<double, kLanes> min_J_of_block;
   double min_J = kInfinity;
@@ -221,7 +229,10 @@ double ElasticBody::EnergiesOfShare(const AssemblyShare& share, const double* x_
                         {.energy = energy_of_lane.data(), .min_J = min_J_of_block.data()});
       double energy = 0.0;
       for (int lane = 0; lane < kLanes; ++lane) {
-        if (laws_[l].CellAt(block, lane) >= 0) energy += energy_of_lane[At(lane)];
+        const int cell = laws_[l].CellAt(block, lane);
+        if (cell < 0) continue;
+        energy += energy_of_lane[At(lane)];
+        if (of_cell_J != nullptr) of_cell_J[cell] = energy_of_lane[At(lane)];
       }
       block_energy_J_[l][block] = energy;
       min_J = SmallestOf(min_J_of_block, min_J);
@@ -231,11 +242,18 @@ double ElasticBody::EnergiesOfShare(const AssemblyShare& share, const double* x_
 }
 
 double ElasticBody::Energy(const Eigen::VectorXd& x_m, double* min_J) const {
-  *min_J =
-      OnEveryShare([&](const AssemblyShare& share) { return EnergiesOfShare(share, x_m.data()); });
+  *min_J = OnEveryShare(
+      [&](const AssemblyShare& share) { return EnergiesOfShare(share, x_m.data(), nullptr); });
   double energy = 0.0;
   for (const Eigen::VectorXd& of_blocks : block_energy_J_) energy += of_blocks.sum();
   return energy;
+}
+
+double ElasticBody::CellEnergies(const Eigen::VectorXd& x_m, Eigen::VectorXd* energy_J) const {
+  energy_J->resize(mesh_.CellCount());
+  return OnEveryShare([&](const AssemblyShare& share) {
+    return EnergiesOfShare(share, x_m.data(), energy_J->data());
+  });
 }
 
 }  // namespace palpate::fem

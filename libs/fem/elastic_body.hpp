@@ -38,6 +38,9 @@ class ElasticBody {
 
   /// All cells of this material get another modulus; the pattern and the rest shape stay.
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
+  /// Each cell's moduli are its material's times `factor` [cells], all > 0: of damage or
+  /// temperature. At first 1 everywhere.
+  void SetCellFactors(const Eigen::VectorXd& factor);
 
   /// Adds F_int(x) [3n], N. Returns the smallest det F (<= 0: an element is inverted, and the
   /// forces must not be used).
@@ -52,6 +55,8 @@ class ElasticBody {
                                 StiffnessMatrix& stiffness) const;
   /// Elastic energy, J; `min_J` gets the smallest det F.
   double Energy(const Eigen::VectorXd& x_m, double* min_J) const;
+  /// The same for each cell: overwrites `energy_J` [cells]. Returns the smallest det F.
+  double CellEnergies(const Eigen::VectorXd& x_m, Eigen::VectorXd* energy_J) const;
 
   /// Puts the cells in the order of elimination of `stiffness`, looks up where their blocks lie in
   /// it, and shares them out among the threads of `team`; none: the calling thread alone.
@@ -78,7 +83,8 @@ class ElasticBody {
                   StiffnessMatrix* stiffness) const;
   void AddShareOfMaterial(const AssemblyShare& share, int material, const double* x_m,
                           Eigen::VectorXd& force_N) const;
-  double EnergiesOfShare(const AssemblyShare& share, const double* x_m) const;
+  /// Energies of the blocks of one share; each cell's too unless `of_cell_J` [cells] is null.
+  double EnergiesOfShare(const AssemblyShare& share, const double* x_m, double* of_cell_J) const;
   void ClearRows(const AssemblyShare& share) const;
   void AddRows(const AssemblyShare& share, Eigen::VectorXd& force_N) const;
 
@@ -86,6 +92,7 @@ class ElasticBody {
   Eigen::VectorXd rest_m_;
   std::vector<Material> materials_;
   std::vector<int> material_of_cell_;
+  Eigen::VectorXd factor_of_cell_;  ///< [cells], or empty: 1
 
   std::vector<CellBlocks> laws_;
   RowOrder order_;

@@ -10,7 +10,7 @@
 #include "libs/fem/material.hpp"
 
 /// The stresses of material.hpp for any scalar type, so that forward-mode differentiation gives
-/// their derivatives. Only for element_derivative.cpp.
+/// their derivatives. Only for element_derivative.cpp and point_stress.cpp.
 namespace palpate::fem::element_derivative {
 
 /// A number and its derivative in one direction: value + slope eps, eps^2 = 0.
