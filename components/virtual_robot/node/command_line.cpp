@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/virtual_robot/node/command_line.hpp"
+
+#include <limits>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/sha256.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/scenario/robot_names.hpp"
+
+namespace palpate::virtual_robot {
+
+std::optional<Command> ReadCommand(int argc, const char* const* argv) {
+  Command command;
+  app::Arguments arguments("palpate-virtual-robot",
+                           "A soft robot of its own physics that does what a scenario says.");
+  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
+  arguments.Option("--scenario", &command.scenario, "What is done to the robot, and its effects");
+  arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
+                   "Draws what the scenario leaves to chance");
+  app::DeclareNodeOptions(arguments, &command.options);
+  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
+      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
+    return std::nullopt;
+  }
+  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
+  if (command.scenario.empty()) throw InputError("--scenario is required: what shall be done?");
+  return command;
+}
+
+BenchSetup OpenBench(const Command& command) {
+  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
+  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
+  const auto seed = static_cast<std::uint64_t>(command.seed);
+  const scenario::RobotNames names = scenario::NamesOf(robot);
+  scenario::CheckAgainst(scenario, names);
+  const auto effects = scenario::DrawEffects(scenario, names, seed);
+  return {std::make_unique<VirtualRobot>(robot, scenario, effects, seed, command.config.threads),
+          robot.name,
+          names.cables,
+          scenario::Schedule(scenario, names.cables),
+          Sha256Hex(ReadFile(command.scenario)),
+          seed};
+}
+
+}  // namespace palpate::virtual_robot

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "libs/dds/node_settings.hpp"
+
+namespace palpate::virtual_robot {
+
+/// Settings of the process.
+struct NodeConfig {
+  double rate_hz = 30.0;
+  std::string commands = "script";
+  double command_timeout_s = 1.0;
+  bool repeat = true;
+  double max_step_s = 0.1;
+  int threads = 2;
+  dds::NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("rate_hz", rate_hz, {.min = 0.0, .max = 1000.0, .min_open = true},
+      "States a second; the virtual camera takes a picture of each");
+    v("commands", commands, {"script", "topic"},
+      "Who drives the cables: the scenario, or /robot/command (tools move by the scenario)");
+    v("command_timeout_s", command_timeout_s, {.min = 0.0, .min_open = true},
+      "With commands topic: without a command for so long the component reports itself stale");
+    v("repeat", repeat, "Begin the scenario again at its end, with the history kept");
+    v("max_step_s", max_step_s, {.min = 0.0, .min_open = true},
+      "Where the computer falls behind, the bench's time jumps by no more than this in a state; "
+      "the rest is lost, and counted as dropped");
+    v("threads", threads, {.min = 1, .max = 64}, "Threads of the solver");
+    v("dds", dds, "DDS side");
+  }
+};
+
+}  // namespace palpate::virtual_robot
