@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/virtual_camera/node/command_line.hpp"
+
+#include <limits>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/sha256.hpp"
+#include "libs/scenario/robot_names.hpp"
+
+namespace palpate::virtual_camera {
+
+std::optional<Command> ReadCommand(int argc, const char* const* argv) {
+  Command command;
+  app::Arguments arguments("palpate-virtual-camera",
+                           "A GigE Vision RGB-D camera that looks at palpate-virtual-robot.");
+  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
+  arguments.Option("--scenario", &command.scenario, "The scenario that the virtual robot runs");
+  arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
+                   "The seed of the virtual robot");
+  app::DeclareNodeOptions(arguments, &command.options);
+  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
+      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
+    return std::nullopt;
+  }
+  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
+  if (command.scenario.empty()) throw InputError("--scenario is required: what is to be seen?");
+  return command;
+}
+
+Scene OpenScene(const Command& command) {
+  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
+  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
+  const auto seed = static_cast<std::uint64_t>(command.seed);
+  const scenario::RobotNames names = scenario::NamesOf(robot);
+  scenario::CheckAgainst(scenario, names);
+  Scene scene{scenario::Schedule(scenario, names.cables),
+              Sha256Hex(ReadFile(command.scenario)),
+              seed,
+              scenario::DrawEffects(scenario, names, seed),
+              {}};
+  scene.markers_m.resize(3, static_cast<Eigen::Index>(robot.markers.size()));
+  for (size_t m = 0; m < robot.markers.size(); ++m) {
+    scene.markers_m.col(static_cast<Eigen::Index>(m)) = robot.markers[m].position_m;
+  }
+  return scene;
+}
+
+}  // namespace palpate::virtual_camera

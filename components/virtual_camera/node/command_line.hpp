@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "components/virtual_camera/node/node.hpp"
+#include "libs/app/node_options.hpp"
+
+namespace palpate::virtual_camera {
+
+struct Command {
+  NodeConfig config;
+  app::NodeOptions options;
+  std::filesystem::path robot;
+  std::filesystem::path scenario;
+  int seed = 1;
+};
+
+/// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
+std::optional<Command> ReadCommand(int argc, const char* const* argv);
+
+/// Throws InputError where robot and scenario do not fit together.
+Scene OpenScene(const Command& command);
+
+}  // namespace palpate::virtual_camera
