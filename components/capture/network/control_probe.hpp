@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "components/capture/link/connection.hpp"
+
+namespace palpate::capture {
+
+/// Asks a GigE Vision device, beside whatever controls it, for its control privilege (GVCP register
+/// 0x0a00) and waits for the answer up to `timeout_s`. Any answer that is not a sound reading, such
+/// as "access denied", counts as kControlled: somebody is there.
+Probe ProbeControl(const std::string& address, double timeout_s);
+
+}  // namespace palpate::capture

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <iostream>
+
+#include "components/capture/camera_list.hpp"
+#include "components/capture/make_source.hpp"
+#include "components/capture/node/command_line.hpp"
+#include "libs/app/log.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/app/stop_signal.hpp"
+#include "libs/app/yaml.hpp"
+
+int main(int argc, char** argv) {
+  using namespace palpate;
+  return app::RunMain("palpate-capture", [&]() -> int {
+    const auto command = capture::ReadCommand(argc, argv);
+    if (!command) return app::kExitDone;
+    if (command->list) {
+      capture::PrintCameras(capture::ListCameras(command->addresses), std::cout);
+      return app::kExitDone;
+    }
+    app::StartLog("palpate-capture", command->options);
+    capture::CaptureNode node(
+        command->config, capture::MakeSource(command->config, app::LoadYaml),
+        command->options.domain_id,
+        dds::LoadTopicTable(command->config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+    app::StopSignal stop([&] { node.Stop(); });
+    node.Run();
+    return app::kExitDone;
+  });
+}

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/capture/node/node.hpp"
+
+#include <utility>
+
+#include "libs/core/clock.hpp"
+
+namespace palpate::capture {
+
+namespace {
+
+constexpr auto kLookPeriod = std::chrono::milliseconds(100);
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kLastMessagesWait = std::chrono::seconds(2);
+constexpr double kFrameWait_s = 0.1;
+
+Status StatusOf(const SourceHealth& health) {
+  switch (health.state) {
+    case SourceState::kStream: return Status::Ok();
+    case SourceState::kEnded: return {StatusCode::kStale, health.reason};
+    default:
+      return {health.epoch == 0 ? StatusCode::kNotRun : StatusCode::kStale,
+              health.reason.empty() ? std::string("no frames yet") : health.reason};
+  }
+}
+
+}  // namespace
+
+CaptureNode::CaptureNode(const NodeConfig& config, std::unique_ptr<FrameSource> source,
+                         int domain_id, dds::TopicTable table, dds::NodeLog::ProcessLog process_log)
+    : step_{config.source == "replay" && config.replay.clock == "step"},
+      wait_for_reader_{config.wait_for_reader},
+      participant_{dds::ParticipantOf(config.dds, "palpate_capture", domain_id), std::move(table)},
+      loop_{participant_},
+      log_{participant_, std::move(process_log)},
+      health_{participant_, "capture", Clock::now()},
+      publisher_{participant_, [this] { loop_.Wake(); }, config.subpixel_sigma_px},
+      source_{std::move(source)},
+      next_report_{Clock::now()} {
+  loop_.Every(kLookPeriod, [this] { WatchSource(); });
+}
+
+CaptureNode::~CaptureNode() {
+  stop_ = true;
+  if (writer_.joinable()) writer_.join();
+}
+
+void CaptureNode::Stop() {
+  stop_ = true;
+  loop_.Stop();
+}
+
+void CaptureNode::Run() {
+  if (wait_for_reader_) {
+    log_.Write(Severity::kInfo, "waiting for a reader of /camera/frame_info");
+    loop_.DispatchUntil([this] { return publisher_.readers() > 0; }, Clock::time_point::max());
+  }
+  if (loop_.stopped()) return;
+  writer_ = std::thread([this] { PublishFrames(); });
+  loop_.Run();
+  stop_ = true;
+  writer_.join();
+  Report(source_->Health());
+  if (!publisher_.WaitUntilReceived(kLastMessagesWait)) {
+    log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
+  }
+}
+
+void CaptureNode::PublishFrames() {
+  while (!stop_) {
+    const FramePtr frame = source_->Next(kFrameWait_s);
+    if (frame) {
+      PublishOne(*frame);
+    } else if (source_->Health().state == SourceState::kEnded) {
+      break;
+    }
+  }
+  loop_.Stop();
+}
+
+void CaptureNode::PublishOne(const SourceFrame& frame) {
+  const bool sent = publisher_.Publish(frame, source_->Health());
+  // Step by step, so that nobody misses a frame.
+  if (step_ && !publisher_.WaitUntilReceived(kLastMessagesWait)) {
+    log_.Write(Severity::kWarning, "a reader has not confirmed a frame");
+  }
+  const double latency_s = 1e-9 * static_cast<double>(WallNow_ns() - frame.facts.stamp_host_ns);
+  const std::lock_guard lock(mutex_);
+  ++(sent ? counts_.published : counts_.dropped);
+  if (frame.facts.clock_source != ClockSource::kReplay) counts_.latencies_s.push_back(latency_s);
+}
+
+void CaptureNode::WatchSource() {
+  const SourceHealth health = source_->Health();
+  const std::string words = std::string(NameOf(health.state)) + ": " + health.reason;
+  const bool changed = words != last_words_ || health.notes != last_notes_;
+  if (changed) LogChange(health);
+  last_words_ = words;
+  if (!changed && Clock::now() < next_report_) return;
+  next_report_ = Clock::now() + kReportPeriod;
+  Report(health);
+}
+
+void CaptureNode::LogChange(const SourceHealth& health) {
+  if (health.state == SourceState::kStream) {
+    log_.Write(Severity::kInfo,
+               health.device + " streams (epoch " + std::to_string(health.epoch) + ")");
+  } else if (!health.reason.empty() && last_words_.find(health.reason) == std::string::npos) {
+    log_.Write(health.state == SourceState::kEnded ? Severity::kInfo : Severity::kWarning,
+               health.reason);
+  }
+  if (health.notes == last_notes_) return;
+  last_notes_ = health.notes;
+  for (const std::string& note : health.notes) log_.Write(Severity::kWarning, note);
+}
+
+void CaptureNode::Report(const SourceHealth& health) {
+  dds::HealthCounts counts;
+  {
+    const std::lock_guard lock(mutex_);
+    counts = counts_;
+    counts_.latencies_s.clear();
+  }
+  counts.received = health.frames;
+  counts.refused = health.frames_failed;
+  counts.dropped += health.frames_dropped;
+  health_.Report(StatusOf(health), counts,
+                 {{"state", std::string(NameOf(health.state))},
+                  {"device", health.device},
+                  {"model", health.model},
+                  {"epoch", std::to_string(health.epoch)},
+                  {"packets_resent", std::to_string(health.packets_resent)},
+                  {"packets_lost", std::to_string(health.packets_lost)},
+                  {"socket_drops", std::to_string(health.socket_drops)},
+                  {"last_failure", health.last_failure}},
+                 Clock::now());
+}
+
+}  // namespace palpate::capture

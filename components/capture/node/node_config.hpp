@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "components/capture/config.hpp"
+#include "libs/dds/node_settings.hpp"
+
+namespace palpate::capture {
+
+/// Settings of the process: those of the source, and those of its DDS side.
+struct NodeConfig : Config {
+  bool wait_for_reader = false;
+  dds::NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    Config::Visit(v);
+    v("wait_for_reader", wait_for_reader,
+      "Begin only when somebody reads /camera/frame_info, so that a recording is seen whole");
+    v("dds", dds, "DDS side");
+  }
+};
+
+}  // namespace palpate::capture
