@@ -4,18 +4,21 @@
 #include "components/palpate/node/verbs.hpp"
 
 #include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/capture_verb.hpp"
 #include "components/palpate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/node/demo_verb.hpp"
+#include "components/palpate/simulate_verb.hpp"
 #include "components/palpate/solve_verb.hpp"
 #include "libs/app/verbs.hpp"
 
 namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
-  const std::vector<app::Verb> verbs = {DemoVerb(),     SolveVerb(),  CalibrateVerb(),
-                                        EstimateVerb(), ImportVerb(), InfoVerb()};
+  const std::vector<app::Verb> verbs = {DemoVerb(),      SolveVerb(),    SimulateVerb(),
+                                        CalibrateVerb(), EstimateVerb(), ImportVerb(),
+                                        CaptureVerb(),   InfoVerb()};
   return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
 }
 

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/capture_verb.hpp"
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "components/capture/camera_list.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+struct CaptureOptions {
+  bool list = false;
+  bool json = false;
+  std::vector<std::string> addresses;
+};
+
+void PrintJson(const std::vector<capture::CameraDescription>& cameras) {
+  auto list = nlohmann::ordered_json::array();
+  for (const capture::CameraDescription& camera : cameras) {
+    list.push_back({{"model", camera.model},
+                    {"vendor", camera.vendor},
+                    {"serial", camera.serial},
+                    {"address", camera.address},
+                    {"protocol", camera.protocol},
+                    {"components", camera.components},
+                    {"formats", camera.formats},
+                    {"trouble", camera.trouble}});
+  }
+  std::cout << list.dump(2) << '\n';
+}
+
+int Capture(const CaptureOptions& options) {
+  if (!options.list) {
+    throw InputError("--list is required; frames are captured by palpate-capture, a process");
+  }
+  const auto cameras = capture::ListCameras(options.addresses);
+  if (options.json) {
+    PrintJson(cameras);
+  } else {
+    capture::PrintCameras(cameras, std::cout);
+  }
+  return app::kExitDone;
+}
+
+}  // namespace
+
+app::Verb CaptureVerb() {
+  return {"capture", "Shows the GenICam cameras that answer.", [](app::Arguments& arguments) {
+            auto options = std::make_shared<CaptureOptions>();
+            arguments.Flag("--list", &options->list, "Show the cameras that answer");
+            arguments.Flag("--json", &options->json, "For machines");
+            arguments.Positionals("ADDRESS", &options->addresses,
+                                  "Cameras on networks of others, by IPv4 address",
+                                  app::Need::kOptional);
+            return [options] { return Capture(*options); };
+          }};
+}
+
+}  // namespace palpate::command

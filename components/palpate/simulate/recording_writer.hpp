@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "components/virtual_robot/virtual_robot.hpp"
+#include "libs/experiment/recording.hpp"
+#include "libs/rgbd/rgbd_frame.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/scenario/random.hpp"
+#include "libs/scenario/scenario.hpp"
+
+namespace palpate::command {
+
+/// Collects what the sensors say in one recording and writes its folder; images at once. Everything
+/// throws RunError where it cannot be written.
+class RecordingWriter {
+ public:
+  RecordingWriter(const robot::RobotDescription& robot, const scenario::Scenario& scenario,
+                  const scenario::RecordingPlan& plan, std::filesystem::path folder);
+
+  /// Readings of the drives in the order of the robot's cables; NaN: not driven.
+  void AddCables(double t_s, const std::vector<virtual_robot::CableReading>& readings);
+  /// [3 x markers] m, true positions in the measurement frame; the noise is added here.
+  void AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m, scenario::Random* noise);
+  void AddImage(const rgbd::RgbdFrame& frame);
+
+  /// `begin_s`: of the recording, on the clock of the experiment.
+  void Finish(double begin_s);
+
+ private:
+  experiment::Recording recording_;
+  const robot::RobotDescription& robot_;
+  const scenario::Scenario& scenario_;
+  const scenario::RecordingPlan& plan_;
+  std::filesystem::path folder_;
+  experiment::Actuation actuation_;
+  experiment::MarkerTracks markers_;
+};
+
+/// loads.csv of the plan's weights: their weight as everybody believes it, in the robot frame,
+/// which turns with the base.
+std::vector<experiment::KnownLoad> DeclaredLoads(const scenario::RecordingPlan& plan,
+                                                 const Eigen::Vector3d& gravity_m_s2,
+                                                 double begin_s);
+
+}  // namespace palpate::command

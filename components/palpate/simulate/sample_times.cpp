@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/simulate/sample_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace palpate::command {
+
+namespace {
+
+using scenario::RecordingPlan;
+
+std::int64_t Nanoseconds(double t_s) { return std::llround(1e9 * t_s); }
+
+const RecordingPlan& PlanOf(const scenario::Schedule& schedule, int recording) {
+  return schedule.scenario().recordings.at(static_cast<std::size_t>(recording));
+}
+
+/// The moments of one recording, each once.
+class Moments {
+ public:
+  Moments(double begin_s, double duration_s)
+      : begin_s_(begin_s), duration_s_(duration_s), end_ns_(Nanoseconds(begin_s + duration_s)) {}
+
+  Instant* At(double t_s) {
+    const std::int64_t t_ns = Nanoseconds(begin_s_ + t_s);
+    if (t_ns >= end_ns_) return nullptr;
+    Instant& instant = instants_[t_ns];
+    instant.t_ns = t_ns;
+    return &instant;
+  }
+
+  void AtRate(double rate_hz, bool Instant::*what) {
+    for (int k = 0; k / rate_hz < duration_s_; ++k) {
+      if (Instant* instant = At(k / rate_hz)) instant->*what = true;
+    }
+  }
+
+  std::vector<Instant> Take() const {
+    std::vector<Instant> instants;
+    for (const auto& [t_ns, instant] : instants_) instants.push_back(instant);
+    return instants;
+  }
+
+ private:
+  double begin_s_;
+  double duration_s_;
+  std::int64_t end_ns_;
+  std::map<std::int64_t, Instant> instants_;
+};
+
+}  // namespace
+
+std::vector<Instant> SampleTimes(const scenario::Schedule& schedule, int recording) {
+  const RecordingPlan& plan = PlanOf(schedule, recording);
+  const scenario::Scenario& scenario = schedule.scenario();
+  Moments moments(schedule.Begin_s(recording), plan.duration_s);
+  moments.At(0.0);
+  if (scenario.markers) moments.AtRate(scenario.markers->rate_hz, &Instant::markers);
+  if (scenario.camera) moments.AtRate(scenario.camera->rate_hz, &Instant::image);
+  for (const scenario::CommandRow& row : plan.commands.rows) moments.At(row.t_s);
+  for (const scenario::HungWeight& weight : plan.weights) moments.At(weight.t_s);
+  for (const scenario::ToolPath& path : plan.tool_paths) {
+    for (const scenario::Waypoint& waypoint : path.waypoints) moments.At(waypoint.t_s);
+  }
+  return moments.Take();
+}
+
+std::vector<Instant> RestTimes(const scenario::Schedule& schedule, int recording) {
+  const double rest_s = schedule.scenario().rest_between_s;
+  const double begin_s = schedule.Begin_s(recording) - rest_s;
+  Moments moments(begin_s, rest_s);
+  for (const double share : {0.0, 0.5}) moments.At(share * rest_s);
+  return moments.Take();
+}
+
+scenario::BenchInputs InputsAt(const scenario::Schedule& schedule, int recording,
+                               const Instant& instant) {
+  return schedule.InputsAt(std::max(instant.t_s(), schedule.Begin_s(recording)));
+}
+
+}  // namespace palpate::command
