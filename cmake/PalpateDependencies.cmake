@@ -13,6 +13,9 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tinyxml2 REQUIRED CONFIG)
 
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
+
 # One vendor, so that timings and rounding do not depend on what else a machine has.
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
@@ -27,6 +30,7 @@ target_link_libraries(palpate_suitesparse INTERFACE ${CHOLMOD_LIBRARY}
 
 if(PALPATE_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(embree 3 REQUIRED)
 endif()
 if(PALPATE_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)

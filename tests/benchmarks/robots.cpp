@@ -11,7 +11,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_io/write_vtu.hpp"
-#include "tests/benchmarks/refine.hpp"
+#include "libs/fem/refined_mesh.hpp"
 #include "tests/support/paper_robot.hpp"
 
 namespace palpate::benchmarks {
@@ -37,7 +37,7 @@ class RefinedMeshFile {
       : path_(std::filesystem::temp_directory_path() /
               ("palpate-bench-" + std::to_string(getpid()) + ".vtu")) {
     fem::TetMesh mesh = fem::ReadMesh(settings.file, settings.metres_per_unit);
-    for (int k = 0; k < refinements; ++k) mesh = RefineUniformly(mesh);
+    for (int k = 0; k < refinements; ++k) mesh = fem::RefineUniformly(mesh);
     fem::WriteVtu(path_, mesh, mesh.nodes_m.reshaped());
   }
   ~RefinedMeshFile() {

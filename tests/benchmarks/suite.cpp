@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "libs/fem/mesh_io/read_mesh.hpp"
+#include "tests/benchmarks/camera_bench.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/measure.hpp"
 #include "tests/benchmarks/robots.hpp"
+#include "tests/benchmarks/virtual_robot_bench.hpp"
 #include "tests/benchmarks/workbench.hpp"
 
 namespace palpate::benchmarks {
@@ -180,6 +182,8 @@ Suite MakeSuite() {
   if (paper.description.mesh.file != linear.description.mesh.file) {
     suite.blocks.push_back(ReadingBlock(paper.description.mesh));
   }
+  suite.blocks.push_back(CameraBlock());
+  suite.blocks.push_back(VirtualRobotBlock());
   for (const int refinements : {0, 1, 2}) {
     suite.family.push_back(PaperRobot(ElementType::kTet4, refinements).name);
   }

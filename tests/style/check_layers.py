@@ -18,10 +18,13 @@ LIBRARIES = {
     "core": set(),
     "app": {"core"},
     "geometry": {"core"},
-    "experiment": {"core", "geometry"},
+    "rgbd": {"core", "geometry"},
+    "experiment": {"core", "geometry", "rgbd"},
+    "scenario": {"core", "geometry", "fem", "robot", "rgbd"},
+    "gige_vision": {"core", "rgbd"},
     "fem": {"core", "geometry"},
     "robot": {"core", "geometry", "fem"},
-    "dds": {"core"},
+    "dds": {"core", "geometry"},
 }
 NOT_FOR_ALGORITHMS = {"app", "dds"}
 
@@ -34,7 +37,15 @@ THIRD_PARTY = [
                 r"|klu\.h|Eigen/(?:Cholmod|UmfPack|KLU|SPQR)Support)"),
      {"fem"}, "SuiteSparse only in libs/fem: use fem::SparseSolver"),
     (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
+    (re.compile(r"png\.h"), {"rgbd"}, "libpng only in libs/rgbd: use rgbd/png.hpp"),
 ]
+# Third-party headers that stay behind one component.
+OF_COMPONENTS = [
+    (re.compile(r"arv\.h|glib"), "capture", "Aravis only in components/capture: use FrameSource"),
+]
+# The virtual bench's truth: whoever estimates must not see it.
+TRUTH = re.compile(r"\bk(?:True\w+|BenchState)Topic\b|\"/truth/")
+KNOW_TRUTH = {"virtual_robot", "virtual_camera"}
 DDS_HEADER = re.compile(r"(?:dds|ddsc)/")
 
 
@@ -94,7 +105,19 @@ def check_third_party(source, header):
         inside = source.kind == "library" and source.name in libraries
         if pattern.match(header) and not inside:
             return rule
+    for pattern, component, rule in OF_COMPONENTS:
+        inside = source.kind in ("algorithm", "node") and source.name == component
+        if pattern.match(header) and not inside:
+            return rule
     return ""
+
+
+def check_truth(source, line):
+    if source.kind in ("tests", "other") or source == Place("library", "dds"):
+        return ""
+    if source.name in KNOW_TRUTH or not TRUTH.search(line):
+        return ""
+    return "only the virtual bench (and tests) may know a /truth topic"
 
 
 def check_include(source, header, quoted, messages):
@@ -132,6 +155,9 @@ def check_tree(root):
     for path in sources:
         source = place_of(path.as_posix())
         for number, line in enumerate(source_tree.read_lines(root / path), start=1):
+            rule = check_truth(source, line)
+            if rule:
+                violations.append(Violation(path.as_posix(), number, rule))
             match = INCLUDE.match(line)
             if not match:
                 continue

@@ -96,6 +96,25 @@ class CheckLayers(TreeTest):
         self.assert_broken("components/view/node/a.cpp", "<spdlog/spdlog.h>", "only in libs/app")
         self.assertEqual(self.broken("tests/libs/fem/a.cpp", "<cholmod.h>"), "")
 
+    def test_aravis_stays_in_capture(self):
+        for path in ("components/capture/a.cpp", "components/capture/node/a.cpp", "tests/a.cpp"):
+            self.assertEqual(self.broken(path, "<arv.h>"), "", path)
+        self.assert_broken("libs/gige_vision/a.cpp", "<arv.h>", "only in components/capture")
+
+    def test_no_estimator_knows_the_truth(self):
+        line = "reader(participant.CreateReader(dds::kTrueForcesTopic)),\n"
+        for path in ("components/force_estimation/node/a.cpp", "libs/robot/a.cpp"):
+            file = self.plant(path, line)
+            self.assertIn(f"{path}:1: only the virtual bench",
+                          self.rules(check_layers.check_tree(self.root)[0]))
+            file.write_text('reader("/truth/mesh_state");\n', encoding="utf-8")
+            self.assertIn("only the virtual bench",
+                          self.rules(check_layers.check_tree(self.root)[0]))
+            file.unlink()
+        for path in ("components/virtual_camera/node/a.cpp", "tests/system/a.cpp"):
+            self.plant(path, line)
+        self.assertEqual(check_layers.check_tree(self.root)[0], [])
+
     def test_our_headers_are_included_from_the_root(self):
         self.assert_broken("libs/fem/a.cpp", '"tet_mesh.hpp"', "from the root")
         self.assert_broken("libs/fem/a.cpp", '"tests/libs/fem/b.hpp"', "only tests include tests")

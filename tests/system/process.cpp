@@ -13,15 +13,17 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 namespace palpate::system_test {
 
 Process::Process(const std::string& name, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& log)
+                 const std::filesystem::path& log, const std::vector<std::string>& wrapper)
     : log_(log) {
   const std::string program = std::string(PALPATE_BINARY_DIR) + "/bin/" + name;
-  std::vector<std::string> words{program};
+  std::vector<std::string> words = wrapper;
+  words.push_back(program);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -31,7 +33,7 @@ Process::Process(const std::string& name, const std::vector<std::string>& argume
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  const int result = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int result = posix_spawnp(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (result != 0) throw std::runtime_error("cannot start " + program);
 }
@@ -57,6 +59,18 @@ std::optional<int> Process::Wait(std::chrono::seconds at_most) {
   waitpid(pid_, &status, 0);
   pid_ = -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+double Process::CpuTime_s() const {
+  std::ifstream stream("/proc/" + std::to_string(pid_) + "/stat");
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  std::string skipped;
+  for (int field = 3; field < 14; ++field) fields >> skipped;
+  double user_ticks = 0.0;
+  double system_ticks = 0.0;
+  fields >> user_ticks >> system_ticks;
+  return (user_ticks + system_ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 std::string Process::Output() const {

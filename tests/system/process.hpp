@@ -17,8 +17,9 @@ namespace palpate::system_test {
 class Process {
  public:
   /// `name`: of a program in the bin folder of the build. Both its outputs go to `log`.
+  /// `wrapper`: a command that starts it, e.g. {"ip", "netns", "exec", "robot"}.
   Process(const std::string& name, const std::vector<std::string>& arguments,
-          const std::filesystem::path& log);
+          const std::filesystem::path& log, const std::vector<std::string>& wrapper = {});
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -27,6 +28,8 @@ class Process {
   /// Waits for its end, at most so long: its exit code, or minus the signal that ended it.
   /// nullopt: it still runs.
   std::optional<int> Wait(std::chrono::seconds at_most);
+  /// Processor time that it has used until now, s.
+  double CpuTime_s() const;
   /// What it has written until now.
   std::string Output() const;
 

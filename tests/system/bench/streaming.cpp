@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/system/bench/streaming.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+
+namespace palpate::system_test {
+
+namespace {
+
+using std::chrono::seconds;
+
+/// Stamps of frames lie on the states' to within the error of the camera's clock.
+constexpr std::int64_t kSameStamp_ns = 2'000'000;
+
+/// Processor time of the bench's processes.
+struct Used {
+  explicit Used(const VirtualBench& bench)
+      : at{FrameListener::Clock::now()},
+        capture_s{bench.capture->CpuTime_s()},
+        camera_s{bench.camera->CpuTime_s()},
+        robot_s{bench.robot->CpuTime_s()} {}
+
+  FrameListener::Clock::time_point at;
+  double capture_s;
+  double camera_s;
+  double robot_s;
+};
+
+void Print(const std::string& name, const Streamed& streamed, const Used& before,
+           const Used& after) {
+  const double percent = 100.0 / std::chrono::duration<double>(after.at - before.at).count();
+  std::printf(
+      "%s: %zu frames of %zu sent in %.1f s (%.2f a second); of a core: capture %.1f %%, camera "
+      "%.1f %%, robot %.1f %%\n",
+      name.c_str(), streamed.frames, streamed.sent, streamed.span_s, streamed.rate_hz(),
+      percent * (after.capture_s - before.capture_s), percent * (after.camera_s - before.camera_s),
+      percent * (after.robot_s - before.robot_s));
+}
+
+}  // namespace
+
+seconds StreamTime() {
+  const char* text = std::getenv("PALPATE_STREAM_SECONDS");
+  return seconds(text ? std::atoi(text) : 6);
+}
+
+Streamed CountFrames(const FrameListener& listener) {
+  Streamed streamed;
+  if (listener.frames().size() < 3) return streamed;
+  const auto first = listener.frames().begin();
+  const auto last = std::prev(listener.frames().end(), 2);
+  for (auto frame = first; frame != std::next(last); ++frame) {
+    ++(frame->second.complete() ? streamed.frames : streamed.incomplete);
+  }
+  streamed.sent = last->second.frame_id - first->second.frame_id + 1;
+  for (const std::int64_t stamp_ns : listener.states()) {
+    const bool inside =
+        stamp_ns > first->first - kSameStamp_ns && stamp_ns < last->first + kSameStamp_ns;
+    streamed.states += inside ? 1 : 0;
+  }
+  streamed.span_s = 1e-9 * static_cast<double>(last->first - first->first);
+  return streamed;
+}
+
+Streamed Stream(VirtualBench& bench, FrameListener& listener, const std::string& name) {
+  bench.StartAll();
+  const bool streams =
+      listener.WaitFor([&] { return listener.CompleteCount() >= 10; }, seconds(60));
+  EXPECT_TRUE(streams) << bench.robot->Output() << bench.camera->Output()
+                       << bench.capture->Output();
+  if (!streams) return {};
+  listener.Forget();
+  const Used before(bench);
+  listener.ListenFor(StreamTime());
+  const Used after(bench);
+  const Streamed streamed = CountFrames(listener);
+  Print(name, streamed, before, after);
+  return streamed;
+}
+
+}  // namespace palpate::system_test

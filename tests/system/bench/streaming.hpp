@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "tests/system/bench/frame_listener.hpp"
+#include "tests/system/bench/virtual_bench.hpp"
+
+namespace palpate::system_test {
+
+/// How long a stream is watched: 6 s, or PALPATE_STREAM_SECONDS.
+std::chrono::seconds StreamTime();
+
+/// What was published in a stretch of time, and what of it came.
+struct Streamed {
+  std::size_t states = 0;      ///< of the virtual robot; 0 where they cannot be heard
+  std::size_t sent = 0;        ///< frames that the camera sent, by its own count
+  std::size_t frames = 0;      ///< whole frame sets
+  std::size_t incomplete = 0;  ///< sets of which a picture or the facts are missing
+  double span_s = 0.0;
+  double capture_cpu = 0.0;  ///< cores that palpate-capture used
+
+  double rate_hz() const { return static_cast<double>(frames - 1) / span_s; }
+};
+
+/// What of the frames that `listener` has seen is whole; the last set may still be on its way.
+Streamed CountFrames(const FrameListener& listener);
+
+/// Starts the bench, watches it for StreamTime() once it streams, and prints what came and what
+/// each process took under the heading `name`.
+Streamed Stream(VirtualBench& bench, FrameListener& listener, const std::string& name);
+
+}  // namespace palpate::system_test
