@@ -46,7 +46,9 @@ std::size_t FrameListener::CompleteCount() const {
 }
 
 std::uint32_t FrameListener::LastEpoch() const {
-  return frames_.empty() ? 0 : frames_.rbegin()->second.epoch;
+  const auto told = std::find_if(frames_.rbegin(), frames_.rend(),
+                                 [](const auto& entry) { return entry.second.has_info; });
+  return told == frames_.rend() ? 0 : told->second.epoch;
 }
 
 FrameListener::Clock::time_point FrameListener::LastArrival() const {

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 
 namespace palpate::system_test {
@@ -17,6 +18,8 @@ using std::chrono::seconds;
 
 /// Stamps of frames lie on the states' to within the error of the camera's clock.
 constexpr std::int64_t kSameStamp_ns = 2'000'000;
+
+constexpr long kReceiveBuffer_bytes = 2'097'152;
 
 /// Processor time of the bench's processes.
 struct Used {
@@ -48,6 +51,15 @@ void Print(const std::string& name, const Streamed& streamed, const Used& before
 seconds StreamTime() {
   const char* text = std::getenv("PALPATE_STREAM_SECONDS");
   return seconds(text ? std::atoi(text) : 6);
+}
+
+std::string KernelTrouble() {
+  long most_bytes = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> most_bytes;
+  if (most_bytes >= kReceiveBuffer_bytes) return {};
+  return "net.core.rmem_max is " + std::to_string(most_bytes) +
+         ", too little for pictures over DDS: sudo sysctl -w net.core.rmem_max=" +
+         std::to_string(kReceiveBuffer_bytes);
 }
 
 Streamed CountFrames(const FrameListener& listener) {

@@ -30,6 +30,10 @@ struct Streamed {
 /// What of the frames that `listener` has seen is whole; the last set may still be on its way.
 Streamed CountFrames(const FrameListener& listener);
 
+/// Why a machine cannot show the figures that are asserted; empty: it can. Pictures of 1.2 MB come
+/// in bursts, which the receive buffers of a stock kernel (net.core.rmem_max) do not hold.
+std::string KernelTrouble();
+
 /// Starts the bench, watches it for StreamTime() once it streams, and prints what came and what
 /// each process took under the heading `name`.
 Streamed Stream(VirtualBench& bench, FrameListener& listener, const std::string& name);

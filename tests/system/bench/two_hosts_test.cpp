@@ -55,6 +55,8 @@ TEST(TwoHosts, FramesArriveOverACable) {
       folder,
       {.camera_address = other.address(), .noise = "stereo", .bench_wrapper = other.wrapper()});
   const Streamed streamed = Stream(bench, listener, "two hosts");
+  ASSERT_GT(streamed.frames, 0u);
+  if (const std::string trouble = KernelTrouble(); !trouble.empty()) GTEST_SKIP() << trouble;
   EXPECT_EQ(streamed.incomplete, 0u);
   EXPECT_GE(static_cast<double>(streamed.frames), 0.98 * static_cast<double>(streamed.sent));
 }
