@@ -73,6 +73,20 @@ double Process::CpuTime_s() const {
   return (user_ticks + system_ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
+Process::Holdings Process::Holds() const {
+  const std::filesystem::path folder = "/proc/" + std::to_string(pid_);
+  const auto entries = [&](const char* name) {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder / name), {}));
+  };
+  std::ifstream stream(folder / "statm");
+  double pages = 0.0;
+  double resident_pages = 0.0;
+  stream >> pages >> resident_pages;
+  return {entries("fd"), entries("task"),
+          resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0};
+}
+
 std::string Process::Output() const {
   std::ifstream stream(log_);
   return std::string(std::istreambuf_iterator<char>(stream), {});

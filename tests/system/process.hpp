@@ -30,6 +30,13 @@ class Process {
   std::optional<int> Wait(std::chrono::seconds at_most);
   /// Processor time that it has used until now, s.
   double CpuTime_s() const;
+  /// What it holds: files and sockets, threads, resident memory.
+  struct Holdings {
+    std::size_t files = 0;
+    std::size_t threads = 0;
+    double memory_MiB = 0.0;
+  };
+  Holdings Holds() const;
   /// What it has written until now.
   std::string Output() const;
 
