@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <malloc.h>
+
 #include <iostream>
 
 #include "components/capture/camera_list.hpp"
@@ -11,8 +13,17 @@
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
 
+namespace {
+
+/// glibc raises this limit to the largest block that was ever given back; the picture buffers of a
+/// camera that has gone would then stay in a heap that is full of holes.
+constexpr int kBytesOfItsOwn = 256 * 1024;
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace palpate;
+  mallopt(M_MMAP_THRESHOLD, kBytesOfItsOwn);
   return app::RunMain("palpate-capture", [&]() -> int {
     const auto command = capture::ReadCommand(argc, argv);
     if (!command) return app::kExitDone;

@@ -25,6 +25,8 @@ constexpr seconds kPatience{30};
 // Files and threads of a connection that is being taken down beside the present one.
 constexpr std::size_t kPassing = 6;
 
+constexpr milliseconds kTakingDown{6000};
+
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 class LostCamera : public ::testing::Test {
@@ -77,6 +79,7 @@ TEST_F(LostCamera, IsReportedAndTakenUpAgain) {
   const char* cycles = std::getenv("PALPATE_KILL_CYCLES");
   for (int cycle = 0; cycle < (cycles ? std::atoi(cycles) : 0); ++cycle) KillFor(milliseconds(0));
   if (cycles) KillFor(seconds(10));
+  if (cycles) listener_.ListenFor(kTakingDown);
   const Process::Holdings after = bench_.capture->Holds();
   std::printf("capture holds %zu files, %zu threads, %.1f MiB; before %zu, %zu, %.1f\n",
               after.files, after.threads, after.memory_MiB, before.files, before.threads,
