@@ -4,7 +4,6 @@
 #include "components/virtual_robot/effects.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "libs/core/error.hpp"
@@ -12,49 +11,9 @@
 
 namespace palpate::virtual_robot {
 
-namespace {
-
-constexpr std::array kHere = {"youngs_modulus",
-                              "regional_stiffness",
-                              "poissons_ratio",
-                              "stiffening",
-                              "density",
-                              "viscoelastic_creep",
-                              "mullins",
-                              "plastic_set",
-                              "geometry_scale",
-                              "temperature",
-                              "rest_twist",
-                              "base_compliance",
-                              "gravity_direction",
-                              "payload",
-                              "permanent_force",
-                              "hidden_obstacle",
-                              "cable_friction",
-                              "cable_elasticity",
-                              "cable_cutting",
-                              "cable_gain",
-                              "cable_offset",
-                              "backlash",
-                              "cable_routing",
-                              "swapped_cables",
-                              "drive_coupling",
-                              "lag",
-                              "marker_misplacement"};
-constexpr std::array kOfTheCamera = {"camera_moved", "depth_scale",     "depth_incidence_bias",
-                                     "intrinsics",   "lens_distortion", "flying_pixels",
-                                     "warm_up_drift"};
-
-template <typename Names>
-bool Holds(const Names& names, std::string_view id) {
-  return std::find(names.begin(), names.end(), id) != names.end();
-}
-
-}  // namespace
-
 void CheckKnown(const Effects& effects) {
   for (const scenario::ActiveEffect& effect : effects) {
-    if (!Holds(kHere, effect.id) && !Holds(kOfTheCamera, effect.id)) {
+    if (scenario::FindEffect(effect.id) == nullptr) {
       throw InputError("the virtual robot has no effect '" + effect.id + "'");
     }
   }

@@ -12,6 +12,8 @@ namespace palpate::geometry {
 inline constexpr std::string_view kRobotFrame = "robot";  ///< fixed to the robot's base
 /// x right, y down, z along the optical axis of the depth camera.
 inline constexpr std::string_view kCameraDepthOpticalFrame = "camera_depth_optical_frame";
+/// The same of the colour camera.
+inline constexpr std::string_view kCameraColorOpticalFrame = "camera_color_optical_frame";
 inline constexpr std::string_view kWorldFrame = "world";
 
 }  // namespace palpate::geometry

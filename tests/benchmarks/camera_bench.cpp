@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/virtual_camera/virtual_camera.hpp"
+#include "libs/scenario/scenario_sections.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/robots.hpp"
 
@@ -21,15 +22,6 @@ struct CameraSettings {
   scenario::ToolShape tool = scenario::ToolShape::kSphere;
 };
 
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& from_m, const Eigen::Vector3d& at_m) {
-  const Eigen::Vector3d forward = (at_m - from_m).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() << right, forward.cross(right), forward;
-  pose.translation() = from_m;
-  return pose;
-}
-
 scenario::Scenario MakeScenario(const CameraSettings& settings) {
   scenario::Scenario scenario;
   scenario::CameraSpec& spec = scenario.camera.emplace();
@@ -43,7 +35,7 @@ scenario::Scenario MakeScenario(const CameraSettings& settings) {
   spec.camera.baseline_m = 0.055;
   if (settings.color) spec.camera.color = spec.camera.depth;
   spec.camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
-  spec.T_robot_camera = LookAt({0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
+  spec.T_robot_camera = scenario::LookAt({0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
   if (!settings.noise) spec.noise.sensor = scenario::DepthSensor::kNone;
   scenario::Tool& tool = scenario.tools.emplace_back();
   tool.name = "tool";

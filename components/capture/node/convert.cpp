@@ -28,7 +28,7 @@ std::string CalibrationHash(const rgbd::RgbdCamera& camera, const SourceHealth& 
 }  // namespace
 
 std::string_view ColorFrameId(const rgbd::RgbdCamera& camera) {
-  return camera.color_registered ? DepthFrameId() : kCameraColorOpticalFrame;
+  return camera.color_registered ? DepthFrameId() : geometry::kCameraColorOpticalFrame;
 }
 
 std::string_view NameOf(ClockSource source) {

@@ -14,7 +14,6 @@
 namespace palpate::capture {
 
 /// The colour camera's optical frame; registered colour is in the depth camera's.
-inline constexpr std::string_view kCameraColorOpticalFrame = "camera_color_optical_frame";
 std::string_view ColorFrameId(const rgbd::RgbdCamera& camera);
 
 /// "host_receive", "device_mapped", "ptp", "replay".

@@ -25,7 +25,7 @@ scenario::CameraSpec Camera() {
   spec.camera.color.fx_px = spec.camera.color.fy_px = 640.0;
   spec.camera.baseline_m = 0.055;
   spec.camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
-  spec.T_robot_camera = LookAt({0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
+  spec.T_robot_camera = scenario::LookAt({0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
   spec.noise.sensor = scenario::DepthSensor::kNone;
   return spec;
 }
@@ -84,15 +84,6 @@ const Skin& FourLegSkin() {
   return skin;
 }
 
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& from_m, const Eigen::Vector3d& at_m) {
-  const Eigen::Vector3d forward = (at_m - from_m).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() << right, forward.cross(right), forward;
-  pose.translation() = from_m;
-  return pose;
-}
-
 View RestingView(const scenario::Scenario& scenario) {
   View view;
   view.nodes_m = FourLegSkin().rest_m;
@@ -119,7 +110,7 @@ WallBench FacingWall(double distance_m, double tilt_rad) {
   bench.scenario = NoisyScenario();
   bench.scenario.stage.table_height_m = -10.0;
   bench.scenario.stage.background_distance_m = 0.0;
-  bench.scenario.camera->T_robot_camera = LookAt({0.0, -1.0, 0.0}, {0.0, 0.0, 0.0});
+  bench.scenario.camera->T_robot_camera = scenario::LookAt({0.0, -1.0, 0.0}, {0.0, 0.0, 0.0});
   const double half = 40.0;
   const Eigen::Vector3d across(std::cos(tilt_rad), std::sin(tilt_rad), 0.0);
   const Eigen::Vector3d center(0.0, distance_m - 1.0, 0.0);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "components/virtual_camera/virtual_camera.hpp"
+#include "libs/scenario/scenario_sections.hpp"
 
 namespace palpate::virtual_camera {
 
@@ -18,9 +19,6 @@ scenario::Scenario NoisyScenario();
 
 /// The skin of config/robots/four_leg.yaml.
 const Skin& FourLegSkin();
-
-/// At `from_m`, looking at `at_m`, upright.
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& from_m, const Eigen::Vector3d& at_m);
 
 /// The robot bent over to the east, with a sphere, a cylinder, a plate and a hand around it.
 View CrowdedView(const scenario::Scenario& scenario);

@@ -52,7 +52,7 @@ TEST(Geometry, NoPixelIsOffByAHundredthOfAMillimetre) {
 TEST(Geometry, HoldsFromCloseAndAtAnAngle) {
   const scenario::Scenario scenario = QuietScenario();
   View view = CrowdedView(scenario);
-  view.T_robot_camera = LookAt({-0.13, -0.12, 0.02}, {0.03, 0.02, 0.06});
+  view.T_robot_camera = scenario::LookAt({-0.13, -0.12, 0.02}, {0.03, 0.02, 0.06});
   ExpectAsEmbree(scenario.camera->camera.depth, view, 100);
 }
 
@@ -60,7 +60,7 @@ TEST(Geometry, CutsWhatReachesBehindTheCamera) {
   const scenario::Scenario scenario = QuietScenario();
   View view = CrowdedView(scenario);
   // 3 mm over the table, which goes on behind the camera: it begins in the picture, 10 mm away.
-  view.T_robot_camera = LookAt({0.02, -0.08, 0.003}, {-0.01, 0.2, 0.003});
+  view.T_robot_camera = scenario::LookAt({0.02, -0.08, 0.003}, {-0.01, 0.2, 0.003});
   ExpectAsEmbree(scenario.camera->camera.depth, view, 100, true);
 }
 
@@ -78,7 +78,7 @@ TEST(Geometry, CutsWhatReachesBehindADistortedLens) {
   rgbd::CameraModel model = scenario.camera->camera.depth;
   model.distortion = {-0.1, 0.02, 0.001, 0.001, 0.0};
   View view = CrowdedView(scenario);
-  view.T_robot_camera = LookAt({0.02, -0.08, 0.003}, {-0.01, 0.2, 0.003});
+  view.T_robot_camera = scenario::LookAt({0.02, -0.08, 0.003}, {-0.01, 0.2, 0.003});
   ExpectAsEmbree(model, view, 100, true);
 }
 

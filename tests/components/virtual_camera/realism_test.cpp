@@ -42,7 +42,7 @@ struct KinectBench {
     noise.correlation_px = 3.5;
     noise.disparity_step_px = 1.0 / 8.0;
     noise.periodic_bias_px = 0.0;  // there is nothing between the eighths to be biased
-    scenario.camera->T_robot_camera = LookAt({0.1, -0.75, 0.62}, {0.0, 0.0, 0.05});
+    scenario.camera->T_robot_camera = scenario::LookAt({0.1, -0.75, 0.62}, {0.0, 0.0, 0.05});
     view = CrowdedView(scenario);
   }
 };

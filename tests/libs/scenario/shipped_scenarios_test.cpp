@@ -10,6 +10,7 @@
 #include "libs/experiment/recording.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "libs/scenario/effect_places.hpp"
+#include "libs/scenario/robot_names.hpp"
 #include "tests/libs/scenario/scenario_text.hpp"
 
 namespace palpate::scenario {
@@ -25,13 +26,7 @@ Scenario Shipped(const std::string& name) {
 }
 
 RobotNames FourLeg() {
-  const auto robot = robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml);
-  RobotNames names;
-  for (const auto& cable : robot.cables) names.cables.push_back(cable.name);
-  for (const auto& region : robot.regions) names.regions.push_back(region.name);
-  for (const auto& marker : robot.markers) names.markers.push_back(marker.name);
-  names.poissons_ratio = robot.material.poissons_ratio;
-  return names;
+  return NamesOf(robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml));
 }
 
 std::set<std::string> KindsOf(const Scenario& scenario) {

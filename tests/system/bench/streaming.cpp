@@ -39,11 +39,11 @@ void Print(const std::string& name, const Streamed& streamed, const Used& before
            const Used& after) {
   const double percent = 100.0 / std::chrono::duration<double>(after.at - before.at).count();
   std::printf(
-      "%s: %zu frames of %zu sent in %.1f s (%.2f a second); of a core: capture %.1f %%, camera "
-      "%.1f %%, robot %.1f %%\n",
-      name.c_str(), streamed.frames, streamed.sent, streamed.span_s, streamed.rate_hz(),
-      percent * (after.capture_s - before.capture_s), percent * (after.camera_s - before.camera_s),
-      percent * (after.robot_s - before.robot_s));
+      "%s: %zu frames of %zu sent, %zu states, in %.1f s (%.2f a second); of a core: capture "
+      "%.1f %%, camera %.1f %%, robot %.1f %%\n",
+      name.c_str(), streamed.frames, streamed.sent, streamed.states, streamed.span_s,
+      streamed.rate_hz(), percent * (after.capture_s - before.capture_s),
+      percent * (after.camera_s - before.camera_s), percent * (after.robot_s - before.robot_s));
 }
 
 }  // namespace

@@ -22,7 +22,6 @@ struct Streamed {
   std::size_t frames = 0;      ///< whole frame sets
   std::size_t incomplete = 0;  ///< sets of which a picture or the facts are missing
   double span_s = 0.0;
-  double capture_cpu = 0.0;  ///< cores that palpate-capture used
 
   double rate_hz() const { return static_cast<double>(frames - 1) / span_s; }
 };

@@ -22,13 +22,13 @@ TEST(VirtualBench, StreamsWholeFrameSets) {
   VirtualBench bench(folder, {.camera_address = "127.0.0.41", .noise = "stereo"});
   const Streamed streamed = Stream(bench, listener, "no loss");
   ASSERT_GT(streamed.frames, 0u);
-  if (const std::string trouble = KernelTrouble(); !trouble.empty()) GTEST_SKIP() << trouble;
-  EXPECT_EQ(streamed.incomplete, 0u);
-  ExpectShare(streamed.frames, 0.98, streamed.sent);
   for (auto* process : {&bench.capture, &bench.camera, &bench.robot}) {
     (*process)->Signal(SIGTERM);
     EXPECT_EQ((*process)->Wait(std::chrono::seconds(30)), 0) << (*process)->Output();
   }
+  if (const std::string trouble = KernelTrouble(); !trouble.empty()) GTEST_SKIP() << trouble;
+  EXPECT_EQ(streamed.incomplete, 0u);
+  ExpectShare(streamed.frames, 0.98, streamed.sent);
 }
 
 /// PALPATE_STREAM_SECONDS=32 watches it through: whether it keeps real time is printed, not
