@@ -13,15 +13,23 @@ namespace palpate::capture {
 namespace {
 
 constexpr double kAnswerTime_s = 0.2;
+constexpr int kProbes = 3;  ///< a packet may be lost, a busy camera late
 constexpr const char* kFakeId = "Fake_1";
 
 std::string OrEmpty(const char* text) { return text != nullptr ? text : ""; }
+
+bool Answers(const std::string& address) {
+  for (int probe = 0; probe < kProbes; ++probe) {
+    if (ProbeControl(address, kAnswerTime_s) != Probe::kSilent) return true;
+  }
+  return false;
+}
 
 FoundDevice AtAddress(const std::string& address) {
   FoundDevice found;
   found.address = found.id = address;
   // Aravis would ask for seconds.
-  if (ProbeControl(address, kAnswerTime_s) == Probe::kSilent) {
+  if (!Answers(address)) {
     found.reason = "no camera answers at " + address;
   }
   return found;
