@@ -15,6 +15,10 @@ find_package(tinyxml2 REQUIRED CONFIG)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
+# Of PCL the libraries that are used: its own list also brings HDF5 and MPI.
+pkg_check_modules(PCL REQUIRED pcl_segmentation)
+set(PCL_LIBRARIES pcl_segmentation pcl_filters pcl_sample_consensus pcl_search pcl_kdtree
+    pcl_common)
 
 # One vendor, so that timings and rounding do not depend on what else a machine has.
 set(BLA_VENDOR OpenBLAS)

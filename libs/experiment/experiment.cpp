@@ -179,6 +179,11 @@ std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromMarkers(const Experim
   if (FrameOf(experiment, recording) == MeasurementFrame::kRobot) {
     return Eigen::Isometry3d::Identity();
   }
+  return RobotFromCamera(experiment, recording);
+}
+
+std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experiment& experiment,
+                                                                  const Recording& recording) {
   if (recording.T_robot_camera) return *recording.T_robot_camera;
   const std::string what = "recording '" + recording.name + "' is in the camera's frame";
   if (recording.kind == RecordingKind::kCameraMoved) {

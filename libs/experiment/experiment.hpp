@@ -72,4 +72,9 @@ struct NeedsCalibration {
 std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromMarkers(const Experiment& experiment,
                                                                    const Recording& recording);
 
+/// T_robot_camera of a recording's images, which are in the camera's frame whatever `frame` says of
+/// its markers: as RobotFromMarkers finds it for `frame: camera`.
+std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experiment& experiment,
+                                                                  const Recording& recording);
+
 }  // namespace palpate::experiment

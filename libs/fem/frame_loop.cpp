@@ -48,11 +48,32 @@ void TakeChordSteps(FrameProblem& problem, double tolerance, const TimeBudget& b
   }
 }
 
+/// Chord steps with the factor of an earlier frame. True where they led within the tolerance.
+bool ConvergeWithKeptFactor(FrameProblem& problem, double tolerance, const TimeBudget& budget,
+                            FrameOutcome* outcome) {
+  if (!problem.PrepareKeptStep().ok()) return false;
+  outcome->error = problem.StartError();
+  while (outcome->error > tolerance) {
+    if (budget.Over() || !problem.Try(1.0, false).ok()) return false;
+    const double wanted = std::max(tolerance, kChordGuard * outcome->error);
+    if (!(problem.TrialError() <= wanted)) return false;
+    problem.AcceptTrial();
+    ++outcome->chord_steps;
+    outcome->error = problem.TrialError();
+  }
+  outcome->status = Status::Ok();
+  return true;
+}
+
 }  // namespace
 
 FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
                       const TimeBudget& budget) {
   FrameOutcome outcome;
+  if (settings.keep_factor &&
+      ConvergeWithKeptFactor(problem, settings.relative_tolerance, budget, &outcome)) {
+    return outcome;
+  }
   double smallest_error = std::numeric_limits<double>::infinity();
   int steps_without_gain = 0;
   while (outcome.exact_steps < settings.max_exact_steps) {

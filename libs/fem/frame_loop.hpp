@@ -12,6 +12,9 @@ struct FrameSettings {
   /// A frame has converged when its error (FrameProblem::TrialError) is no larger.
   double relative_tolerance = 1e-8;
   int max_exact_steps = 40;
+  /// Begin with the factor of an earlier frame, and go on with it as long as each step brings the
+  /// error below 0.3 of what it was.
+  bool keep_factor = false;
 };
 
 /// What came of one frame.
@@ -37,6 +40,11 @@ class FrameProblem {
   virtual Status PrepareExactStep() = 0;
   /// Computes the step for the residual at the state, with the factor that is there.
   virtual Status PrepareChordStep() = 0;
+  /// With FrameSettings::keep_factor: computes the step from the state with the factor of an
+  /// earlier frame. Not ok: there is none.
+  virtual Status PrepareKeptStep() { return {}; }
+  /// Error at the state after a successful PrepareKeptStep, as TrialError.
+  virtual double StartError() const { return 0.0; }
   /// Evaluates the residual where `length` times the step leads. kInverted: an element would turn
   /// inside out there. The state stays. `last`: no time is left for a step from there, so that an
   /// error above the tolerance need only be bounded from below.

@@ -13,7 +13,7 @@ void ForceDirection::AddForce(double force_N, Eigen::VectorXd& nodal_force_N) co
   }
 }
 
-Compliance::Compliance(fem::Linearisation& linearisation, std::vector<fem::NodeWeights> effectors)
+Compliance::Compliance(fem::Linearisation& linearisation, std::vector<EffectorRow> effectors)
     : linearisation_(linearisation),
       effectors_(std::move(effectors)),
       nodal_(3 * linearisation.body().NodeCount()),
@@ -21,11 +21,19 @@ Compliance::Compliance(fem::Linearisation& linearisation, std::vector<fem::NodeW
   SetForces({});
 }
 
+void Compliance::SetEffectors(std::vector<EffectorRow> effectors) {
+  effectors_ = std::move(effectors);
+  const auto e = static_cast<Eigen::Index>(effectors_.size());
+  W_ea_.resize(e, W_ea_.cols());
+  W_ef_.resize(e, W_ef_.cols());
+  delta_e_free_.resize(e);
+}
+
 void Compliance::SetForces(std::vector<ForceDirection> forces) {
   forces_ = std::move(forces);
   const auto a = static_cast<Eigen::Index>(linearisation_.constraints().size());
   const auto f = static_cast<Eigen::Index>(forces_.size());
-  const auto e = static_cast<Eigen::Index>(3 * effectors_.size());
+  const auto e = static_cast<Eigen::Index>(effectors_.size());
   directions_.resize(linearisation_.Size(), a + f);
   columns_.resize(linearisation_.Size(), 1 + a + f);
   W_ea_.resize(e, a);
@@ -67,18 +75,23 @@ void Compliance::ComputeChord(const Eigen::VectorXd& x_m,
   ObserveResponse(x_m, cable_rest_length_m);
 }
 
+void Compliance::Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m) {
+  ObserveColumns();
+  ObserveResponse(x_m, cable_rest_length_m);
+}
+
 /// The free values: where effectors and cables are, and what the residual does to them.
 void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
                                  const Eigen::VectorXd& cable_rest_length_m) {
   const fem::StiffnessMatrix& matrix = linearisation_.matrix();
   for (size_t e = 0; e < effectors_.size(); ++e) {
-    auto position = delta_e_free_.segment<3>(static_cast<Eigen::Index>(3 * e));
-    position = effectors_[e].Position(x_m);
+    double value = effectors_[e].Value(x_m);
     for (size_t k = 0; k < effectors_[e].nodes.size(); ++k) {
       const int free_node = matrix.FreeIndex(effectors_[e].nodes[k]);
       if (free_node < 0) continue;
-      position += effectors_[e].weights[k] * columns_.col(0).segment<3>(3 * free_node);
+      value += effectors_[e].coefficients[k].dot(columns_.col(0).segment<3>(3 * free_node));
     }
+    delta_e_free_[static_cast<Eigen::Index>(e)] = value;
   }
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
@@ -126,14 +139,14 @@ void Compliance::ObserveColumns() {
   W_ea_.setZero();
   W_ef_.setZero();
   for (size_t e = 0; e < effectors_.size(); ++e) {
-    const auto row = static_cast<Eigen::Index>(3 * e);
+    const auto row = static_cast<Eigen::Index>(e);
     for (size_t k = 0; k < effectors_[e].nodes.size(); ++k) {
       const int free_node = matrix.FreeIndex(effectors_[e].nodes[k]);
       if (free_node < 0) continue;
-      const double weight = effectors_[e].weights[k];
+      const Eigen::Vector3d& coefficient = effectors_[e].coefficients[k];
       const auto moved = columns_.middleRows<3>(3 * free_node);
-      W_ea_.middleRows<3>(row) += weight * moved.middleCols(1, a);
-      W_ef_.middleRows<3>(row) += weight * moved.middleCols(1 + a, f);
+      for (Eigen::Index c = 0; c < a; ++c) W_ea_(row, c) += coefficient.dot(moved.col(1 + c));
+      for (Eigen::Index c = 0; c < f; ++c) W_ef_(row, c) += coefficient.dot(moved.col(1 + a + c));
     }
   }
   for (Eigen::Index i = 0; i < a; ++i) {

@@ -8,6 +8,7 @@
 
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/node_weights.hpp"
+#include "libs/robot/effector_row.hpp"
 
 namespace palpate::robot {
 
@@ -21,7 +22,7 @@ struct ForceDirection {
 };
 
 /// The compliance matrices of the paper's eq. (5), W_ij = H_i K^-1 H_j', about one linearised
-/// state, for effectors e (observed points), cables a and external forces f. Columns are computed
+/// state, for effectors e (observed scalars), cables a and external forces f. Columns are computed
 /// for forces and cables only, from one factorisation: effectors are rows, so many cost what few
 /// cost.
 ///
@@ -29,7 +30,11 @@ struct ForceDirection {
 /// so dell/dx = -H_a. After the first Compute of a set of force directions nothing is allocated.
 class Compliance {
  public:
-  Compliance(fem::Linearisation& linearisation, std::vector<fem::NodeWeights> effectors);
+  Compliance(fem::Linearisation& linearisation, std::vector<EffectorRow> effectors);
+
+  /// Other rows of H_e. The W of the last Compute belong to the old ones until Observe.
+  void SetEffectors(std::vector<EffectorRow> effectors);
+  const std::vector<EffectorRow>& effectors() const { return effectors_; }
 
   /// Sets the rows of H_f. Positions of the directions in `forces` index lambda_f.
   void SetForces(std::vector<ForceDirection> forces);
@@ -45,14 +50,17 @@ class Compliance {
   void ComputeChord(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m,
                     const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N);
 
-  const Eigen::MatrixXd& W_ea() const { return W_ea_; }                    ///< [3e x a] m/N
-  const Eigen::MatrixXd& W_ef() const { return W_ef_; }                    ///< [3e x f] m/N
+  /// What the effectors set since see of the columns of the last Compute or ComputeChord.
+  void Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
+
+  const Eigen::MatrixXd& W_ea() const { return W_ea_; }                    ///< [e x a] m/N
+  const Eigen::MatrixXd& W_ef() const { return W_ef_; }                    ///< [e x f] m/N
   const Eigen::MatrixXd& W_aa() const { return W_aa_; }                    ///< [a x a] m/N
   const Eigen::MatrixXd& W_af() const { return W_af_; }                    ///< [a x f] m/N
-  const Eigen::VectorXd& delta_e_free_m() const { return delta_e_free_; }  ///< [3e]
+  const Eigen::VectorXd& delta_e_free_m() const { return delta_e_free_; }  ///< [e]
   const Eigen::VectorXd& delta_a_free_m() const { return delta_a_free_; }  ///< [a]
 
-  /// Eq. (3): delta_e = W_ea lambda_a + W_ef lambda_f + delta_e^free, positions of the effectors.
+  /// Eq. (3): delta_e = W_ea lambda_a + W_ef lambda_f + delta_e^free, values of the effectors.
   void EffectorPositions(const Eigen::VectorXd& lambda_a_N, const Eigen::VectorXd& lambda_f_N,
                          Eigen::VectorXd* delta_e_m) const;
   /// Eq. (4): delta_a = W_aa lambda_a + W_af lambda_f + delta_a^free, displacements of the cables.
@@ -69,7 +77,7 @@ class Compliance {
   void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
 
   fem::Linearisation& linearisation_;
-  std::vector<fem::NodeWeights> effectors_;
+  std::vector<EffectorRow> effectors_;
   std::vector<ForceDirection> forces_;
   Eigen::MatrixXd directions_;                         ///< [reduced x a + f], H_a' and H_f'
   std::vector<std::vector<Eigen::Index>> cable_rows_;  ///< [a] nonzeros of H_a'

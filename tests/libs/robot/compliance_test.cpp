@@ -23,7 +23,7 @@ class ComplianceTest : public BeamModelTest {
           Eigen::Vector3d(0.0, 0.1, 0.016)}) {
       effectors_.push_back(fem::PointLocator(model_->body().mesh).Embed(point).weights);
     }
-    compliance_ = std::make_unique<Compliance>(model_->linearisation(), effectors_);
+    compliance_ = std::make_unique<Compliance>(model_->linearisation(), RowsOfPoints(effectors_));
     std::vector<ForceDirection> forces;
     for (int i = 0; i < 3; ++i) forces.push_back({effectors_[0], Eigen::Vector3d::Unit(i)});
     compliance_->SetForces(forces);

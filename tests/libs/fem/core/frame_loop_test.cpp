@@ -32,6 +32,14 @@ class Scalar final : public FrameProblem {
     step_ = -f_(x) / tangent_;
     return Status::Ok();
   }
+  Status PrepareKeptStep() override {
+    calls += 'K';
+    if (kept_slope == 0.0) return {};
+    tangent_ = kept_slope;
+    step_ = -f_(x) / tangent_;
+    return Status::Ok();
+  }
+  double StartError() const override { return std::abs(f_(x)); }
   Status Try(double length, bool last) override {
     told_last.push_back(last);
     trial_ = x + length * step_;
@@ -40,13 +48,17 @@ class Scalar final : public FrameProblem {
     return Status::Ok();
   }
   double TrialError() const override { return std::abs(f_(trial_)); }
-  void AcceptTrial() override { x = trial_; }
+  void AcceptTrial() override {
+    x = trial_;
+    step_ = -f_(x) / tangent_;
+  }
 
   double x;
   std::string calls;
   std::vector<double> lengths;  ///< of the steps that inverted nothing
   std::vector<bool> told_last;
   bool exact_fails = false;
+  double kept_slope = 0.0;  ///< of an earlier frame; 0: there is none
   double inverted_above = std::numeric_limits<double>::infinity();
 
  private:
@@ -201,6 +213,38 @@ TEST(TimeBudget, CountsFromWhereItWasMade) {
   now_s = 100.6;
   EXPECT_TRUE(budget.Over());
   EXPECT_FALSE(TimeBudget().Over(1e9));
+}
+
+TEST(FrameLoop, AKeptFactorThatIsGoodEnoughIsAllThatIsNeeded) {
+  Scalar root = SquareRootOfTwo(1.41);
+  root.kept_slope = 2.9;
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-10, .keep_factor = true}, TimeBudget());
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_EQ(root.calls, "K");
+  EXPECT_EQ(outcome.exact_steps, 0);
+  EXPECT_GE(outcome.chord_steps, 5);
+  EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-10);
+}
+
+TEST(FrameLoop, AKeptFactorThatGainsTooLittleIsDropped) {
+  Scalar root = SquareRootOfTwo(1.6);
+  root.kept_slope = 30.0;
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-10, .keep_factor = true}, TimeBudget());
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_EQ(root.calls.substr(0, 2), "KE");
+  EXPECT_GE(outcome.exact_steps, 1);
+}
+
+TEST(FrameLoop, WithoutAFactorToKeepTheFirstStepIsExact) {
+  Scalar root = SquareRootOfTwo(1.5);
+  EXPECT_TRUE(RunFrame(root, {.keep_factor = true}, TimeBudget()).converged());
+  EXPECT_EQ(root.calls.substr(0, 2), "KE");
+  Scalar unasked = SquareRootOfTwo(1.5);
+  unasked.kept_slope = 2.8;
+  EXPECT_TRUE(RunFrame(unasked, {}, TimeBudget()).converged());
+  EXPECT_EQ(unasked.calls[0], 'E');
 }
 
 }  // namespace

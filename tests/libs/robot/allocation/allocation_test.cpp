@@ -54,7 +54,7 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
   for (int k = 0; k < 51; ++k) {
     effectors.push_back(locator.Embed({0.01 + 0.0015 * k, 0.02, 0.01}).weights);
   }
-  Compliance compliance(model.linearisation(), effectors);
+  Compliance compliance(model.linearisation(), RowsOfPoints(effectors));
   compliance.SetForces(
       {{effectors[40], Eigen::Vector3d::UnitY()}, {effectors[20], Eigen::Vector3d::UnitZ()}});
   Eigen::VectorXd x_m = model.RestState().x_m;
