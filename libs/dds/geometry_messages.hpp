@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geometry_msgs/msg/Pose.hpp"
+#include "libs/core/status.hpp"
 #include "libs/dds/message.hpp"
 #include "palpate_msgs/msg/Mesh.hpp"
 #include "palpate_msgs/msg/MeshState.hpp"
@@ -39,9 +40,19 @@ struct MeshView {
 };
 Message<idl::palpate_msgs::Mesh> ToMesh(const MeshView& mesh, std::int64_t stamp_ns);
 
+/// Nodes at rest [3 x n] and triangles of the surface [3 x t]. kInvalidInput for another frame than
+/// the robot's, numbers that do not make whole nodes or triangles, a node that does not exist,
+/// positions that are not finite; then nothing is set.
+Status FromMesh(const idl::palpate_msgs::Mesh& message, Eigen::Matrix3Xd* nodes_m,
+                Eigen::Matrix3Xi* triangles);
+
 /// Node positions [3n] in the robot frame, status ok.
 Message<idl::palpate_msgs::MeshState> ToMeshState(const Eigen::VectorXd& x_m,
                                                   const std::string& mesh_hash,
                                                   std::int64_t stamp_ns);
+
+/// Positions of the `node_count` nodes, whatever the status says. kInvalidInput as above.
+Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index node_count,
+                     Eigen::Matrix3Xf* nodes_m);
 
 }  // namespace palpate::dds

@@ -11,16 +11,19 @@
 #include "palpate_msgs/msg/BenchState.hpp"
 #include "palpate_msgs/msg/CameraSetup.hpp"
 #include "palpate_msgs/msg/ComponentStatus.hpp"
+#include "palpate_msgs/msg/ContactArray.hpp"
 #include "palpate_msgs/msg/ForceArray.hpp"
 #include "palpate_msgs/msg/FrameInfo.hpp"
 #include "palpate_msgs/msg/MarkerArray3.hpp"
 #include "palpate_msgs/msg/Mesh.hpp"
 #include "palpate_msgs/msg/MeshState.hpp"
 #include "palpate_msgs/msg/ModelGap.hpp"
+#include "palpate_msgs/msg/PerceptionReport.hpp"
 #include "rcl_interfaces/msg/Log.hpp"
 #include "sensor_msgs/msg/CameraInfo.hpp"
 #include "sensor_msgs/msg/Image.hpp"
 #include "sensor_msgs/msg/JointState.hpp"
+#include "sensor_msgs/msg/PointCloud2.hpp"
 
 namespace palpate::dds {
 
@@ -40,6 +43,13 @@ inline constexpr Topic<idl::sensor_msgs::CameraInfo> kColorCameraInfoTopic{
 inline constexpr Topic<idl::palpate_msgs::FrameInfo> kFrameInfoTopic{"/camera/frame_info"};
 inline constexpr Topic<idl::palpate_msgs::CameraSetup> kCameraSetupTopic{"/camera/setup"};
 inline constexpr Topic<idl::palpate_msgs::MarkerArray3> kMarkersTopic{"/perception/markers"};
+/// The robot's points and those of objects near it, camera frame; at most 200 kB each.
+inline constexpr Topic<idl::sensor_msgs::PointCloud2> kRobotCloudTopic{"/perception/robot_cloud"};
+inline constexpr Topic<idl::sensor_msgs::PointCloud2> kObjectCloudTopic{"/perception/object_cloud"};
+inline constexpr Topic<idl::palpate_msgs::PerceptionReport> kPerceptionReportTopic{
+    "/perception/report"};
+/// The last of a frame's four.
+inline constexpr Topic<idl::palpate_msgs::ContactArray> kContactsTopic{"/perception/contacts"};
 inline constexpr Topic<idl::sensor_msgs::JointState> kJointStatesTopic{"/robot/joint_states"};
 /// What the drives are told: name = cable, position = displacement in m (NaN: not driven).
 inline constexpr Topic<idl::sensor_msgs::JointState> kRobotCommandTopic{"/robot/command"};

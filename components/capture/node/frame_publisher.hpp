@@ -8,8 +8,7 @@
 
 #include "components/capture/frame_source.hpp"
 #include "components/capture/node/convert.hpp"
-#include "libs/dds/participant.hpp"
-#include "libs/dds/writer.hpp"
+#include "libs/dds/camera_publisher.hpp"
 
 namespace palpate::capture {
 
@@ -17,26 +16,19 @@ namespace palpate::capture {
 /// setup whenever the epoch changes. To be used by one thread: writing 2 MB takes up to 25 ms.
 class FramePublisher {
  public:
-  FramePublisher(dds::Participant& participant, std::function<void()> on_change,
+  FramePublisher(dds::Participant& participant, const std::function<void()>& on_change,
                  double subpixel_sigma_px);
 
   /// False where DDS did not take all of it.
   bool Publish(const SourceFrame& frame, const SourceHealth& health);
   /// Waits until all reliable readers have what was sent.
-  bool WaitUntilReceived(std::chrono::nanoseconds at_most);
-  std::uint32_t readers() const { return info_.matched(); }
+  bool WaitUntilReceived(std::chrono::nanoseconds at_most) {
+    return topics_.WaitUntilReceived(at_most);
+  }
+  std::uint32_t readers() const { return topics_.readers(); }
 
  private:
-  bool PublishCamera(const SourceFrame& frame, const SourceHealth& health);
-
-  dds::Writer<idl::sensor_msgs::Image> depth_;
-  dds::Writer<idl::sensor_msgs::Image> color_;
-  dds::Writer<idl::sensor_msgs::CameraInfo> depth_camera_;
-  dds::Writer<idl::sensor_msgs::CameraInfo> color_camera_;
-  dds::Writer<idl::palpate_msgs::FrameInfo> info_;
-  dds::Writer<idl::palpate_msgs::CameraSetup> setup_;
-  ImageMessage depth_message_{"16UC1", 2};
-  ImageMessage color_message_{"rgb8", 3};
+  dds::CameraPublisher topics_;
   dds::Message<idl::palpate_msgs::FrameInfo> info_message_;
   double subpixel_sigma_px_;
   std::shared_ptr<const rgbd::RgbdCamera> camera_;  ///< last published

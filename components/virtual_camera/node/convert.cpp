@@ -3,7 +3,6 @@
 
 #include "components/virtual_camera/node/convert.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "libs/dds/geometry_messages.hpp"
@@ -25,44 +24,18 @@ Status CheckFrame(const idl::std_msgs::Header& header) {
 }  // namespace
 
 Status FromMesh(const idl::palpate_msgs::Mesh& message, Skin* skin) {
-  if (Status frame = CheckFrame(message.header); !frame.ok()) return frame;
-  const auto& nodes = message.nodes_m;
-  const auto& triangles = message.surface_triangles;
-  if (nodes._length == 0 || nodes._length % 3 != 0 || triangles._length % 3 != 0) {
-    return Refuse("a mesh of " + std::to_string(nodes._length) + " coordinates and " +
-                  std::to_string(triangles._length) + " corners");
-  }
-  const auto node_count = static_cast<Eigen::Index>(nodes._length / 3);
-  const Eigen::Map<const Eigen::Matrix3Xd> rest_m(nodes._buffer, 3, node_count);
-  if (!rest_m.allFinite()) return Refuse("a node of the mesh is not finite");
-  Eigen::Matrix3Xi corners(3, static_cast<Eigen::Index>(triangles._length / 3));
-  for (std::uint32_t i = 0; i < triangles._length; ++i) {
-    if (triangles._buffer[i] >= static_cast<std::uint32_t>(node_count)) {
-      return Refuse("a triangle with node " + std::to_string(triangles._buffer[i]) + " of " +
-                    std::to_string(node_count));
-    }
-    corners.data()[i] = static_cast<int>(triangles._buffer[i]);
-  }
-  skin->rest_m = rest_m;
-  skin->triangles = std::move(corners);
-  return Status::Ok();
+  return dds::FromMesh(message, &skin->rest_m, &skin->triangles);
 }
 
 Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index node_count,
                      View* view) {
-  if (Status frame = CheckFrame(message.header); !frame.ok()) return frame;
   if (dds::Text(message.status) != "ok") {
     return Refuse("state '" + std::string(dds::Text(message.status)) + "'");
   }
-  const auto& positions = message.positions_m;
-  if (static_cast<Eigen::Index>(positions._length) != 3 * node_count) {
-    return Refuse("a state of " + std::to_string(positions._length) + " coordinates for " +
-                  std::to_string(node_count) + " nodes");
-  }
-  const Eigen::Map<const Eigen::Matrix3Xf> nodes_m(positions._buffer, 3, node_count);
-  if (!nodes_m.allFinite()) return Refuse("a node of the state is not finite");
-  view->nodes_m = nodes_m.cast<double>();
-  return Status::Ok();
+  Eigen::Matrix3Xf nodes_m;
+  const Status status = dds::FromMeshState(message, node_count, &nodes_m);
+  if (status.ok()) view->nodes_m = nodes_m.cast<double>();
+  return status;
 }
 
 Status FromBenchState(const idl::palpate_msgs::BenchState& message,

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/dds/camera_messages.hpp"
+
+#include <limits>
+
+#include "libs/core/sha256.hpp"
+#include "libs/core/text.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/frames.hpp"
+
+namespace palpate::dds {
+
+namespace {
+
+std::string CalibrationHash(const rgbd::RgbdCamera& camera, const CameraIdentity& identity) {
+  return Sha256Hex(identity.device + "\n" + identity.model + "\n" +
+                   FormatNumber(identity.subpixel_sigma_px) + "\n" +
+                   rgbd::FormatCameraFile(camera));
+}
+
+}  // namespace
+
+std::string_view ColorFrameId(const rgbd::RgbdCamera& camera) {
+  return camera.color_registered ? geometry::kCameraDepthOpticalFrame
+                                 : geometry::kCameraColorOpticalFrame;
+}
+
+ImageMessage::ImageMessage(std::string_view encoding, std::uint32_t bytes_per_pixel)
+    : bytes_per_pixel_(bytes_per_pixel) {
+  SetText(message_->encoding, encoding);
+  message_->data._release = false;
+}
+
+const idl::sensor_msgs::Image& ImageMessage::Point(const std::uint8_t* pixels, int width_px,
+                                                   int height_px, std::int64_t stamp_ns,
+                                                   std::string_view frame_id) {
+  message_->header.stamp = TimeFromNs(stamp_ns);
+  if (Text(message_->header.frame_id) != frame_id) {
+    SetText(message_->header.frame_id, frame_id);
+  }
+  message_->width = static_cast<std::uint32_t>(width_px);
+  message_->height = static_cast<std::uint32_t>(height_px);
+  message_->step = message_->width * bytes_per_pixel_;
+  message_->data._length = message_->data._maximum = message_->step * message_->height;
+  // DDS only reads what it sends.
+  message_->data._buffer = const_cast<std::uint8_t*>(pixels);
+  return *message_;
+}
+
+Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& camera,
+                                                   std::int64_t stamp_ns,
+                                                   std::string_view frame_id) {
+  Message<idl::sensor_msgs::CameraInfo> info;
+  SetHeader(info->header, stamp_ns, frame_id);
+  info->width = static_cast<std::uint32_t>(camera.width_px);
+  info->height = static_cast<std::uint32_t>(camera.height_px);
+  SetText(info->distortion_model, "plumb_bob");
+  SetNumbers(info->d, camera.distortion.data(), camera.distortion.size());
+  info->r[0] = info->r[4] = info->r[8] = 1.0;
+  if (camera.fx_px <= 0.0) return info;
+  info->k[0] = info->p[0] = camera.fx_px;
+  info->k[2] = info->p[2] = camera.cx_px;
+  info->k[4] = info->p[5] = camera.fy_px;
+  info->k[5] = info->p[6] = camera.cy_px;
+  info->k[8] = info->p[10] = 1.0;
+  return info;
+}
+
+Message<idl::palpate_msgs::CameraSetup> ToCameraSetup(const rgbd::RgbdCamera& camera,
+                                                      const CameraIdentity& identity,
+                                                      std::int64_t stamp_ns) {
+  Message<idl::palpate_msgs::CameraSetup> setup;
+  SetHeader(setup->header, stamp_ns, geometry::kCameraDepthOpticalFrame);
+  setup->epoch = identity.epoch;
+  SetText(setup->device, identity.device);
+  SetText(setup->model, identity.model);
+  setup->depth_unit_m = camera.depth_unit_m;
+  setup->invalid_value = static_cast<std::uint32_t>(camera.invalid_value);
+  setup->baseline_m = camera.baseline_m;
+  setup->subpixel_sigma_px = identity.subpixel_sigma_px > 0.0
+                                 ? identity.subpixel_sigma_px
+                                 : std::numeric_limits<double>::quiet_NaN();
+  setup->color_registered = camera.color_registered;
+  setup->color_in_depth = ToPose(camera.T_depth_color);
+  SetText(setup->calibration_hash, CalibrationHash(camera, identity));
+  return setup;
+}
+
+}  // namespace palpate::dds
