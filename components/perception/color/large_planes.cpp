@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/color/large_planes.hpp"
+
+#include <pcl/point_types.h>
+#include <pcl/segmentation/sac_segmentation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace palpate::perception {
+
+namespace {
+
+constexpr int kMostPlanes = 3;
+constexpr int kRansacRounds = 200;
+constexpr double kLeastShare = 0.2;
+/// RMS distance of a plane's points, in thicknesses: 0.58 where the plane cuts through something.
+constexpr double kFlat = 0.5;
+
+float Extent_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen) {
+  const Eigen::Matrix3Xf of_plane_m = points_m(Eigen::all, chosen);
+  return (of_plane_m.rowwise().maxCoeff() - of_plane_m.rowwise().minCoeff()).norm();
+}
+
+double RmsDistance_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen,
+                     const Eigen::Vector4f& plane) {
+  const Eigen::Matrix3Xf of_plane_m = points_m(Eigen::all, chosen);
+  const Eigen::RowVectorXf off_m = (plane.head<3>().transpose() * of_plane_m).array() + plane[3];
+  return std::sqrt(static_cast<double>(off_m.squaredNorm()) / static_cast<double>(off_m.size()));
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
+                                             const ColorConfig& config) {
+  using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+  const Cloud::Ptr cloud(new Cloud);
+  for (const auto point_m : points_m.colwise()) {
+    cloud->push_back({point_m.x(), point_m.y(), point_m.z()});
+  }
+  pcl::SACSegmentation<pcl::PointXYZ> ransac;  // begins with the same random numbers each time
+  ransac.setModelType(pcl::SACMODEL_PLANE);
+  ransac.setMethodType(pcl::SAC_RANSAC);
+  ransac.setMaxIterations(kRansacRounds);
+  ransac.setDistanceThreshold(config.background_thickness_m);
+  ransac.setOptimizeCoefficients(true);
+  ransac.setInputCloud(cloud);
+  const pcl::IndicesPtr left(new pcl::Indices(cloud->size()));
+  std::iota(left->begin(), left->end(), 0);
+  const double fewest = std::max(3.0, kLeastShare * static_cast<double>(cloud->size()));
+  std::vector<Eigen::Vector4f> planes;
+  while (planes.size() < kMostPlanes && static_cast<double>(left->size()) >= fewest) {
+    pcl::PointIndices on_plane;
+    pcl::ModelCoefficients plane;
+    ransac.setIndices(left);
+    ransac.segment(on_plane, plane);
+    if (static_cast<double>(on_plane.indices.size()) < fewest) break;
+    if (static_cast<double>(Extent_m(points_m, on_plane.indices)) < config.background_extent_m) {
+      break;
+    }
+    const Eigen::Vector4f found(plane.values.data());
+    const double rms_m = RmsDistance_m(points_m, on_plane.indices, found);
+    if (rms_m > kFlat * config.background_thickness_m) break;
+    planes.push_back(found);
+    pcl::Indices rest;
+    std::set_difference(left->begin(), left->end(), on_plane.indices.begin(),
+                        on_plane.indices.end(), std::back_inserter(rest));
+    *left = std::move(rest);
+  }
+  return planes;
+}
+
+}  // namespace palpate::perception

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "components/perception/color/color_config.hpp"
+#include "components/perception/observation.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "libs/geometry/box.hpp"
+
+namespace palpate::perception {
+
+/// A coloured cloud of which each point is the mean of a voxel's pixels.
+struct VoxelCloud {
+  double voxel_m = 0.0;                  ///< edge
+  Eigen::Matrix3Xf points_m;             ///< [3 x n] camera frame
+  std::vector<std::uint8_t> colors_rgb;  ///< [3 n]
+  std::vector<int> pixels;               ///< [n] in each
+
+  int Count() const { return static_cast<int>(pixels.size()); }
+  Eigen::Vector3d Color(int point) const {
+    const std::uint8_t* rgb = colors_rgb.data() + 3 * static_cast<std::ptrdiff_t>(point);
+    return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
+  }
+};
+
+/// The paper's filters, by PCL: unprojection of the whole image, PassThrough in z, x and y to
+/// `box`, table and walls taken out, VoxelGrid, RadiusOutlierRemoval. At most `most_points` remain:
+/// the voxels grow until then. Pixels of unknown colour are left out. Counts pixels in `rejected`.
+VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registration,
+                       const geometry::Box& box, const ColorConfig& config, int most_points,
+                       Rejections* rejected);
+
+}  // namespace palpate::perception

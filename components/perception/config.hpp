@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "components/perception/color/color_config.hpp"
+#include "components/perception/contacts/contact_config.hpp"
+#include "components/perception/model/model_config.hpp"
+#include "libs/core/config_reader.hpp"
+
+namespace palpate::perception {
+
+/// Settings that both ways of segmentation share, and those of contact location.
+struct Config {
+  std::string segmentation = "model";
+  double min_z_m = 0.1;
+  double max_z_m = 2.0;
+  int max_cloud_points = 10000;
+  double depth_subpixel_px = 0.08;
+  double depth_range_sigma_m = 1e-3;
+  double depth_correlation_px = 1.5;
+  ColorConfig color;
+  ContactConfig contacts;
+  TrackingConfig tracking;
+  ModelConfig model;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("segmentation", segmentation, {"model", "color"},
+      "model: predicted surface, learnt colours, depth edges; color: the paper's colour-based "
+      "region growing");
+    v("min_z_m", min_z_m, {.min = 0.0, .min_open = true}, "Nearer points are left out");
+    v("max_z_m", max_z_m, {.min = 0.0, .min_open = true}, "Farther points are left out");
+    v("max_cloud_points", max_cloud_points, {.min = 100.0, .max = 10000.0},
+      "Points of each published cloud (20 bytes each)");
+    v("depth_subpixel_px", depth_subpixel_px, {.min = 0.0, .min_open = true},
+      "Sigma of the disparity where the camera does not say it");
+    v("depth_range_sigma_m", depth_range_sigma_m, {.min = 0.0, .min_open = true},
+      "Sigma of z of cameras without a baseline");
+    v("depth_correlation_px", depth_correlation_px, {.min = 0.0, .max = 50.0},
+      "Over which neighbouring pixels err alike");
+    v("color", color, "Segmentation by colour, as the paper has it");
+    v("contacts", contacts, "Where the robot is touched");
+    v("tracking", tracking, "Names of contacts");
+    v("model", model, "Segmentation by the predicted surface");
+  }
+};
+
+}  // namespace palpate::perception

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace palpate::perception {
+
+/// A ball whose surface some points lie on.
+struct Ball {
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
+  double radius_m = 0.0;
+  double residual_m = 0.0;  ///< RMS distance of the points from its surface
+  double covered_m = 0.0;   ///< standard deviation of the points along their second longest axis
+  Eigen::Matrix3d center_covariance_m2 = Eigen::Matrix3d::Zero();
+};
+
+/// Least squares of the distances from the ball's surface (Gauss-Newton from the algebraic fit).
+/// Nothing where the points [3 x n] are too few, do not bend, or bend the wrong way: the camera,
+/// in the origin, sees a ball from outside.
+std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m);
+
+}  // namespace palpate::perception

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/contacts/contact_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "components/perception/contacts/hidden_contact.hpp"
+#include "libs/core/check.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+/// Points of both clouds stand on one lattice in the image, so where they meet, an object's point
+/// has the robot's next row at one spacing; a second row may be missing between them.
+constexpr double kRows = 2.0;
+constexpr double kSigmas = 3.0;
+constexpr double kShareOfHalfDisc = 0.1;
+constexpr double kFewestNeighbours = 2.0;
+/// Of trace(S) I - S: (2 / pi)^2 over the half that a semicircle's points spread along the chord.
+constexpr double kHiddenRim = 8.0 / (std::numbers::pi * std::numbers::pi);
+
+/// Of the gap between a rim and the robot, as the variance of the contact's place across it.
+constexpr double kOfGap = 1.0 / 3.0;
+/// A round object whose far side stays farther from the robot than so many times the resolution of
+/// the clouds does not touch.
+constexpr double kLargestGap = 1.5;
+
+double MedianSigma_m(const Eigen::VectorXf& sigma_m, std::vector<float>* buffer) {
+  buffer->assign(sigma_m.begin(), sigma_m.end());
+  const auto middle = buffer->begin() + static_cast<std::ptrdiff_t>(buffer->size() / 2);
+  std::nth_element(buffer->begin(), middle, buffer->end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+const std::vector<DetectedContact>& ContactLocator::Locate(const rgbd::SensedCloud& robot,
+                                                           const rgbd::SensedCloud& object) {
+  contacts_.clear();
+  if (robot.Count() == 0 || object.Count() == 0) return contacts_;
+  Derive(robot, object);
+  FindTouching(robot, object);
+  KeepNearest(object);
+  Cluster();
+  for (const std::vector<int>& members : clusters_) {
+    if (static_cast<int>(members.size()) < config_.min_points) continue;
+    DetectedContact contact = Summarise(robot, object, members);
+    if (LookBehind(robot, object, members, &contact)) contacts_.push_back(std::move(contact));
+  }
+  std::sort(contacts_.begin(), contacts_.end(), [](const auto& a, const auto& b) {
+    const auto key = [](const DetectedContact& c) {
+      return std::tuple(-c.point_count, c.position_m.z(), c.position_m.x(), c.position_m.y());
+    };
+    return key(a) < key(b);
+  });
+  return contacts_;
+}
+
+void ContactLocator::Derive(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object) {
+  const double robot_m = static_cast<double>(MedianSpacing_m(robot.points_m, &grid_));
+  const double object_m = static_cast<double>(MedianSpacing_m(object.points_m, &grid_));
+  const double noise_m =
+      std::hypot(MedianSigma_m(robot.sigma_m, &sigma_m_), MedianSigma_m(object.sigma_m, &sigma_m_));
+  thresholds_.noise_m = noise_m;
+  const double rows_m = kRows * std::max(robot_m, object_m) + kSigmas * noise_m;
+  thresholds_.resolution_m = 2.0 * (std::max(robot_m, object_m) + noise_m);
+  thresholds_.r_search_m =
+      config_.r_search_m > 0.0 ? config_.r_search_m : config_.hidden_depth_m + rows_m;
+  thresholds_.cluster_distance_m =
+      config_.cluster_distance_m > 0.0 ? config_.cluster_distance_m : 2.0 * rows_m;
+  const double across = thresholds_.r_search_m / std::max(robot_m, 1e-6);
+  const double half_disc = 0.5 * std::numbers::pi * across * across;
+  const double derived = std::clamp(kShareOfHalfDisc * half_disc, kFewestNeighbours, 1000.0);
+  thresholds_.n_neigh = config_.n_neigh > 0 ? config_.n_neigh : static_cast<int>(derived);
+}
+
+void ContactLocator::FindTouching(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object) {
+  touching_.clear();
+  const auto radius_m = static_cast<float>(thresholds_.r_search_m);
+  grid_.Build(robot.points_m, radius_m);
+  for (Eigen::Index i = 0; i < object.Count(); ++i) {
+    int neighbours = 0;
+    int nearest = 0;
+    float nearest_m2 = std::numeric_limits<float>::infinity();
+    grid_.ForEachNear(object.points_m.col(i), radius_m, [&](int other, float squared_m2) {
+      ++neighbours;
+      if (squared_m2 < nearest_m2) nearest = other;
+      nearest_m2 = std::min(nearest_m2, squared_m2);
+      return true;
+    });
+    if (neighbours <= thresholds_.n_neigh) continue;
+    touching_.push_back({static_cast<int>(i), nearest, std::sqrt(nearest_m2)});
+  }
+}
+
+void ContactLocator::KeepNearest(const rgbd::SensedCloud& object) {
+  Gather(object);
+  const auto radius_m = static_cast<float>(thresholds_.r_search_m);
+  const auto resolution_m = static_cast<float>(thresholds_.resolution_m);
+  grid_.Build(touching_m_, radius_m);
+  std::size_t kept = 0;
+  taken_.assign(touching_.size(), 0);
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    const float limit_m = touching_[k].distance_m - resolution_m;
+    grid_.ForEachNear(
+        touching_m_.col(static_cast<Eigen::Index>(k)), radius_m, [&](int other, float) {
+          const bool nearer = touching_[static_cast<std::size_t>(other)].distance_m < limit_m;
+          taken_[k] = nearer ? 1 : 0;
+          return !nearer;
+        });
+  }
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    if (taken_[k] == 0) touching_[kept++] = touching_[k];
+  }
+  touching_.resize(kept);
+  Gather(object);
+}
+
+void ContactLocator::Gather(const rgbd::SensedCloud& object) {
+  touching_m_.resize(3, static_cast<Eigen::Index>(touching_.size()));
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    touching_m_.col(static_cast<Eigen::Index>(k)) = object.points_m.col(touching_[k].object);
+  }
+}
+
+void ContactLocator::Cluster() {
+  clusters_.clear();
+  const auto distance_m = static_cast<float>(thresholds_.cluster_distance_m);
+  grid_.Build(touching_m_, distance_m);
+  taken_.assign(touching_.size(), 0);
+  for (std::size_t seed = 0; seed < touching_.size(); ++seed) {
+    if (taken_[seed] != 0) continue;
+    taken_[seed] = 1;
+    std::vector<int>& members = clusters_.emplace_back(1, static_cast<int>(seed));
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      grid_.ForEachNear(touching_m_.col(members[next]), distance_m, [&](int other, float) {
+        char& taken = taken_[static_cast<std::size_t>(other)];
+        if (taken == 0) members.push_back(other);
+        taken = 1;
+        return true;
+      });
+    }
+  }
+}
+
+DetectedContact ContactLocator::Summarise(const rgbd::SensedCloud& robot,
+                                          const rgbd::SensedCloud& object,
+                                          const std::vector<int>& members) const {
+  const auto count = static_cast<double>(members.size());
+  const Eigen::Vector3d rim_m = RimOf(members);
+  DetectedContact contact;
+  contact.point_count = static_cast<int>(members.size());
+  Eigen::Vector3f lower_m = touching_m_.col(members.front());
+  Eigen::Vector3f upper_m = lower_m;
+  Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d noise_m2 = Eigen::Matrix3d::Zero();
+  for (const int k : members) {
+    const Touch& touch = touching_[static_cast<std::size_t>(k)];
+    contact.position_m += robot.points_m.col(touch.robot).cast<double>() / count;
+    lower_m = lower_m.cwiseMin(touching_m_.col(k));
+    upper_m = upper_m.cwiseMax(touching_m_.col(k));
+    const Eigen::Vector3d point_m = touching_m_.col(k).cast<double>();
+    PALPATE_CHECK(point_m.z() > 0.0, point_m.transpose());
+    scatter_m2 += (point_m - rim_m) * (point_m - rim_m).transpose() / count;
+    const auto sigma_z_m = static_cast<double>(object.sigma_m[touch.object]);
+    const Eigen::Vector3d error_m = point_m * (sigma_z_m / (point_m.z() * count));
+    noise_m2 += error_m * error_m.transpose();
+  }
+  contact.extent_m = (upper_m - lower_m).cast<double>();
+  const Eigen::Vector3d gap_m = contact.position_m - rim_m;
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  contact.covariance_m2 = noise_m2 + kHiddenRim * (scatter_m2.trace() * identity - scatter_m2) +
+                          kOfGap * gap_m * gap_m.transpose() + ResolutionVariance_m2() * identity;
+  return contact;
+}
+
+Eigen::Vector3d ContactLocator::RimOf(const std::vector<int>& members) const {
+  return touching_m_(Eigen::all, members).cast<double>().rowwise().mean();
+}
+
+double ContactLocator::ResolutionVariance_m2() const {
+  return thresholds_.resolution_m * thresholds_.resolution_m / 12.0;
+}
+
+bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
+                                const std::vector<int>& members, DetectedContact* contact) const {
+  const auto hidden = FindHiddenContact(robot, object, RimOf(members), thresholds_.noise_m);
+  if (!hidden) return true;
+  contact->position_m = hidden->position_m;
+  contact->covariance_m2 =
+      hidden->covariance_m2 + ResolutionVariance_m2() * Eigen::Matrix3d::Identity();
+  return hidden->gap_m <= kLargestGap * thresholds_.resolution_m;
+}
+
+}  // namespace palpate::perception

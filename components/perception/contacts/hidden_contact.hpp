@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "libs/rgbd/sensed_cloud.hpp"
+
+namespace palpate::perception {
+
+/// Where an object that is round next to its contact touches the robot behind what is seen of it.
+struct HiddenContact {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  double gap_m = 0.0;  ///< from the object to the robot's surface around; < 0: it dents the robot
+};
+
+/// A ball is fitted to the object's points around `rim_m` (the mean of those next to the robot), a
+/// plane to the robot's points around the ball, and the contact is the ball's point nearest to that
+/// plane. Nothing where the object is not round there: an edge, a plate, the flank of a rod.
+/// `noise_m`: sigma of a distance between the clouds.
+std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
+                                               const rgbd::SensedCloud& object,
+                                               const Eigen::Vector3d& rim_m, double noise_m);
+
+}  // namespace palpate::perception

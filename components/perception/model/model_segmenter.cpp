@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/model/model_segmenter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/perception/model/background_planes.hpp"
+#include "components/perception/model/cloud_builder.hpp"
+#include "components/perception/model/noise_law.hpp"
+#include "components/perception/model/pixel_judge.hpp"
+#include "components/perception/model/prediction_view.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+/// So steep a surface is still one: m of z for each m across.
+constexpr float kSteepest = 3.7f;
+/// Neighbours on one surface differ by no more of their sigmas (3 of a difference).
+constexpr float kSigmasOfStep = 4.2f;
+/// Evidence between this and what makes a robot is none.
+constexpr float kAmbiguous = -0.5f;
+constexpr int kLeastSupport = 2;
+constexpr std::int64_t kLeastPatch_px = 25;
+constexpr int kSparse_px = 8;
+constexpr Eigen::Index kRobotPoints = 400;
+/// Without a prediction: evidence of a colour from which on it is the robot's, and the share of the
+/// largest patch that another patch must have.
+constexpr float kColorAlone = 1.0f;
+constexpr double kPatchShare = 0.03;
+constexpr int kStepOfColorSites_px = 4;
+
+rgbd::DepthNoise NoiseOf(const Config& config) {
+  return {.subpixel_px = config.depth_subpixel_px,
+          .range_sigma_m = config.depth_range_sigma_m,
+          .correlation_px = config.depth_correlation_px};
+}
+
+}  // namespace
+
+/// Everything that belongs to one camera.
+struct ModelSegmenter::Parts {
+  Parts(const Config& settings, const rgbd::RgbdCamera& camera, const NoiseLaw& noise_law);
+
+  void TakeRange();
+  void ReadRegion(const rgbd::RgbdFrame& raw);
+  void UpdateBackground(bool predicted);
+  Status SegmentByPrediction(const rgbd::RgbdFrame& raw, const PredictedSurface& predicted);
+  Status SegmentByColor(const rgbd::RgbdFrame& raw);
+  bool ColorKnown(int u, int v) const;
+  bool ColorsHold() const;
+  void SetLabels(float robot_from);
+  void DropSpecks(std::int64_t least_robot_px);
+  void DropFarObjects();
+  void BuildClouds();
+
+  Config config;
+  NoiseLaw noise;
+  Registration registration;
+  RegisteredFrame frame;
+  PredictionView prediction;
+  BackgroundPlanes background;
+  BackgroundPlanes::Tolerance tolerance;
+  PixelJudge judge;
+  PixelRegion region;
+  EvidenceFilter filter;
+  Patches patches;
+  CloudBuilder builder;
+  std::vector<Eigen::Vector3f> sparse_m;
+  std::vector<Eigen::Vector3f> robot_m;
+  SampleGrid color_sites;
+  SegmentedFrame result;
+};
+
+ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& camera,
+                             const NoiseLaw& noise_law)
+    : config{settings},
+      noise{noise_law},
+      registration{camera},
+      prediction{camera, settings.model},
+      tolerance{.noise = noise_law, .bias = static_cast<float>(settings.model.background_bias)},
+      judge{settings, noise_law},
+      builder{NoiseOf(settings), settings.max_cloud_points} {}
+
+/// The paper's PassThrough: 0 for what is not measured or out of range.
+void ModelSegmenter::Parts::TakeRange() {
+  std::int64_t measured = 0;
+  std::int64_t kept = 0;
+  const auto nearest_m = static_cast<float>(config.min_z_m);
+  const auto farthest_m = static_cast<float>(config.max_z_m);
+  for (float& z_m : frame.z_m.values) {
+    const bool in_range = z_m >= nearest_m && z_m <= farthest_m;
+    measured += z_m > 0.0f ? 1 : 0;
+    kept += in_range ? 1 : 0;
+    z_m = in_range ? z_m : 0.0f;
+  }
+  result.rejected.invalid_depth = static_cast<std::int64_t>(frame.z_m.values.size()) - measured;
+  result.rejected.out_of_range = measured - kept;
+}
+
+void ModelSegmenter::Parts::ReadRegion(const rgbd::RgbdFrame& raw) {
+  registration.RegisterColor(raw,
+                             {.u_begin = region.u_begin,
+                              .v_begin = region.v_begin,
+                              .u_end = region.u_begin + region.width,
+                              .v_end = region.v_begin + region.height},
+                             &frame);
+  const rgbd::CameraModel& camera = registration.camera().depth;
+  const float slope = kSteepest / static_cast<float>(std::min(camera.fx_px, camera.fy_px));
+  for (int row = 0; row < region.height; ++row) {
+    const float* z_m = frame.z_m.Pixel(region.u_begin, region.v_begin + row);
+    const std::size_t first = region.At(0, row);
+    for (std::size_t u = 0; u < static_cast<std::size_t>(region.width); ++u) {
+      region.z_m[first + u] = z_m[u];
+      region.step_m[first + u] = kSigmasOfStep * noise.At(z_m[u]) + slope * z_m[u];
+    }
+  }
+}
+
+void ModelSegmenter::Parts::UpdateBackground(bool predicted) {
+  sparse_m.clear();
+  robot_m.clear();
+  for (int v = kSparse_px / 2; v < frame.z_m.height_px; v += kSparse_px) {
+    for (int u = kSparse_px / 2; u < frame.z_m.width_px; u += kSparse_px) {
+      const float z_m = *frame.z_m.Pixel(u, v);
+      if (z_m <= 0.0f || (predicted && prediction.Covers(u, v))) continue;
+      sparse_m.push_back(z_m * registration.Ray(u, v));
+    }
+  }
+  if (predicted) {
+    const Eigen::Matrix3Xd& vertices_m = prediction.vertices_m();
+    const Eigen::Index step = std::max<Eigen::Index>(1, vertices_m.cols() / kRobotPoints);
+    for (Eigen::Index i = 0; i < vertices_m.cols(); i += step) {
+      robot_m.push_back(vertices_m.col(i).cast<float>());
+    }
+  }
+  background.Update(sparse_m, robot_m, tolerance);
+}
+
+Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
+                                                  const PredictedSurface& predicted) {
+  Status status = prediction.Look(predicted);
+  if (!status.ok()) return status;
+  prediction.Place(&region);
+  ReadRegion(raw);
+  UpdateBackground(true);
+  const bool has_color = registration.camera().color.width_px > 0;
+  const auto mean_z_m = static_cast<float>(prediction.vertices_m().row(2).mean());
+  const bool use_colors = has_color && ColorsHold();
+  const auto is_foreign = [&](int u, int v, const Eigen::Vector3f& point_m) {
+    return background.Holds(point_m, tolerance) ||
+           (use_colors && ColorKnown(u, v) && judge.IsForeign(frame.color.Pixel(u, v)));
+  };
+  prediction.FitTo(registration, region, is_foreign, judge.Sigma_m(mean_z_m));
+  prediction.Measure(registration, &region);
+  judge.JudgeDistances(registration, background, &region);
+  status = judge.CheckAgreement(prediction, region);
+  if (!status.ok()) return status;
+  const bool judge_colors = has_color && judge.MeetColors(frame, region, &result.notes);
+  if (judge_colors) judge.JudgeColors(frame, &region);
+  filter.Smooth(&region);
+  SetLabels(0.0f);
+  DropSpecks(kLeastPatch_px);
+  if (judge_colors) judge.LearnColors(frame, region);
+  return status;
+}
+
+bool ModelSegmenter::Parts::ColorKnown(int u, int v) const {
+  return frame.color_known[static_cast<std::size_t>(v) *
+                               static_cast<std::size_t>(frame.z_m.width_px) +
+                           static_cast<std::size_t>(u)] != 0;
+}
+
+/// Whether most of what is seen near the predicted surface still has colours of the robot: not when
+/// the light has just changed.
+bool ModelSegmenter::Parts::ColorsHold() const {
+  int near = 0;
+  int foreign = 0;
+  const auto near_m = static_cast<float>(config.model.largest_error_m);
+  for (int row = 0; row < region.height; row += kSparse_px) {
+    for (int column = 0; column < region.width; column += kSparse_px) {
+      const int u = region.u_begin + column, v = region.v_begin + row;
+      const float z_m = region.z_m[region.At(column, row)];
+      const bool is_near = prediction.Covers(u, v) && std::abs(z_m - prediction.Z_m(u, v)) < near_m;
+      if (!is_near || !ColorKnown(u, v)) continue;
+      ++near;
+      foreign += judge.IsForeign(frame.color.Pixel(u, v)) ? 1 : 0;
+    }
+  }
+  return 2 * foreign < near;
+}
+
+Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
+  if (!judge.knows_colors() || registration.camera().color.width_px == 0) {
+    return Status(StatusCode::kNoRobotSeen,
+                  "neither a predicted surface nor the robot's colour is known");
+  }
+  region.Place(0, 0, frame.z_m.width_px, frame.z_m.height_px);
+  ReadRegion(raw);
+  UpdateBackground(false);
+  judge.JudgeBackground(registration, background, &region);
+  judge.JudgeColors(frame, &region);
+  filter.Smooth(&region);
+  SetLabels(kColorAlone);
+  patches.Find(region);
+  const std::int64_t largest = patches.Largest(Label::kRobot);
+  if (largest < config.model.min_robot_pixels) {
+    return Status(StatusCode::kNoRobotSeen, "no surface of the robot's colour is seen");
+  }
+  DropSpecks(static_cast<std::int64_t>(kPatchShare * static_cast<double>(largest)));
+  DropFarObjects();
+  result.notes.push_back("no predicted surface: the robot is told by its colour alone");
+  return Status::Ok();
+}
+
+void ModelSegmenter::Parts::SetLabels(float robot_from) {
+  Rejections& rejected = result.rejected;
+  const auto near_m = static_cast<float>(config.model.object_distance_m);
+  for (std::size_t at = 0; at < region.size(); ++at) {
+    if (region.z_m[at] <= 0.0f) continue;
+    const float evidence = region.evidence[at];
+    Label& label = region.label[at];
+    if (filter.Support(at) < kLeastSupport) {
+      label = Label::kMixed;
+      ++rejected.at_depth_edge;
+    } else if (evidence > robot_from) {
+      label = Label::kRobot;
+    } else if (region.on_background[at] != 0 || std::abs(region.distance_m[at]) > near_m) {
+      label = Label::kBackground;
+    } else if (evidence > robot_from + kAmbiguous) {
+      label = Label::kAmbiguous;
+      ++rejected.ambiguous;
+    } else {
+      label = Label::kObject;
+    }
+  }
+}
+
+void ModelSegmenter::Parts::DropSpecks(std::int64_t least_robot_px) {
+  patches.Find(region);
+  result.rejected.isolated +=
+      patches.DropSmall(Label::kRobot, std::max(kLeastPatch_px, least_robot_px), &region) +
+      patches.DropSmall(Label::kObject, kLeastPatch_px, &region);
+}
+
+/// Where no surface was predicted: objects that are not near a pixel of the robot are background.
+void ModelSegmenter::Parts::DropFarObjects() {
+  SampleGrid& grid = color_sites;
+  const int step = kStepOfColorSites_px;
+  grid.Lay(region.width, region.height, step);
+  const auto point_at = [this](int column, int row) -> Eigen::Vector3f {
+    return region.z_m[region.At(column, row)] *
+           registration.Ray(region.u_begin + column, region.v_begin + row);
+  };
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t pixel = region.At(column * step, row * step);
+      if (region.z_m[pixel] <= 0.0f) continue;
+      const std::size_t at = grid.At(column, row);
+      grid.measured_m[at] = point_at(column * step, row * step);
+      if (region.label[pixel] == Label::kRobot) grid.site_m[at] = grid.measured_m[at];
+    }
+  }
+  FindNearestSites(&grid);
+  const auto near_m = static_cast<float>(config.model.object_distance_m);
+  for (int row = 0; row < region.height; ++row) {
+    for (int column = 0; column < region.width; ++column) {
+      Label& label = region.label[region.At(column, row)];
+      if (label != Label::kObject) continue;
+      const int site = grid.nearest[grid.At(column / step, row / step)];
+      const bool near =
+          site != SampleGrid::kNone &&
+          (point_at(column, row) - grid.site_m[static_cast<std::size_t>(site)]).norm() < near_m;
+      if (!near) label = Label::kBackground;
+    }
+  }
+}
+
+void ModelSegmenter::Parts::BuildClouds() {
+  result.rejected.thinned =
+      builder.Build(registration, frame, region, Label::kRobot, &result.robot) +
+      builder.Build(registration, frame, region, Label::kObject, &result.object);
+  if (result.robot.Count() > 0) return;
+  result.status = Status(StatusCode::kNoRobotSeen, "no pixel is the robot's");
+  result.object = {};
+}
+
+ModelSegmenter::ModelSegmenter(const Config& config) : config_(config) {
+  const std::size_t channels = config.model.robot_color_rgb.size();
+  if (channels != 0 && channels != 3) {
+    throw InputError("model.robot_color_rgb has " + std::to_string(channels) +
+                     " values: it is empty or [red, green, blue]");
+  }
+  if (config.min_z_m >= config.max_z_m) throw InputError("min_z_m is not less than max_z_m");
+}
+
+ModelSegmenter::~ModelSegmenter() = default;
+
+void ModelSegmenter::SetCamera(const rgbd::RgbdCamera& camera) {
+  parts_ = std::make_unique<Parts>(config_, camera, NoiseLaw(camera, NoiseOf(config_)));
+}
+
+const PixelRegion& ModelSegmenter::region() const {
+  PALPATE_CHECK(parts_ != nullptr);
+  return parts_->region;
+}
+
+const SegmentedFrame& ModelSegmenter::Segment(const rgbd::RgbdFrame& frame,
+                                              const PredictedSurface* predicted) {
+  PALPATE_CHECK(parts_ != nullptr);
+  Parts& parts = *parts_;
+  SegmentedFrame& result = parts.result;
+  result = {};
+  parts.region.Place(0, 0, 0, 0);
+  result.status = parts.registration.RegisterDepth(frame, &parts.frame);
+  if (!result.status.ok()) return result;
+  parts.TakeRange();
+  const auto pixels = static_cast<std::int64_t>(parts.frame.z_m.values.size());
+  if (result.rejected.invalid_depth + result.rejected.out_of_range == pixels) {
+    result.status =
+        Status(StatusCode::kNoRobotSeen, "no pixel of the depth image has a value in range");
+    return result;
+  }
+  result.status = predicted != nullptr ? parts.SegmentByPrediction(frame, *predicted)
+                                       : parts.SegmentByColor(frame);
+  if (result.status.ok()) parts.BuildClouds();
+  return result;
+}
+
+}  // namespace palpate::perception

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/model/prediction_view.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::perception {
+
+namespace {
+
+constexpr double kSampleSpacing_m = 3e-3;
+constexpr int kLeastStep_px = 2;
+constexpr int kMostStep_px = 8;
+/// So near the surface that no other part of it is looked for.
+constexpr float kOnSurface_m2 = 1e-6f;
+
+bool IsSurface(const PredictedSurface& predicted) {
+  const Eigen::Matrix3Xi& triangles = predicted.triangles;
+  return triangles.cols() > 0 && predicted.vertices_m.allFinite() && triangles.minCoeff() >= 0 &&
+         triangles.maxCoeff() < predicted.vertices_m.cols();
+}
+
+}  // namespace
+
+PredictionView::PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config)
+    : config_(config),
+      focal_px_(std::max(camera.depth.fx_px, camera.depth.fy_px)),
+      view_(camera.depth) {}
+
+Status PredictionView::Look(const PredictedSurface& predicted) {
+  if (!IsSurface(predicted)) {
+    return Status(StatusCode::kInvalidInput, "the predicted surface is empty or has no numbers");
+  }
+  vertices_m_ = predicted.vertices_m;
+  facing_.resize(3, predicted.triangles.cols());
+  Eigen::Index facing = 0;
+  for (Eigen::Index t = 0; t < predicted.triangles.cols(); ++t) {
+    const Eigen::Vector3i corners = predicted.triangles.col(t);
+    const Eigen::Vector3d a = vertices_m_.col(corners[0]);
+    const Eigen::Vector3d area =
+        (vertices_m_.col(corners[1]) - a).cross(vertices_m_.col(corners[2]) - a);
+    if (area.dot(a) < 0.0) facing_.col(facing++) = corners;
+  }
+  facing_.conservativeResize(3, facing);
+  Redraw();
+  if (view_.bounds().empty()) {
+    return Status(StatusCode::kNoRobotSeen, "the predicted robot is out of the camera's view");
+  }
+  nearest_z_m_ =
+      static_cast<float>(std::max(vertices_m_.row(2).minCoeff(), rgbd::SurfaceView::kNearest_m));
+  return Status::Ok();
+}
+
+void PredictionView::Redraw() {
+  view_.Look(vertices_m_, facing_);
+  normals_.resize(3, facing_.cols());
+  for (Eigen::Index t = 0; t < facing_.cols(); ++t) {
+    const Eigen::Vector3d a = vertices_m_.col(facing_(0, t));
+    const Eigen::Vector3d area =
+        (vertices_m_.col(facing_(1, t)) - a).cross(vertices_m_.col(facing_(2, t)) - a);
+    normals_.col(t) = area.normalized().cast<float>();
+  }
+}
+
+void PredictionView::Place(PixelRegion* region) const {
+  const auto& bounds = view_.bounds();
+  const rgbd::CameraModel& camera = view_.camera();
+  const double wide_px = config_.margin_m * focal_px_ / static_cast<double>(nearest_z_m_);
+  const int margin_px = static_cast<int>(std::ceil(std::min(wide_px, 1e4)));
+  const int u_begin = std::max(0, bounds.u_begin - margin_px);
+  const int v_begin = std::max(0, bounds.v_begin - margin_px);
+  const int u_end = std::min(camera.width_px, bounds.u_end + margin_px);
+  const int v_end = std::min(camera.height_px, bounds.v_end + margin_px);
+  region->Place(u_begin, v_begin, u_end - u_begin, v_end - v_begin);
+}
+
+void PredictionView::LayGrid(const Registration& registration, const PixelRegion& region) {
+  const double step_px = kSampleSpacing_m * focal_px_ / static_cast<double>(nearest_z_m_);
+  const int step = std::clamp(static_cast<int>(step_px), kLeastStep_px, kMostStep_px);
+  grid_.Lay(region.width, region.height, step);
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      const int u = region.u_begin + column * step, v = region.v_begin + row * step;
+      const std::size_t at = grid_.At(column, row);
+      const Eigen::Vector3f ray = registration.Ray(u, v);
+      const float z_m = region.z_m[region.At(column * step, row * step)];
+      if (z_m > 0.0f) grid_.measured_m[at] = z_m * ray;
+      const int triangle = view_.Triangle(u, v);
+      if (triangle == rgbd::SurfaceView::kNothing) continue;
+      grid_.site_m[at] = view_.Z_m(u, v) * ray;
+      grid_.normal[at] = normals_.col(triangle);
+    }
+  }
+}
+
+void PredictionView::FitTo(const Registration& registration, const PixelRegion& region,
+                           const IsForeign& is_foreign, float point_sigma_m) {
+  LayGrid(registration, region);
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      Eigen::Vector3f& point_m = grid_.measured_m[grid_.At(column, row)];
+      const int u = region.u_begin + column * grid_.step_px;
+      const int v = region.v_begin + row * grid_.step_px;
+      if (point_m.z() > 0.0f && is_foreign(u, v, point_m)) point_m.setZero();
+    }
+  }
+  fit_.Lay(grid_, {.spacing_m = config_.fit_spacing_m,
+                   .largest_error_m = config_.largest_error_m,
+                   .point_sigma_m = point_sigma_m});
+  fit_.Fit(&grid_);
+  for (Eigen::Index i = 0; i < vertices_m_.cols(); ++i) {
+    vertices_m_.col(i) += fit_.At(vertices_m_.col(i).cast<float>()).cast<double>();
+  }
+  Redraw();
+  LayGrid(registration, region);
+  FindNearestSites(&grid_);
+}
+
+PredictionView::Distance PredictionView::From(const Eigen::Vector3f& site_m,
+                                              const Eigen::Vector3f& normal,
+                                              const Eigen::Vector3f& point_m, float slack_m) {
+  const Eigen::Vector3f off_m = point_m - site_m;
+  const float along_m = normal.dot(off_m);
+  const float across_m2 = off_m.squaredNorm() - along_m * along_m;
+  if (across_m2 <= slack_m * slack_m) return {along_m, along_m * along_m};
+  const float across_m = std::sqrt(across_m2) - slack_m;
+  return {along_m, along_m * along_m + across_m * across_m};
+}
+
+void PredictionView::Measure(const Registration& registration, PixelRegion* region) const {
+  const int step = grid_.step_px;
+  // Sites stand so far apart; on a slope the nearest one is still nearer than that.
+  const float slack_share = 1.5f * static_cast<float>(step / focal_px_);
+  for (int row = 0; row < region->height; ++row) {
+    for (int column = 0; column < region->width; ++column) {
+      const std::size_t at = region->At(column, row);
+      const float z_m = region->z_m[at];
+      if (z_m <= 0.0f) continue;
+      const int u = region->u_begin + column, v = region->v_begin + row;
+      const Eigen::Vector3f ray = registration.Ray(u, v);
+      const Eigen::Vector3f point_m = z_m * ray;
+      const float slack_m = slack_share * z_m;
+      Distance distance{1.0f, 1.0f};
+      const int triangle = view_.Triangle(u, v);
+      if (triangle != rgbd::SurfaceView::kNothing) {
+        distance = From(view_.Z_m(u, v) * ray, normals_.col(triangle), point_m, slack_m);
+      }
+      const int site = grid_.nearest[grid_.At(column / step, row / step)];
+      if (site != SampleGrid::kNone && distance.squared_m2 > kOnSurface_m2) {
+        const auto k = static_cast<std::size_t>(site);
+        const Distance there = From(grid_.site_m[k], grid_.normal[k], point_m, slack_m);
+        if (there.squared_m2 < distance.squared_m2) distance = there;
+      }
+      const float size_m = std::sqrt(distance.squared_m2);
+      region->distance_m[at] = distance.signed_m < 0.0f ? -size_m : size_m;
+    }
+  }
+}
+
+}  // namespace palpate::perception

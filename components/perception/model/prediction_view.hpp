@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "components/perception/model/model_config.hpp"
+#include "components/perception/model/pixel_region.hpp"
+#include "components/perception/model/sample_grid.hpp"
+#include "components/perception/model/surface_fit.hpp"
+#include "components/perception/observation.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "libs/rgbd/surface_view.hpp"
+
+namespace palpate::perception {
+
+/// The predicted surface as the camera sees it, brought onto what it measured.
+class PredictionView {
+ public:
+  PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config);
+
+  /// Draws the prediction. kInvalidInput for a surface that is none, kNoRobotSeen where nothing of
+  /// it is in the picture.
+  Status Look(const PredictedSurface& predicted);
+  /// The part of the image round the prediction.
+  void Place(PixelRegion* region) const;
+  /// Whether what is measured at a pixel cannot be the robot.
+  using IsForeign = std::function<bool(int u_px, int v_px, const Eigen::Vector3f& point_m)>;
+  /// Fits the surface to what the region measured, but for what is foreign, and draws it again.
+  void FitTo(const Registration& registration, const PixelRegion& region,
+             const IsForeign& is_foreign, float point_sigma_m);
+  /// Fills the region's distance_m: from the fitted surface, positive outside of it. Where the
+  /// surface is far away, roughly.
+  void Measure(const Registration& registration, PixelRegion* region) const;
+
+  bool Covers(int u_px, int v_px) const {
+    return view_.Triangle(u_px, v_px) != rgbd::SurfaceView::kNothing;
+  }
+  /// z of the fitted surface; 0: not there.
+  float Z_m(int u_px, int v_px) const { return view_.Z_m(u_px, v_px); }
+  const Eigen::Matrix3Xd& vertices_m() const { return vertices_m_; }
+
+ private:
+  struct Distance {
+    float signed_m;    ///< along the normal
+    float squared_m2;  ///< with what is beyond `slack` across it
+  };
+
+  void LayGrid(const Registration& registration, const PixelRegion& region);
+  void Redraw();
+  static Distance From(const Eigen::Vector3f& site_m, const Eigen::Vector3f& normal,
+                       const Eigen::Vector3f& point_m, float slack_m);
+
+  ModelConfig config_;
+  double focal_px_;
+  rgbd::SurfaceView view_;
+  Eigen::Matrix3Xd vertices_m_;
+  Eigen::Matrix3Xi facing_;   ///< triangles that face the camera
+  Eigen::Matrix3Xf normals_;  ///< of them
+  float nearest_z_m_ = 0.0f;
+  SampleGrid grid_;
+  SurfaceFit fit_;
+};
+
+}  // namespace palpate::perception

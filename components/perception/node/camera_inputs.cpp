@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/node/camera_inputs.hpp"
+
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+Status Missing(const std::string& what) { return {StatusCode::kNoCalibration, what}; }
+
+Status About(const std::string& topic, const Status& status) {
+  return status.ok() ? status : Status(status.code(), topic + ": " + status.message());
+}
+
+}  // namespace
+
+bool IsSameCamera(const rgbd::RgbdCamera& a, const rgbd::RgbdCamera& b) {
+  return a.depth == b.depth && a.color == b.color && a.depth_unit_m == b.depth_unit_m &&
+         a.invalid_value == b.invalid_value && a.baseline_m == b.baseline_m &&
+         a.color_registered == b.color_registered &&
+         a.T_depth_color.matrix() == b.T_depth_color.matrix();
+}
+
+void CameraInputs::SetSetup(const idl::palpate_msgs::CameraSetup& message) {
+  Told<CameraSetup> told{dds::StampNs(message.header.stamp), {}, {}};
+  told.status = About("/camera/setup", FromCameraSetup(message, &told.value));
+  setup_ = std::move(told);
+  ++setups_;
+}
+
+void CameraInputs::SetLens(const idl::sensor_msgs::CameraInfo& message, Lens* lens) {
+  Told<rgbd::CameraModel> told{dds::StampNs(message.header.stamp), {}, {}};
+  told.status = FromCameraInfo(message, &told.value);
+  *lens = std::move(told);
+}
+
+void CameraInputs::SetDepthLens(const idl::sensor_msgs::CameraInfo& message) {
+  SetLens(message, &depth_);
+}
+
+void CameraInputs::SetColorLens(const idl::sensor_msgs::CameraInfo& message) {
+  SetLens(message, &color_);
+}
+
+Status CameraInputs::CameraOf(std::uint32_t epoch, rgbd::RgbdCamera* camera) const {
+  if (!setup_) return Missing("no /camera/setup has come");
+  if (!setup_->status.ok()) return setup_->status;
+  if (setup_->value.epoch != epoch) {
+    return Missing("a frame of epoch " + std::to_string(epoch) +
+                   ", but the /camera/setup of epoch " + std::to_string(setup_->value.epoch));
+  }
+  if (Status status = CheckDepthLens(); !status.ok()) return status;
+  if (Status status = CheckColorLens(); !status.ok()) return status;
+  *camera = setup_->value.camera;
+  camera->depth = depth_->value;
+  if (!has_color_lens()) return Status::Ok();
+  camera->color = color_->value;
+  if (camera->color.fx_px == 0.0) camera->color = depth_->value;
+  return Status::Ok();
+}
+
+Status CameraInputs::CheckDepthLens() const {
+  if (!BelongsToSetup(depth_))
+    return Missing("no /camera/depth/camera_info of this epoch has come");
+  if (!depth_->status.ok()) return About("/camera/depth/camera_info", depth_->status);
+  if (depth_->value.fx_px > 0.0 && depth_->value.fy_px > 0.0) return Status::Ok();
+  return Missing("/camera/depth/camera_info: the camera is not calibrated");
+}
+
+Status CameraInputs::CheckColorLens() const {
+  if (!has_color_lens()) return Status::Ok();
+  if (!color_->status.ok()) return About("/camera/color/camera_info", color_->status);
+  const rgbd::CameraModel& color = color_->value;
+  const rgbd::CameraModel& depth = depth_->value;
+  if (setup_->value.camera.color_registered) {
+    if (color.width_px == depth.width_px && color.height_px == depth.height_px) {
+      return Status::Ok();
+    }
+    return {StatusCode::kInvalidInput,
+            "/camera/color/camera_info: registered colour of another size than the depth"};
+  }
+  if (color.fx_px > 0.0 && color.fy_px > 0.0) return Status::Ok();
+  return Missing("/camera/color/camera_info: the camera is not calibrated");
+}
+
+}  // namespace palpate::perception

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/node/convert.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/frames.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+using idl::sensor_msgs::CameraInfo;
+using idl::sensor_msgs::Image;
+
+constexpr std::uint32_t kLargestSide_px = 16384;
+
+Status Refuse(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+
+bool IsSide(std::uint32_t length_px) { return length_px > 0 && length_px <= kLargestSide_px; }
+
+Status CheckFrame(const idl::std_msgs::Header& header, bool color) {
+  const std::string_view frame = dds::Text(header.frame_id);
+  if (frame == geometry::kCameraDepthOpticalFrame) return Status::Ok();
+  if (color && frame == geometry::kCameraColorOpticalFrame) return Status::Ok();
+  return Refuse("frame '" + std::string(frame) + "' instead of '" +
+                std::string(geometry::kCameraDepthOpticalFrame) + "'");
+}
+
+Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t pixel_bytes) {
+  if (dds::Text(message.encoding) != encoding || message.is_bigendian) {
+    return Refuse("encoding '" + std::string(dds::Text(message.encoding)) +
+                  (message.is_bigendian ? "', big-endian," : "'") + " instead of '" +
+                  std::string(encoding) + "'");
+  }
+  const bool sized = IsSide(message.width) && IsSide(message.height);
+  const bool filled = message.step >= message.width * pixel_bytes &&
+                      message.data._length >= std::uint64_t{message.step} * message.height;
+  if (!sized || !filled) {
+    return Refuse("an image of " + std::to_string(message.width) + " x " +
+                  std::to_string(message.height) + " pixels in " +
+                  std::to_string(message.data._length) + " bytes");
+  }
+  return Status::Ok();
+}
+
+template <typename Picture>
+Status CopyImage(const Image& message, std::string_view encoding, Picture* image) {
+  constexpr std::uint32_t kPixelBytes =
+      sizeof(typename decltype(image->values)::value_type) * Picture::channels;
+  if (Status status = CheckImage(message, encoding, kPixelBytes); !status.ok()) return status;
+  *image = Picture(static_cast<int>(message.width), static_cast<int>(message.height));
+  const std::size_t row_bytes = std::size_t{message.width} * kPixelBytes;
+  auto* target = reinterpret_cast<std::uint8_t*>(image->values.data());
+  for (std::size_t v = 0; v < message.height; ++v) {
+    std::memcpy(target + v * row_bytes, message.data._buffer + v * message.step, row_bytes);
+  }
+  return Status::Ok();
+}
+
+bool AllFinite(const double* numbers, std::size_t count) {
+  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
+}
+
+Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
+  if (message.d._length == 0) return Status::Ok();
+  const std::string_view model = dds::Text(message.distortion_model);
+  if (model != "plumb_bob" || message.d._length != camera->distortion.size()) {
+    return Refuse("distortion model '" + std::string(model) + "' with " +
+                  std::to_string(message.d._length) + " numbers instead of 'plumb_bob' with 5");
+  }
+  if (!AllFinite(message.d._buffer, message.d._length)) {
+    return Refuse("a distortion that is not finite");
+  }
+  std::copy_n(message.d._buffer, camera->distortion.size(), camera->distortion.begin());
+  return Status::Ok();
+}
+
+}  // namespace
+
+Status FromDepthImage(const Image& message, rgbd::DepthImage* image) {
+  if (Status frame = CheckFrame(message.header, false); !frame.ok()) return frame;
+  return CopyImage(message, "16UC1", image);
+}
+
+Status FromColorImage(const Image& message, rgbd::ColorImage* image) {
+  if (Status frame = CheckFrame(message.header, true); !frame.ok()) return frame;
+  return CopyImage(message, "rgb8", image);
+}
+
+Status FromCameraInfo(const CameraInfo& message, rgbd::CameraModel* camera) {
+  rgbd::CameraModel lens;
+  if (!IsSide(message.width) || !IsSide(message.height)) {
+    return Refuse("a camera of " + std::to_string(message.width) + " x " +
+                  std::to_string(message.height) + " pixels");
+  }
+  lens.width_px = static_cast<int>(message.width);
+  lens.height_px = static_cast<int>(message.height);
+  if (!AllFinite(message.k, 9) || message.k[0] < 0.0 || message.k[4] < 0.0) {
+    return Refuse("intrinsics that are no numbers of a camera");
+  }
+  lens.fx_px = message.k[0];
+  lens.cx_px = message.k[2];
+  lens.fy_px = message.k[4];
+  lens.cy_px = message.k[5];
+  if (Status status = ReadDistortion(message, &lens); !status.ok()) return status;
+  *camera = lens;
+  return Status::Ok();
+}
+
+Status FromCameraSetup(const idl::palpate_msgs::CameraSetup& message, CameraSetup* setup) {
+  if (!std::isfinite(message.depth_unit_m) || message.depth_unit_m <= 0.0) {
+    return Refuse("a depth unit that is no length");
+  }
+  if (message.invalid_value > 0xFFFF) {
+    return Refuse("invalid value " + std::to_string(message.invalid_value) + " beyond 16 bits");
+  }
+  if (!std::isfinite(message.baseline_m) || message.baseline_m < 0.0) {
+    return Refuse("a baseline that is no length");
+  }
+  CameraSetup read;
+  if (!dds::FromPose(message.color_in_depth, &read.camera.T_depth_color)) {
+    return Refuse("the pose of the colour camera is none");
+  }
+  read.stamp_ns = dds::StampNs(message.header.stamp);
+  read.epoch = message.epoch;
+  read.device = dds::Text(message.device);
+  read.camera.depth_unit_m = message.depth_unit_m;
+  read.camera.invalid_value = static_cast<int>(message.invalid_value);
+  read.camera.baseline_m = message.baseline_m;
+  read.camera.color_registered = message.color_registered;
+  if (message.subpixel_sigma_px > 0.0) read.subpixel_sigma_px = message.subpixel_sigma_px;
+  *setup = std::move(read);
+  return Status::Ok();
+}
+
+dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& outcome) {
+  const SegmentedFrame& frame = outcome.observation.frame;
+  dds::Message<idl::palpate_msgs::PerceptionReport> report;
+  dds::SetHeader(report->header, outcome.stamp_ns, geometry::kCameraDepthOpticalFrame);
+  report->frame_counter = outcome.frame_counter;
+  report->epoch = outcome.epoch;
+  dds::SetText(report->device, outcome.device);
+  dds::SetText(report->status, ToString(frame.status.code()));
+  dds::SetText(report->reason, frame.status.message());
+  report->robot_points = static_cast<std::uint32_t>(frame.robot.Count());
+  report->object_points = static_cast<std::uint32_t>(frame.object.Count());
+  report->contacts = static_cast<std::uint32_t>(outcome.observation.contacts.size());
+  report->invalid_depth = static_cast<std::uint64_t>(frame.rejected.invalid_depth);
+  report->out_of_range = static_cast<std::uint64_t>(frame.rejected.out_of_range);
+  report->isolated = static_cast<std::uint64_t>(frame.rejected.isolated);
+  report->at_depth_edge = static_cast<std::uint64_t>(frame.rejected.at_depth_edge);
+  report->ambiguous = static_cast<std::uint64_t>(frame.rejected.ambiguous);
+  report->thinned = static_cast<std::uint64_t>(frame.rejected.thinned);
+  dds::Resize(report->notes, frame.notes.size());
+  for (std::size_t i = 0; i < frame.notes.size(); ++i) {
+    dds::SetText(report->notes._buffer[i], frame.notes[i]);
+  }
+  report->prediction_stamp = dds::TimeFromNs(outcome.prediction_stamp_ns);
+  return report;
+}
+
+dds::Message<idl::palpate_msgs::ContactArray> ToContactArray(const FrameOutcome& outcome) {
+  const auto& contacts = outcome.observation.contacts;
+  dds::Message<idl::palpate_msgs::ContactArray> message;
+  dds::SetHeader(message->header, outcome.stamp_ns, geometry::kCameraDepthOpticalFrame);
+  dds::Resize(message->contacts, contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const DetectedContact& contact = contacts[i];
+    auto& target = message->contacts._buffer[i];
+    dds::SetText(target.name, contact.name);
+    dds::SetVector(target.position_m, contact.position_m);
+    target.patch_radius_m = 0.5 * contact.extent_m.maxCoeff();
+    target.point_count = static_cast<std::uint32_t>(contact.point_count);
+    dds::SetVector(target.extent_m, contact.extent_m);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        target.position_covariance_m2[3 * row + column] = contact.covariance_m2(row, column);
+      }
+    }
+  }
+  return message;
+}
+
+}  // namespace palpate::perception

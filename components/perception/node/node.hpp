@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+#include "components/perception/node/camera_inputs.hpp"
+#include "components/perception/node/frame_pairing.hpp"
+#include "components/perception/node/node_config.hpp"
+#include "components/perception/node/outputs.hpp"
+#include "components/perception/node/prediction_history.hpp"
+#include "components/perception/node/worker.hpp"
+#include "libs/dds/health.hpp"
+#include "libs/dds/node_log.hpp"
+#include "libs/dds/wait_set.hpp"
+
+namespace palpate::perception {
+
+/// Takes the camera's frames and the model's last state, publishes the clouds of robot and objects
+/// and the contacts. Each frame that was taken is answered, on /perception/report at least; while
+/// one is in work only the newest of the others waits.
+class PerceptionNode {
+ public:
+  /// `T_robot_camera`: of the depth camera; nullopt: unknown. Throws InputError for bad settings,
+  /// RunError where DDS refuses.
+  PerceptionNode(const NodeConfig& config, std::optional<Eigen::Isometry3d> T_robot_camera,
+                 FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
+                 dds::NodeLog::ProcessLog process_log);
+
+  /// Works until Stop().
+  void Run() { loop_.Run(); }
+  /// From any thread.
+  void Stop() { loop_.Stop(); }
+
+ private:
+  using Clock = dds::WaitSet::Clock;
+
+  void AttachReaders();
+  void TakeCamera();
+  void TakeDepth();
+  void TakeColor();
+  void TakeFacts();
+  void TakeMesh();
+  void TakeMeshStates();
+  template <typename Message>
+  FrameSet* PartOf(const Message& message);
+  void Advance();
+  bool IsWhole(const FrameSet& set) const;
+  Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) const;
+  bool BeginsSequence(const FrameSet& set) const;
+  bool MustAwaitPrediction() const;
+  void Work(FrameSet set);
+  PerceptionJob HeadOf(const FrameSet& set) const;
+  PerceptionJob MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera);
+  void PublishResults();
+  void Publish(const FrameOutcome& outcome, Clock::time_point taken);
+  void ReportHealth();
+  Status CurrentStatus() const;
+
+  NodeConfig config_;
+  std::optional<Eigen::Isometry3d> T_robot_camera_;
+  dds::Participant participant_;
+  dds::WaitSet loop_;
+  dds::NodeLog log_;
+  dds::HealthReporter health_;
+  dds::Reader<idl::palpate_msgs::CameraSetup> setups_;
+  dds::Reader<idl::sensor_msgs::CameraInfo> depth_lenses_;
+  dds::Reader<idl::sensor_msgs::CameraInfo> color_lenses_;
+  dds::Reader<idl::sensor_msgs::Image> depths_;
+  dds::Reader<idl::sensor_msgs::Image> colors_;
+  dds::Reader<idl::palpate_msgs::FrameInfo> infos_;
+  dds::Reader<idl::palpate_msgs::Mesh> meshes_;
+  dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
+  Outputs outputs_;
+  CameraInputs camera_;
+  FramePairing pairing_;
+  PredictionHistory predictions_;
+  Worker worker_;
+  std::optional<FrameSet> next_;               ///< waits for the worker or the prediction
+  std::optional<rgbd::RgbdCamera> set_;        ///< the camera that perception knows
+  std::uint64_t set_setups_ = 0;               ///< camera_'s, when it was set
+  std::optional<double> sigma_px_;             ///< of the disparity, that perception knows
+  std::optional<std::int64_t> last_stamp_ns_;  ///< given to perception; none: none yet
+  std::uint32_t last_epoch_ = 0;
+  std::string last_device_;
+  Clock::time_point published_at_;
+  Clock::time_point last_depth_;
+  dds::HealthCounts counts_;
+  Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};
+  std::string last_refusal_;
+};
+
+}  // namespace palpate::perception

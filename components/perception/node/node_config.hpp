@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "components/perception/config.hpp"
+#include "libs/dds/node_settings.hpp"
+
+namespace palpate::perception {
+
+/// Settings of the process: those of Perception, and those of its inputs and its DDS side.
+struct NodeConfig : Config {
+  std::string camera_pose;
+  double pairing_wait_s = 0.1;
+  double max_prediction_age_s = 1.0;
+  double await_prediction_s = 0.0;
+  double silence_s = 2.0;
+  dds::NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    Config::Visit(v);
+    v("camera_pose", camera_pose,
+      "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
+      "w]}\"; empty: unknown, then no predicted surface is used");
+    v("pairing_wait_s", pairing_wait_s, {.min = 0.0, .max = 10.0},
+      "How long a depth image waits for the rest of its frame set and for its camera's set-up");
+    v("max_prediction_age_s", max_prediction_age_s, {.min = 0.0},
+      "A state of the model that is older than this before the frame is not used");
+    v("await_prediction_s", await_prediction_s, {.min = 0.0, .max = 600.0},
+      "How long a frame waits for the model's state of the frame before it, which then counts "
+      "whatever its age; 0: the newest state will do (live)");
+    v("silence_s", silence_s, {.min = 0.0, .min_open = true},
+      "Without depth images for so long the component reports itself stale");
+    v("dds", dds, "DDS side");
+  }
+};
+
+}  // namespace palpate::perception

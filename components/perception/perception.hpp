@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <memory>
+
+#include "components/perception/config.hpp"
+#include "components/perception/observation.hpp"
+#include "components/perception/segmenter.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
+
+namespace palpate::perception {
+
+/// From a frame of the camera to the points of the robot and where it is touched (section V.A of
+/// the paper). Frames are taken one after the other; colour model and contacts go on from one to
+/// the next. The same frames and predictions give the same bits.
+class Perception {
+ public:
+  /// Throws InputError for settings that do not go together.
+  explicit Perception(const Config& config);
+  /// With a segmenter of the caller's.
+  Perception(const Config& config, std::unique_ptr<Segmenter> segmenter);
+  ~Perception();
+
+  /// A camera, or the same one opened anew: all contacts are gone. Before the first Update.
+  void SetCamera(const rgbd::RgbdCamera& camera);
+
+  /// `predicted`: nullptr where the model's state is not known. The observation holds until the
+  /// next call.
+  const Observation& Update(const rgbd::RgbdFrame& frame, const PredictedSurface* predicted);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palpate::perception

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
+#include "libs/rgbd/rgbd_frame.hpp"
+
+namespace palpate::perception {
+
+/// Depth in metres and the colour of each depth pixel.
+struct RegisteredFrame {
+  rgbd::RangeImage z_m;    ///< NaN: no depth, or nobody knows where the pixel looks
+  rgbd::ColorImage color;  ///< size of the depth image; black where not known
+  std::vector<char>
+      color_known;  ///< [pixels] 0: out of the colour camera's view, or hidden from it
+};
+
+/// Brings depth and colour of one camera together: forward warp of the depth pixels into the colour
+/// image with a z-buffer, so that what the colour camera sees of a nearer surface is not taken for
+/// the colour of a farther one.
+class Registration {
+ public:
+  explicit Registration(const rgbd::RgbdCamera& camera);
+
+  /// A part of the depth image: first pixels, and one past the last.
+  struct Window {
+    int u_begin = 0;
+    int v_begin = 0;
+    int u_end = 0;
+    int v_end = 0;
+  };
+
+  /// kInvalidInput for images of another size than the camera's. Buffers are used again.
+  Status Register(const rgbd::RgbdFrame& frame, RegisteredFrame* registered);
+  /// The first half of it: the depth, and nothing of the colours.
+  Status RegisterDepth(const rgbd::RgbdFrame& frame, RegisteredFrame* registered) const;
+  /// The second half, after the first: the colours in a part of the image. What is in the way of
+  /// the colour camera more than kReach_px beside that part is overlooked. Outside, `registered`
+  /// stays as it is.
+  void RegisterColor(const rgbd::RgbdFrame& frame, const Window& window,
+                     RegisteredFrame* registered);
+  static constexpr int kReach_px = 48;
+
+  /// (x, y, 1) that the depth pixel looks along; NaN where the lens model cannot say.
+  Eigen::Vector3f Ray(int u_px, int v_px) const {
+    return rays_.col(static_cast<Eigen::Index>(v_px) * camera_.depth.width_px + u_px);
+  }
+  const rgbd::RgbdCamera& camera() const { return camera_; }
+
+ private:
+  void LayColorRays();
+  void MapColor(const rgbd::ColorImage& color, const Window& window, RegisteredFrame* registered);
+  template <bool kDistorted>
+  void ProjectRow(int v, const Window& window, const float* z_m);
+  void Splat(int v, const Window& window);
+  void TakeColors(const rgbd::ColorImage& color, int v, const Window& window,
+                  RegisteredFrame* registered) const;
+
+  rgbd::RgbdCamera camera_;
+  Eigen::Matrix3Xf rays_;           ///< [3 x depth pixels]
+  std::vector<std::size_t> blind_;  ///< pixels without a ray
+  // Of a colour camera of its own:
+  Eigen::Isometry3d T_color_depth_ = Eigen::Isometry3d::Identity();
+  Eigen::Array<float, Eigen::Dynamic, 3> color_rays_;  ///< [depth pixels x 3] in its frame
+  int cell_px_ = 1;  ///< colour pixels along each side of a cell of the z-buffer
+  int cell_columns_ = 0;
+  std::vector<int> color_pixel_;    ///< [depth pixels] where it is seen; kNowhere
+  std::vector<int> cell_;           ///< [depth pixels] of the z-buffer
+  std::vector<float> color_z_m_;    ///< [depth pixels] in the colour camera's frame
+  std::vector<float> nearest_z_m_;  ///< [cells]
+};
+
+}  // namespace palpate::perception

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "components/perception/node/frame_perception.hpp"
+
+namespace palpate::perception {
+
+/// What the stand-in for Perception was asked, shared between it and the test.
+class Script {
+ public:
+  struct Call {
+    std::int64_t stamp_ns = 0;
+    int perception = 0;  ///< which one, from 1
+    int cameras = 0;     ///< that this one had been given
+    bool with_color = false;
+    std::optional<Eigen::Vector3d> first_vertex_m;  ///< of the predicted surface
+  };
+
+  /// Update does not return while it is held.
+  void Hold(bool hold) {
+    const std::lock_guard lock(mutex_);
+    hold_ = hold;
+    changed_.notify_all();
+  }
+  std::vector<Call> calls() const {
+    const std::lock_guard lock(mutex_);
+    return calls_;
+  }
+  rgbd::RgbdCamera camera() const {
+    const std::lock_guard lock(mutex_);
+    return camera_;
+  }
+  Config config() const {
+    const std::lock_guard lock(mutex_);
+    return config_;
+  }
+
+  FramePerceptionMaker Maker() {
+    return [this](const Config& config) { return std::make_unique<Scripted>(*this, config); };
+  }
+
+ private:
+  class Scripted : public FramePerception {
+   public:
+    Scripted(Script& script, const Config& config) : script_(script) {
+      const std::lock_guard lock(script_.mutex_);
+      script_.config_ = config;
+      number_ = ++script_.made_;
+    }
+    void SetCamera(const rgbd::RgbdCamera& camera) override {
+      const std::lock_guard lock(script_.mutex_);
+      script_.camera_ = camera;
+      ++cameras_;
+    }
+    const Observation& Update(const rgbd::RgbdFrame& frame,
+                              const PredictedSurface* predicted) override {
+      std::unique_lock lock(script_.mutex_);
+      Call call{frame.stamp_ns, number_, cameras_, !frame.color.empty(), {}};
+      if (predicted) call.first_vertex_m = predicted->vertices_m.col(0);
+      script_.calls_.push_back(call);
+      script_.changed_.wait(lock, [this] { return !script_.hold_; });
+      Fill(frame);
+      return observation_;
+    }
+
+   private:
+    /// One point of the robot, as far away as the first pixel says, two of an object, one contact.
+    void Fill(const rgbd::RgbdFrame& frame) {
+      observation_ = {};
+      observation_.stamp_ns = frame.stamp_ns;
+      observation_.frame.status = Status::Ok();
+      observation_.frame.robot.points_m = Eigen::Matrix3Xf::Zero(3, 1);
+      observation_.frame.robot.points_m(2, 0) = 1e-3f * static_cast<float>(frame.depth.values[0]);
+      observation_.frame.robot.sigma_m = Eigen::VectorXf::Constant(1, 1e-3f);
+      observation_.frame.robot.colors_rgb = {1, 2, 3};
+      observation_.frame.object.points_m = Eigen::Matrix3Xf::Ones(3, 2);
+      observation_.frame.object.sigma_m = Eigen::VectorXf::Ones(2);
+      observation_.frame.object.colors_rgb.assign(6, 0);
+      observation_.frame.rejected.at_depth_edge = 17;
+      observation_.frame.notes = {"the light has changed"};
+      DetectedContact contact;
+      contact.name = "contact_1";
+      contact.position_m = {0.1, 0.2, 0.3};
+      contact.covariance_m2(0, 1) = 2e-6;
+      contact.extent_m = {0.01, 0.02, 0.004};
+      contact.point_count = 9;
+      observation_.contacts = {contact};
+    }
+
+    Script& script_;
+    int number_ = 0;
+    int cameras_ = 0;
+    Observation observation_;
+  };
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool hold_ = false;
+  int made_ = 0;
+  std::vector<Call> calls_;
+  rgbd::RgbdCamera camera_;
+  Config config_;
+};
+
+}  // namespace palpate::perception
