@@ -45,7 +45,7 @@ std::vector<size_t> Ranking(const std::vector<double>& chi_squared) {
 
 }  // namespace
 
-ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, MarkerFitter& fitter)
+ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter)
     : config_(config), fitter_(fitter) {
   for (const fem::BodyPoint& point : model.body().feature_points) {
     candidates_.push_back({.patch = model.Patch(point.rest_m, config.candidate_patch_radius_m)});
@@ -54,7 +54,7 @@ ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, Mar
   spacing_m_ = MeanSpacing(candidates_);
 }
 
-const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
+const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
                                                  const std::vector<robot::CableCommand>& cables,
                                                  const fem::StaticState& free_state) {
   const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
@@ -63,11 +63,12 @@ const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
                    .x_m = free_state.x_m,
                    .lambda_a_N = free_state.multipliers_N,
                    .lambda_f_N = Eigen::VectorXd::Zero(0)};
-  MarkerFit untouched;
-  untouched.residual_m = Eigen::VectorXd::Zero(targets.position_m.size());
+  ForceFit untouched;
+  untouched.residual_m = Eigen::VectorXd::Zero(targets.value_m.size());
   untouched.chi_squared = fitter_.ChiSquared(targets, start, &untouched.residual_m);
   if (untouched.chi_squared > limit && KeepContacts(targets, cables, limit)) return result_;
 
+  chosen_.clear();
   result_ = {.status = Status(StatusCode::kNoContact, {}),
              .fit = std::move(untouched),
              .state = std::move(start),
@@ -91,14 +92,14 @@ const ContactSearch::Result& ContactSearch::Find(const MarkerTargets& targets,
 
 /// Fits the forces at the places of the last frame. Model errors grow with the forces, so what
 /// counts as a good fit does too.
-bool ContactSearch::KeepContacts(const MarkerTargets& targets,
+bool ContactSearch::KeepContacts(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables,
                                  double noise_limit) {
   if (!result_.status.ok() || result_.sites.empty()) return false;
   fitter_.SetSites(result_.fit_sites);
   ModelState state = result_.state;
   state.balanced = false;
-  const MarkerFit& fit = fitter_.Fit(targets, cables, &state);
+  const ForceFit& fit = fitter_.Fit(targets, cables, &state);
   if (!fit.status.ok()) return false;
   const double growth = state.lambda_f_N.squaredNorm() / (searched_force_N_ * searched_force_N_);
   const double searched = kKeepFactor * searched_chi_squared_ * std::max(1.0, growth);
@@ -108,7 +109,7 @@ bool ContactSearch::KeepContacts(const MarkerTargets& targets,
   return true;
 }
 
-Status ContactSearch::AddContact(const MarkerTargets& targets,
+Status ContactSearch::AddContact(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables) {
   fitter_.SetSites(result_.fit_sites);
   std::vector<double> chi_squared;
@@ -128,7 +129,7 @@ Status ContactSearch::AddContact(const MarkerTargets& targets,
     fitter_.SetSites(sites);
     ModelState state = start;
     state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
-    const MarkerFit& fit = fitter_.Fit(targets, cables, &state);
+    const ForceFit& fit = fitter_.Fit(targets, cables, &state);
     if (!fit.status.ok() || fit.chi_squared >= best_chi_squared) continue;
     best_chi_squared = fit.chi_squared;
     best = candidate;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/force_estimation/contact_site.hpp"
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "libs/fem/static_solver.hpp"
 
 namespace palpate::force_estimation {
@@ -20,7 +20,7 @@ class ContactSearch {
  public:
   struct Result {
     Status status;  ///< kNoContact: the markers lie where the model without contact has them
-    MarkerFit fit;
+    ForceFit fit;
     ModelState state;
     std::vector<ContactSite> sites;
     std::vector<FitSite> fit_sites;
@@ -31,23 +31,23 @@ class ContactSearch {
 
   /// `model` and `fitter` must outlive the search. Throws InputError where the robot has no feature
   /// points.
-  ContactSearch(robot::RobotModel& model, const Config& config, MarkerFitter& fitter);
+  ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter);
 
   /// `free_state`: the equilibrium without contact under these cable inputs.
-  const Result& Find(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
+  const Result& Find(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                      const fem::StaticState& free_state);
 
   const Result& result() const { return result_; }
 
  private:
-  bool KeepContacts(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables,
+  bool KeepContacts(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                     double noise_limit);
-  Status AddContact(const MarkerTargets& targets, const std::vector<robot::CableCommand>& cables);
+  Status AddContact(const RowTargets& targets, const std::vector<robot::CableCommand>& cables);
   double LocationInterval(const std::vector<double>& chi_squared, size_t best,
                           double noise_scale) const;
 
   Config config_;
-  MarkerFitter& fitter_;
+  ForceFitter& fitter_;
   std::vector<FitSite> candidates_;
   double spacing_m_ = 0.0;             ///< mean distance from a candidate to the next
   std::vector<size_t> chosen_;         ///< candidates that are contacts by now

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "components/force_estimation/contact_search.hpp"
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "components/force_estimation/marker_tare.hpp"
 #include "components/force_estimation/statistics.hpp"
 #include "libs/core/check.hpp"
@@ -33,18 +33,6 @@ double SquaredDistanceFromZero(const ContactForce& contact) {
     sum += component * component / variance;
   }
   return sum;
-}
-
-/// Standard deviation of |F|: along the force, and where there is none in the worst direction.
-double SigmaOfSize(const ContactForce& contact) {
-  const double size_N = contact.force_N.norm();
-  if (size_N > 0.0) {
-    const Eigen::Vector3d direction = contact.force_N / size_N;
-    return std::sqrt(direction.dot(contact.covariance_N2 * direction));
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.covariance_N2,
-                                                             Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
 }
 
 }  // namespace
@@ -76,7 +64,7 @@ class MarkerForceEstimator::Impl {
       marker_weight_.push_back(StandsOnContact(marker) ? config.contact_marker_weight : 1.0);
     }
     const auto rows = static_cast<Eigen::Index>(3 * model.body().markers.size());
-    targets_.position_m = targets_.weight = Eigen::VectorXd::Zero(rows);
+    targets_.value_m = targets_.weight = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
     estimate_.x_m = free_state_.x_m;
     estimate_.cables.resize(static_cast<size_t>(model.CableCount()));
@@ -108,13 +96,13 @@ class MarkerForceEstimator::Impl {
   Status Fit(const MarkerFrame& frame, const fem::TimeBudget& budget);
   Status StatusOfContacts() const;
   Status SearchSites(const MarkerFrame& frame);
-  void Publish(const MarkerFit& fit, const std::vector<FitSite>& fit_sites,
+  void Publish(const ForceFit& fit, const std::vector<FitSite>& fit_sites,
                const std::vector<ContactSite>& sites, double location_ci95_m);
-  void PublishFit(const MarkerFit& fit);
+  void PublishFit(const ForceFit& fit);
   void PublishState(const ModelState& state);
   void Withdraw();
   void HideContacts();
-  ContactForce MakeContact(const MarkerFit& fit, size_t index, double inflation) const;
+  ContactForce MakeContact(const ForceFit& fit, size_t index, double inflation) const;
 
   robot::RobotModel& model_;
   Config config_;
@@ -124,9 +112,9 @@ class MarkerForceEstimator::Impl {
   std::vector<FitSite> fit_sites_;
   std::vector<double> marker_weight_;
   MarkerTare tare_;
-  MarkerFitter fitter_;
+  ForceFitter fitter_;
   std::optional<ContactSearch> search_;
-  MarkerTargets targets_;
+  RowTargets targets_;
   double freedom_ = 0.0;         ///< coordinates used; those on a contact count by their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
   ModelState state_;             ///< last fit
@@ -188,7 +176,7 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
       const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
       const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
       targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
-      targets_.position_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
+      targets_.value_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
       if (!(targets_.weight[row + i] > 0.0)) continue;
       ++targets_.rows;
       freedom_ += marker_weight_[m];
@@ -236,7 +224,7 @@ Status MarkerForceEstimator::Impl::FitFromFreeState(const MarkerFrame& frame) {
 }
 
 Status MarkerForceEstimator::Impl::Fit(const MarkerFrame& frame, const fem::TimeBudget& budget) {
-  const MarkerFit& fit = fitter_.Fit(targets_, frame.cables, &state_, budget);
+  const ForceFit& fit = fitter_.Fit(targets_, frame.cables, &state_, budget);
   PublishFit(fit);
   return fit.status;
 }
@@ -268,7 +256,7 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
   return found.status;
 }
 
-void MarkerForceEstimator::Impl::PublishFit(const MarkerFit& fit) {
+void MarkerForceEstimator::Impl::PublishFit(const ForceFit& fit) {
   estimate_.iterations = fit.iterations;
   estimate_.frame_error = fit.error;
   estimate_.chi_squared = fit.chi_squared;
@@ -308,8 +296,7 @@ void MarkerForceEstimator::Impl::HideContacts() {
 
 /// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
 /// by its ratio (Birge), never narrowed.
-void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
-                                         const std::vector<FitSite>& fit_sites,
+void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<FitSite>& fit_sites,
                                          const std::vector<ContactSite>& sites,
                                          double location_ci95_m) {
   const ModelState& state = search_ ? search_->result().state : state_;
@@ -327,7 +314,7 @@ void MarkerForceEstimator::Impl::Publish(const MarkerFit& fit,
   }
 }
 
-ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_t index,
+ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t index,
                                                      double inflation) const {
   const ModelState& state = search_ ? search_->result().state : state_;
   const auto row = static_cast<Eigen::Index>(3 * index);
@@ -336,7 +323,7 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const MarkerFit& fit, size_
   const Eigen::Vector3d by_modulus = modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
   contact.covariance_N2 =
       inflation * fit.covariance_N2.block<3, 3>(row, row) + by_modulus * by_modulus.transpose();
-  contact.ci95_N = kSigmas95 * SigmaOfSize(contact);
+  contact.ci95_N = kSigmas95 * SigmaOfSize_N(contact.force_N, contact.covariance_N2);
   switch (fit.observability[index]) {
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});

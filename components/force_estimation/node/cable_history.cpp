@@ -58,15 +58,14 @@ Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
       samples_.begin(), samples_.end(), stamp_ns,
       [](int64_t stamp, const CableSample& sample) { return stamp < sample.stamp_ns; });
   if (after == samples_.begin()) {
-    return {StatusCode::kStale,
-            "no cable inputs on /robot/joint_states for the time of the markers"};
+    return {StatusCode::kStale, "no cable inputs on /robot/joint_states for the time of the frame"};
   }
   const CableSample& last = *std::prev(after);
   const double age_s = 1e-9 * static_cast<double>(stamp_ns - last.stamp_ns);
   if (age_s > max_age_s) {
     return {StatusCode::kStale,
             "the cable inputs are " + FormatNumber(age_s) +
-                " s older than the markers (max_cable_age_s: " + FormatNumber(max_age_s) + ")"};
+                " s older than the frame (max_cable_age_s: " + FormatNumber(max_age_s) + ")"};
   }
   *commands = Commands(last, last, 0.0);
   return Status::Ok();

@@ -39,8 +39,10 @@ double Calibrate(const std::filesystem::path& file, robot::RobotModel* model) {
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
-  app::Arguments arguments("palpate-force-estimation",
-                           "Estimates the forces on a robot from its markers and cables.");
+  app::Arguments arguments(
+      "palpate-force-estimation",
+      "Estimates the forces on a robot from its shape, or its markers, and its "
+      "cables.");
   arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
   arguments.Option("--calibration", &command.calibration,
                    "What `palpate calibrate` found for this robot");
@@ -48,11 +50,14 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   arguments.Repeated("--contact", &contacts,
                      "Where a force may act, \"name: x, y, z[, patch radius]\" in m on the "
                      "undeformed body; else the contact is searched");
+  std::string camera_pose;
+  arguments.Option("--camera-pose", &camera_pose, "Same as --set camera_pose=...");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
     return std::nullopt;
   }
+  if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
   auto& sites = command.config.contacts;
   sites.insert(sites.end(), contacts.begin(), contacts.end());
   if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");

@@ -24,13 +24,22 @@ FrameHead HeadOf(const idl::palpate_msgs::MarkerArray3& message,
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, MarkerFrame* frame);
 
+/// What perception says about a frame of the camera.
+Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message);
+
+/// Contacts of the camera's frame, in the robot's. kInvalidInput for numbers that are not finite.
+Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
+                        const Eigen::Isometry3d& T_robot_camera,
+                        std::vector<SeenContact>* contacts);
+
 /// Inputs in the order of `names`; NaN and cables that are not named count as not known.
 /// kInvalidInput for a cable that is not among `names` (with "did you mean"), or numbers that do
 /// not go with the names.
 Status FromJointState(const idl::sensor_msgs::JointState& message,
                       const std::vector<std::string>& names, CableSample* sample);
 
-/// Counters and latency are left to whoever sends it. The numbers of an unobservable force are NaN.
+/// Counters, age and latency are left to whoever sends it. The numbers of an unobservable force are
+/// NaN.
 dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
                                                          const Status& status,
                                                          const std::vector<ContactForce>& contacts);
@@ -39,7 +48,7 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
 dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
                                                          const ContactForce& contact);
 
-/// Without positions where the estimate may not be used.
+/// Without positions where the state is not known.
 dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
                                                        const std::string& mesh_hash);
 
@@ -47,7 +56,11 @@ dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64
 
 dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result);
 
-/// Whether the model's state stands: forces were found, or none were needed.
+/// Without positions: the answer to a frame that was not estimated.
+dds::Message<idl::palpate_msgs::MeshState> NoMeshState(const FrameHead& head, const Status& status,
+                                                       const std::string& mesh_hash);
+
+/// Whether an estimate may be used: forces were found, or none were needed.
 bool IsUsable(const Status& status);
 
 }  // namespace palpate::force_estimation

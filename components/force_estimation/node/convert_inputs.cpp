@@ -91,6 +91,37 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
   return Status::Ok();
 }
 
+Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message) {
+  const std::string_view word = dds::Text(message.status);
+  if (word == ToString(StatusCode::kOk)) return Status::Ok();
+  for (const StatusCode code : {StatusCode::kStale, StatusCode::kNoCalibration,
+                                StatusCode::kInvalidInput, StatusCode::kNotRun}) {
+    if (word == ToString(code)) return {code, std::string(dds::Text(message.reason))};
+  }
+  return {StatusCode::kNoRobotSeen, std::string(dds::Text(message.reason))};
+}
+
+Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
+                        const Eigen::Isometry3d& T_robot_camera,
+                        std::vector<SeenContact>* contacts) {
+  using Covariance = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  contacts->clear();
+  for (const auto& contact : dds::Elements(message.contacts)) {
+    SeenContact seen;
+    seen.name = dds::Text(contact.name);
+    seen.position_m = {contact.position_m.x, contact.position_m.y, contact.position_m.z};
+    seen.covariance_m2 = Eigen::Map<const Covariance>(contact.position_covariance_m2);
+    seen.extent_m = {contact.extent_m.x, contact.extent_m.y, contact.extent_m.z};
+    seen.point_count = static_cast<int>(contact.point_count);
+    if (!seen.position_m.allFinite() || !seen.covariance_m2.allFinite() ||
+        !seen.extent_m.allFinite()) {
+      return Invalid("contact '" + seen.name + "' is not finite");
+    }
+    contacts->push_back(InRobotFrame(seen, T_robot_camera));
+  }
+  return Status::Ok();
+}
+
 Status FromJointState(const idl::sensor_msgs::JointState& message,
                       const std::vector<std::string>& names, CableSample* sample) {
   if (!FitsNames(message.position, message) || !FitsNames(message.effort, message)) {

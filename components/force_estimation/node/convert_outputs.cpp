@@ -23,7 +23,7 @@ void Fill(const ModelGapPart& part, palpate_msgs_msg_dds__ModelGapPart_& target)
   dds::SetText(target.name, part.name);
   target.residual_rms_m = part.residual_rms_m;
   target.noise_rms_m = part.noise_rms_m;
-  target.sample_count = static_cast<uint32_t>(part.marker_count);
+  target.sample_count = static_cast<uint32_t>(part.sample_count);
 }
 
 template <typename Sequence>
@@ -73,14 +73,19 @@ dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
 
 dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
                                                        const std::string& mesh_hash) {
-  dds::Message<idl::palpate_msgs::MeshState> message;
-  SetHeader(message->header, result.head.stamp_ns);
-  dds::SetText(message->mesh_hash, mesh_hash);
-  const bool usable = IsUsable(result.estimate.status);
-  const StatusCode code = usable ? StatusCode::kOk : result.estimate.status.code();
-  dds::SetText(message->status, ToString(code));
+  auto message = NoMeshState(result.head, result.state, mesh_hash);
+  if (!result.state_is_known) return message;
   const Eigen::VectorXd& x_m = result.estimate.x_m;
-  if (usable) dds::SetNumbers(message->positions_m, x_m.data(), static_cast<size_t>(x_m.size()));
+  dds::SetNumbers(message->positions_m, x_m.data(), static_cast<size_t>(x_m.size()));
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::MeshState> NoMeshState(const FrameHead& head, const Status& status,
+                                                       const std::string& mesh_hash) {
+  dds::Message<idl::palpate_msgs::MeshState> message;
+  SetHeader(message->header, head.stamp_ns);
+  dds::SetText(message->mesh_hash, mesh_hash);
+  dds::SetText(message->status, ToString(status.code()));
   return message;
 }
 
@@ -95,7 +100,7 @@ dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result) 
   SetHeader(message->header, result.head.stamp_ns);
   message->residual_rms_m = result.gap.whole.residual_rms_m;
   message->noise_rms_m = result.gap.whole.noise_rms_m;
-  message->sample_count = static_cast<uint32_t>(result.gap.whole.marker_count);
+  message->sample_count = static_cast<uint32_t>(result.gap.whole.sample_count);
   Fill(result.gap.regions, message->regions);
   Fill(result.gap.cables, message->cables);
   return message;

@@ -24,7 +24,7 @@ FrameGate::Verdict FrameGate::Judge(const FrameHead& head) {
 Status FrameGate::CheckAge(const FrameHead& head, int64_t now_ns, double max_age_s) {
   const double age_s = 1e-9 * static_cast<double>(now_ns - head.stamp_ns);
   if (max_age_s == 0.0 || age_s <= max_age_s) return Status::Ok();
-  return {StatusCode::kStale, "the markers are " + FormatNumber(age_s) +
+  return {StatusCode::kStale, "the frame is " + FormatNumber(age_s) +
                                   " s old (max_age_s: " + FormatNumber(max_age_s) + ")"};
 }
 

@@ -6,13 +6,16 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/force_estimation/node/model_gap.hpp"
+#include "components/force_estimation/shape/shape_frame.hpp"
 
 namespace palpate::force_estimation {
 
-/// Which marker frame something belongs to.
+/// Which frame something belongs to.
 struct FrameHead {
   int64_t stamp_ns = 0;
   uint64_t counter = 0;
@@ -20,11 +23,27 @@ struct FrameHead {
   std::chrono::steady_clock::time_point taken;  ///< when it was taken from DDS
 };
 
-/// A marker frame on its way to the estimator.
+/// What a depth camera sees of the robot.
+struct SeenShape {
+  ShapeFrame frame;
+  Status looked;  ///< what perception says about the frame
+};
+
+/// A frame on its way to the estimator.
 struct FrameInput {
   FrameHead head;
   bool new_sequence = false;  ///< what was learnt from earlier frames is void
-  MarkerFrame frame;
+  std::variant<MarkerFrame, SeenShape> frame;
+
+  std::vector<robot::CableCommand>& cables() {
+    if (auto* shape = std::get_if<SeenShape>(&frame)) return shape->frame.cables;
+    return std::get<MarkerFrame>(frame).cables;
+  }
+  /// Whether a newer frame may take its place.
+  bool overtakable() const {
+    const auto* markers = std::get_if<MarkerFrame>(&frame);
+    return !new_sequence && (!markers || markers->reference == ReferenceShape::kNone);
+  }
 };
 
 /// What came of it.
@@ -32,6 +51,8 @@ struct FrameResult {
   FrameHead head;
   ForceEstimate estimate;
   ModelGapReport gap;
+  bool state_is_known = false;  ///< estimate.x_m may be shown to others
+  Status state;                 ///< ok: x_m is where the robot is believed to be
 };
 
 }  // namespace palpate::force_estimation

@@ -7,8 +7,14 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "components/force_estimation/node/frame_gate.hpp"
+#include "components/force_estimation/node/marker_source.hpp"
+#include "components/force_estimation/node/shape_source.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::force_estimation {
 
@@ -23,6 +29,13 @@ robot::CableInput PreferredInput(const NodeConfig& config) {
                                               : robot::CableInput::kTension;
 }
 
+Eigen::Isometry3d CameraPose(const NodeConfig& config) {
+  if (config.camera_pose.empty()) {
+    throw InputError("camera_pose is required for source=shape: where is the camera?");
+  }
+  return geometry::ReadPose(app::ParseYaml(config.camera_pose, "camera_pose"));
+}
+
 double SecondsSince(dds::WaitSet::Clock::time_point then) {
   return std::chrono::duration<double>(dds::WaitSet::Clock::now() - then).count();
 }
@@ -33,25 +46,50 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
                                          std::unique_ptr<robot::RobotModel> model,
                                          double youngs_modulus_relative_sigma, int domain_id,
                                          dds::TopicTable table,
-                                         dds::NodeLog::ProcessLog process_log)
+                                         dds::NodeLog::ProcessLog process_log,
+                                         FrameEstimatorMaker maker)
     : config_(config),
       participant_(dds::ParticipantOf(config.dds, "palpate_force_estimation", domain_id),
                    std::move(table)),
       loop_(participant_),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
-      worker_(std::move(model), config, youngs_modulus_relative_sigma, [this] { loop_.Wake(); }),
-      marker_names_(worker_.model().MarkerNames()),
+      worker_(std::move(model),
+              maker ? std::move(maker) : EstimatorMakerOf(config, youngs_modulus_relative_sigma),
+              [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
-      outputs_(participant_, worker_.model().body()),
+      outputs_(participant_, worker_.model().body(), IsFromShape(config)),
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
-      markers_(participant_.CreateReader(dds::kMarkersTopic)) {
+      source_(MakeSource()) {
+  last_status_ = {StatusCode::kNotRun, "no " + source_->name() + " on /perception/" +
+                                           (IsFromShape(config) ? "robot_cloud" : "markers") +
+                                           " yet"};
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
-  loop_.Attach(markers_, [this] { TakeMarkers(); });
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kCablePeriod, [this] { MatchWithCables(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
+}
+
+std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
+  FrameEvents events;
+  events.came = [this] {
+    ++counts_.received;
+    last_frame_ = Clock::now();
+  };
+  events.sequence = [this](bool time_went_back, bool anew) {
+    cables_.BeginSequence(time_went_back);
+    sequence_pending_ = sequence_pending_ || anew;
+  };
+  events.accepted = [this](FrameInput input) { Accept(std::move(input)); };
+  events.refused = [this](const FrameHead& head, const Status& status) { Refuse(head, status); };
+  events.repeated = [this](const FrameHead& head) { outputs_.Repeat(head); };
+  if (IsFromShape(config_)) {
+    return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_),
+                                         std::move(events));
+  }
+  return std::make_unique<MarkerSource>(participant_, loop_, worker_.model().MarkerNames(),
+                                        std::move(events));
 }
 
 void ForceEstimationNode::TakeJointStates() {
@@ -68,29 +106,8 @@ void ForceEstimationNode::TakeJointStates() {
   MatchWithCables();
 }
 
-void ForceEstimationNode::TakeMarkers() {
-  for (const auto& message : markers_.Take()) Accept(message);
-  MatchWithCables();
-}
-
-void ForceEstimationNode::Accept(const idl::palpate_msgs::MarkerArray3& message) {
-  ++counts_.received;
-  last_frame_ = Clock::now();
-  FrameInput input{HeadOf(message, last_frame_), false, {}};
-  using Verdict = FrameGate::Verdict;
-  const Verdict verdict = gate_.Judge(input.head);
-  if (verdict == Verdict::kRepeated) return outputs_.Repeat(input.head);
-  if (verdict == Verdict::kStale) {
-    return Refuse(input.head, {StatusCode::kStale, "the stamp is not newer than the last one's"});
-  }
-  if (verdict != Verdict::kNext) {
-    cables_.BeginSequence(verdict == Verdict::kTimeWentBack);
-    sequence_pending_ = true;
-  }
-  Status status = FromMarkerArray(message, marker_names_, &input.frame);
-  if (status.ok()) {
-    status = FrameGate::CheckAge(input.head, dds::WallClockNs(), config_.max_age_s);
-  }
+void ForceEstimationNode::Accept(FrameInput input) {
+  const Status status = FrameGate::CheckAge(input.head, dds::WallClockNs(), config_.max_age_s);
   if (!status.ok()) return Refuse(input.head, status);
   input.new_sequence = std::exchange(sequence_pending_, false);
   if (pending_.size() == kMostPending) {
@@ -98,13 +115,14 @@ void ForceEstimationNode::Accept(const idl::palpate_msgs::MarkerArray3& message)
     ++counts_.dropped;
   }
   pending_.push_back(std::move(input));
+  MatchWithCables();
 }
 
 void ForceEstimationNode::Refuse(const FrameHead& head, const Status& status) {
   ++counts_.refused;
   last_status_ = status;
   if (std::exchange(last_refusal_, status.message()) != status.message()) {
-    log_.Write(Severity::kWarning, "markers refused: " + status.message());
+    log_.Write(Severity::kWarning, source_->name() + " refused: " + status.message());
   }
   outputs_.PublishRefusal(head, status);
 }
@@ -132,11 +150,11 @@ void ForceEstimationNode::PassOnNewSequence() {
 /// False: they may still come.
 bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
   if (auto commands = cables_.At(input.head.stamp_ns)) {
-    input.frame.cables = std::move(*commands);
+    input.cables() = std::move(*commands);
     return true;
   }
   if (SecondsSince(input.head.taken) < config_.cable_wait_s) return false;
-  *status = cables_.LastBefore(input.head.stamp_ns, config_.max_cable_age_s, &input.frame.cables);
+  *status = cables_.LastBefore(input.head.stamp_ns, config_.max_cable_age_s, &input.cables());
   return true;
 }
 
@@ -150,19 +168,25 @@ void ForceEstimationNode::PublishResults() {
 void ForceEstimationNode::ReportHealth() {
   dds::HealthCounts counts = counts_;
   counts.published = outputs_.published();
-  counts.dropped += gate_.lost() + worker_.dropped() + outputs_.failed();
+  counts.dropped += source_->dropped() + worker_.dropped() + outputs_.failed();
   counts.latencies_s = outputs_.TakeLatencies();
-  health_.Report(CurrentStatus(), counts,
+  const Status status = CurrentStatus();
+  if (IsFromShape(config_) && IsSilent()) outputs_.PublishSilence(status);
+  health_.Report(status, counts,
                  {{"readers_of_forces", std::to_string(outputs_.readers())},
-                  {"writers_of_markers", std::to_string(markers_.matched())},
-                  {"incompatible_qos", std::to_string(markers_.counters().incompatible_qos)}},
+                  {"writers_of_" + source_->name(), std::to_string(source_->writers())},
+                  {"incompatible_qos", std::to_string(source_->incompatible_qos())}},
                  Clock::now());
 }
 
+bool ForceEstimationNode::IsSilent() const {
+  return counts_.received > 0 && SecondsSince(last_frame_) > config_.silence_s;
+}
+
 Status ForceEstimationNode::CurrentStatus() const {
-  if (counts_.received > 0 && SecondsSince(last_frame_) > config_.silence_s) {
-    return {StatusCode::kStale,
-            "no markers for " + FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
+  if (IsSilent()) {
+    return {StatusCode::kStale, "no " + source_->name() + " for " +
+                                    FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
   }
   const bool usable = IsUsable(last_status_) || last_status_.code() == StatusCode::kNoCalibration;
   return usable ? Status::Ok() : last_status_;

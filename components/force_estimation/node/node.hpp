@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/force_estimation/node/cable_history.hpp"
-#include "components/force_estimation/node/frame_gate.hpp"
+#include "components/force_estimation/node/frame_source.hpp"
 #include "components/force_estimation/node/node_config.hpp"
 #include "components/force_estimation/node/outputs.hpp"
 #include "components/force_estimation/node/worker.hpp"
@@ -19,14 +19,16 @@
 
 namespace palpate::force_estimation {
 
-/// Takes markers and cable inputs, runs the estimator, publishes forces and the model's state.
-/// Each marker frame that the estimator took, or that was refused, is answered on /forces.
+/// Takes frames (of markers, or of the robot's shape) and cable inputs, runs the estimator,
+/// publishes forces and the model's state. Each frame that the estimator took, or that was refused,
+/// is answered on /forces.
 class ForceEstimationNode {
  public:
-  /// Throws InputError for bad settings, RunError where DDS refuses.
+  /// `maker`: what estimates; empty: what the settings say. Throws InputError for bad settings,
+  /// RunError where DDS refuses.
   ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
                       double youngs_modulus_relative_sigma, int domain_id, dds::TopicTable table,
-                      dds::NodeLog::ProcessLog process_log);
+                      dds::NodeLog::ProcessLog process_log, FrameEstimatorMaker maker = {});
 
   /// Works until Stop().
   void Run() { loop_.Run(); }
@@ -37,14 +39,15 @@ class ForceEstimationNode {
   using Clock = dds::WaitSet::Clock;
 
   void TakeJointStates();
-  void TakeMarkers();
-  void Accept(const idl::palpate_msgs::MarkerArray3& message);
+  std::unique_ptr<FrameSource> MakeSource();
+  void Accept(FrameInput input);
   void Refuse(const FrameHead& head, const Status& status);
   void MatchWithCables();
   void PassOnNewSequence();
   bool FindCables(FrameInput& input, Status* status) const;
   void PublishResults();
   void ReportHealth();
+  bool IsSilent() const;
   Status CurrentStatus() const;
 
   NodeConfig config_;
@@ -53,19 +56,17 @@ class ForceEstimationNode {
   dds::NodeLog log_;
   dds::HealthReporter health_;
   Worker worker_;
-  std::vector<std::string> marker_names_;
   std::vector<std::string> cable_names_;
   CableHistory cables_;
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;
-  dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
-  FrameGate gate_;
   std::deque<FrameInput> pending_;  ///< wait for the cable inputs of their time
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
   dds::HealthCounts counts_;
-  Status last_status_{StatusCode::kNotRun, "no markers on /perception/markers yet"};
+  Status last_status_;
   Clock::time_point last_frame_;
   std::string last_refusal_;
+  std::unique_ptr<FrameSource> source_;
 };
 
 }  // namespace palpate::force_estimation

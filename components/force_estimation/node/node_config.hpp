@@ -6,12 +6,16 @@
 #include <string>
 
 #include "components/force_estimation/config.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
 #include "libs/dds/node_settings.hpp"
 
 namespace palpate::force_estimation {
 
-/// Settings of the process: those of the estimator, and those of its inputs and its DDS side.
+/// Settings of the process: those of the estimators, and those of its inputs and its DDS side.
 struct NodeConfig : Config {
+  ShapeConfig shape;
+  std::string source = "auto";
+  std::string camera_pose;
   std::string cable_input = "displacement";
   double max_age_s = 0.0;
   double cable_wait_s = 0.5;
@@ -22,17 +26,24 @@ struct NodeConfig : Config {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     Config::Visit(v);
+    v("shape", shape, "Forces from the robot's shape");
+    v("source", source, {"auto", "markers", "shape"},
+      "What forces are estimated from; auto: the shape where camera_pose is given, else markers");
+    v("camera_pose", camera_pose,
+      "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
+      "w]}\"; needed for the shape");
     v("cable_input", cable_input, {"displacement", "tension"},
       "Which input of a cable is imposed where both are known");
     v("max_age_s", max_age_s, {.min = 0.0},
-      "Marker frames older than this by the system clock are refused; 0: stamps are not compared "
-      "with it (recordings)");
+      "Frames older than this by the system clock are refused; 0: stamps are not compared with it "
+      "(recordings)");
     v("cable_wait_s", cable_wait_s, {.min = 0.0},
-      "How long a marker frame waits for the cable inputs of its time");
+      "How long a frame waits for the cable inputs of its time");
     v("max_cable_age_s", max_cable_age_s, {.min = 0.0},
-      "After that wait, cable inputs may be older than the markers by so much");
+      "After that wait, cable inputs may be older than the frame by so much");
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
-      "Without markers for so long the component reports itself stale");
+      "Without frames for so long the component reports itself stale; from the shape /forces says "
+      "so too, once a second");
     v("dds", dds, "DDS side");
   }
 };

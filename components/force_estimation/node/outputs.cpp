@@ -15,9 +15,10 @@ namespace {
 constexpr size_t kMostWrenches = 64;
 }  // namespace
 
-Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body)
+Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always)
     : participant_(participant),
       body_(body),
+      answer_always_(answer_always),
       forces_(participant.CreateWriter(dds::kForcesTopic)),
       mesh_state_(participant.CreateWriter(dds::kMeshStateTopic)),
       mesh_(participant.CreateWriter(dds::kMeshTopic)),
@@ -27,33 +28,49 @@ Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body)
 
 void Outputs::Publish(const FrameResult& result) {
   const ForceEstimate& estimate = result.estimate;
-  if (estimate.status.code() != StatusCode::kNoCalibration) {
-    auto mesh_state = ToMeshState(result, body_.mesh_hash);
-    mesh_state->counter = mesh_state_counter_++;
-    failed_ += mesh_state_.Write(mesh_state) ? 0 : 1;
+  const bool tried = estimate.status.code() != StatusCode::kNoCalibration;
+  if (tried || answer_always_) SendMeshState(ToMeshState(result, body_.mesh_hash));
+  if (tried) {
     auto gap = ToModelGap(result);
     gap->counter = model_gap_counter_++;
     failed_ += model_gap_.Write(gap) ? 0 : 1;
   }
   for (const ContactForce& contact : estimate.contacts) {
-    if (IsUsable(contact.status)) PublishWrench(result.head.stamp_ns, contact);
+    const bool hidden = contact.status.code() == StatusCode::kHidden;
+    if (IsUsable(contact.status) || hidden) PublishWrench(result.head.stamp_ns, contact);
   }
   Answer(result.head, ToForceArray(result.head, estimate.status, estimate.contacts));
 }
 
 void Outputs::PublishRefusal(const FrameHead& head, const Status& status) {
+  if (answer_always_) SendMeshState(NoMeshState(head, status, body_.mesh_hash));
   Answer(head, ToForceArray(head, status, {}));
 }
 
+void Outputs::PublishSilence(const Status& status) {
+  auto message = ToForceArray(last_head_, status, {});
+  Send(last_head_, message);
+}
+
 void Outputs::Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray> message) {
-  message->counter = forces_counter_++;
-  message->latency_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - head.taken).count();
+  Send(head, message);
   latencies_s_.push_back(message->latency_s);
-  failed_ += forces_.Write(message) ? 0 : 1;
   last_head_ = head;
   last_forces_ = std::move(message);
   answered_ = true;
+}
+
+void Outputs::Send(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray>& message) {
+  message->counter = forces_counter_++;
+  message->age_s = 1e-9 * static_cast<double>(dds::WallClockNs() - head.stamp_ns);
+  message->latency_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - head.taken).count();
+  failed_ += forces_.Write(message) ? 0 : 1;
+}
+
+void Outputs::SendMeshState(dds::Message<idl::palpate_msgs::MeshState> message) {
+  message->counter = mesh_state_counter_++;
+  failed_ += mesh_state_.Write(message) ? 0 : 1;
 }
 
 void Outputs::Repeat(const FrameHead& head) {

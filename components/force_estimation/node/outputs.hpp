@@ -15,12 +15,16 @@ namespace palpate::force_estimation {
 /// The writers of the node. All calls come from the node's loop.
 class Outputs {
  public:
-  /// Sends the mesh, which stays there for late joiners. `body` must outlive this.
-  Outputs(dds::Participant& participant, const robot::RobotBody& body);
+  /// Sends the mesh, which stays there for late joiners. `body` must outlive this. `answer_always`:
+  /// every frame is answered on /robot/mesh_state, too, without positions if need be; else only
+  /// those that an estimate was tried for.
+  Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always);
 
   void Publish(const FrameResult& result);
   /// Says on /forces why there is no estimate for a frame.
   void PublishRefusal(const FrameHead& head, const Status& status);
+  /// Says on /forces that nothing has come since the last answer.
+  void PublishSilence(const Status& status);
   /// Sends the last answer again where it is the one to `head`.
   void Repeat(const FrameHead& head);
 
@@ -33,10 +37,13 @@ class Outputs {
 
  private:
   void Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray> message);
+  void Send(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray>& message);
+  void SendMeshState(dds::Message<idl::palpate_msgs::MeshState> message);
   void PublishWrench(int64_t stamp_ns, const ContactForce& contact);
 
   dds::Participant& participant_;
   const robot::RobotBody& body_;
+  bool answer_always_;
   dds::Writer<idl::palpate_msgs::ForceArray> forces_;
   dds::Writer<idl::palpate_msgs::MeshState> mesh_state_;
   dds::Writer<idl::palpate_msgs::Mesh> mesh_;

@@ -12,16 +12,14 @@ constexpr size_t kMostFrames = 1024;
 constexpr size_t kMostResults = 128;
 }  // namespace
 
-Worker::Worker(std::unique_ptr<robot::RobotModel> model, const NodeConfig& config,
-               double youngs_modulus_relative_sigma, std::function<void()> on_result)
+Worker::Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker maker,
+               std::function<void()> on_result)
     : model_(std::move(model)),
-      config_(config),
-      modulus_sigma_(youngs_modulus_relative_sigma),
+      maker_(std::move(maker)),
       on_result_(std::move(on_result)),
-      gap_meter_(model_->body(), config.marker_sigma_m, config.marker_bias_m),
+      estimator_(maker_(*model_)),
       frames_(kMostFrames),
       results_(kMostResults) {
-  MakeEstimator();
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -31,21 +29,16 @@ Worker::~Worker() {
 }
 
 void Worker::Push(FrameInput input) {
-  const bool overtakable = input.frame.reference == ReferenceShape::kNone && !input.new_sequence;
+  const bool overtakable = input.overtakable();
   frames_.Push(std::move(input), overtakable);
 }
 
 void Worker::Run() {
-  while (const std::optional<FrameInput> input = frames_.Pop()) {
-    if (input->new_sequence) MakeEstimator();
-    const ForceEstimate& estimate = estimator_->Update(input->frame);
-    results_.Push({input->head, estimate, gap_meter_.Measure(input->frame, estimate)}, false);
+  while (std::optional<FrameInput> input = frames_.Pop()) {
+    if (input->new_sequence) estimator_ = maker_(*model_);
+    results_.Push(estimator_->Update(*input), false);
     on_result_();
   }
-}
-
-void Worker::MakeEstimator() {
-  estimator_ = std::make_unique<MarkerForceEstimator>(*model_, config_, modulus_sigma_);
 }
 
 }  // namespace palpate::force_estimation

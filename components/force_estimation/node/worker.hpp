@@ -7,9 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "components/force_estimation/node/frame_estimator.hpp"
 #include "components/force_estimation/node/frame_input.hpp"
-#include "components/force_estimation/node/hand_over.hpp"
-#include "components/force_estimation/node/node_config.hpp"
+#include "libs/core/hand_over.hpp"
 
 namespace palpate::force_estimation {
 
@@ -17,10 +17,9 @@ namespace palpate::force_estimation {
 /// overtakes older ones, except those with a reference shape.
 class Worker {
  public:
-  /// `on_result` is called from that thread when a result waits. Throws InputError for settings
-  /// that do not fit the robot.
-  Worker(std::unique_ptr<robot::RobotModel> model, const NodeConfig& config,
-         double youngs_modulus_relative_sigma, std::function<void()> on_result);
+  /// `on_result` is called from that thread when a result waits. Throws what `maker` throws.
+  Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker maker,
+         std::function<void()> on_result);
   ~Worker();
 
   const robot::RobotModel& model() const { return *model_; }
@@ -30,14 +29,11 @@ class Worker {
 
  private:
   void Run();
-  void MakeEstimator();
 
   std::unique_ptr<robot::RobotModel> model_;
-  NodeConfig config_;
-  double modulus_sigma_;
+  FrameEstimatorMaker maker_;
   std::function<void()> on_result_;
-  ModelGapMeter gap_meter_;
-  std::unique_ptr<MarkerForceEstimator> estimator_;
+  std::unique_ptr<FrameEstimator> estimator_;
   HandOver<FrameInput> frames_;
   HandOver<FrameResult> results_;
   std::thread thread_;

@@ -131,11 +131,12 @@ TEST(EstimationConvert, AnUnobservableForceIsNotANumber) {
 TEST(EstimationConvert, AMeshStateThatMayNotBeUsedHasNoPositions) {
   FrameResult result;
   result.estimate.x_m = Eigen::VectorXd::Constant(6, 0.5);
-  result.estimate.status = Status(StatusCode::kNotConverged, "");
+  result.state = Status(StatusCode::kNotConverged, "");
   const auto failed = ToMeshState(result, "hash");
   EXPECT_EQ(failed->positions_m._length, 0u);
   EXPECT_EQ(dds::Text(failed->status), "not_converged");
-  result.estimate.status = Status(StatusCode::kNoContact, "");
+  result.state = Status::Ok();
+  result.state_is_known = true;
   const auto good = ToMeshState(result, "hash");
   ASSERT_EQ(good->positions_m._length, 6u);
   EXPECT_EQ(good->positions_m._buffer[5], 0.5f);
@@ -165,17 +166,17 @@ TEST(ModelGapMeter, SplitsTheResidualOverTheMarkersThatWereSeen) {
   estimate.marker_residual_m = Eigen::VectorXd::Zero(9);
   estimate.marker_residual_m.head<3>() << 0.003, 0.0, 0.0;
   const ModelGapReport report = meter.Measure(frame, estimate);
-  EXPECT_EQ(report.whole.marker_count, 2);
+  EXPECT_EQ(report.whole.sample_count, 2);
   EXPECT_DOUBLE_EQ(report.whole.residual_rms_m, 0.003 / std::sqrt(6.0));
   EXPECT_DOUBLE_EQ(report.whole.noise_rms_m, 1e-3);
   ASSERT_EQ(report.regions.size(), 1u);
   EXPECT_EQ(report.regions[0].name, "body");
   ASSERT_EQ(report.cables.size(), 1u);
   EXPECT_EQ(report.cables[0].name, "top");
-  EXPECT_EQ(report.cables[0].marker_count, 2);
+  EXPECT_EQ(report.cables[0].sample_count, 2);
 
   estimate.status = Status(StatusCode::kNotConverged, "");
-  EXPECT_EQ(meter.Measure(frame, estimate).whole.marker_count, 0);
+  EXPECT_EQ(meter.Measure(frame, estimate).whole.sample_count, 0);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "libs/robot/frame_tracker.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
@@ -19,12 +19,12 @@ using test_support::RandomLoading;
 /// static solver once in each iteration.
 constexpr double kLooks = 60.0;
 
-MarkerTargets NoisyTargets(const robot::RobotModel& model, const fem::StaticState& truth,
-                           std::mt19937& random) {
+RowTargets NoisyTargets(const robot::RobotModel& model, const fem::StaticState& truth,
+                        std::mt19937& random) {
   constexpr double kSigma_m = 1e-4;
-  MarkerTargets targets = test_support::ExactTargets(model, truth.x_m, kSigma_m);
+  RowTargets targets = test_support::ExactTargets(model, truth.x_m, kSigma_m);
   for (int row = 0; row < targets.rows; row += 3) {
-    targets.position_m.segment<3>(row) += NormalNoise(kSigma_m, random);
+    targets.value_m.segment<3>(row) += NormalNoise(kSigma_m, random);
   }
   return targets;
 }
@@ -48,7 +48,7 @@ double ResidualOf(robot::RobotModel& model, const fem::NodeWeights& patch,
 
 /// Fits the frames of one loading, each from what came of the one before.
 void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
-                const fem::StaticState& at_rest, MarkerFitter* fitter, FrameTally* tally) {
+                const fem::StaticState& at_rest, ForceFitter* fitter, FrameTally* tally) {
   const fem::SurfacePatch patch = model.Patch(loading.point_m, loading.patch_radius_m);
   fitter->SetSites({{.patch = patch}});
   robot::FrameTracker truth(model, {.relative_tolerance = 1e-9});
@@ -70,7 +70,7 @@ void FitLoading(robot::RobotModel& model, const RandomLoading& loading,
     double looks = 0.0;
     const fem::TimeBudget budget(kLooks, [&looks] { return looks += 1.0; });
     state.balanced = false;
-    const MarkerFit& fit =
+    const ForceFit& fit =
         fitter->Fit(NoisyTargets(model, truth.state(), random), loading.Cables(k), &state, budget);
     ASSERT_TRUE(IsFinite(state)) << "frame " << k;
     if (fit.status.ok()) {
@@ -95,7 +95,7 @@ void FitLoadings(const std::string& name, const robot::RobotDescription& robot, 
   ASSERT_TRUE(model.Solve(slack, {}, &at_rest).status.ok());
   Config config;
   config.frame_tolerance = 1e-8;
-  MarkerFitter fitter(model, config);
+  ForceFitter fitter(model, config);
   const test_support::LoadingRange range = test_support::LoadingsToRun(by_default);
   FrameTally tally;
   for (int index = range.first; index < range.end; ++index) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
@@ -61,7 +61,7 @@ class Sweep {
         0.15 * std::cos(0.25 * frame), -0.1 * std::sin(0.2 * frame);
     return forces_N;
   }
-  MarkerTargets Targets() const { return test_support::ExactTargets(model_, truth_.x_m, 1e-4); }
+  RowTargets Targets() const { return test_support::ExactTargets(model_, truth_.x_m, 1e-4); }
   ModelState Start() const {
     return {.valid = true,
             .balanced = true,
@@ -93,12 +93,12 @@ void ExpectConvergenceInFourSteps(const robot::RobotDescription& robot) {
   Sweep sweep(robot);
   Config config;
   config.frame_tolerance = 1e-8;
-  MarkerFitter fitter(sweep.model(), config);
+  ForceFitter fitter(sweep.model(), config);
   fitter.SetSites(sweep.sites());
   ModelState state = sweep.Start();
   for (int frame = 1; frame <= Sweep::kFrames; ++frame) {
     sweep.Solve(frame);
-    const MarkerFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
+    const ForceFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
     ASSERT_TRUE(fit.status.ok()) << frame << ' ' << ToString(fit.status.code());
     EXPECT_LE(fit.iterations, 4) << frame;
     EXPECT_EQ(fit.restorations, 0) << frame;
@@ -111,13 +111,13 @@ void ExpectSmallErrorWithOneStepAFrame(const robot::RobotDescription& robot) {
   Config config;
   config.frame_tolerance = 1e-8;
   config.max_iterations = 1;
-  MarkerFitter fitter(sweep.model(), config);
+  ForceFitter fitter(sweep.model(), config);
   fitter.SetSites(sweep.sites());
   ModelState state = sweep.Start();
   std::vector<double> errors_m;
   for (int frame = 1; frame <= Sweep::kFrames; ++frame) {
     sweep.Solve(frame);
-    const MarkerFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
+    const ForceFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
     ASSERT_TRUE(fit.status.ok() || fit.status.code() == StatusCode::kBudgetReached) << frame;
     EXPECT_EQ(fit.iterations, 1);
     errors_m.push_back(sweep.MedianError_m(state));
@@ -126,23 +126,23 @@ void ExpectSmallErrorWithOneStepAFrame(const robot::RobotDescription& robot) {
   EXPECT_LE(errors_m[errors_m.size() / 2], 0.03e-3);
 }
 
-TEST(MarkerFitterSweep, ConvergesOnTheDiamondInFourSteps) {
+TEST(ForceFitterSweep, ConvergesOnTheDiamondInFourSteps) {
   const auto robot = test_support::DiamondRobot();
   if (!robot) GTEST_SKIP() << "the paper's mesh is not there (PALPATE_DATA_DIR)";
   ExpectConvergenceInFourSteps(*robot);
 }
 
-TEST(MarkerFitterSweep, ConvergesOnOurRobotInFourSteps) {
+TEST(ForceFitterSweep, ConvergesOnOurRobotInFourSteps) {
   ExpectConvergenceInFourSteps(test_support::FourLegRobot());
 }
 
-TEST(MarkerFitterSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
+TEST(ForceFitterSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
   const auto robot = test_support::DiamondRobot();
   if (!robot) GTEST_SKIP() << "the paper's mesh is not there (PALPATE_DATA_DIR)";
   ExpectSmallErrorWithOneStepAFrame(*robot);
 }
 
-TEST(MarkerFitterSweep, OneStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
+TEST(ForceFitterSweep, OneStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
   ExpectSmallErrorWithOneStepAFrame(test_support::FourLegRobot());
 }
 

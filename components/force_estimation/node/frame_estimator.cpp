@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/node/frame_estimator.hpp"
+
+#include "components/force_estimation/node/convert.hpp"
+#include "components/force_estimation/shape/shape_force_estimator.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+class FromMarkers : public FrameEstimator {
+ public:
+  FromMarkers(robot::RobotModel& model, const NodeConfig& config, double modulus_sigma)
+      : estimator_(model, config, modulus_sigma),
+        gap_(model.body(), config.marker_sigma_m, config.marker_bias_m) {}
+
+  FrameResult Update(FrameInput& input) override {
+    const MarkerFrame& frame = std::get<MarkerFrame>(input.frame);
+    const ForceEstimate& estimate = estimator_.Update(frame);
+    const bool usable = IsUsable(estimate.status);
+    return {input.head, estimate, gap_.Measure(frame, estimate), usable,
+            usable ? Status::Ok() : estimate.status};
+  }
+
+ private:
+  MarkerForceEstimator estimator_;
+  ModelGapMeter gap_;
+};
+
+/// As `palpate estimate` does with recorded images: the first frames of a sequence in which the
+/// robot was seen are known to be untouched; where it was not seen, perception knows why.
+class FromShape : public FrameEstimator {
+ public:
+  FromShape(robot::RobotModel& model, const NodeConfig& config, double modulus_sigma)
+      : untouched_frames_(config.shape.untouched_frames),
+        estimator_(model, config, config.shape, modulus_sigma),
+        gap_(model.body()) {}
+
+  FrameResult Update(FrameInput& input) override {
+    auto& seen = std::get<SeenShape>(input.frame);
+    seen.frame.untouched = seen_ < untouched_frames_;
+    seen_ += seen.looked.ok() ? 1 : 0;
+    FrameResult result{input.head, estimator_.Update(seen.frame), {}, false, {}};
+    Status& status = result.estimate.status;
+    result.gap = gap_.Measure(estimator_.features(), status);
+    result.state_is_known = PredictsShape(result.estimate);
+    // While the depth bias is learnt there are no forces, but the model is where the robot is.
+    const bool stands = IsUsable(status) || status.code() == StatusCode::kNoCalibration;
+    result.state = result.state_is_known && stands ? Status::Ok() : status;
+    if (!seen.looked.ok() && status.code() == StatusCode::kNoRobotSeen) status = seen.looked;
+    return result;
+  }
+
+ private:
+  int untouched_frames_;
+  int seen_ = 0;
+  ShapeForceEstimator estimator_;
+  FeatureGapMeter gap_;
+};
+
+}  // namespace
+
+bool IsFromShape(const NodeConfig& config) {
+  return config.source == "shape" || (config.source == "auto" && !config.camera_pose.empty());
+}
+
+FrameEstimatorMaker EstimatorMakerOf(const NodeConfig& config,
+                                     double youngs_modulus_relative_sigma) {
+  const double sigma = youngs_modulus_relative_sigma;
+  if (!IsFromShape(config)) {
+    return [config, sigma](robot::RobotModel& model) {
+      return std::make_unique<FromMarkers>(model, config, sigma);
+    };
+  }
+  return [config, sigma](robot::RobotModel& model) {
+    return std::make_unique<FromShape>(model, config, sigma);
+  };
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "components/force_estimation/node/frame_input.hpp"
+#include "components/force_estimation/node/node_config.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// What the worker runs on each frame of a sequence.
+class FrameEstimator {
+ public:
+  virtual ~FrameEstimator() = default;
+  virtual FrameResult Update(FrameInput& input) = 0;
+};
+
+using FrameEstimatorMaker = std::function<std::unique_ptr<FrameEstimator>(robot::RobotModel&)>;
+
+/// Where the frames come from, by the settings: "markers" or "shape".
+bool IsFromShape(const NodeConfig& config);
+
+/// MarkerForceEstimator or ShapeForceEstimator. What is made throws InputError for settings that do
+/// not fit the robot.
+FrameEstimatorMaker EstimatorMakerOf(const NodeConfig& config,
+                                     double youngs_modulus_relative_sigma);
+
+}  // namespace palpate::force_estimation

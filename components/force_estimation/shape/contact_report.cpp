@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/contact_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/force_estimation/statistics.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// A quiet site has a force below this share of what makes it significant.
+constexpr double kQuietShare = 0.5;
+/// Of the prior's variance: with more left the tangential force counts as not observed.
+constexpr double kToldShare = 0.5;
+/// Depth noise is correlated from frame to frame (0.3 of stereo cameras): so much less does
+/// averaging help.
+constexpr double kTemporalCorrelation = 1.86;
+
+/// With the place, where that is not known.
+Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
+  if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
+  const auto row = static_cast<Eigen::Index>(3 * site);
+  return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
+}
+
+Eigen::Matrix3d CovarianceOf(const ShapeFit& fit, std::size_t site) {
+  const auto row = static_cast<Eigen::Index>(3 * site);
+  return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
+}
+
+/// The part of a force's covariance that comes from the depth noise, and so differs from frame to
+/// frame: of the estimator A = C G' S^-1, A N A'.
+Eigen::Matrix3d RandomCovariance(const ShapeFit& fit, std::size_t site) {
+  const auto row = static_cast<Eigen::Index>(3 * site);
+  const Eigen::MatrixXd estimator = fit.fitter().fit().covariance_N2.middleRows<3>(row) *
+                                    fit.fitter().Response().transpose() *
+                                    fit.targets().targets().weight.asDiagonal();
+  return estimator * fit.targets().noise_m().array().square().matrix().asDiagonal() *
+         estimator.transpose();
+}
+
+}  // namespace
+
+ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma)
+    : config_(config), force_relative_sigma_(force_relative_sigma) {}
+
+/// One-sided: contacts push.
+void ContactReport::Judge(double t_s, ShapeFit* fit) const {
+  for (std::size_t s = 0; s < fit->sites().size(); ++s) {
+    const Eigen::Vector3d normal = fit->NormalAt(s);
+    const bool hidden = fit->sites()[s].hidden;
+    const Eigen::Matrix3d covariance = hidden ? WholeCovariance(*fit, s) : CovarianceOf(*fit, s);
+    const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance * normal)));
+    const double chance = hidden ? config_.hidden_significance : config_.significance;
+    const double limit_N = NormalQuantile(1.0 - chance) * sigma_N;
+    const double pressed_N = -normal.dot(fit->ForceAt(s));
+    fit->book().Judge(s, pressed_N > limit_N, pressed_N < kQuietShare * limit_N);
+    fit->book().filter(s).Update(t_s, fit->ForceAt(s),
+                                 kTemporalCorrelation * RandomCovariance(*fit, s));
+  }
+}
+
+std::vector<ContactForce> ContactReport::Contacts(const ShapeFit& fit) const {
+  const int freedom = DegreesOfFreedom(fit);
+  const double inflation =
+      freedom > 0 ? std::max(1.0, fit.fitter().fit().chi_squared / freedom) : 1.0;
+  std::vector<ContactForce> contacts;
+  for (std::size_t s = 0; s < fit.sites().size(); ++s) {
+    const ShapeSite& site = fit.sites()[s];
+    if (site.acts && site.quiet_frames == 0) contacts.push_back(ContactAt(fit, s, inflation));
+  }
+  return contacts;
+}
+
+Status ContactReport::StatusOf(const ShapeFit& fit, std::size_t site) const {
+  if (fit.sites()[site].hidden) return {StatusCode::kHidden, {}};
+  const Eigen::Matrix<double, 3, 2> tangents = Tangents(fit.NormalAt(site));
+  const Eigen::Matrix2d left = tangents.transpose() * CovarianceOf(fit, site) * tangents;
+  const double prior_sigma_N = fit.TangentialSigma_N(site);
+  // Where the deformation says no more of the tangential force than friction does.
+  const bool told = left.trace() < 2.0 * kToldShare * prior_sigma_N * prior_sigma_N;
+  return told ? Status::Ok() : Status(StatusCode::kTangentialUnobservable, {});
+}
+
+/// The force averaged over frames; of its covariance the random part falls with that, what is
+/// constant (bias, model, place) stays.
+ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
+                                      double inflation) const {
+  const ShapeSite& followed = fit.sites()[site];
+  const bool located = site < fit.located().size();
+  ContactForce contact;
+  contact.name = followed.name;
+  contact.status = StatusOf(fit, site);
+  contact.position_m = followed.patch.weights.Position(fit.state().x_m);
+  contact.force_N = followed.filter.force_N();
+  const Eigen::Matrix3d whole = WholeCovariance(fit, site);
+  const Eigen::Matrix3d averaged_away =
+      RandomCovariance(fit, site) - followed.filter.covariance_N2() / kTemporalCorrelation;
+  const Eigen::Vector3d shared_N = force_relative_sigma_ * contact.force_N;
+  contact.covariance_N2 = inflation * (whole - averaged_away) + shared_N * shared_N.transpose();
+  contact.ci95_N = kSigmas95 * SigmaOfSize_N(contact.force_N, contact.covariance_N2);
+  const double place_variance =
+      located ? inflation * fit.located()[site].location_covariance_m2.trace() : 0.0;
+  contact.location_ci95_m = std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * place_variance);
+  return contact;
+}
+
+int DegreesOfFreedom(const ShapeFit& fit) {
+  return fit.targets().Count() - static_cast<int>(3 * fit.sites().size());
+}
+
+}  // namespace palpate::force_estimation

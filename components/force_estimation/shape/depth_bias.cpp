@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/depth_bias.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+constexpr int kPoseParameters = 6;
+constexpr int kFewestFeatures = 3;
+/// What is held for true of noise and its correlation before anything is seen, and how many
+/// residuals that is worth.
+constexpr double kExpectedCorrelation = 0.3;
+constexpr double kPriorResiduals = 10.0;
+
+int MonomialCount(int order) { return (order + 1) * (order + 2) / 2; }
+
+/// Variance of the mean of `count` values over that of a mean of independent ones: 1 + 2 sum_k
+/// (1 - k / count) correlation^k.
+double MeanInflation(int count, double correlation) {
+  double inflation = 1.0;
+  double power = 1.0;
+  for (int k = 1; k < count && power > 1e-12; ++k) {
+    power *= correlation;
+    inflation += 2.0 * (1.0 - static_cast<double>(k) / count) * power;
+  }
+  return inflation;
+}
+
+}  // namespace
+
+DepthBias::DepthBias(int feature_count, const ShapeConfig& config)
+    : feature_count_(feature_count),
+      config_(config),
+      shared_count_(kPoseParameters + MonomialCount(config.depth_bias_order)),
+      correlation_(kExpectedCorrelation),
+      series_(static_cast<size_t>(feature_count)) {
+  const Eigen::Index parameters = shared_count_ + feature_count;
+  information_.setZero(parameters, parameters);
+  right_side_.setZero(parameters);
+  solution_.setZero(parameters);
+  covariance_.setIdentity(parameters, parameters);
+}
+
+Eigen::VectorXd DepthBias::SharedBasis(const FeatureMatch& match,
+                                       const Eigen::Isometry3d& T_robot_camera) const {
+  const Eigen::Vector3d normal = T_robot_camera.linear().transpose() * match.normal;
+  const Eigen::Vector3d& position_m = match.position_m;
+  Eigen::VectorXd basis = Eigen::VectorXd::Zero(shared_count_);
+  if (!(position_m.z() > 0.0)) return basis;
+  basis.head<3>() = config_.pose_prior_m * normal;
+  basis.segment<3>(3) = config_.pose_prior_rad * position_m.cross(normal);
+  const double x = position_m.x() / position_m.z();
+  const double y = position_m.y() / position_m.z();
+  const double along_sight_m = config_.depth_bias_prior * normal.dot(position_m);
+  Eigen::Index next = kPoseParameters;
+  for (int degree = 0; degree <= config_.depth_bias_order; ++degree) {
+    for (int of_y = 0; of_y <= degree; ++of_y) {
+      basis[next++] = along_sight_m * std::pow(x, degree - of_y) * std::pow(y, of_y);
+    }
+  }
+  return basis;
+}
+
+void DepthBias::Learn(const std::vector<FeatureMatch>& matches, const Eigen::VectorXd& x_m,
+                      const Eigen::Isometry3d& T_robot_camera) {
+  PALPATE_CHECK(static_cast<int>(matches.size()) == feature_count_, matches.size());
+  const auto matched = [](const auto& match) { return match.state == MatchState::kMatched; };
+  if (std::none_of(matches.begin(), matches.end(), matched)) return;
+  ++frames_;
+  for (int feature = 0; feature < feature_count_; ++feature) {
+    const FeatureMatch& match = matches[static_cast<size_t>(feature)];
+    if (!matched(match)) continue;
+    const double residual_over_sigma = (match.target_m - match.row.Value(x_m)) / match.sigma_m;
+    PALPATE_CHECK(match.sigma_m > 0.0 && std::isfinite(residual_over_sigma), match.sigma_m);
+    const Eigen::VectorXd shared = SharedBasis(match, T_robot_camera) / match.sigma_m;
+    const double own = config_.feature_offset_prior_m / match.sigma_m;
+    const Eigen::Index at = shared_count_ + feature;
+    information_.topLeftCorner(shared_count_, shared_count_) += shared * shared.transpose();
+    information_.col(at).head(shared_count_) += own * shared;
+    information_.row(at).head(shared_count_) += own * shared.transpose();
+    information_(at, at) += own * own;
+    right_side_.head(shared_count_) += residual_over_sigma * shared;
+    right_side_[at] += residual_over_sigma * own;
+    AddToSeries(feature, residual_over_sigma);
+  }
+}
+
+void DepthBias::AddToSeries(int feature, double residual_over_sigma) {
+  Series& series = series_[static_cast<size_t>(feature)];
+  if (series.count > 0 && series.last_frame == frames_ - 1) {
+    ++series.neighbours;
+    series.sum_products += residual_over_sigma * series.last;
+  }
+  ++series.count;
+  series.sum += residual_over_sigma;
+  series.sum_squares += residual_over_sigma * residual_over_sigma;
+  series.last_frame = frames_;
+  series.last = residual_over_sigma;
+}
+
+/// Scatter and correlation about each feature's own mean, whatever that is.
+void DepthBias::LearnNoise() {
+  double squares = 0.0;
+  double products = 0.0;
+  double pairs_per_value = 0.0;
+  int values = 0;
+  for (const Series& series : series_) {
+    if (series.count < 2) continue;
+    const double mean = series.sum / series.count;
+    squares += series.sum_squares - series.count * mean * mean;
+    products += series.sum_products - series.neighbours * mean * mean;
+    pairs_per_value += series.neighbours;
+    values += series.count;
+  }
+  if (values > 0) pairs_per_value /= values;
+  correlation_ = std::clamp((products + kPriorResiduals * kExpectedCorrelation) /
+                                (std::max(pairs_per_value, 1e-3) * squares + kPriorResiduals),
+                            0.0, 0.9);
+  double freedom = 0.0;
+  for (const Series& series : series_) {
+    if (series.count >= 2) freedom += series.count - MeanInflation(series.count, correlation_);
+  }
+  noise_scale_ = std::sqrt((squares + kPriorResiduals) / (freedom + kPriorResiduals));
+}
+
+Status DepthBias::Finish() {
+  const auto seen = std::count_if(series_.begin(), series_.end(),
+                                  [](const Series& series) { return series.count > 0; });
+  if (seen < kFewestFeatures) {
+    return {StatusCode::kNoCalibration, "depth bias: only " + std::to_string(seen) +
+                                            " features seen in " + std::to_string(frames_) +
+                                            " frames without contact"};
+  }
+  LearnNoise();
+  const double worth = 1.0 / (noise_scale_ * noise_scale_ * MeanInflation(frames_, correlation_));
+  const Eigen::Index parameters = information_.rows();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(parameters, parameters);
+  const Eigen::LLT<Eigen::MatrixXd> factor(identity + worth * information_);
+  covariance_ = factor.solve(identity);
+  solution_ = factor.solve(worth * right_side_);
+  known_ = true;
+  return Status::Ok();
+}
+
+double DepthBias::Correction_m(int feature, const FeatureMatch& match,
+                               const Eigen::Isometry3d& T_robot_camera) const {
+  return SharedBasis(match, T_robot_camera).dot(solution_.head(shared_count_)) +
+         config_.feature_offset_prior_m * solution_[shared_count_ + feature];
+}
+
+double DepthBias::CorrectionSigma_m(int feature, const FeatureMatch& match,
+                                    const Eigen::Isometry3d& T_robot_camera) const {
+  const Eigen::VectorXd shared = SharedBasis(match, T_robot_camera);
+  const double own = config_.feature_offset_prior_m;
+  const Eigen::Index at = shared_count_ + feature;
+  const double variance_m2 =
+      shared.dot(covariance_.topLeftCorner(shared_count_, shared_count_) * shared) +
+      2.0 * own * shared.dot(covariance_.col(at).head(shared_count_)) +
+      own * own * covariance_(at, at);
+  return std::sqrt(std::max(variance_m2, 0.0));
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/core/status.hpp"
+
+namespace palpate::force_estimation {
+
+/// The constant part of what lies between the cloud and the model when nobody touches the robot: a
+/// depth bias of low order over the image (a share of z), a small error of the camera's pose, and
+/// an offset of each feature (the mesh's facets, the skin). One linear least-squares problem with
+/// priors, so that what the frames do not tell stays at zero with the prior's uncertainty. A shift
+/// of the camera looks much like a depth bias: their sum is known better than either.
+///
+/// Scatter and correlation over time of the frames about each feature's own mean say what a frame
+/// is worth. Correlation is taken as that of a first-order process.
+class DepthBias {
+ public:
+  DepthBias(int feature_count, const ShapeConfig& config);
+
+  /// Matches of one untouched frame, found about an equilibrium `x_m` [3n] of the model. Frames in
+  /// the order of time; those without a match do not count.
+  void Learn(const std::vector<FeatureMatch>& matches, const Eigen::VectorXd& x_m,
+             const Eigen::Isometry3d& T_robot_camera);
+  /// Solves for what was learnt; more frames and another call make it better. kNoCalibration where
+  /// no frame or too few features (three) were seen.
+  Status Finish();
+
+  int frames() const { return frames_; }
+  bool known() const { return known_; }
+
+  /// What is to be taken off target_m of a match, m. Of what is not matched, only the feature's own
+  /// offset.
+  double Correction_m(int feature, const FeatureMatch& match,
+                      const Eigen::Isometry3d& T_robot_camera) const;
+  /// Sigma of that correction, m; also before anything was learnt (the priors).
+  double CorrectionSigma_m(int feature, const FeatureMatch& match,
+                           const Eigen::Isometry3d& T_robot_camera) const;
+  /// Scatter of single frames about the correction, over what their sigma_m says: 1 where the
+  /// noise model is right. 1 before anything was learnt.
+  double NoiseScale() const { return noise_scale_; }
+
+ private:
+  /// Residuals of one feature over the frames, each over its sigma_m.
+  struct Series {
+    int count = 0;
+    double sum = 0.0;
+    double sum_squares = 0.0;
+    int neighbours = 0;  ///< pairs of frames that follow each other
+    double sum_products = 0.0;
+    int last_frame = 0;
+    double last = 0.0;
+  };
+
+  /// What the residual of a match changes by with each parameter that the features share, in units
+  /// of the prior sigmas: camera shift (3) and turn (3), camera frame, about its centre; then the
+  /// monomials of the depth bias in x / z and y / z.
+  Eigen::VectorXd SharedBasis(const FeatureMatch& match,
+                              const Eigen::Isometry3d& T_robot_camera) const;
+  void AddToSeries(int feature, double residual_over_sigma);
+  void LearnNoise();
+
+  int feature_count_;
+  ShapeConfig config_;
+  int shared_count_;
+  int frames_ = 0;
+  bool known_ = false;
+  double noise_scale_ = 1.0;
+  double correlation_;  ///< of a frame with the next
+  std::vector<Series> series_;
+  Eigen::MatrixXd information_;  ///< [p x p] of the frames alone; p = shared + features
+  Eigen::VectorXd right_side_;   ///< [p]
+  Eigen::VectorXd solution_;     ///< [p]
+  Eigen::MatrixXd covariance_;   ///< [p x p]
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/hidden_contacts.hpp"
+
+#include <algorithm>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+constexpr int kMostAtOnce = 2;
+/// Around a contact that is seen nothing is searched: what is left over there is its own doing.
+constexpr double kTakenRadius_m = 0.03;
+constexpr int kFindAgainRounds = 2;
+/// Frames of its life in which a hidden contact is looked for again.
+constexpr int kYoungFrames = 5;
+constexpr double kSamePlace_m = 6e-3;
+/// Another place must fit by so much better.
+constexpr double kBetter = 0.95;
+
+}  // namespace
+
+HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit)
+    : config_(config), fit_(fit), search_(model, config) {}
+
+Status HiddenContacts::Prepare(const std::vector<robot::CableCommand>& cables) {
+  return search_.Prepare(fit_.state().x_m, cables, fit_.state().lambda_a_N);
+}
+
+Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
+  Status status = Status::Ok();
+  if (!search_.prepared()) return status;
+  const auto& sites = fit_.sites();
+  const auto hidden =
+      std::find_if(sites.begin(), sites.end(), [](const ShapeSite& site) { return site.hidden; });
+  bool found_any = hidden != sites.end() && hidden->frames < kYoungFrames;
+  if (hidden == sites.end() && !fit_.book().full()) {
+    const std::vector<HiddenContact> found = search_.Find(
+        LeftOver(), kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
+    if (found.empty()) return status;
+    found_any = Try(found, frame, bias, &status);
+  }
+  for (int round = 0; found_any && status.ok() && round < kFindAgainRounds; ++round) {
+    if (!FindAgain(frame, bias, &status)) break;
+  }
+  return status;
+}
+
+/// True where another place was better.
+bool HiddenContacts::FindAgain(const ShapeFrame& frame, const DepthBias& bias, Status* status) {
+  const std::vector<HiddenContact> found = search_.Find(
+      WithoutHidden(), kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
+  if (found.empty() || AreWhereTheyWere(found)) return false;
+  return Try(found, frame, bias, status);
+}
+
+Unexplained HiddenContacts::LeftOver() const {
+  return {.rows = fit_.targets().rows(),
+          .residual_m = fit_.fitter().fit().residual_m,
+          .weight = fit_.targets().targets().weight,
+          .known = fit_.fitter().Response()};
+}
+
+/// What the known contacts leave over where the hidden ones are taken out, to first order.
+Unexplained HiddenContacts::WithoutHidden() const {
+  Unexplained data = LeftOver();
+  data.left_m = data.residual_m;
+  const Eigen::MatrixXd response = data.known;
+  Eigen::Index seen = 0;
+  for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
+    const ShapeSite& site = fit_.sites()[s];
+    if (site.hidden) {
+      data.residual_m += search_.ResponseAt(data.rows, site.centre.rest_m) * fit_.ForceAt(s);
+    } else {
+      data.known.middleCols<3>(3 * seen++) =
+          response.middleCols<3>(static_cast<Eigen::Index>(3 * s));
+    }
+  }
+  data.known.conservativeResize(Eigen::NoChange, 3 * seen);
+  return data;
+}
+
+/// The fit with these hidden contacts, where it is better than the one before.
+bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
+                         const DepthBias& bias, Status* status) {
+  const ShapeFit::Attempt before = fit_.Keep();
+  fit_.ReplaceHidden(contacts);
+  Status tried = fit_.MatchAndFit(frame, bias);
+  if (tried.ok()) tried = fit_.Locate(frame, bias);
+  if (tried.ok() && fit_.fitter().fit().chi_squared < kBetter * before.chi_squared) return true;
+  fit_.GoBack(before);
+  *status = fit_.MatchAndFit(frame, bias);
+  return false;
+}
+
+bool HiddenContacts::AreWhereTheyWere(const std::vector<HiddenContact>& found) const {
+  const auto& sites = fit_.sites();
+  const auto hidden =
+      std::count_if(sites.begin(), sites.end(), [](const ShapeSite& site) { return site.hidden; });
+  return hidden == static_cast<std::ptrdiff_t>(found.size()) &&
+         std::all_of(found.begin(), found.end(), [&](const HiddenContact& contact) {
+           return std::any_of(sites.begin(), sites.end(), [&](const ShapeSite& site) {
+             return site.hidden &&
+                    (site.centre.rest_m - contact.rest_position_m).norm() < kSamePlace_m;
+           });
+         });
+}
+
+std::vector<Eigen::Vector3d> HiddenContacts::SeenPlaces() const {
+  std::vector<Eigen::Vector3d> places_m;
+  for (const ShapeSite& site : fit_.sites()) {
+    if (!site.hidden) places_m.push_back(site.centre.rest_m);
+  }
+  return places_m;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "components/force_estimation/shape/search_places.hpp"
+
+namespace palpate::force_estimation {
+
+/// What a contact at one place says about the residual.
+struct PlaceFit {
+  double force_N = 0.0;  ///< along the inward normal; 0: only a pull would help
+  Eigen::Vector3d tangential_N = Eigen::Vector3d::Zero();  ///< most likely friction
+  double gain = 0.0;                                       ///< by which chi^2 falls
+  double evidence = 0.0;  ///< twice the log of the likelihood over that without the contact
+};
+
+/// The residual in units of its noise and what unit forces on the candidates do to it. Whatever
+/// else may have caused it (forces refitted along, each with its prior) is absorbed into the noise,
+/// so that all that follows is least squares with unit weights.
+class HiddenProblem {
+ public:
+  /// `residual` [m], `response` [m x 3 candidates] along x, y, z, both divided by sigma.
+  HiddenProblem(Eigen::VectorXd residual, Eigen::MatrixXd response);
+
+  const Eigen::VectorXd& residual() const { return residual_; }
+
+  /// Causes known up to their size, one column [m] for each, in the units that Place and Normal
+  /// give now. Known to a standard normal factor:
+  void Absorb(const Eigen::MatrixXd& columns);
+  /// and not known at all: the residual along them counts for nothing. Zero columns are fine.
+  void Ignore(Eigen::MatrixXd columns);
+
+  /// What a unit force does: on a candidate along x, y, z [m x 3],
+  auto Candidate(int candidate) const { return response_.middleCols<3>(3 * candidate); }
+  /// at a place between,
+  Eigen::MatrixX3d Place(const Interpolation& interpolation) const;
+  /// and, along the inward normals, on all candidates [m x candidates].
+  Eigen::MatrixXd AlongNormals(const SearchPlaces& places, const Eigen::Matrix3Xd& normals) const;
+
+  /// Fits a push along the inward normal with friction beside it: tangential components of normal
+  /// distribution about 0 with a sigma of `friction` times the push. `columns` as Place gives them.
+  PlaceFit Fit(const Eigen::Ref<const Eigen::MatrixX3d>& columns, const Eigen::Vector3d& normal,
+               double friction) const;
+
+ private:
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd response_;
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/hidden_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "components/force_estimation/shape/false_alarm.hpp"
+#include "components/force_estimation/shape/hidden_problem.hpp"
+#include "components/force_estimation/shape/patch_responses.hpp"
+#include "components/force_estimation/shape/place_posterior.hpp"
+#include "components/force_estimation/shape/search_places.hpp"
+#include "libs/core/check.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// A force on a point would have a response that no mesh resolves.
+constexpr double kSmallestPatch_m = 1e-3;
+/// Sigma of the tangential over the normal force of a contact that nobody saw.
+constexpr double kFriction = 0.3;
+/// Error of the first order as a part of the motion that it has to explain, one sigma: of this row
+/// and of all rows, half and half. Forces of 0.3 to 1.5 N bend our robot by up to 20 mm.
+constexpr double kFirstOrderError = 0.15;
+/// Error of responses between the candidates, as a part of them.
+constexpr double kInterpolationError = 0.02;
+/// Unknowns of a contact: place on the surface and force.
+constexpr int kUnknowns = 5;
+/// Of two contacts each is placed while the other may be off: by about this many places, sigma.
+constexpr double kOffPlaces = 2.0;
+constexpr int kNeighbours = 6;
+constexpr int kPairRounds = 3;
+/// A candidate that moves the rows less than this part of the most moving one is not seen at all.
+constexpr double kUnseen = 1e-6;
+
+/// Unit sensitivities of the candidates that may be a contact.
+struct Tests {
+  Eigen::MatrixXd directions;   ///< [m x tests]
+  std::vector<int> candidates;  ///< [tests]
+  Eigen::VectorXd statistic;    ///< [tests] standard normal without a contact
+};
+
+Tests MakeTests(const HiddenProblem& problem, const SearchPlaces& places,
+                const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable) {
+  const Eigen::MatrixXd along = problem.AlongNormals(places, normals);
+  const Eigen::RowVectorXd size = along.colwise().norm();
+  Tests tests;
+  const double least = kUnseen * size.maxCoeff();
+  for (int c = 0; c < places.CandidateCount(); ++c) {
+    const auto place = static_cast<size_t>(places.PlaceOfCandidate(c));
+    if (usable[place] && size[c] > least) tests.candidates.push_back(c);
+  }
+  tests.directions =
+      along(Eigen::all, tests.candidates) * size(tests.candidates).cwiseInverse().asDiagonal();
+  tests.statistic = tests.directions.transpose() * problem.residual();
+  return tests;
+}
+
+/// Weights that allow for what the first order leaves out, and the interpolation.
+Eigen::VectorXd FirstOrderWeights(const Unexplained& data) {
+  const Eigen::VectorXd& left_m = data.left_m.size() > 0 ? data.left_m : data.residual_m;
+  const Eigen::ArrayXd squared_m2 = left_m.array().square();
+  const Eigen::ArrayXd error_m2 =
+      0.5 * kFirstOrderError * kFirstOrderError * (squared_m2 + squared_m2.mean()) +
+      kInterpolationError * kInterpolationError * data.residual_m.array().square().mean();
+  return data.weight.array() / (1.0 + data.weight.array() * error_m2);
+}
+
+/// The two candidates that together explain most, both pushing.
+std::pair<int, int> BestPair(const Tests& tests) {
+  const Eigen::MatrixXd alike = tests.directions.transpose() * tests.directions;
+  const Eigen::VectorXd& t = tests.statistic;
+  std::pair<int, int> best{-1, -1};
+  double best_gain = 0.0;
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    if (!(t[i] > 0.0)) continue;
+    for (Eigen::Index j = 0; j < t.size(); ++j) {
+      const double rho = alike(i, j);
+      const bool push = t[i] > rho * t[j] && t[j] > rho * t[i];
+      if (i == j || !push || rho > 1.0 - 1e-9) continue;
+      const double gain = (t[i] * t[i] + t[j] * t[j] - 2.0 * rho * t[i] * t[j]) / (1.0 - rho * rho);
+      if (gain <= best_gain) continue;
+      best_gain = gain;
+      best = {tests.candidates[static_cast<size_t>(i)], tests.candidates[static_cast<size_t>(j)]};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+struct HiddenSearch::Parts {
+  Parts(robot::RobotModel& robot_model, const ShapeConfig& config)
+      : model(robot_model),
+        places(robot_model, std::max(config.contact_radius_m, kSmallestPatch_m)) {}
+
+  HiddenProblem ProblemOf(const Unexplained& data, const Eigen::VectorXd& weight) const;
+  std::vector<bool> Usable(const std::vector<Eigen::Vector3d>& taken, double taken_radius_m) const;
+  bool Stands(const HiddenProblem& problem, const std::vector<bool>& usable, double significance);
+  HiddenProblem Without(const HiddenProblem& problem, const PlacePosterior& contact) const;
+  std::vector<PlacePosterior> FindPair(const HiddenProblem& problem,
+                                       const std::vector<bool>& usable, int known) const;
+  void Report(const Unexplained& data, const std::vector<PlacePosterior>& contacts);
+
+  robot::RobotModel& model;
+  SearchPlaces places;
+  PatchResponses responses;
+  FalseAlarm false_alarm;
+  Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape of the last Prepare
+  bool prepared = false;
+  std::vector<HiddenContact> found;
+};
+
+HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
+                                             const Eigen::VectorXd& weight) const {
+  const auto m = static_cast<Eigen::Index>(data.rows.size());
+  PALPATE_CHECK(prepared);
+  PALPATE_CHECK(data.residual_m.size() == m && weight.size() == m, m);
+  PALPATE_CHECK(data.known.rows() == m || data.known.cols() == 0, data.known.rows(), m);
+  PALPATE_CHECK(data.left_m.size() == m || data.left_m.size() == 0, data.left_m.size(), m);
+  const Eigen::VectorXd scale = weight.cwiseSqrt();
+  HiddenProblem problem(scale.cwiseProduct(data.residual_m), responses.Observe(data.rows, scale));
+  problem.Ignore(scale.asDiagonal() * data.known);
+  return problem;
+}
+
+std::vector<bool> HiddenSearch::Parts::Usable(const std::vector<Eigen::Vector3d>& taken,
+                                              double taken_radius_m) const {
+  std::vector<bool> usable(static_cast<size_t>(places.Count()), true);
+  for (int place = 0; place < places.Count(); ++place) {
+    usable[static_cast<size_t>(place)] =
+        std::none_of(taken.begin(), taken.end(), [&](const Eigen::Vector3d& taken_m) {
+          return (places.positions_m().col(place) - taken_m).norm() <= taken_radius_m;
+        });
+  }
+  return usable;
+}
+
+/// Whether the best candidate explains more than noise would.
+bool HiddenSearch::Parts::Stands(const HiddenProblem& problem, const std::vector<bool>& usable,
+                                 double significance) {
+  const Tests tests = MakeTests(problem, places, normals, usable);
+  return !tests.candidates.empty() &&
+         false_alarm.Significant(tests.directions, tests.statistic.maxCoeff(), significance);
+}
+
+/// The problem when there is `contact` too, of any size, with friction, and perhaps a little
+/// beside.
+HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
+                                           const PlacePosterior& contact) const {
+  const Eigen::Vector3d normal = normals.col(contact.place);
+  const auto push_at = [&](const HiddenProblem& any, int place) -> Eigen::VectorXd {
+    return -any.Place(places.interpolation(place)) * normals.col(place);
+  };
+  const Eigen::VectorXd push = push_at(problem, contact.place);
+  Eigen::MatrixXd prior(push.size(), 3 + kNeighbours);
+  prior.leftCols<3>() =
+      kFriction * (problem.Place(places.interpolation(contact.place)) + push * normal.transpose());
+  Eigen::VectorXd distance_m2 =
+      (places.positions_m().colwise() - places.positions_m().col(contact.place))
+          .colwise()
+          .squaredNorm()
+          .transpose();
+  int beside = contact.place;
+  for (int k = 0; k < kNeighbours; ++k) {
+    distance_m2[beside] = std::numeric_limits<double>::infinity();
+    distance_m2.minCoeff(&beside);
+    prior.col(3 + k) = kOffPlaces * (push_at(problem, beside) - push);
+  }
+  HiddenProblem without = problem;
+  without.Absorb(contact.fit.force_N * prior);
+  without.Ignore(push_at(without, contact.place));
+  return without;
+}
+
+/// Starts from the best pair of candidates, and places each in turn while the other is free.
+std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
+                                                          const std::vector<bool>& usable,
+                                                          int known) const {
+  const auto [first, second] = BestPair(MakeTests(problem, places, normals, usable));
+  if (first < 0) return {};
+  std::vector<PlacePosterior> pair(2);
+  pair[0].place = places.PlaceOfCandidate(first);
+  pair[1].place = places.PlaceOfCandidate(second);
+  for (PlacePosterior& contact : pair) {
+    const Eigen::MatrixX3d columns = problem.Place(places.interpolation(contact.place));
+    contact.fit = problem.Fit(columns, normals.col(contact.place), 0.0);
+  }
+  for (int round = 0; round < kPairRounds; ++round) {
+    for (size_t k = 0; k < 2; ++k) {
+      pair[k] = Locate(Without(problem, pair[1 - k]), places, normals, usable,
+                       {.friction = kFriction, .unknowns = known + 2 * kUnknowns});
+      if (pair[k].place < 0) return {};
+    }
+  }
+  return pair;
+}
+
+/// Gains count with the weights that were given, the other contact's force refitted.
+void HiddenSearch::Parts::Report(const Unexplained& data,
+                                 const std::vector<PlacePosterior>& contacts) {
+  const HiddenProblem given = ProblemOf(data, data.weight);
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const PlacePosterior& contact = contacts[k];
+    HiddenProblem rest = given;
+    if (contacts.size() == 2) {
+      const int other = contacts[1 - k].place;
+      rest.Ignore(given.Place(places.interpolation(other)) * normals.col(other));
+    }
+    const Eigen::MatrixX3d columns = rest.Place(places.interpolation(contact.place));
+    found.push_back(
+        {.rest_position_m = places.positions_m().col(contact.place),
+         .normal = normals.col(contact.place),
+         .force_N = contact.fit.force_N,
+         .tangential_N = contact.fit.tangential_N,
+         .chi_squared_gain = rest.Fit(columns, normals.col(contact.place), kFriction).gain,
+         .location_covariance_m2 = contact.covariance_m2,
+         .location_ci95_m = contact.ci95_m});
+  }
+}
+
+HiddenSearch::HiddenSearch(robot::RobotModel& model, const ShapeConfig& config)
+    : parts_(std::make_unique<Parts>(model, config)) {}
+
+HiddenSearch::~HiddenSearch() = default;
+
+Status HiddenSearch::Prepare(const Eigen::VectorXd& x_m,
+                             const std::vector<robot::CableCommand>& commands,
+                             const Eigen::VectorXd& lambda_a_N) {
+  Parts& parts = *parts_;
+  parts.prepared = false;
+  Status status =
+      parts.responses.Solve(parts.model, parts.places.patches(), x_m, commands, lambda_a_N);
+  if (!status.ok()) return status;
+  parts.normals = parts.places.Normals(x_m);
+  parts.prepared = true;
+  return status;
+}
+
+bool HiddenSearch::prepared() const { return parts_->prepared; }
+
+int HiddenSearch::CandidateCount() const { return parts_->places.CandidateCount(); }
+
+size_t HiddenSearch::MemoryBytes() const { return parts_->responses.MemoryBytes(); }
+
+Eigen::MatrixX3d HiddenSearch::ResponseAt(const std::vector<robot::EffectorRow>& rows,
+                                          const Eigen::Vector3d& rest_position_m) const {
+  const Parts& parts = *parts_;
+  const auto m = static_cast<Eigen::Index>(rows.size());
+  const HiddenProblem problem(Eigen::VectorXd::Zero(m),
+                              parts.responses.Observe(rows, Eigen::VectorXd::Ones(m)));
+  return problem.Place(parts.places.interpolation(parts.places.Nearest(rest_position_m)));
+}
+
+double HiddenSearch::SigmaOfForce_N(const Unexplained& data,
+                                    const Eigen::Vector3d& rest_position_m) const {
+  const Parts& parts = *parts_;
+  const HiddenProblem problem = parts.ProblemOf(data, data.weight);
+  const int place = parts.places.Nearest(rest_position_m);
+  const Eigen::Vector3d normal = parts.normals.col(place);
+  return 1.0 / (problem.Place(parts.places.interpolation(place)) * normal).norm();
+}
+
+double HiddenSearch::Threshold_sigmas(const Unexplained& data, double significance) const {
+  const Parts& parts = *parts_;
+  const std::vector<bool> usable(static_cast<size_t>(parts.places.Count()), true);
+  const Tests tests =
+      MakeTests(parts.ProblemOf(data, data.weight), parts.places, parts.normals, usable);
+  return parts_->false_alarm.Threshold(tests.directions, significance);
+}
+
+const std::vector<HiddenContact>& HiddenSearch::Find(const Unexplained& data, int most,
+                                                     double significance,
+                                                     const std::vector<Eigen::Vector3d>& taken,
+                                                     double taken_radius_m) {
+  PALPATE_CHECK(most == 1 || most == 2, most);
+  Parts& parts = *parts_;
+  parts.found.clear();
+  const std::vector<bool> usable = parts.Usable(taken, taken_radius_m);
+  if (!parts.Stands(parts.ProblemOf(data, data.weight), usable, significance)) return parts.found;
+  const auto known = static_cast<int>(data.known.cols());
+  const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
+  const PlacePosterior single = Locate(problem, parts.places, parts.normals, usable,
+                                       {.friction = kFriction, .unknowns = known + kUnknowns});
+  if (single.place < 0) return parts.found;
+  std::vector<PlacePosterior> contacts = {single};
+  if (most == 2 && parts.Stands(parts.Without(problem, single), usable, significance)) {
+    const std::vector<PlacePosterior> pair = parts.FindPair(problem, usable, known);
+    if (!pair.empty()) contacts = pair;
+  }
+  parts.Report(data, contacts);
+  return parts.found;
+}
+
+}  // namespace palpate::force_estimation

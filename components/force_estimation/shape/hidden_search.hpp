@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/surface_features.hpp"
+#include "libs/core/status.hpp"
+#include "libs/robot/effector_row.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// What the search looks at: rows about the state of the model, and what the forces that are known
+/// already leave over.
+struct Unexplained {
+  std::vector<robot::EffectorRow> rows;  ///< [m]
+  Eigen::VectorXd residual_m;            ///< [m] target - model
+  Eigen::VectorXd weight;                ///< [m] 1 / variance
+  /// [m x q] what the rows do when a known contact's force changes, m/N: these are fitted along.
+  Eigen::MatrixXd known;
+  /// [m] The part of residual_m that the state leaves, where contacts of the state were taken out
+  /// to first order (their ResponseAt times force added), to be found anew; empty: all of it. The
+  /// first order errs by a part of this.
+  Eigen::VectorXd left_m = {};
+};
+
+/// Where the residual says that something pushes.
+struct HiddenContact {
+  Eigen::Vector3d rest_position_m = Eigen::Vector3d::Zero();  ///< undeformed body, robot frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, unit, of the prepared shape
+  double force_N = 0.0;  ///< along the inward normal, to first order, > 0
+  Eigen::Vector3d tangential_N = Eigen::Vector3d::Zero();  ///< most likely friction, robot frame
+  /// By which the weighted residual falls when this contact joins the known ones and, of two, the
+  /// other, all of which are refitted.
+  double chi_squared_gain = 0.0;
+  Eigen::Matrix3d location_covariance_m2 = Eigen::Matrix3d::Zero();
+  double location_ci95_m = 0.0;  ///< radius that holds the place with 95 %
+};
+
+/// Finds contacts that nobody saw from the deformation alone: responses to forces on candidate
+/// patches all over the surface, solved once and kept while the shape changes little. A contact
+/// pushes along the inward normal of the present shape, with friction beside it; none pulls.
+///
+/// Whether there is one: the best of all candidates against the chance that noise does as well
+/// (false_alarm.hpp). Where it is: the posterior over places between the candidates
+/// (place_posterior.hpp), with known forces refitted along. All to first order about the state.
+class HiddenSearch {
+ public:
+  /// `model` must outlive the search. Of `config` contact_radius_m counts (1 mm at least). Throws
+  /// InputError where no part of the surface is free.
+  HiddenSearch(robot::RobotModel& model, const ShapeConfig& config);
+  ~HiddenSearch();
+
+  /// Columns of all candidates about `x_m`, with the linearisation that `model` has there (its
+  /// factor must be that of x_m or near). `lambda_a_N` and `commands`: cables at imposed
+  /// displacement hold their length. Costs about 1 ms for each candidate (60 to 240 of them), and
+  /// 12 bytes of memory for each of them and row of the reduced system. On failure (two taut cables
+  /// act alike, a state that is not finite) the search is not prepared.
+  Status Prepare(const Eigen::VectorXd& x_m, const std::vector<robot::CableCommand>& commands,
+                 const Eigen::VectorXd& lambda_a_N);
+  bool prepared() const;
+  int CandidateCount() const;
+  size_t MemoryBytes() const;  ///< of the columns that are kept
+
+  /// At most `most` (1 or 2) contacts that explain `data` beyond the noise with a false-alarm
+  /// chance below `significance` for one call; empty: none. Sites already taken (rest positions)
+  /// and their neighbourhood of `taken_radius_m` are left out. A large push bends the body beyond
+  /// the first order: solve for the equilibrium with what was found, prepare about it, and find
+  /// anew with `left_m`, as long as what is left falls. Of two contacts that one explains to within
+  /// the error of the first order, only then two come out.
+  const std::vector<HiddenContact>& Find(const Unexplained& data, int most, double significance,
+                                         const std::vector<Eigen::Vector3d>& taken,
+                                         double taken_radius_m);
+
+  /// [rows x 3] What unit forces along x, y and z at a place of the undeformed body do to the rows,
+  /// m/N, to first order about the prepared state.
+  Eigen::MatrixX3d ResponseAt(const std::vector<robot::EffectorRow>& rows,
+                              const Eigen::Vector3d& rest_position_m) const;
+  /// Sigma of the normal force of a contact at this place of the undeformed body, fitted along with
+  /// the known ones to rows of these weights (the residual does not matter), N.
+  double SigmaOfForce_N(const Unexplained& data, const Eigen::Vector3d& rest_position_m) const;
+  /// How many of these sigmas a force must reach so that Find takes it for more than noise: more
+  /// than one test of that significance asks for, as there are many candidates.
+  double Threshold_sigmas(const Unexplained& data, double significance) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palpate::force_estimation

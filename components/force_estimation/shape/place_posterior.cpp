@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/place_posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// Candidates whose evidence falls short of the best by no more than this, or this part of it, have
+/// plausible places around them: between candidates the evidence may be higher.
+constexpr double kPlausibleFall = 20.0;
+constexpr double kPlausiblePart = 0.3;
+/// Nearest candidates of a place that may make it plausible.
+constexpr size_t kNearest = 4;
+/// Places that the first look takes at most, and how far around its best the second goes, in
+/// strides.
+constexpr size_t kFirstLook = 250;
+constexpr double kSecondLook = 2.0;
+
+struct Look {
+  int place = -1;
+  double share = 1.0;  ///< of the surface, in places
+  PlaceFit fit;
+};
+
+class Locator {
+ public:
+  Locator(const HiddenProblem& problem, const SearchPlaces& places, const Eigen::Matrix3Xd& normals,
+          const std::vector<bool>& usable, double friction)
+      : problem_(problem),
+        places_(places),
+        normals_(normals),
+        usable_(usable),
+        friction_(friction) {}
+
+  std::vector<Look> LookAround() const {
+    const std::vector<int> plausible = PlausiblePlaces();
+    const size_t stride = (plausible.size() + kFirstLook - 1) / kFirstLook;
+    std::vector<Look> looks;
+    if (plausible.empty()) return looks;
+    for (size_t k = 0; k < plausible.size(); k += stride) looks.push_back(LookAt(plausible[k]));
+    if (stride == 1) return looks;
+    const Eigen::Vector3d best_m = places_.positions_m().col(Best(looks).place);
+    const double reach_m =
+        kSecondLook * places_.spacing_m() * std::sqrt(static_cast<double>(stride));
+    const auto near = [&](int place) {
+      return (places_.positions_m().col(place) - best_m).norm() <= reach_m;
+    };
+    std::erase_if(looks, [&](const Look& look) { return near(look.place); });
+    for (Look& look : looks) look.share = static_cast<double>(stride);
+    for (const int place : plausible) {
+      if (near(place)) looks.push_back(LookAt(place));
+    }
+    return looks;
+  }
+
+  static const Look& Best(const std::vector<Look>& looks) {
+    return *std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+      return a.fit.evidence < b.fit.evidence;
+    });
+  }
+
+ private:
+  Look LookAt(int place) const {
+    return {.place = place,
+            .share = 1.0,
+            .fit = problem_.Fit(problem_.Place(places_.interpolation(place)), normals_.col(place),
+                                friction_)};
+  }
+
+  std::vector<int> PlausiblePlaces() const {
+    std::vector<double> evidence;
+    for (int c = 0; c < places_.CandidateCount(); ++c) {
+      const int place = places_.PlaceOfCandidate(c);
+      const bool usable = usable_[static_cast<size_t>(place)];
+      evidence.push_back(
+          usable ? problem_.Fit(problem_.Candidate(c), normals_.col(place), friction_).evidence
+                 : 0.0);
+    }
+    const double best = *std::max_element(evidence.begin(), evidence.end());
+    const double least = best - std::max(kPlausibleFall, kPlausiblePart * best);
+    std::vector<int> plausible;
+    for (int place = 0; place < places_.Count(); ++place) {
+      if (!usable_[static_cast<size_t>(place)]) continue;
+      const auto& around = places_.interpolation(place).candidate;
+      const bool any = std::any_of(around.begin(), around.begin() + kNearest, [&](int candidate) {
+        return evidence[static_cast<size_t>(candidate)] >= least;
+      });
+      if (any) plausible.push_back(place);
+    }
+    return plausible;
+  }
+
+  const HiddenProblem& problem_;
+  const SearchPlaces& places_;
+  const Eigen::Matrix3Xd& normals_;
+  const std::vector<bool>& usable_;
+  double friction_;
+};
+
+/// Radius around `centre_m` that holds 95 % of the shares.
+double Radius95_m(const std::vector<Look>& looks, const std::vector<double>& probability,
+                  const Eigen::Matrix3Xd& positions_m, const Eigen::Vector3d& centre_m) {
+  std::vector<std::pair<double, double>> by_distance;
+  for (size_t k = 0; k < looks.size(); ++k) {
+    by_distance.emplace_back((positions_m.col(looks[k].place) - centre_m).norm(), probability[k]);
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  double held = 0.0;
+  for (const auto& [distance_m, share] : by_distance) {
+    held += share;
+    if (held >= 0.95) return distance_m;
+  }
+  return by_distance.back().first;
+}
+
+}  // namespace
+
+PlacePosterior Locate(const HiddenProblem& problem, const SearchPlaces& places,
+                      const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable,
+                      const LocateSettings& settings) {
+  const Locator locator(problem, places, normals, usable, settings.friction);
+  const std::vector<Look> looks = locator.LookAround();
+  if (looks.empty()) return {};
+  const Look& best = Locator::Best(looks);
+  if (!(best.fit.force_N > 0.0)) return {};
+  const double freedom =
+      std::max(1.0, static_cast<double>(problem.residual().size()) - settings.unknowns);
+  const double left = problem.residual().squaredNorm() - best.fit.gain;
+  const double noise_scale = std::max(1.0, left / freedom);
+  std::vector<double> probability;
+  for (const Look& look : looks) {
+    const bool pushes = look.fit.force_N > 0.0;
+    const double fall = look.fit.evidence - best.fit.evidence;
+    probability.push_back(pushes ? look.share * std::exp(0.5 * fall / noise_scale) : 0.0);
+  }
+  const double sum = std::accumulate(probability.begin(), probability.end(), 0.0);
+  for (double& share : probability) share /= sum;
+
+  PlacePosterior posterior{.place = best.place, .fit = best.fit};
+  const Eigen::Vector3d best_m = places.positions_m().col(best.place);
+  for (size_t k = 0; k < looks.size(); ++k) {
+    const Eigen::Vector3d off_m = places.positions_m().col(looks[k].place) - best_m;
+    posterior.covariance_m2 += probability[k] * off_m * off_m.transpose();
+  }
+  const double between_m2 = places.spacing_m() * places.spacing_m() / 12.0;
+  posterior.covariance_m2 += between_m2 * Eigen::Matrix3d::Identity();
+  posterior.ci95_m =
+      std::max(Radius95_m(looks, probability, places.positions_m(), best_m), places.spacing_m());
+  return posterior;
+}
+
+}  // namespace palpate::force_estimation

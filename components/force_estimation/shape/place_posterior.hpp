@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/force_estimation/shape/hidden_problem.hpp"
+#include "components/force_estimation/shape/search_places.hpp"
+
+namespace palpate::force_estimation {
+
+/// Where a contact is, as a distribution over the places of the surface.
+struct PlacePosterior {
+  int place = -1;  ///< the best; -1: no place where a push would help
+  PlaceFit fit;    ///< there
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the best
+  double ci95_m = 0.0;  ///< radius around the best that holds 95 %
+};
+
+/// What Locate goes by.
+struct LocateSettings {
+  double friction = 0.0;  ///< sigma of the tangential over the normal force
+  int unknowns = 3;       ///< fitted of the residual: left over from m are its degrees of freedom
+};
+
+/// The probability of each place is proportional to its area and to exp(evidence / 2), all over the
+/// residual's own scale where that is beyond the noise, as of a model that is not exact. First the
+/// plausible part of the surface is covered at a stride, then the surroundings of its best place in
+/// full. `usable` [places]: where a contact may be.
+PlacePosterior Locate(const HiddenProblem& problem, const SearchPlaces& places,
+                      const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable,
+                      const LocateSettings& settings);
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "libs/core/config_reader.hpp"
+
+namespace palpate::force_estimation {
+
+/// Settings of force estimation from the robot's shape.
+struct ShapeConfig {
+  std::string matching = "patch";
+  double hidden_distance_m = 0.0;
+  double outlier_distance_m = 0.0;
+  int matching_rounds = 3;
+  int untouched_frames = 30;
+  double pose_prior_m = 2e-3;
+  double pose_prior_rad = 5e-3;
+  double depth_bias_prior = 5e-3;
+  int depth_bias_order = 2;
+  double feature_offset_prior_m = 3e-4;
+  double model_relative_sigma = 0.03;
+  double robust_threshold = 3.0;
+  double contact_radius_m = 0.006;
+  double largest_friction = 1.0;
+  double force_relative_sigma = 0.015;
+  double force_rate_N_s = 2.0;
+  double fit_tolerance = 1e-3;
+  double significance = 1e-5;
+  double hidden_significance = 1e-6;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("matching", matching, {"patch", "point"},
+      "Algorithm 3: point takes the cloud point nearest to a feature's normal line, as published; "
+      "patch averages all points on the feature's share of the surface");
+    v("hidden_distance_m", hidden_distance_m, {.min = 0.0},
+      "d_m: a feature with no point so near to its normal line is hidden; 0: from the cloud's "
+      "spacing");
+    v("outlier_distance_m", outlier_distance_m, {.min = 0.0},
+      "d_l: a match farther away is an outlier; 0: 15 mm and three sigmas of the depth");
+    v("matching_rounds", matching_rounds, {.min = 1.0, .max = 20.0},
+      "Times that a frame is matched and fitted");
+    v("untouched_frames", untouched_frames, {.min = 1.0, .max = 10000.0},
+      "Frames at the start, known to be without contact, that teach the depth bias");
+    v("pose_prior_m", pose_prior_m, {.min = 0.0, .min_open = true},
+      "Sigma of the camera's position before they are seen");
+    v("pose_prior_rad", pose_prior_rad, {.min = 0.0, .min_open = true},
+      "Sigma of the camera's orientation before");
+    v("depth_bias_prior", depth_bias_prior, {.min = 0.0, .min_open = true},
+      "Sigma of the depth bias before, as a share of z");
+    v("depth_bias_order", depth_bias_order, {.min = 0.0, .max = 4.0},
+      "Order of the depth bias over the image");
+    v("feature_offset_prior_m", feature_offset_prior_m, {.min = 0.0, .min_open = true},
+      "Sigma of the constant offset of each feature before");
+    v("model_relative_sigma", model_relative_sigma, {.min = 0.0, .max = 1.0},
+      "Error of the model's displacements as a share of them, one sigma");
+    v("robust_threshold", robust_threshold, {.min = 1.0},
+      "Features off by more than so many sigmas lose weight (Huber)");
+    v("contact_radius_m", contact_radius_m, {.min = 0.0},
+      "Smallest radius of the patch that a contact's force is spread over");
+    v("largest_friction", largest_friction, {.min = 0.0},
+      "Tangential over normal force of a contact, at most");
+    v("force_relative_sigma", force_relative_sigma, {.min = 0.0, .max = 1.0},
+      "Error that all forces share, as the modulus', as a share of them, one sigma");
+    v("force_rate_N_s", force_rate_N_s, {.min = 0.0},
+      "How fast forces change, one sigma in a second: noise beyond is averaged over frames; 0: "
+      "each "
+      "frame stands for itself");
+    v("fit_tolerance", fit_tolerance, {.min = 1e-11, .max = 0.1},
+      "As frame_tolerance, of the fits of one frame");
+    v("significance", significance, {.min = 0.0, .max = 0.5, .min_open = true},
+      "Chance that noise alone gives a contact that was seen a force, in one frame");
+    v("hidden_significance", hidden_significance, {.min = 0.0, .max = 0.5, .min_open = true},
+      "Chance that noise alone gives a contact that nobody saw, in one frame");
+  }
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/shape_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+constexpr int kFewestFeatures = 6;
+/// A frame is matched again where the fit has moved a feature by more.
+constexpr double kMatchAgain_m = 5e-4;
+/// Places are looked for again in the same frame after a step longer than this.
+constexpr double kLocateAgain_m = 1e-3;
+constexpr double kLongestStep_m = 6e-3;
+constexpr int kLocationRounds = 2;
+constexpr int kFramesToSettle = 4;
+constexpr int kFramesBetweenPlaces = 3;
+constexpr double kSettledShare = 0.3;
+constexpr int kReweightings = 1;
+constexpr int kMostRestorations = 2;
+constexpr double kMostPush_N = 0.15;
+/// Standard deviation of the tangential force before it is seen, as a share of the largest
+/// friction.
+constexpr double kFrictionSigma = 0.5;
+constexpr double kSmallestPriorForce_N = 0.2;
+/// Of the force prior along the normal: none to speak of.
+constexpr double kNormalPriorSigma_N = 100.0;
+
+Config FitConfig(Config config, const ShapeConfig& shape) {
+  config.frame_tolerance = shape.fit_tolerance;
+  return config;
+}
+
+}  // namespace
+
+ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeConfig& shape)
+    : shape_(shape),
+      features_(model),
+      matching_(features_, shape),
+      targets_(shape, config.contact_marker_weight),
+      book_(model, shape),
+      fitter_(model, FitConfig(config, shape)),
+      location_{model, fitter_} {
+  fitter_.KeepFactor(true);
+  fitter_.TellModulusSensitivity(false);
+  fitter_.LimitRestorations(kMostRestorations);
+  fitter_.TolerateCablesThatPush(kMostPush_N);
+}
+
+void ShapeFit::StartAt(const fem::StaticState& state) {
+  fitter_.ForgetFactor();
+  state_.valid = state_.balanced = true;
+  state_.x_m = state.x_m;
+  state_.lambda_a_N = state.multipliers_N;
+  state_.lambda_f_N = Eigen::VectorXd::Zero(3 * fitter_.SiteCount());
+  if (learnt_x_m_.size() == 0) learnt_x_m_ = state_.x_m;
+}
+
+void ShapeFit::See(const ShapeFrame& frame) {
+  places_moved_ = book_.See(frame.contacts, state_.x_m) || places_moved_;
+  UseSites();
+}
+
+bool ShapeFit::SeeAgain(const ShapeFrame& frame) {
+  if (!book_.See(frame.contacts, state_.x_m)) return false;
+  places_moved_ = true;
+  UseSites();
+  return true;
+}
+
+/// The fitter takes the book's sites; forces of those that stay are kept.
+void ShapeFit::UseSites() {
+  const std::vector<ShapeSite>& sites = book_.sites();
+  std::vector<FitSite> fit_sites;
+  Eigen::VectorXd forces_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * sites.size()));
+  std::vector<std::string> names;
+  bool changed = std::exchange(places_moved_, false) || sites.size() != fitted_names_.size();
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    fit_sites.push_back({.patch = sites[s].patch});
+    names.push_back(sites[s].name);
+    const auto old = std::find(fitted_names_.begin(), fitted_names_.end(), sites[s].name);
+    const auto index = old - fitted_names_.begin();
+    changed = changed || index != static_cast<std::ptrdiff_t>(s);
+    if (old != fitted_names_.end() && 3 * index + 3 <= state_.lambda_f_N.size()) {
+      forces_N.segment<3>(static_cast<Eigen::Index>(3 * s)) =
+          state_.lambda_f_N.segment<3>(3 * index);
+    }
+  }
+  if (!changed && state_.lambda_f_N.size() == forces_N.size()) return;
+  located_.clear();
+  fitted_names_ = std::move(names);
+  fitter_.SetSites(fit_sites);
+  state_.lambda_f_N = std::move(forces_N);
+  state_.balanced = false;
+}
+
+/// A contact's force along the surface is no larger than friction allows; how large is not known.
+void ShapeFit::SetForcePrior() {
+  const auto size = static_cast<Eigen::Index>(3 * sites().size());
+  fem::QpMatrix information = fem::QpMatrix::Zero(size, size);
+  for (std::size_t s = 0; s < sites().size(); ++s) {
+    const auto row = static_cast<Eigen::Index>(3 * s);
+    const Eigen::Vector3d normal = NormalAt(s);
+    const double sigma_N = TangentialSigma_N(s);
+    const Eigen::Matrix3d along = normal * normal.transpose();
+    information.block<3, 3>(row, row) =
+        (Eigen::Matrix3d::Identity() - along) / (sigma_N * sigma_N) +
+        along / (kNormalPriorSigma_N * kNormalPriorSigma_N);
+  }
+  fitter_.SetForcePrior(information);
+}
+
+double ShapeFit::TangentialSigma_N(std::size_t site) const {
+  const double pressed_N = std::abs(NormalAt(site).dot(ForceAt(site)));
+  return std::max(
+      1e-3, kFrictionSigma * shape_.largest_friction * std::max(pressed_N, kSmallestPriorForce_N));
+}
+
+Eigen::Vector3d ShapeFit::NormalAt(std::size_t site) const {
+  const int triangle = sites()[site].centre.triangle;
+  Eigen::Vector3d corners[3];
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = state_.x_m.segment<3>(3 * features_.triangles()(i, triangle));
+  }
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+}
+
+Status ShapeFit::Match(const ShapeFrame& frame) {
+  matches_ = &matching_.Match(frame, state_.x_m);
+  const auto matched = std::count_if(matches_->begin(), matches_->end(), [](const auto& match) {
+    return match.state == MatchState::kMatched;
+  });
+  if (matched < kFewestFeatures) {
+    return {StatusCode::kNoRobotSeen,
+            "only " + std::to_string(matched) + " feature points are matched"};
+  }
+  return Status::Ok();
+}
+
+Status ShapeFit::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
+  Status status;
+  for (int round = 0; round < shape_.matching_rounds; ++round) {
+    if (status = Match(frame); !status.ok()) return status;
+    targets_.Build(*matches_, bias, frame.T_robot_camera, state_.x_m, learnt_x_m_, sites());
+    targets_.WeighAt(state_.x_m);
+    fitter_.SetRows(targets_.rows());
+    const Eigen::VectorXd before_m = state_.x_m;
+    if (status = Fit(frame); !status.ok()) return status;
+    double moved_m = 0.0;
+    for (const robot::EffectorRow& row : targets_.rows()) {
+      moved_m = std::max(moved_m, std::abs(row.Value(state_.x_m) - row.Value(before_m)));
+    }
+    if (moved_m < kMatchAgain_m) break;
+  }
+  return status;
+}
+
+/// With robust weights that go with the residual: one more fit where they have changed much.
+Status ShapeFit::Fit(const ShapeFrame& frame) {
+  for (int k = 0;; ++k) {
+    SetForcePrior();
+    const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_);
+    iterations_ += fit.iterations;
+    if (!fit.status.ok()) return fit.status;
+    if (!targets_.Reweight(fit.residual_m) || k == kReweightings) return Status::Ok();
+  }
+}
+
+Status ShapeFit::Locate(const ShapeFrame& frame, const DepthBias& bias) {
+  if (!IsTimeToLocate() && located_.size() == sites().size()) return Status::Ok();
+  for (int round = 0; round < kLocationRounds; ++round) {
+    if (!location_.Compute(sites(), targets_.targets(), state_, &located_).ok()) {
+      located_.clear();
+      return Status::Ok();  // the forces stand; where they act stays as it was
+    }
+    if (MoveSites() < kLocateAgain_m || !places_moved_) return Status::Ok();
+    const std::vector<LocatedForce> located = located_;
+    UseSites();
+    if (Status status = MatchAndFit(frame, bias); !status.ok()) return status;
+    located_ = located;
+  }
+  return Status::Ok();
+}
+
+double ShapeFit::MoveSites() {
+  double longest_m = 0.0;
+  for (std::size_t s = 0; s < located_.size(); ++s) {
+    const bool settled = sites()[s].frames >= kFramesToSettle;
+    const double whole_m = located_[s].step_rest_m.norm();
+    const double step_m = std::min(kLongestStep_m, (settled ? kSettledShare : 1.0) * whole_m);
+    if (!(step_m > 0.0)) continue;
+    longest_m = std::max(longest_m, step_m);
+    places_moved_ = book_.Move(s, located_[s].step_rest_m * (step_m / whole_m)) || places_moved_;
+  }
+  return longest_m;
+}
+
+bool ShapeFit::IsTimeToLocate() const {
+  return std::any_of(sites().begin(), sites().end(), [](const ShapeSite& site) {
+    return site.frames < kFramesToSettle || site.frames % kFramesBetweenPlaces == 0;
+  });
+}
+
+void ShapeFit::GoBack(const Attempt& attempt) {
+  book_.GoBack(attempt.sites);
+  places_moved_ = true;
+  UseSites();
+  state_ = attempt.state;
+}
+
+void ShapeFit::ReplaceHidden(const std::vector<HiddenContact>& found) {
+  book_.ReplaceHidden(found);
+  places_moved_ = true;
+  UseSites();
+  std::size_t next = 0;
+  for (std::size_t s = 0; s < sites().size() && next < found.size(); ++s) {
+    if (!sites()[s].hidden) continue;
+    state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * s)) =
+        found[next].tangential_N - found[next].force_N * found[next].normal;
+    ++next;
+  }
+}
+
+}  // namespace palpate::force_estimation

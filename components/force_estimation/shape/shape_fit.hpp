@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/config.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/location_step.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/shape_frame.hpp"
+#include "components/force_estimation/shape/shape_targets.hpp"
+#include "components/force_estimation/shape/site_book.hpp"
+#include "components/force_estimation/shape/surface_features.hpp"
+#include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// Moves the model to the robot's shape in a frame: features matched, forces fitted, contacts moved
+/// along the surface. The state goes on from frame to frame.
+class ShapeFit {
+ public:
+  /// All three must outlive this.
+  ShapeFit(robot::RobotModel& model, const Config& config, const ShapeConfig& shape);
+
+  /// A shape without contact forces to go on from.
+  void StartAt(const fem::StaticState& state);
+  bool started() const { return state_.valid; }
+  void Stop() { state_.valid = false; }
+
+  /// Takes the contacts that perception has located.
+  void See(const ShapeFrame& frame);
+  /// The same about the shape that a fit has found; true where a contact has another place.
+  bool SeeAgain(const ShapeFrame& frame);
+  /// Matches the features about the present state. kNoRobotSeen where too few match.
+  Status Match(const ShapeFrame& frame);
+  /// Matches and fits forces, in rounds, until the features stay where they are.
+  Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
+  /// Moves the contacts to where the deformation, and where they were seen, ask for: all the way in
+  /// their first frames, then by a share of it, so that noise is averaged.
+  Status Locate(const ShapeFrame& frame, const DepthBias& bias);
+
+  /// What may be tried and taken back.
+  struct Attempt {
+    std::vector<ShapeSite> sites;
+    ModelState state;
+    double chi_squared = 0.0;
+  };
+  Attempt Keep() const { return {book_.sites(), state_, fitter_.fit().chi_squared}; }
+  void GoBack(const Attempt& attempt);
+  /// Other hidden sites than there were, with forces to begin with.
+  void ReplaceHidden(const std::vector<HiddenContact>& found);
+
+  /// The shape to which the bias belongs: nodes [3n].
+  void LearntAt(const Eigen::VectorXd& x_m) { learnt_x_m_ = x_m; }
+
+  const SurfaceFeatures& features() const { return features_; }
+  const std::vector<FeatureMatch>& matches() const { return *matches_; }
+  const ShapeTargets& targets() const { return targets_; }
+  SiteBook& book() { return book_; }
+  const SiteBook& book() const { return book_; }
+  const std::vector<ShapeSite>& sites() const { return book_.sites(); }
+  ForceFitter& fitter() { return fitter_; }
+  const ForceFitter& fitter() const { return fitter_; }
+  const ModelState& state() const { return state_; }
+  const std::vector<LocatedForce>& located() const { return located_; }
+  int TakeIterations() { return std::exchange(iterations_, 0); }
+
+  Eigen::Vector3d ForceAt(std::size_t site) const {
+    return state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * site));
+  }
+  /// Unit, outward, of the skin at the contact in its present shape.
+  Eigen::Vector3d NormalAt(std::size_t site) const;
+  /// Of a contact's force along the surface, before it is seen: what friction allows.
+  double TangentialSigma_N(std::size_t site) const;
+
+ private:
+  void UseSites();
+  void SetForcePrior();
+  Status Fit(const ShapeFrame& frame);
+  bool IsTimeToLocate() const;
+  /// The longest step that was made, m.
+  double MoveSites();
+
+  ShapeConfig shape_;
+  SurfaceFeatures features_;
+  SurfaceMatching matching_;
+  ShapeTargets targets_;
+  SiteBook book_;
+  ForceFitter fitter_;
+  LocationStep location_;
+  ModelState state_;
+  Eigen::VectorXd learnt_x_m_;             ///< [3n]; empty: the first shape that was started at
+  std::vector<std::string> fitted_names_;  ///< of the sites that the fitter has
+  bool places_moved_ = false;              ///< since the fitter took them
+  const std::vector<FeatureMatch>* matches_ = nullptr;
+  std::vector<LocatedForce> located_;
+  int iterations_ = 0;
+};
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/shape_force_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "components/force_estimation/shape/contact_report.hpp"
+#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/hidden_contacts.hpp"
+#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/statistics.hpp"
+#include "libs/core/check.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+constexpr Eigen::Index kFewestPoints = 50;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+class ShapeForceEstimator::Impl {
+ public:
+  Impl(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
+       double modulus_sigma)
+      : model_(model),
+        shape_(shape),
+        bias_(static_cast<int>(model.body().feature_points.size()), shape),
+        fit_(model, config, shape),
+        hidden_(model, shape, fit_),
+        report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma)),
+        free_state_(model.RestState()) {
+    estimate_.cables.resize(static_cast<std::size_t>(model.CableCount()));
+    estimate_.x_m = free_state_.x_m;
+    features_.resize(model.body().feature_points.size());
+  }
+
+  const ForceEstimate& Update(const ShapeFrame& frame) {
+    estimate_.t_s = frame.t_s;
+    estimate_.contacts.clear();
+    published_ = false;
+    estimate_.status = Process(frame);
+    estimate_.iterations = fit_.TakeIterations();
+    estimate_.frame_error = fit_.fitter().fit().error;
+    if (!published_) Withdraw();
+    return estimate_;
+  }
+
+  const std::vector<FeatureReport>& features() const { return features_; }
+  double SmallestForce_N(const Eigen::Vector3d& rest_position_m);
+
+ private:
+  Status Process(const ShapeFrame& frame);
+  Status CheckFrame(const ShapeFrame& frame) const;
+  Status Learn(const ShapeFrame& frame);
+  Status FinishLearning(const ShapeFrame& frame);
+  Status Estimate(const ShapeFrame& frame);
+  Status StartFromFreeState(const ShapeFrame& frame);
+  Status FitFrame(const ShapeFrame& frame);
+  void Publish();
+  void PublishState();
+  void ReportFeatures();
+  void Withdraw();
+
+  robot::RobotModel& model_;
+  ShapeConfig shape_;
+  DepthBias bias_;
+  ShapeFit fit_;
+  HiddenContacts hidden_;
+  ContactReport report_;
+  fem::StaticState free_state_;
+  bool learning_ = false;  ///< untouched frames came since the bias was solved for
+  std::vector<FeatureReport> features_;
+  ForceEstimate estimate_;
+  bool published_ = false;
+};
+
+Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
+  if (Status status = CheckFrame(frame); !status.ok()) return status;
+  return frame.untouched ? Learn(frame) : Estimate(frame);
+}
+
+Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
+  PALPATE_CHECK(static_cast<int>(frame.cables.size()) == model_.CableCount(), frame.cables.size());
+  for (const robot::CableCommand& command : frame.cables) {
+    if (!std::isfinite(command.value)) {
+      return {StatusCode::kInvalidInput, "a cable input is not a finite number"};
+    }
+  }
+  if (!frame.T_robot_camera.matrix().allFinite()) {
+    return {StatusCode::kNoCalibration, "the camera's pose is not known"};
+  }
+  if (!frame.cloud.points_m.allFinite() || !frame.cloud.sigma_m.allFinite()) {
+    return {StatusCode::kInvalidInput, "the robot cloud holds NaN"};
+  }
+  return Status::Ok();
+}
+
+Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
+  learning_ = true;
+  if (Status status = StartFromFreeState(frame); !status.ok()) return status;
+  PublishState();
+  if (Status status = fit_.Match(frame); !status.ok()) return status;
+  bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
+  fit_.LearntAt(fit_.state().x_m);
+  return {StatusCode::kNoCalibration, "the depth bias is being learnt: frame " +
+                                          std::to_string(bias_.frames()) + " without contact"};
+}
+
+/// The model without contact forces under the frame's cable inputs.
+Status ShapeForceEstimator::Impl::StartFromFreeState(const ShapeFrame& frame) {
+  Status status = model_.Solve(frame.cables, {}, &free_state_).status;
+  if (status.ok()) fit_.StartAt(free_state_);
+  return status;
+}
+
+Status ShapeForceEstimator::Impl::FinishLearning(const ShapeFrame& frame) {
+  learning_ = false;
+  if (Status status = bias_.Finish(); !status.ok()) return status;
+  if (hidden_.prepared()) return Status::Ok();
+  if (Status status = StartFromFreeState(frame); !status.ok()) return status;
+  return hidden_.Prepare(frame.cables);
+}
+
+Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
+  if (learning_) {
+    if (Status status = FinishLearning(frame); !status.ok()) return status;
+  }
+  if (!fit_.started()) {
+    if (Status status = StartFromFreeState(frame); !status.ok()) return status;
+  }
+  if (frame.cloud.Count() < kFewestPoints) {
+    PublishState();
+    return {StatusCode::kNoRobotSeen,
+            "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
+  }
+  Status status = FitFrame(frame);
+  if (status.code() == StatusCode::kNoRobotSeen) {
+    PublishState();  // where the robot would be, so that perception finds it
+    return status;
+  }
+  if (!status.ok()) {
+    // The last state leads nowhere: once more from the equilibrium without contact.
+    fit_.book().ForgetHidden();
+    status = StartFromFreeState(frame);
+    if (status.ok()) status = FitFrame(frame);
+  }
+  if (!status.ok()) {
+    fit_.Stop();
+    return status;
+  }
+  Publish();
+  return estimate_.contacts.empty() ? Status(StatusCode::kNoContact, {}) : Status::Ok();
+}
+
+Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
+  fit_.book().ForgetQuiet();
+  fit_.See(frame);
+  Status status = fit_.MatchAndFit(frame, bias_);
+  if (status.ok() && fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
+  if (status.ok()) status = hidden_.Find(frame, bias_);
+  if (status.ok()) status = fit_.Locate(frame, bias_);
+  if (status.ok()) report_.Judge(frame.t_s, &fit_);
+  return status;
+}
+
+void ShapeForceEstimator::Impl::Publish() {
+  PublishState();
+  const ForceFit& fit = fit_.fitter().fit();
+  const double rows = std::max(1, fit_.targets().Count());
+  estimate_.chi_squared = fit.chi_squared;
+  estimate_.degrees_of_freedom = DegreesOfFreedom(fit_);
+  estimate_.residual_rms_m = fit.residual_m.norm() / std::sqrt(rows);
+  estimate_.noise_rms_m = fit_.targets().sigma_m().norm() / std::sqrt(rows);
+  estimate_.contacts = report_.Contacts(fit_);
+  ReportFeatures();
+}
+
+void ShapeForceEstimator::Impl::PublishState() {
+  published_ = true;
+  const ModelState& state = fit_.state();
+  estimate_.x_m = state.x_m;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const double length_m = model_.cable(c).Value(state.x_m);
+    estimate_.cables[static_cast<std::size_t>(c)] = {
+        .length_m = length_m,
+        .displacement_m = model_.cable(c).rest_length_m() - length_m,
+        .tension_N = std::max(0.0, state.lambda_a_N[c])};
+  }
+}
+
+void ShapeForceEstimator::Impl::ReportFeatures() {
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    features_[f] = {
+        .state = fit_.matches()[f].state,
+        .position_m = fit_.features().point(static_cast<int>(f)).Position(fit_.state().x_m)};
+  }
+  const ShapeTargets& targets = fit_.targets();
+  for (std::size_t r = 0; r < targets.features().size(); ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    FeatureReport& feature = features_[static_cast<std::size_t>(targets.features()[r])];
+    feature.residual_m = fit_.fitter().fit().residual_m[row];
+    feature.sigma_m = targets.sigma_m()[row];
+  }
+}
+
+/// Nothing of an earlier frame stands for this one.
+void ShapeForceEstimator::Impl::Withdraw() {
+  estimate_.residual_rms_m = estimate_.noise_rms_m = estimate_.chi_squared = kUnknown;
+  estimate_.degrees_of_freedom = 0;
+  estimate_.x_m.setConstant(kUnknown);
+  for (robot::CableState& cable : estimate_.cables) cable = {kUnknown, kUnknown, kUnknown};
+  for (FeatureReport& feature : features_) feature = {};
+}
+
+double ShapeForceEstimator::Impl::SmallestForce_N(const Eigen::Vector3d& rest_position_m) {
+  if (!fit_.started() || fit_.targets().Count() == 0 || !bias_.known()) return kUnknown;
+  const fem::SurfacePatch patch = model_.Patch(rest_position_m, shape_.contact_radius_m);
+  Eigen::VectorXd force_N = Eigen::VectorXd::Zero(fit_.state().x_m.size());
+  robot::ForceDirection{patch.weights, -patch.normal}.AddForce(1.0, force_N);
+  Eigen::MatrixXd motion_m;
+  fit_.fitter().RespondTo(force_N, fit_.state().x_m, &motion_m);
+  const Eigen::VectorXd& weight = fit_.targets().targets().weight;
+  const double information = (motion_m.col(0).array().square() * weight.array()).sum();
+  return NormalQuantile(1.0 - shape_.significance) / std::sqrt(information);
+}
+
+ShapeForceEstimator::ShapeForceEstimator(robot::RobotModel& model, const Config& config,
+                                         const ShapeConfig& shape,
+                                         double youngs_modulus_relative_sigma)
+    : impl_(std::make_unique<Impl>(model, config, shape, youngs_modulus_relative_sigma)) {}
+
+ShapeForceEstimator::~ShapeForceEstimator() = default;
+
+const ForceEstimate& ShapeForceEstimator::Update(const ShapeFrame& frame) {
+  return impl_->Update(frame);
+}
+
+const std::vector<FeatureReport>& ShapeForceEstimator::features() const {
+  return impl_->features();
+}
+
+double ShapeForceEstimator::SmallestForce_N(const Eigen::Vector3d& rest_position_m) const {
+  return impl_->SmallestForce_N(rest_position_m);
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "libs/rgbd/sensed_cloud.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// A contact that perception has located (Algorithm 2), robot frame.
+struct SeenContact {
+  std::string name;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d extent_m = Eigen::Vector3d::Zero();  ///< full size along the camera's axes
+  int point_count = 0;
+};
+
+/// A contact given in the camera's frame, in the robot's; its extent stays along the camera's axes.
+SeenContact InRobotFrame(const SeenContact& in_camera, const Eigen::Isometry3d& T_robot_camera);
+
+/// One look at the robot's shape.
+struct ShapeFrame {
+  double t_s = 0.0;
+  rgbd::SensedCloud cloud;  ///< the robot's points, camera frame
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+  std::vector<SeenContact> contacts;
+  std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  /// Nobody touches the robot, and that is known: the frame only teaches (depth bias, noise).
+  bool untouched = false;
+};
+
+}  // namespace palpate::force_estimation

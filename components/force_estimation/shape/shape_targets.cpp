@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/shape_targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// A feature's share of the surface reaches about so far; a contact within it dents it.
+constexpr double kReachOfFeature_m = 6e-3;
+constexpr double kMuchOfAWeight = 0.2;
+/// Mean square of residual over sigma up to which a shape tells outliers.
+constexpr double kNear = 4.0;
+
+bool IsNearContact(const FeatureMatch& match, const Eigen::Isometry3d& T_robot_camera,
+                   const Eigen::VectorXd& x_m, const std::vector<ShapeSite>& sites) {
+  const Eigen::Vector3d position_m = T_robot_camera * match.position_m;
+  return std::any_of(sites.begin(), sites.end(), [&](const ShapeSite& site) {
+    return (site.patch.weights.Position(x_m) - position_m).norm() <
+           site.radius_m + kReachOfFeature_m;
+  });
+}
+
+}  // namespace
+
+ShapeTargets::ShapeTargets(const ShapeConfig& config, double contact_weight)
+    : config_(config), contact_weight_(contact_weight) {}
+
+void ShapeTargets::Build(const std::vector<FeatureMatch>& matches, const DepthBias& bias,
+                         const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
+                         const Eigen::VectorXd& learnt_x_m, const std::vector<ShapeSite>& sites) {
+  rows_.clear();
+  features_.clear();
+  for (std::size_t f = 0; f < matches.size(); ++f) {
+    if (matches[f].state != MatchState::kMatched) continue;
+    rows_.push_back(matches[f].row);
+    features_.push_back(static_cast<int>(f));
+  }
+  const auto count = static_cast<Eigen::Index>(rows_.size());
+  targets_.rows = static_cast<int>(count);
+  targets_.value_m.resize(count);
+  targets_.weight.resize(count);
+  sigma_m_.resize(count);
+  noise_m_.resize(count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const int feature = features_[static_cast<std::size_t>(r)];
+    const FeatureMatch& match = matches[static_cast<std::size_t>(feature)];
+    targets_.value_m[r] = match.target_m - bias.Correction_m(feature, match, T_robot_camera);
+    noise_m_[r] = bias.NoiseScale() * match.sigma_m;
+    const double moved_m = match.row.Value(x_m) - match.row.Value(learnt_x_m);
+    const double constant_m = std::hypot(bias.CorrectionSigma_m(feature, match, T_robot_camera),
+                                         config_.model_relative_sigma * moved_m);
+    sigma_m_[r] = std::hypot(noise_m_[r], constant_m);
+    const double share = IsNearContact(match, T_robot_camera, x_m, sites) ? contact_weight_ : 1.0;
+    targets_.weight[r] = share / (sigma_m_[r] * sigma_m_[r]);
+  }
+  full_weight_ = targets_.weight;
+}
+
+void ShapeTargets::WeighAt(const Eigen::VectorXd& x_m) {
+  Eigen::VectorXd residual_m(targets_.value_m.size());
+  for (Eigen::Index r = 0; r < residual_m.size(); ++r) {
+    residual_m[r] = targets_.value_m[r] - rows_[static_cast<std::size_t>(r)].Value(x_m);
+  }
+  if (residual_m.cwiseQuotient(sigma_m_).squaredNorm() < kNear * targets_.rows) {
+    Reweight(residual_m);
+  }
+}
+
+bool ShapeTargets::Reweight(const Eigen::VectorXd& residual_m) {
+  bool changed = false;
+  for (Eigen::Index r = 0; r < residual_m.size(); ++r) {
+    const double off = std::abs(residual_m[r]) / sigma_m_[r];
+    const double share = off > config_.robust_threshold ? config_.robust_threshold / off : 1.0;
+    const double weight = share * full_weight_[r];
+    changed = changed || std::abs(weight - targets_.weight[r]) > kMuchOfAWeight * full_weight_[r];
+    targets_.weight[r] = weight;
+  }
+  return changed;
+}
+
+}  // namespace palpate::force_estimation

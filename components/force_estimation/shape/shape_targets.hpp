@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/shape_site.hpp"
+#include "components/force_estimation/shape/surface_matching.hpp"
+
+namespace palpate::force_estimation {
+
+/// The matched features as rows of the fit: targets without the constant bias, weights from the
+/// depth noise, from what is left of the bias, from the model's error (a share of how far a feature
+/// has moved since the bias was learnt), less near contacts, and less for those that do not fit.
+class ShapeTargets {
+ public:
+  explicit ShapeTargets(const ShapeConfig& config, double contact_weight);
+
+  /// `x_m` [3n] the model's present shape, `learnt_x_m` the shape in which the bias was learnt.
+  void Build(const std::vector<FeatureMatch>& matches, const DepthBias& bias,
+             const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
+             const Eigen::VectorXd& learnt_x_m, const std::vector<ShapeSite>& sites);
+  /// Huber's weights for the residuals at a shape, where that is near enough to tell outliers by.
+  void WeighAt(const Eigen::VectorXd& x_m);
+  /// Huber's weights for these residuals of the rows; true where one has changed much.
+  bool Reweight(const Eigen::VectorXd& residual_m);
+
+  int Count() const { return targets_.rows; }
+  const std::vector<robot::EffectorRow>& rows() const { return rows_; }
+  const RowTargets& targets() const { return targets_; }
+  const std::vector<int>& features() const { return features_; }  ///< [rows] feature of each
+  const Eigen::VectorXd& sigma_m() const { return sigma_m_; }     ///< [rows] before robust weights
+  /// [rows] the part of it that differs from frame to frame: the depth noise.
+  const Eigen::VectorXd& noise_m() const { return noise_m_; }
+
+ private:
+  ShapeConfig config_;
+  double contact_weight_;
+  std::vector<robot::EffectorRow> rows_;
+  std::vector<int> features_;
+  RowTargets targets_;
+  Eigen::VectorXd sigma_m_;
+  Eigen::VectorXd noise_m_;
+  Eigen::VectorXd full_weight_;  ///< [rows] without Huber's
+};
+
+}  // namespace palpate::force_estimation

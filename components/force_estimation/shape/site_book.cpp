@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/site_book.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/force_estimation/shape/location_step.hpp"
+#include "libs/fem/bounded_qp.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+constexpr std::size_t kMostSites = fem::kMaxQpVariables / 3;
+constexpr double kSmallestSeenSigma_m = 1e-3;
+constexpr double kHiddenSigma_m = 0.05;
+/// Share of a contact's seen extent that is its patch: the rest is the rim of the object.
+constexpr double kPatchShareOfExtent = 0.3;
+constexpr double kLargestRadius_m = 0.015;
+/// A contact that comes into view so near to a hidden one is the same.
+constexpr double kSameContact_m = 0.035;
+constexpr double kFarFromSeen_m = 0.008;
+constexpr double kFarInSigmas = 3.0;
+constexpr int kFramesToAppear = 2;
+/// Nobody has seen it: it must last.
+constexpr int kFramesToAppearHidden = 4;
+constexpr int kQuietFramesToVanish = 3;
+
+/// Largest sigma along the surface with this normal.
+double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vector3d& normal) {
+  const Eigen::Matrix<double, 3, 2> tangents = Tangents(normal);
+  const Eigen::Matrix2d along = tangents.transpose() * covariance_m2 * tangents;
+  const double mean = 0.5 * along.trace();
+  const double spread = std::sqrt(std::max(0.0, mean * mean - along.determinant()));
+  return std::sqrt(std::max(0.0, mean + spread));
+}
+
+}  // namespace
+
+SiteBook::SiteBook(const robot::RobotModel& model, const ShapeConfig& config)
+    : model_(model), config_(config), map_(model) {}
+
+bool SiteBook::See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m) {
+  map_.Deform(x_m);
+  const auto is_gone = [&](const ShapeSite& site) {
+    return !site.hidden && std::none_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+      return contact.name == site.name;
+    });
+  };
+  bool changed = std::erase_if(sites_, is_gone) > 0;
+  for (const SeenContact& contact : contacts) {
+    if (ShapeSite* site = Find(contact.name)) {
+      changed = DropHiddenNear(site->centre.rest_m) || changed;
+      site = Find(contact.name);
+      Refresh(contact, site);
+      changed = PlaceAgainIfFar(site) || changed;
+      continue;
+    }
+    const SkinPoint centre = map_.NearestNow(contact.position_m);
+    if (centre.distance_m > kFarthest_m) continue;
+    changed = DropHiddenNear(centre.rest_m) || changed;
+    if (full()) continue;
+    ShapeSite site;
+    site.name = contact.name;
+    site.filter = ForceFilter(config_.force_rate_N_s);
+    site.radius_m =
+        std::clamp(kPatchShareOfExtent * contact.extent_m.maxCoeff(), config_.contact_radius_m,
+                   std::max(config_.contact_radius_m, kLargestRadius_m));
+    Place(centre, &site);
+    Refresh(contact, &site);
+    sites_.push_back(std::move(site));
+    changed = true;
+  }
+  return changed;
+}
+
+/// What was hidden so near to a contact that is seen is the same.
+bool SiteBook::DropHiddenNear(const Eigen::Vector3d& rest_m) {
+  return std::erase_if(sites_, [&](const ShapeSite& site) {
+           return site.hidden && (site.centre.rest_m - rest_m).norm() < kSameContact_m;
+         }) > 0;
+}
+
+void SiteBook::Refresh(const SeenContact& contact, ShapeSite* site) {
+  const SkinPoint seen = map_.NearestNow(contact.position_m);
+  site->seen_rest_m = seen.rest_m;
+  site->seen_sigma_m = std::max(kSmallestSeenSigma_m,
+                                TangentialSigma_m(contact.covariance_m2, map_.NormalNow(seen)));
+}
+
+/// Before the first fit of a large push the nearest skin may be that of the body's other side.
+bool SiteBook::PlaceAgainIfFar(ShapeSite* site) const {
+  const double limit_m = std::max(kFarFromSeen_m, kFarInSigmas * site->seen_sigma_m);
+  if ((site->seen_rest_m - site->centre.rest_m).norm() <= limit_m) return false;
+  Place(map_.NearestAtRest(site->seen_rest_m), site);
+  return true;
+}
+
+void SiteBook::ReplaceHidden(const std::vector<HiddenContact>& found) {
+  std::vector<ShapeSite> old;
+  for (const ShapeSite& site : sites_) {
+    if (site.hidden) old.push_back(site);
+  }
+  std::erase_if(sites_, [](const ShapeSite& site) { return site.hidden; });
+  for (std::size_t k = 0; k < found.size() && !full(); ++k) {
+    if (k >= old.size()) {
+      AddHidden(found[k]);
+      continue;
+    }
+    ShapeSite site = old[k];
+    Place(map_.NearestAtRest(found[k].rest_position_m), &site);
+    site.seen_rest_m = site.centre.rest_m;
+    sites_.push_back(std::move(site));
+  }
+}
+
+void SiteBook::AddHidden(const HiddenContact& found) {
+  ShapeSite site;
+  site.name = "hidden_" + std::to_string(++hidden_names_);
+  site.hidden = true;
+  site.filter = ForceFilter(config_.force_rate_N_s);
+  site.radius_m = config_.contact_radius_m;
+  Place(map_.NearestAtRest(found.rest_position_m), &site);
+  site.seen_rest_m = site.centre.rest_m;
+  site.seen_sigma_m = kHiddenSigma_m;
+  sites_.push_back(std::move(site));
+}
+
+bool SiteBook::Move(std::size_t index, const Eigen::Vector3d& step_rest_m) {
+  ShapeSite& site = sites_[index];
+  const SkinPoint moved = map_.NearestAtRest(site.centre.rest_m + step_rest_m);
+  if ((moved.rest_m - site.centre.rest_m).norm() < kSmallestMove_m) return false;
+  Place(moved, &site);
+  return true;
+}
+
+void SiteBook::Place(const SkinPoint& centre, ShapeSite* site) const {
+  site->centre = centre;
+  site->patch = model_.Patch(centre.rest_m, site->radius_m);
+}
+
+void SiteBook::Judge(std::size_t index, bool significant, bool quiet) {
+  ShapeSite& site = sites_[index];
+  ++site.frames;
+  site.significant_frames = significant ? site.significant_frames + 1 : 0;
+  site.quiet_frames = quiet ? site.quiet_frames + 1 : 0;
+  const int wanted = site.hidden ? kFramesToAppearHidden : kFramesToAppear;
+  if (site.significant_frames >= wanted) site.acts = true;
+  if (site.quiet_frames >= kQuietFramesToVanish) site.acts = false;
+}
+
+void SiteBook::ForgetHidden() {
+  std::erase_if(sites_, [](const ShapeSite& site) { return site.hidden; });
+}
+
+bool SiteBook::ForgetQuiet() {
+  return std::erase_if(sites_, [](const ShapeSite& site) {
+           return site.hidden && site.quiet_frames >= kQuietFramesToVanish;
+         }) > 0;
+}
+
+std::vector<Eigen::Vector3d> SiteBook::RestPositions_m() const {
+  std::vector<Eigen::Vector3d> positions_m;
+  for (const ShapeSite& site : sites_) positions_m.push_back(site.centre.rest_m);
+  return positions_m;
+}
+
+bool SiteBook::full() const { return sites_.size() >= kMostSites; }
+
+ShapeSite* SiteBook::Find(const std::string& name) {
+  const auto found = std::find_if(sites_.begin(), sites_.end(),
+                                  [&](const ShapeSite& site) { return site.name == name; });
+  return found == sites_.end() ? nullptr : &*found;
+}
+
+}  // namespace palpate::force_estimation

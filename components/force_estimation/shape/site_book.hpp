@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/shape/hidden_search.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/shape_frame.hpp"
+#include "components/force_estimation/shape/shape_site.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::force_estimation {
+
+/// The contacts that are being followed: those that perception sees come and go with it, those that
+/// were found by search stay as long as their force shows.
+class SiteBook {
+ public:
+  SiteBook(const robot::RobotModel& model, const ShapeConfig& config);
+
+  /// Contacts of a new frame, mapped onto the skin in the shape `x_m` [3n]. A contact farther than
+  /// kFarthest_m from the skin is left out, as are those beyond the number that can be fitted. A
+  /// hidden site where a contact has come into view gives way to it. True where the set of places
+  /// has changed.
+  bool See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m);
+
+  /// The hidden sites become these, by the names that there are as far as they go.
+  void ReplaceHidden(const std::vector<HiddenContact>& found);
+  /// The sites become what they were.
+  void GoBack(const std::vector<ShapeSite>& sites) { sites_ = sites; }
+  /// Moves a site along the undeformed surface. False where that is less than kSmallestMove_m.
+  bool Move(std::size_t index, const Eigen::Vector3d& step_rest_m);
+  /// What a frame's fit has found out about a site's force.
+  void Judge(std::size_t index, bool significant, bool quiet);
+  ForceFilter& filter(std::size_t index) { return sites_[index].filter; }
+  void ForgetHidden();
+  /// Removes hidden sites that have been quiet for some frames. True where one was removed.
+  bool ForgetQuiet();
+
+  const std::vector<ShapeSite>& sites() const { return sites_; }
+  std::vector<Eigen::Vector3d> RestPositions_m() const;
+  bool full() const;
+
+  static constexpr double kFarthest_m = 0.025;
+  static constexpr double kSmallestMove_m = 3e-4;
+
+ private:
+  void Place(const SkinPoint& centre, ShapeSite* site) const;
+  void AddHidden(const HiddenContact& found);
+  void Refresh(const SeenContact& contact, ShapeSite* site);
+  bool PlaceAgainIfFar(ShapeSite* site) const;
+  bool DropHiddenNear(const Eigen::Vector3d& rest_m);
+  ShapeSite* Find(const std::string& name);
+
+  const robot::RobotModel& model_;
+  ShapeConfig config_;
+  SurfaceMap map_;
+  std::vector<ShapeSite> sites_;
+  int hidden_names_ = 0;
+};
+
+}  // namespace palpate::force_estimation

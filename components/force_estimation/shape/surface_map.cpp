@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/surface_map.hpp"
+
+#include "libs/fem/boundary_surface.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+geometry::TriangleSurface DrawnSurface(const robot::RobotModel& model) {
+  const fem::TetMesh& mesh = model.body().mesh;
+  return {mesh.nodes_m, fem::ExtractBoundary(mesh).DrawnTriangles()};
+}
+
+Eigen::Vector3d Interpolate(const geometry::TriangleSurface& surface, const SkinPoint& point) {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    position += point.barycentric[i] * surface.Corner(point.triangle, i);
+  }
+  return position;
+}
+
+}  // namespace
+
+SurfaceMap::SurfaceMap(const robot::RobotModel& model)
+    : rest_(DrawnSurface(model)), now_(rest_.surface()) {}
+
+void SurfaceMap::Deform(const Eigen::VectorXd& x_m) {
+  now_.Refit(Eigen::Map<const Eigen::Matrix3Xd>(x_m.data(), 3, x_m.size() / 3));
+}
+
+SkinPoint SurfaceMap::PointOf(const geometry::SurfacePoint& found) const {
+  SkinPoint point{.triangle = found.triangle, .barycentric = found.barycentric};
+  point.rest_m = Interpolate(rest_.surface(), point);
+  point.distance_m = found.distance_m;
+  return point;
+}
+
+SkinPoint SurfaceMap::NearestNow(const Eigen::Vector3d& position_m) const {
+  return PointOf(now_.Closest(position_m));
+}
+
+SkinPoint SurfaceMap::NearestAtRest(const Eigen::Vector3d& rest_m) const {
+  return PointOf(rest_.Closest(rest_m));
+}
+
+Eigen::Vector3d SurfaceMap::PositionNow_m(const SkinPoint& point) const {
+  return Interpolate(now_.surface(), point);
+}
+
+Eigen::Vector3d SurfaceMap::NormalNow(const SkinPoint& point) const {
+  return geometry::TriangleNormal(now_.surface(), point.triangle);
+}
+
+Eigen::Vector3d SurfaceMap::NormalAtRest(const SkinPoint& point) const {
+  return geometry::TriangleNormal(rest_.surface(), point.triangle);
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/surface_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/force_estimation/shape/moving_surface.hpp"
+#include "components/force_estimation/shape/patch_matching.hpp"
+#include "components/force_estimation/shape/point_matching.hpp"
+#include "components/force_estimation/shape/predicted_view.hpp"
+#include "libs/core/check.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// How far a surface may move between two frames, m: half a metre per second at 30 frames a second.
+constexpr double kMotion_m = 15e-3;
+/// Points that are asked for their nearest neighbour.
+constexpr Eigen::Index kSpacingSamples = 15;
+
+void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_node) {
+  const rgbd::SensedCloud& cloud = frame.cloud;
+  PALPATE_CHECK(cloud.sigma_m.size() == cloud.Count(), cloud.sigma_m.size(), cloud.Count());
+  PALPATE_CHECK(cloud.points_m.allFinite());
+  PALPATE_CHECK(cloud.Count() == 0 || (cloud.sigma_m.allFinite() && cloud.sigma_m.minCoeff() > 0));
+  PALPATE_CHECK(frame.T_robot_camera.matrix().allFinite());
+  PALPATE_CHECK(x_m.size() > 3 * last_node + 2 && x_m.allFinite(), x_m.size(), last_node);
+}
+
+double MedianOf(std::vector<float>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return static_cast<double>(*middle);
+}
+
+/// Median distance to the nearest neighbour, of points spread over the cloud, m.
+double Spacing_m(const Eigen::Matrix3Xf& points_m) {
+  if (points_m.cols() < 2) return 0.0;
+  const Eigen::Index samples = std::min(kSpacingSamples, points_m.cols());
+  std::vector<float> squared_m2;
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    const Eigen::Index k = s * points_m.cols() / samples;
+    float least_m2 = std::numeric_limits<float>::infinity();
+    for (Eigen::Index other = 0; other < points_m.cols(); ++other) {
+      if (other == k) continue;
+      const float here_m2 = (points_m.col(other) - points_m.col(k)).squaredNorm();
+      if (here_m2 < least_m2) least_m2 = here_m2;
+    }
+    squared_m2.push_back(least_m2);
+  }
+  return std::sqrt(MedianOf(&squared_m2));
+}
+
+MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::SensedCloud& cloud) {
+  MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
+  if (distances.hidden_m == 0.0) distances.hidden_m = 2.0 * Spacing_m(cloud.points_m);
+  if (distances.outlier_m == 0.0) {
+    std::vector<float> sigmas_m(cloud.sigma_m.data(), cloud.sigma_m.data() + cloud.sigma_m.size());
+    distances.outlier_m = kMotion_m + 3.0 * MedianOf(&sigmas_m);
+  }
+  return distances;
+}
+
+/// For a patch, whose points do not aim at the feature's normal line.
+void MeasureLineDistances(const SurfaceFeatures& features, const ShapeFrame& frame,
+                          const Eigen::VectorXd& x_m, std::vector<FeatureMatch>* matches) {
+  const Eigen::Matrix3Xd normals = features.Normals(x_m);
+  for (int feature = 0; feature < features.Count(); ++feature) {
+    FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    if (match.state != MatchState::kMatched) continue;
+    const Eigen::Vector3d offset_m =
+        frame.T_robot_camera * match.position_m - features.point(feature).Position(x_m);
+    match.line_distance_m = offset_m.cross(normals.col(feature)).norm();
+  }
+}
+
+}  // namespace
+
+struct SurfaceMatching::Parts {
+  const SurfaceFeatures& features;
+  ShapeConfig config;
+  MovingSurface surface;
+  PredictedView view;
+  PatchMatching patches;
+  std::vector<FeatureMatch> matches;
+};
+
+SurfaceMatching::SurfaceMatching(const SurfaceFeatures& features, const ShapeConfig& config)
+    : parts_(new Parts{features,
+                       config,
+                       MovingSurface(features.triangles()),
+                       PredictedView(),
+                       PatchMatching(features),
+                       {}}) {}
+
+SurfaceMatching::~SurfaceMatching() = default;
+
+const std::vector<FeatureMatch>& SurfaceMatching::Match(const ShapeFrame& frame,
+                                                        const Eigen::VectorXd& x_m) {
+  const SurfaceFeatures& features = parts_->features;
+  std::vector<FeatureMatch>& matches = parts_->matches;
+  CheckInput(frame, x_m, features.triangles().maxCoeff());
+  matches.assign(static_cast<size_t>(features.Count()), FeatureMatch{});
+  if (frame.cloud.Count() == 0) return matches;
+  const MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
+  parts_->surface.MoveTo(x_m, frame.T_robot_camera.inverse());
+  parts_->view.Look(parts_->surface.vertices_m(), parts_->surface.triangles());
+  if (parts_->config.matching == "point") {
+    MatchPoints(features, frame.cloud, frame.T_robot_camera, x_m, parts_->view, distances,
+                &matches);
+  } else {
+    parts_->patches.Match(frame.cloud, frame.T_robot_camera, parts_->surface, parts_->view,
+                          distances, &matches);
+    MeasureLineDistances(features, frame, x_m, &matches);
+  }
+  return matches;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "components/force_estimation/shape/force_filter.hpp"
+#include "tests/components/force_estimation/test_bodies.hpp"
+
+namespace palpate::force_estimation {
+namespace {
+
+const Eigen::Vector3d kForce_N(0.1, -0.4, -0.8);
+
+Eigen::Matrix3d Noise(double sigma_N) { return sigma_N * sigma_N * Eigen::Matrix3d::Identity(); }
+
+TEST(ForceFilter, TheFirstFrameStandsAsItIs) {
+  ForceFilter filter(2.0);
+  filter.Update(5.0, kForce_N, Noise(0.1));
+  EXPECT_EQ(filter.force_N(), kForce_N);
+  EXPECT_EQ(filter.covariance_N2(), Noise(0.1));
+}
+
+TEST(ForceFilter, WithoutARateEachFrameStandsForItself) {
+  ForceFilter filter(0.0);
+  filter.Update(0.0, kForce_N, Noise(0.1));
+  filter.Update(0.1, 1.1 * kForce_N, Noise(0.1));
+  EXPECT_EQ(filter.force_N(), 1.1 * kForce_N);
+}
+
+TEST(ForceFilter, NoiseIsAveragedToWhatItsCovarianceSays) {
+  constexpr double kSigma_N = 0.2;
+  std::mt19937 random(1);
+  double sum = 0.0;
+  ForceFilter filter(0.3);
+  constexpr int kFrames = 3000;
+  constexpr int kSettled = 100;
+  for (int k = 0; k < kFrames; ++k) {
+    filter.Update(k / 30.0, kForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
+    if (k >= kSettled) sum += (filter.force_N() - kForce_N).squaredNorm() / 3.0;
+  }
+  const double scatter_N = std::sqrt(sum / (kFrames - kSettled));
+  EXPECT_LT(scatter_N, 0.4 * kSigma_N);
+  // The walk that it allows for did not happen: it is better than it says, within a factor.
+  EXPECT_LT(scatter_N, std::sqrt(filter.covariance_N2()(0, 0)));
+  EXPECT_GT(scatter_N, 0.4 * std::sqrt(filter.covariance_N2()(0, 0)));
+}
+
+TEST(ForceFilter, AForceThatIsToldWellFollowsAtOnce) {
+  ForceFilter filter(2.0);
+  for (int k = 0; k <= 30; ++k) {
+    filter.Update(k / 30.0, k / 30.0 * kForce_N, Noise(0.003));  // 0.9 N in a second
+  }
+  EXPECT_LT((filter.force_N() - kForce_N).norm(), 1e-3);
+}
+
+TEST(ForceFilter, AJumpBeginsAnew) {
+  ForceFilter filter(0.1);
+  for (int k = 0; k < 30; ++k) filter.Update(k / 30.0, kForce_N, Noise(0.02));
+  filter.Update(1.0, -kForce_N, Noise(0.02));
+  EXPECT_EQ(filter.force_N(), -kForce_N);
+}
+
+TEST(ForceFilter, TurnsWithTheFrame) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-2, 1e-4, 4e-3).asDiagonal();
+  ForceFilter filter(0.5), turned(0.5);
+  std::mt19937 random(2);
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Vector3d force_N = kForce_N + NormalNoise(0.01, random);
+    filter.Update(k / 30.0, force_N, covariance);
+    turned.Update(k / 30.0, turn * force_N, turn * covariance * turn.transpose());
+  }
+  EXPECT_LT((turn * filter.force_N() - turned.force_N()).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation
