@@ -10,8 +10,8 @@
 
 #include "components/calibration/recording_observation.hpp"
 #include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/estimate/force_summary.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "components/palpate/force_summary.hpp"
 #include "components/palpate/robot_scene.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/check.hpp"

@@ -18,11 +18,11 @@ using experiment::CableQuantity;
 using experiment::MeasurementFrame;
 using experiment::Recording;
 
-/// Times of all marker frames and actuation rows, each once. Rows before the first or after the
-/// last marker frame are left out: nobody can use them.
-std::vector<double> EventTimes(const Recording& recording) {
-  std::vector<double> times_s;
-  for (const auto& frame : recording.markers->frames) times_s.push_back(frame.t_s);
+constexpr double kNsPerSecond = 1e9;
+
+/// Times of all frames and actuation rows, each once. Rows before the first or after the last frame
+/// are left out: nobody can use them.
+std::vector<double> EventTimes(std::vector<double> times_s, const Recording& recording) {
   if (!recording.actuation) return times_s;
   const double first_s = times_s.front(), last_s = times_s.back();
   for (const double t_s : recording.actuation->t_s) {
@@ -30,6 +30,22 @@ std::vector<double> EventTimes(const Recording& recording) {
   }
   std::sort(times_s.begin(), times_s.end());
   times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+  return times_s;
+}
+
+std::vector<double> TimesOfMarkers(const Recording& recording) {
+  std::vector<double> times_s;
+  for (const auto& frame : recording.markers->frames) times_s.push_back(frame.t_s);
+  return times_s;
+}
+
+double SecondsOf(const experiment::FrameFiles& frame) {
+  return static_cast<double>(frame.t_ns) / kNsPerSecond;
+}
+
+std::vector<double> TimesOfImages(const experiment::RgbdSequence& sequence) {
+  std::vector<double> times_s;
+  for (const auto& frame : sequence.frames) times_s.push_back(SecondsOf(frame));
   return times_s;
 }
 
@@ -73,25 +89,54 @@ void CheckRecordingName(const experiment::Experiment& experiment, const std::str
 
 }  // namespace
 
+ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment)
+    : experiment_(std::move(experiment)) {}
+
 ExperimentPlayer::ExperimentPlayer(experiment::Experiment experiment, const std::string& recording,
                                    bool in_robot_frame)
-    : experiment_(std::move(experiment)) {
+    : ExperimentPlayer(std::move(experiment)) {
   CheckRecordingName(experiment_, recording);
   for (const Recording& candidate : experiment_.recordings) {
     if (!candidate.markers || (!recording.empty() && candidate.name != recording)) continue;
     tracks_.push_back(MakeTrack(candidate, in_robot_frame));
   }
-  if (tracks_.empty()) {
-    throw InputError((recording.empty() ? "no recording" : "recording '" + recording + "'") +
-                     (recording.empty() ? " in " + experiment_.folder.string() : "") +
-                     " has no markers.csv: nothing to play");
+  CheckTracks(recording, "markers.csv");
+}
+
+ExperimentPlayer ExperimentPlayer::OfImages(experiment::Experiment experiment,
+                                            const std::string& recording,
+                                            const ConfigLoader& load) {
+  ExperimentPlayer player(std::move(experiment));
+  player.plays_images_ = true;
+  CheckRecordingName(player.experiment_, recording);
+  for (const Recording& candidate : player.experiment_.recordings) {
+    const bool has_images = !candidate.depth_images.empty() || !candidate.clouds.empty();
+    if (!has_images || (!recording.empty() && candidate.name != recording)) continue;
+    auto images = std::make_unique<experiment::RgbdSequence>(
+        experiment::OpenRecordingImages(candidate, load));
+    auto times_s = EventTimes(TimesOfImages(*images), candidate);
+    player.tracks_.push_back({&candidate, Eigen::Isometry3d::Identity(), MeasurementFrame::kCamera,
+                              Eigen::Vector3d::Zero(), std::move(times_s), std::move(images)});
   }
+  player.CheckTracks(recording, "images");
+  return player;
+}
+
+void ExperimentPlayer::CheckTracks(const std::string& recording, const std::string& what) const {
+  if (!tracks_.empty()) return;
+  throw InputError((recording.empty() ? "no recording in " + experiment_.folder.string() + " has "
+                                      : "recording '" + recording + "' has no ") +
+                   what + ": nothing to play");
 }
 
 ExperimentPlayer::Track ExperimentPlayer::MakeTrack(const Recording& recording,
                                                     bool in_robot_frame) const {
-  Track track{&recording, Eigen::Isometry3d::Identity(), FrameOf(experiment_, recording),
-              experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()), EventTimes(recording)};
+  Track track{&recording,
+              Eigen::Isometry3d::Identity(),
+              FrameOf(experiment_, recording),
+              experiment_.markers_sigma_m.value_or(Eigen::Vector3d::Zero()),
+              EventTimes(TimesOfMarkers(recording), recording),
+              nullptr};
   if (!in_robot_frame || track.frame == MeasurementFrame::kRobot) return track;
   const auto pose = experiment::RobotFromMarkers(experiment_, recording);
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
@@ -112,13 +157,24 @@ std::optional<Event> ExperimentPlayer::Next() {
   if (track_ == tracks_.size()) return std::nullopt;
   const Track& track = tracks_[track_];
   const double t_s = track.times_s[event_++];
-  Event event{track.recording->name, t_s, CablesAt(*track.recording, t_s), std::nullopt};
+  Event event{track.recording->name, t_s, CablesAt(*track.recording, t_s), {}, {}};
+  if (track.images) {
+    AddImages(track, t_s, &event);
+    return event;
+  }
   const auto& frames = track.recording->markers->frames;
-  if (marker_frame_ < frames.size() && frames[marker_frame_].t_s == t_s) {
-    event.markers = MarkersOf(track, frames[marker_frame_]);
-    event.markers->counter = marker_frame_++;
+  if (frame_ < frames.size() && frames[frame_].t_s == t_s) {
+    event.markers = MarkersOf(track, frames[frame_]);
+    event.markers->counter = frame_++;
   }
   return event;
+}
+
+void ExperimentPlayer::AddImages(const Track& track, double t_s, Event* event) {
+  const auto& frames = track.images->frames;
+  if (frame_ == frames.size() || SecondsOf(frames[frame_]) != t_s) return;
+  event->images = ImageSet{track.images.get(), frame_, frames[frame_].t_ns};
+  ++frame_;
 }
 
 MarkerSet ExperimentPlayer::MarkersOf(const Track& track,
@@ -137,7 +193,7 @@ MarkerSet ExperimentPlayer::MarkersOf(const Track& track,
 
 void ExperimentPlayer::RewindRecording() {
   event_ = 0;
-  marker_frame_ = 0;
+  frame_ = 0;
 }
 
 void ExperimentPlayer::RewindAll() {

@@ -4,12 +4,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "libs/core/config_node.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/experiment/images/rgbd_sequence.hpp"
 
 namespace palpate::player {
 
@@ -35,17 +39,28 @@ struct MarkerSet {
   std::vector<Marker> markers;
 };
 
+/// Where a frame set of images stands on disk.
+struct ImageSet {
+  const experiment::RgbdSequence* sequence = nullptr;  ///< of the player
+  std::size_t index = 0;
+  std::int64_t t_ns = 0;
+};
+
 /// What happened at one time of a recording: cable inputs (linear between the rows of
-/// actuation.csv), and the markers where they were measured at that time.
+/// actuation.csv), and the markers, or images, where they were taken at that time.
 struct Event {
   std::string recording;
   double t_s = 0.0;
   std::vector<CableInput> cables;  ///< empty: the recording has no actuation.csv
-  std::optional<MarkerSet> markers;
+  std::optional<MarkerSet> markers = {};
+  std::optional<ImageSet> images = {};
+
+  bool has_frame() const { return markers || images; }
 };
 
 /// Turns an experiment into events: recording after recording in the order of their names, each in
-/// the order of time, with one event for each marker frame and each row of actuation.csv.
+/// the order of time, with one event for each frame (of markers, or of images) and each row of
+/// actuation.csv.
 class ExperimentPlayer {
  public:
   /// `recording`: the only one to play; empty: all that have markers. `in_robot_frame`: markers are
@@ -53,6 +68,11 @@ class ExperimentPlayer {
   /// such recording (with "did you mean"), none has markers, or the mapping is unknown.
   ExperimentPlayer(experiment::Experiment experiment, const std::string& recording,
                    bool in_robot_frame);
+
+  /// The same of depth and colour images instead of markers. Throws InputError where there is no
+  /// such recording, or none has images, or a camera.yaml cannot be read.
+  static ExperimentPlayer OfImages(experiment::Experiment experiment, const std::string& recording,
+                                   const ConfigLoader& load);
 
   ExperimentPlayer(ExperimentPlayer&&) = default;
   ExperimentPlayer(const ExperimentPlayer&) = delete;  // tracks point into the experiment
@@ -65,6 +85,9 @@ class ExperimentPlayer {
   void RewindAll();
 
   bool has_cables() const;
+  bool plays_images() const { return plays_images_; }
+  /// What the folder is called, and what it tells of its camera.
+  const experiment::Experiment& experiment() const { return experiment_; }
 
  private:
   /// A recording as it is played.
@@ -73,17 +96,24 @@ class ExperimentPlayer {
     Eigen::Isometry3d T_frame_measured;
     experiment::MeasurementFrame frame;
     Eigen::Vector3d sigma_m;
-    std::vector<double> times_s;  ///< of all events, rising
+    std::vector<double> times_s;                       ///< of all events, rising
+    std::unique_ptr<experiment::RgbdSequence> images;  ///< stays where it is: events point to it
   };
 
+  explicit ExperimentPlayer(experiment::Experiment experiment);
+  /// Throws InputError where there is nothing to play.
+  void CheckTracks(const std::string& recording, const std::string& what) const;
   Track MakeTrack(const experiment::Recording& recording, bool in_robot_frame) const;
   MarkerSet MarkersOf(const Track& track, const experiment::MarkerFrame& frame) const;
 
+  void AddImages(const Track& track, double t_s, Event* event);
+
   experiment::Experiment experiment_;
+  bool plays_images_ = false;
   std::vector<Track> tracks_;
   size_t track_ = 0;
   size_t event_ = 0;
-  uint64_t marker_frame_ = 0;  ///< the next one of the track
+  uint64_t frame_ = 0;  ///< the next one of the track
 };
 
 }  // namespace palpate::player

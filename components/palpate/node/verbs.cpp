@@ -5,10 +5,10 @@
 
 #include "components/palpate/calibrate_verb.hpp"
 #include "components/palpate/capture_verb.hpp"
-#include "components/palpate/estimate_verb.hpp"
+#include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
-#include "components/palpate/node/demo_verb.hpp"
+#include "components/palpate/node/demo/demo_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
 #include "components/palpate/solve_verb.hpp"
 #include "libs/app/verbs.hpp"

@@ -4,6 +4,7 @@
 #include "components/player/node/command_line.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -33,6 +34,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   app::Arguments arguments("palpate-player", "Plays measured data as if the robot ran now.");
   arguments.Option("--data", &command.data, "Experiment or recording folder");
   arguments.Option("--recording", &command.recording, "The only recording to play");
+  arguments.Flag("--images", &command.images, "Depth and colour images instead of markers");
   arguments.Option("--rate", &command.playback.rate, "So many times real time");
   arguments.Flag("--step", &command.playback.step,
                  "The next frame when /forces has answered the last one; loses nothing");
@@ -49,8 +51,11 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 }
 
 ExperimentPlayer OpenExperiment(const Command& command) {
-  return ExperimentPlayer(experiment::ReadExperiment(command.data, app::LoadYaml),
-                          command.recording, command.config.frame == "robot");
+  experiment::Experiment experiment = experiment::ReadExperiment(command.data, app::LoadYaml);
+  if (command.images) {
+    return ExperimentPlayer::OfImages(std::move(experiment), command.recording, app::LoadYaml);
+  }
+  return {std::move(experiment), command.recording, command.config.frame == "robot"};
 }
 
 }  // namespace palpate::player

@@ -18,6 +18,7 @@ struct Command {
   Playback playback;
   std::filesystem::path data;
   std::string recording;  ///< empty: all
+  bool images = false;    ///< instead of markers
 };
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.

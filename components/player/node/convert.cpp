@@ -50,7 +50,8 @@ void SetInputs(Sequence& sequence, const std::vector<CableInput>& cables,
 }  // namespace
 
 int64_t StampOf(const Event& event, double start_time_s) {
-  return std::llround(start_time_s * 1e9) + std::llround(event.t_s * 1e9);
+  const int64_t t_ns = event.images ? event.images->t_ns : std::llround(event.t_s * 1e9);
+  return std::llround(start_time_s * 1e9) + t_ns;
 }
 
 dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const Event& event, int64_t stamp_ns) {

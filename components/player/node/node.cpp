@@ -38,6 +38,9 @@ PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback, Exper
       joint_states_(participant_.CreateWriter(dds::kJointStatesTopic, [this] { loop_.Wake(); })),
       forces_(participant_.CreateReader(dds::kForcesTopic, [this] { loop_.Wake(); })),
       pacer_(playback.rate, [] { return Clock::now().time_since_epoch(); }) {
+  if (player_.plays_images()) {
+    images_.emplace(participant_, player_.experiment(), [this] { loop_.Wake(); });
+  }
   loop_.Attach(forces_, [this] { TakeForces(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
 }
@@ -51,17 +54,18 @@ void PlayerNode::Run() {
   } while (playback_.loop && !loop_.stopped());
   ReportHealth();
   if (loop_.stopped()) return;
-  if (!markers_.WaitUntilReceived(kLastMessagesWait)) {
-    log_.Write(Severity::kWarning, "a reader has not confirmed the last markers");
-  }
+  const bool received = images_ ? images_->WaitUntilReceived(kLastMessagesWait)
+                                : markers_.WaitUntilReceived(kLastMessagesWait);
+  if (!received) log_.Write(Severity::kWarning, "a reader has not confirmed the last frames");
 }
 
 void PlayerNode::WaitForReaders() {
-  log_.Write(Severity::kInfo, "waiting for readers of /perception/markers");
+  const std::string topic = images_ ? "/camera/depth/image_raw" : "/perception/markers";
+  log_.Write(Severity::kInfo, "waiting for readers of " + topic);
   const Clock::time_point deadline = Clock::now() + Seconds(config_.reader_deadline_s);
   if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
   if (loop_.stopped()) return;
-  throw RunError("nobody reads /perception/markers" +
+  throw RunError("nobody reads " + topic +
                  std::string(playback_.step ? " and answers on /forces" : "") + " within " +
                  FormatNumber(config_.reader_deadline_s) +
                  " s: is the force estimation running, in this domain? (reader_deadline_s, "
@@ -69,7 +73,8 @@ void PlayerNode::WaitForReaders() {
 }
 
 bool PlayerNode::ReadersAreThere() const {
-  return markers_.matched() > 0 && (!player_.has_cables() || joint_states_.matched() > 0) &&
+  const bool frames_are_read = images_ ? images_->is_read() : markers_.matched() > 0;
+  return frames_are_read && (!player_.has_cables() || joint_states_.matched() > 0) &&
          (!playback_.step || forces_.matched() > 0);
 }
 
@@ -94,7 +99,7 @@ void PlayerNode::Play(const Event& event) {
 }
 
 void PlayerNode::WaitForAnswer(const Event& event) {
-  if (!event.markers) return;
+  if (!event.has_frame()) return;
   const Clock::time_point deadline = Clock::now() + Seconds(config_.step_deadline_s);
   const auto done = [&] { return Answered(event) || NewEstimator(); };
   while (Clock::now() < deadline) {
@@ -109,15 +114,19 @@ void PlayerNode::WaitForAnswer(const Event& event) {
 
 bool PlayerNode::Answered(const Event& event) const {
   return answered_stamp_ns_ == StampOf(event, config_.start_time_s) &&
-         answered_recording_ == event.recording;
+         answered_recording_ == (images_ ? images_->device() : event.recording);
 }
 
 void PlayerNode::Publish(const Event& event) {
   const int64_t stamp_ns = StampOf(event, config_.start_time_s);
-  // Commands first: whoever takes the markers shall find those of the same stamp.
+  // Commands first: whoever takes the frame shall find those of the same stamp.
   bool sent = joint_states_.Write(ToJointState(event, stamp_ns));
   if (event.markers) {
     sent = markers_.Write(ToMarkerArray(event, stamp_ns)) && sent;
+    ++counts_.published;
+  }
+  if (event.images) {
+    sent = images_->Publish(*event.images, stamp_ns) && sent;
     ++counts_.published;
   }
   if (!sent) ++counts_.dropped;

@@ -8,6 +8,7 @@
 
 #include "components/player/config.hpp"
 #include "components/player/experiment_player.hpp"
+#include "components/player/node/image_publisher.hpp"
 #include "components/player/pacer.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/node_log.hpp"
@@ -34,7 +35,7 @@ struct Playback {
   bool loop = false;  ///< begin again at the end
 };
 
-/// Publishes an experiment on /perception/markers and /robot/joint_states.
+/// Publishes an experiment on /perception/markers, or as a camera would, and /robot/joint_states.
 class PlayerNode {
  public:
   /// Throws InputError for bad settings, RunError where DDS refuses.
@@ -72,6 +73,7 @@ class PlayerNode {
   dds::NodeLog log_;
   dds::HealthReporter health_;
   dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;
+  std::optional<ImagePublisher> images_;  ///< where images are played
   dds::Writer<idl::sensor_msgs::JointState> joint_states_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;
   Pacer pacer_;

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 #include "components/palpate/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
@@ -30,8 +35,67 @@ TEST(Demo, FindsTheWeightThroughTheProcessesAndDrawsIt) {
 
 TEST(Demo, RefusesADataFolderWithoutTheBeam) {
   const TestFolder folder;
-  EXPECT_EQ(RunDemo(folder, {"--data", folder.path().string()}), 2);
+  EXPECT_EQ(RunDemo(folder, {"--recording", "beam", "--data", folder.path().string()}), 2);
   EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("no silicone_beam/"));
+}
+
+TEST(Demo, RefusesRecordingsWithoutARobotOrWithoutImages) {
+  const TestFolder folder;
+  EXPECT_EQ(RunDemo(folder, {"--data", folder.path().string()}), 2);
+  EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("--data needs --robot"));
+  EXPECT_EQ(RunDemo(folder,
+                    {"--robot", "beam", "--data", PALPATE_SOURCE_DIR "/tests/data/beam_calculix"}),
+            2);
+  EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("no recording has depth images"));
+  EXPECT_EQ(RunDemo(folder, {"--computed", "--robot", "four_leg"}), 2);
+}
+
+TEST(Demo, AScenarioWithoutACameraIsRefusedBeforeAnythingStarts) {
+  const TestFolder folder;
+  const auto scenario =
+      folder.Write("s.yaml", "name: s\nrecordings: [{name: a, kind: rest, duration_s: 1}]\n");
+  EXPECT_EQ(RunDemo(folder, {"--scenario", scenario.string()}), 2);
+  EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("has no camera"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "demo/capture.log"));
+}
+
+// Of the programs of this domain, those that run.
+std::vector<std::string> ProgramsOfDomain(const std::string& domain) {
+  std::vector<std::string> programs;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream stream(entry.path() / "cmdline");
+    std::vector<std::string> words;
+    for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+    const auto option = std::find(words.begin(), words.end(), "--domain");
+    if (option != words.end() && option + 1 != words.end() && *(option + 1) == domain) {
+      programs.push_back(words.front());
+    }
+  }
+  return programs;
+}
+
+TEST(Demo, AnInterruptEndsAllProcesses) {
+  const TestFolder folder;
+  ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate",
+                    {"demo", "--out", (folder / "demo").string(), "--seconds", "600"}, {},
+                    folder / "log");
+  // The domain, once it is told; then until all four of the sensing side run.
+  std::string domain;
+  const auto all_run = [&] {
+    const std::string text = ReadFile(folder / "log");
+    const std::size_t at = text.find("DDS domain ");
+    if (at == std::string::npos || text.find(',', at) == std::string::npos) return false;
+    domain = std::to_string(std::stoi(text.substr(at + std::string("DDS domain ").size())));
+    return ProgramsOfDomain(domain).size() == 4;
+  };
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!all_run() && !demo.ExitCode() && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::yield();
+  }
+  ASSERT_THAT(ProgramsOfDomain(domain), testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(demo.Stop(), 1);
+  EXPECT_THAT(ProgramsOfDomain(domain), testing::SizeIs(0));
+  EXPECT_THAT(ReadFile(folder / "log"), testing::HasSubstr("What came of it"));
 }
 
 }  // namespace

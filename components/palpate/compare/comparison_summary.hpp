@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/palpate/compare/force_comparison.hpp"
+
+namespace palpate::command {
+
+/// How well forces of one kind were found, over the frames in which they were due and found. NaN
+/// where there is no such frame.
+struct ForceScore {
+  int frames = 0;
+  double mean_relative_error = 0.0;
+  double median_location_error_m = 0.0;
+  double mean_direction_error_rad = 0.0;  ///< of those whose direction was observable
+  double coverage = 0.0;                  ///< share whose true size lies in the 95 % interval
+};
+
+/// Estimates against truth over a whole run.
+class ComparisonSummary {
+ public:
+  /// The comparison of one frame that had a result and a truth.
+  void Add(const std::vector<ComparedForce>& frame);
+
+  int frames() const { return frames_; }
+  int found() const { return static_cast<int>(seen_.size() + hidden_.size() + together_.size()); }
+  ForceScore Seen() const;      ///< one force, the camera sees the contact
+  ForceScore Hidden() const;    ///< one force, the camera does not
+  ForceScore Together() const;  ///< of two or more at once
+  ForceScore All() const;
+  int due() const { return due_; }        ///< true forces that were to be found
+  int misses() const { return misses_; }  ///< of these
+  int false_alarms() const { return false_alarms_; }
+  int frames_with_false_alarm() const { return frames_with_false_alarm_; }
+
+  /// Lines to read, each ended and indented.
+  std::string ToText() const;
+
+ private:
+  std::vector<ComparedForce> seen_;
+  std::vector<ComparedForce> hidden_;
+  std::vector<ComparedForce> together_;
+  int frames_ = 0;
+  int due_ = 0;
+  int misses_ = 0;
+  int false_alarms_ = 0;
+  int frames_with_false_alarm_ = 0;
+};
+
+}  // namespace palpate::command

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/compare/force_comparison.hpp"
+
+#include <algorithm>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using force_estimation::ContactForce;
+
+struct Pair {
+  double distance_m = 0.0;
+  std::size_t truth = 0;
+  std::size_t estimate = 0;
+};
+
+std::vector<Pair> PairsByDistance(const std::vector<TrueContact>& truth,
+                                  const std::vector<ContactForce>& estimates, double farthest_m) {
+  std::vector<Pair> pairs;
+  for (std::size_t t = 0; t < truth.size(); ++t) {
+    for (std::size_t e = 0; e < estimates.size(); ++e) {
+      const double distance_m = (truth[t].position_m - estimates[e].position_m).norm();
+      if (distance_m <= farthest_m) pairs.push_back({distance_m, t, e});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.distance_m < b.distance_m; });
+  return pairs;
+}
+
+std::vector<ContactForce> WithForce(const std::vector<ContactForce>& contacts) {
+  std::vector<ContactForce> found;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(found), HasForce);
+  return found;
+}
+
+}  // namespace
+
+std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& estimate,
+                                        const TruthTimeline& truth, const ComparisonRules& rules) {
+  const auto true_now = truth.At(estimate.t_s);
+  if (!HasResult(estimate.status) || !true_now) return {};
+  const std::vector<ContactForce> found = WithForce(estimate.contacts);
+  const auto is_large = [&](const TrueContact& contact) {
+    return contact.force_N.norm() >= rules.smallest_N;
+  };
+  const auto large_forces =
+      static_cast<int>(std::count_if(true_now->begin(), true_now->end(), is_large));
+  std::vector<ComparedForce> compared;
+  for (const TrueContact& contact : *true_now) {
+    const bool due = is_large(contact) && truth.IsSteady(contact.name, estimate.t_s,
+                                                         rules.steady_window_s, rules.steady_share);
+    compared.push_back({estimate.t_s, contact, std::nullopt, due, large_forces});
+  }
+  std::vector<bool> taken(found.size(), false);
+  for (const Pair& pair : PairsByDistance(*true_now, found, rules.same_place_m)) {
+    if (compared[pair.truth].estimate || taken[pair.estimate]) continue;
+    compared[pair.truth].estimate = found[pair.estimate];
+    taken[pair.estimate] = true;
+  }
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    if (taken[e]) continue;
+    compared.push_back({estimate.t_s, std::nullopt, found[e], false, large_forces});
+  }
+  return compared;
+}
+
+bool HasResult(const Status& status) {
+  return status.ok() || status.code() == StatusCode::kNoContact;
+}
+
+bool HasForce(const ContactForce& contact) {
+  switch (contact.status.code()) {
+    case StatusCode::kOk:
+    case StatusCode::kTangentialUnobservable:
+    case StatusCode::kHidden: return true;
+    default: return false;
+  }
+}
+
+double ForceError_N(const ComparedForce& force) {
+  PALPATE_CHECK(force.truth && force.estimate, force.t_s);
+  const Eigen::Vector3d& estimated_N = force.estimate->force_N;
+  const double size_N = estimated_N.norm();
+  const bool normal_only = force.estimate->status.code() == StatusCode::kTangentialUnobservable;
+  if (normal_only && size_N > 0.0) {
+    return size_N - force.truth->force_N.dot(estimated_N) / size_N;
+  }
+  return size_N - force.truth->force_N.norm();
+}
+
+}  // namespace palpate::command

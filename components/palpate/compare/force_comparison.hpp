@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/palpate/compare/truth_timeline.hpp"
+
+namespace palpate::command {
+
+/// What counts as the same contact, and as one that an estimate has to find.
+struct ComparisonRules {
+  double same_place_m = 0.04;    ///< an estimate farther from every true force is a false alarm
+  double smallest_N = 0.1;       ///< true forces below may be missed
+  double steady_window_s = 0.3;  ///< a force is steady where it varied for so long
+  double steady_share = 0.05;    ///< by no more than this share
+};
+
+/// A true force, what was estimated of it, or both, in one frame. Without truth: a false alarm;
+/// without estimate: a miss, where it is `due`.
+struct ComparedForce {
+  double t_s = 0.0;
+  std::optional<TrueContact> truth;
+  std::optional<force_estimation::ContactForce> estimate;
+  bool due = false;     ///< steady, and large enough to be found
+  int true_forces = 0;  ///< that act in this frame, large enough to be found
+};
+
+/// Matches the contacts of a frame with the true forces of its time, each with the nearest that is
+/// left, near pairs first. Frames without a result (neither ok nor no_contact), or whose truth is
+/// not known, give nothing.
+std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& estimate,
+                                        const TruthTimeline& truth, const ComparisonRules& rules);
+
+/// Whether the frame says which forces act: some, or none.
+bool HasResult(const Status& status);
+
+/// Whether the contact's force has a number.
+bool HasForce(const force_estimation::ContactForce& contact);
+
+/// Size of the estimate less that of the truth, N; of a force that was seen along the normal only,
+/// less the truth's share along it. Both are there.
+double ForceError_N(const ComparedForce& force);
+
+}  // namespace palpate::command

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/compare/live_comparison.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "components/palpate/compare/sample_statistics.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+constexpr std::size_t kNodesKept = 40;
+
+// How much of what happens in a frame was found; steady forces make the better picture.
+double WorthOfPicture(const std::vector<ComparedForce>& compared, bool with_truth) {
+  constexpr double kUnsteady = 0.01;
+  double sum_N = 0.0;
+  for (const ComparedForce& force : compared) {
+    if (!force.estimate || (with_truth && !force.truth)) continue;
+    sum_N += with_truth ? (force.due ? 1.0 : kUnsteady) * force.truth->force_N.norm()
+                        : force.estimate->force_N.norm();
+  }
+  return sum_N;
+}
+
+}  // namespace
+
+LiveComparison::LiveComparison(bool with_truth, const ComparisonRules& rules)
+    : with_truth_(with_truth), rules_(rules), tracks_(with_truth) {}
+
+void LiveComparison::AddTruth(double t_s, std::vector<TrueContact> contacts) {
+  truth_.Add(t_s, std::move(contacts));
+}
+
+void LiveComparison::AddNodes(double t_s, Eigen::VectorXd nodes_m) {
+  nodes_m_.insert_or_assign(t_s, std::move(nodes_m));
+  if (nodes_m_.size() > kNodesKept) nodes_m_.erase(nodes_m_.begin());
+}
+
+void LiveComparison::AddEstimate(const force_estimation::ForceEstimate& estimate,
+                                 std::optional<double> latency_s) {
+  ++statuses_[std::string(ToString(estimate.status.code()))];
+  if (estimate.status.code() == StatusCode::kStale) return;  // no frame, or one that came too late
+  first_s_ = frames_ == 0 ? estimate.t_s : first_s_;
+  last_s_ = estimate.t_s;
+  ++frames_;
+  results_ += HasResult(estimate.status) ? 1 : 0;
+  if (latency_s && HasResult(estimate.status)) latencies_s_.push_back(*latency_s);
+  waiting_.push_back(estimate);
+}
+
+void LiveComparison::Advance(const TakeFrame& take) {
+  while (!waiting_.empty()) {
+    const double t_s = waiting_.front().t_s;
+    const bool truth_is_known = !with_truth_ || (!truth_.empty() && truth_.last_s() >= t_s);
+    if (!truth_is_known && last_s_ - t_s < kLongestWait_s) return;
+    const force_estimation::ForceEstimate estimate = std::move(waiting_.front());
+    waiting_.pop_front();
+    const bool has_result = HasResult(estimate.status);
+    const bool is_compared = has_result && (!with_truth_ || truth_.At(t_s).has_value());
+    const std::vector<ComparedForce> compared = Compare(estimate);
+    if (is_compared) summary_.Add(compared);
+    tracks_.Add(t_s - first_s_, is_compared, compared);
+    KeepIfBest(t_s, compared);
+    take(estimate, with_truth_ ? compared : std::vector<ComparedForce>{});
+  }
+}
+
+std::vector<ComparedForce> LiveComparison::Compare(
+    const force_estimation::ForceEstimate& estimate) const {
+  if (with_truth_) return CompareFrame(estimate, truth_, rules_);
+  std::vector<ComparedForce> alone;
+  if (!HasResult(estimate.status)) return alone;
+  for (const force_estimation::ContactForce& contact : estimate.contacts) {
+    if (!HasForce(contact)) continue;
+    ComparedForce force;
+    force.t_s = estimate.t_s;
+    force.estimate = contact;
+    alone.push_back(force);
+  }
+  return alone;
+}
+
+void LiveComparison::KeepIfBest(double t_s, const std::vector<ComparedForce>& compared) {
+  const auto nodes = nodes_m_.find(t_s);
+  const double worth = WorthOfPicture(compared, with_truth_);
+  if (nodes == nodes_m_.end() || worth <= best_worth_) return;
+  best_worth_ = worth;
+  best_ = ForceMoment{t_s - first_s_, nodes->second, compared};
+}
+
+double LiveComparison::Rate_hz() const {
+  if (frames_ < 2 || !(last_s_ > first_s_)) return std::numeric_limits<double>::quiet_NaN();
+  return (frames_ - 1) / (last_s_ - first_s_);
+}
+
+std::string LiveComparison::ToText() const {
+  std::string text = fmt::format("  {:<18} {}", "frames", frames_);
+  if (frames_ > 1) text += fmt::format(", {:.1f} a second", Rate_hz());
+  for (const auto& [status, count] : statuses_) text += fmt::format("; {} {}", count, status);
+  text += "\n";
+  if (!latencies_s_.empty()) {
+    text +=
+        fmt::format("  {:<18} {:.0f} ms median, {:.0f} ms p99, from exposure to force\n", "latency",
+                    1e3 * Quantile(latencies_s_, 0.5), 1e3 * Quantile(latencies_s_, 0.99));
+  }
+  return with_truth_ ? text + summary_.ToText() : text;
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/palpate/compare/comparison_summary.hpp"
+#include "components/palpate/compare/force_tracks.hpp"
+#include "components/palpate/compare/truth_timeline.hpp"
+
+namespace palpate::command {
+
+/// A frame worth a picture: the model's nodes and the forces in it.
+struct ForceMoment {
+  double t_s = 0.0;
+  Eigen::VectorXd nodes_m;  ///< [3n]
+  std::vector<ComparedForce> forces;
+};
+
+/// Compares estimates with the truth while both come in, in whatever order. Times are stamps on one
+/// clock, s.
+class LiveComparison {
+ public:
+  /// An estimate waits no longer than this for the truth of its time.
+  static constexpr double kLongestWait_s = 0.5;
+  using TakeFrame = std::function<void(const force_estimation::ForceEstimate&,
+                                       const std::vector<ComparedForce>&)>;
+
+  /// `with_truth`: there is one; else each true force is unknown, and estimates stand alone.
+  explicit LiveComparison(bool with_truth, const ComparisonRules& rules = {});
+
+  void AddTruth(double t_s, std::vector<TrueContact> contacts);
+  void AddNodes(double t_s, Eigen::VectorXd nodes_m);
+  /// `latency_s`: from the exposure to now; nullopt: it means nothing.
+  void AddEstimate(const force_estimation::ForceEstimate& estimate,
+                   std::optional<double> latency_s);
+  /// Hands on the frames whose truth has come, or will not come any more; without truth they come
+  /// alone.
+  void Advance(const TakeFrame& take);
+
+  const ComparisonSummary& summary() const { return summary_; }
+  std::vector<view::ForceTrack> Tracks() const { return tracks_.Tracks(); }
+  /// The frame in which most steady force was found where it acts; without truth: most force.
+  const std::optional<ForceMoment>& best() const { return best_; }
+  int frames() const { return frames_; }    ///< answered; stale ones do not count
+  int results() const { return results_; }  ///< frames that say which forces act
+  /// Frames a second between the first and the last; NaN below two.
+  double Rate_hz() const;
+  const std::vector<double>& latencies_s() const { return latencies_s_; }
+
+  /// Frames, rate and latency, and how estimates compare with the truth; lines, each ended.
+  std::string ToText() const;
+
+ private:
+  std::vector<ComparedForce> Compare(const force_estimation::ForceEstimate& estimate) const;
+  void KeepIfBest(double t_s, const std::vector<ComparedForce>& compared);
+
+  bool with_truth_;
+  ComparisonRules rules_;
+  TruthTimeline truth_;
+  std::deque<force_estimation::ForceEstimate> waiting_;
+  std::map<double, Eigen::VectorXd> nodes_m_;  ///< the newest, by time
+  ComparisonSummary summary_;
+  ForceTracks tracks_;
+  std::map<std::string, int> statuses_;
+  std::optional<ForceMoment> best_;
+  double best_worth_ = 0.0;
+  int frames_ = 0;
+  int results_ = 0;
+  double first_s_ = 0.0;
+  double last_s_ = 0.0;
+  std::vector<double> latencies_s_;
+};
+
+}  // namespace palpate::command

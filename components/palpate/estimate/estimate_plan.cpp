@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/estimate_plan.hpp"
+
+#include <optional>
+
+#include "components/palpate/choose_recordings.hpp"
+#include "libs/core/error.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::Experiment;
+using experiment::Recording;
+using experiment::RecordingKind;
+
+std::optional<EstimateFrom> WayOf(const Recording& recording, const std::string& from) {
+  const bool has_images = HasImages(recording);
+  if (has_images && from != ToString(EstimateFrom::kMarkers)) return EstimateFrom::kShape;
+  const bool images_asked = from == ToString(EstimateFrom::kShape);
+  if (recording.markers && !images_asked) return EstimateFrom::kMarkers;
+  return std::nullopt;
+}
+
+std::string WhatIsMissing(const std::string& from) {
+  if (from == ToString(EstimateFrom::kMarkers)) return "markers";
+  if (from == ToString(EstimateFrom::kShape)) return "depth images";
+  return "depth images or markers";
+}
+
+}  // namespace
+
+std::string ToString(EstimateFrom from) {
+  return from == EstimateFrom::kMarkers ? "markers" : "shape";
+}
+
+bool IsUntouched(const Recording& recording) {
+  switch (recording.kind) {
+    case RecordingKind::kRest:
+    case RecordingKind::kRamp:
+    case RecordingKind::kHold:
+    case RecordingKind::kCoContraction:
+    case RecordingKind::kSecondSpeed:
+    case RecordingKind::kRepeat: return recording.loads.empty();
+    case RecordingKind::kKnownLoad:
+    case RecordingKind::kBaseTilted:
+    case RecordingKind::kCameraMoved:
+    case RecordingKind::kFree: return false;
+  }
+  return false;
+}
+
+bool HasImages(const Recording& recording) {
+  return !recording.depth_images.empty() || !recording.clouds.empty();
+}
+
+std::vector<PlannedRecording> PlanEstimates(const Experiment& experiment,
+                                            const std::vector<std::string>& names,
+                                            const std::string& from) {
+  std::vector<PlannedRecording> plan;
+  for (const Recording* recording : ChooseRecordings(experiment, names)) {
+    const std::optional<EstimateFrom> way = WayOf(*recording, from);
+    if (!way) {
+      throw InputError(recording->folder.string() + ": the recording has no " +
+                       WhatIsMissing(from));
+    }
+    plan.push_back({recording, *way});
+  }
+  if (!names.empty()) return plan;
+  for (const Recording& recording : experiment.recordings) {
+    if (const auto way = WayOf(recording, from)) plan.push_back({&recording, *way});
+  }
+  if (plan.empty()) {
+    throw InputError(experiment.folder.string() + ": no recording has " + WhatIsMissing(from));
+  }
+  return plan;
+}
+
+std::vector<const Recording*> Teachers(const Experiment& experiment) {
+  std::vector<const Recording*> teachers;
+  for (const Recording& recording : experiment.recordings) {
+    if (IsUntouched(recording) && HasImages(recording)) teachers.push_back(&recording);
+  }
+  return teachers;
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/estimate_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "components/palpate/find_robot.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/robot/calibration_file.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+// Gives the model the calibrated moduli; returns their relative standard error.
+double ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model) {
+  if (file.empty()) {
+    fmt::print(stderr,
+               "palpate estimate: no --calibration: the moduli of the robot file are "
+               "taken as they are\n");
+    return 0.0;
+  }
+  const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
+  robot::ApplyCalibration(calibration, model);
+  return robot::RelativeModulusError(calibration);
+}
+
+bool IsResult(const Status& status) {
+  return status.ok() || status.code() == StatusCode::kNoContact;
+}
+
+}  // namespace
+
+EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
+                         const experiment::Experiment& experiment, robot::RobotModel* model)
+    : options_(options),
+      settings_(settings),
+      experiment_(experiment),
+      model_(*model),
+      modulus_error_(ApplyCalibration(options.calibration, model)),
+      json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {}
+
+EstimateRun::~EstimateRun() = default;
+
+void EstimateRun::Say(const std::string& note) {
+  fmt::print(stderr, "palpate estimate: {}\n", note);
+}
+
+ShapeWay& EstimateRun::Shape() {
+  if (!shape_) {
+    const ShapeWay::Inputs inputs{
+        .experiment = experiment_,
+        .model = &model_,
+        .cable_input = ParseCableInput(options_.cable_input),
+        .sites = force_estimation::ParseContactSites(settings_.forces.contacts),
+        .first_untouched = options_.teachers == "first" ? settings_.shape.untouched_frames : 0};
+    for (const force_estimation::ContactSite& site : inputs.sites) {
+      if (site.direction.isZero(0.0)) continue;
+      Say("the direction of contact '" + site.name + "' counts for markers only");
+    }
+    shape_ =
+        std::make_unique<ShapeWay>(inputs, MakeShapeSenses(settings_, &model_, modulus_error_));
+  }
+  return *shape_;
+}
+
+void EstimateRun::Teach(const std::vector<PlannedRecording>& plan) {
+  const bool from_shape = std::any_of(
+      plan.begin(), plan.end(),
+      [](const PlannedRecording& planned) { return planned.from == EstimateFrom::kShape; });
+  if (!from_shape || options_.teachers != "recordings") return;
+  int frames = 0;
+  for (const experiment::Recording* teacher : Teachers(experiment_)) {
+    frames += Shape().Teach(*teacher);
+  }
+  Say(frames > 0 ? fmt::format("learnt from {} frames in which nobody touches the robot", frames)
+                 : "no recording in which nobody touches the robot (rest, ramp, hold, ...) and "
+                   "whose camera pose is known: the depth bias stays unknown");
+}
+
+void EstimateRun::Estimate(const PlannedRecording& planned) {
+  const experiment::Recording& recording = *planned.recording;
+  ForceSummary summary(recording.name, recording.steady_window_s);
+  const TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
+    table_.Add(recording.name, estimate);
+    summary.Add(estimate);
+    with_result_ += IsResult(estimate.status) ? 1 : 0;
+  };
+  if (planned.from == EstimateFrom::kShape) {
+    Shape().Estimate(recording, take);
+  } else {
+    MarkerWay(settings_.forces, ParseCableInput(options_.cable_input), experiment_, &model_,
+              modulus_error_)
+        .Estimate(recording, take);
+  }
+  nlohmann::ordered_json json = summary.ToJson();
+  json["from"] = ToString(planned.from);
+  json_->push_back(std::move(json));
+  if (!options_.json) {
+    fmt::print("{}", summary.ToText());
+    std::fflush(stdout);
+  }
+}
+
+int EstimateRun::Finish() {
+  table_.Write(options_.out);
+  if (options_.json) {
+    fmt::print("{}\n", json_->dump(2));
+  } else {
+    fmt::print("written to {}\n", options_.out.string());
+  }
+  return with_result_ > 0 ? app::kExitDone : app::kExitFailed;
+}
+
+}  // namespace palpate::command

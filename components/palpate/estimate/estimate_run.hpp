@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "components/palpate/estimate/estimate_plan.hpp"
+#include "components/palpate/estimate/estimate_settings.hpp"
+#include "components/palpate/estimate/estimate_verb.hpp"
+#include "components/palpate/estimate/force_summary.hpp"
+#include "components/palpate/estimate/forces_table.hpp"
+#include "components/palpate/estimate/marker_way.hpp"
+#include "components/palpate/estimate/shape_way.hpp"
+
+namespace palpate::command {
+
+/// One run of `palpate estimate`: what is estimated is printed at once and gathered for forces.csv.
+class EstimateRun {
+ public:
+  /// Gives the model the calibrated moduli. All arguments must outlive the run. Throws InputError.
+  EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
+              const experiment::Experiment& experiment, robot::RobotModel* model);
+  ~EstimateRun();
+
+  /// Lets the untouched recordings teach, where one of `plan` is estimated from its shape.
+  void Teach(const std::vector<PlannedRecording>& plan);
+  /// Throws InputError, as the ways do.
+  void Estimate(const PlannedRecording& planned);
+  /// Writes forces.csv; returns the exit code. Throws RunError.
+  int Finish();
+
+ private:
+  ShapeWay& Shape();
+  void Say(const std::string& note);
+
+  const EstimateOptions& options_;
+  const EstimateSettings& settings_;
+  const experiment::Experiment& experiment_;
+  robot::RobotModel& model_;
+  double modulus_error_;
+  std::unique_ptr<ShapeWay> shape_;  ///< from the first need on
+  ForcesTable table_;
+  std::unique_ptr<nlohmann::ordered_json> json_;
+  int with_result_ = 0;
+};
+
+}  // namespace palpate::command

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+struct EstimateOptions {
+  std::filesystem::path robot;
+  std::filesystem::path calibration;    ///< empty: the moduli of the robot file, with a warning
+  std::filesystem::path data;           ///< experiment or recording folder
+  std::vector<std::string> recordings;  ///< names; empty: all that can be estimated
+  std::string from;  ///< "markers" | "shape"; empty: shape where there are images
+  /// What teaches the depth bias: "recordings" (those in which nobody touches the robot), "first"
+  /// (the first shape.untouched_frames frames, as the processes do), "none".
+  std::string teachers = "recordings";
+  std::vector<std::string> contacts;   ///< added to the settings' contacts
+  std::filesystem::path config;        ///< EstimateSettings; empty: defaults
+  std::vector<std::string> overrides;  ///< KEY=VALUE
+  std::string cable_input = "displacement";
+  std::filesystem::path out;
+  bool json = false;
+};
+
+/// `palpate estimate`: forces from the images or the markers of recordings, written as forces.csv.
+/// Returns 0, or 1 where not a single frame had a result; throws InputError and RunError.
+int Estimate(const EstimateOptions& options);
+
+app::Verb EstimateVerb();
+
+}  // namespace palpate::command

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+#include "libs/experiment/markers.hpp"
+
+namespace palpate::command {
+
+/// What came of one recording, to be read at a glance: how many frames had which status and why,
+/// and the median force at each contact over the static phase (the whole recording where none is
+/// given).
+class ForceSummary {
+ public:
+  ForceSummary(std::string recording, std::optional<experiment::TimeWindow> steady_window_s);
+
+  void Add(const force_estimation::ForceEstimate& estimate);
+
+  /// Median over the frames in which the force was found; forces of no frame: count 0.
+  struct Contact {
+    int count = 0;
+    Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of each component
+    double magnitude_N = 0.0;
+    double ci95_N = 0.0;
+    std::string status;  ///< the most frequent
+  };
+  Contact MedianOf(const std::string& contact) const;
+  std::vector<std::string> Contacts() const;
+
+  /// Lines to read, each ended.
+  std::string ToText() const;
+  nlohmann::ordered_json ToJson() const;
+
+ private:
+  struct Samples {
+    std::vector<double> x_N, y_N, z_N, magnitude_N, ci95_N;
+    std::map<std::string, int> statuses;
+  };
+
+  std::string recording_;
+  std::optional<experiment::TimeWindow> window_s_;
+  std::map<std::string, int> statuses_;         // of frames
+  std::map<std::string, std::string> reasons_;  // the first of each status
+  std::map<std::string, Samples> contacts_;
+};
+
+}  // namespace palpate::command

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/forces_table.hpp"
+
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+std::string Field(const std::string& name) {
+  return name.find(',') == std::string::npos ? name : "\"" + name + "\"";
+}
+
+std::string ContactFields(const force_estimation::ContactForce& contact) {
+  std::string text = Field(contact.name);
+  for (const double value : contact.position_m) {
+    text += "," + FormatNumber(value);
+  }
+  const bool known = contact.status.code() != StatusCode::kUnobservable;
+  for (const double value : contact.force_N) {
+    text += "," + (known ? FormatNumber(value) : std::string());
+  }
+  text += "," + (known ? FormatNumber(contact.ci95_N) : std::string());
+  return text + "," + FormatNumber(contact.location_ci95_m) + "," +
+         std::string(ToString(contact.status.code()));
+}
+
+}  // namespace
+
+void ForcesTable::Add(const std::string& recording,
+                      const force_estimation::ForceEstimate& estimate) {
+  const std::string head = Field(recording) + "," + FormatNumber(estimate.t_s) + ",";
+  if (!estimate.status.ok() || estimate.contacts.empty()) {
+    text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + "\n";
+    return;
+  }
+  for (const force_estimation::ContactForce& contact : estimate.contacts) {
+    text_ += head + ContactFields(contact) + "\n";
+  }
+}
+
+void ForcesTable::Write(const std::filesystem::path& file) const { WriteFile(file, text_); }
+
+}  // namespace palpate::command

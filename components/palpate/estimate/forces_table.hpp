@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "components/force_estimation/marker_force_estimator.hpp"
+
+namespace palpate::command {
+
+/// forces.csv (ARCHITECTURE, "Measured data"): one row for each frame and contact; a frame without
+/// contact, and one without a result, has one row with an empty contact and its status. A force
+/// that the markers do not determine at all has empty fields.
+class ForcesTable {
+ public:
+  void Add(const std::string& recording, const force_estimation::ForceEstimate& estimate);
+
+  const std::string& text() const { return text_; }
+  /// Throws RunError where it cannot be written.
+  void Write(const std::filesystem::path& file) const;
+
+ private:
+  std::string text_ =
+      "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status\n";
+};
+
+}  // namespace palpate::command

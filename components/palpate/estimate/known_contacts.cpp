@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/known_contacts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using force_estimation::ContactSite;
+using force_estimation::SeenContact;
+
+// A place that somebody has measured on the body.
+constexpr double kPlaceSigma_m = 5e-4;
+// What perception sees so near to a known contact, or within its own extent, is that contact.
+constexpr double kSamePlace_m = 0.015;
+
+std::vector<Eigen::Vector3d> DistinctPlaces(const std::vector<experiment::KnownLoad>& loads) {
+  std::vector<Eigen::Vector3d> places_m;
+  for (const experiment::KnownLoad& load : loads) {
+    if (std::find(places_m.begin(), places_m.end(), load.position_m) == places_m.end()) {
+      places_m.push_back(load.position_m);
+    }
+  }
+  return places_m;
+}
+
+}  // namespace
+
+KnownContacts::KnownContacts(const robot::RobotBody& body)
+    : body_(body), rest_surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {}
+
+std::vector<SeenContact> KnownContacts::At(const std::vector<ContactSite>& sites,
+                                           const Eigen::VectorXd& nodes_m) const {
+  PALPATE_CHECK(nodes_m.size() == 0 || nodes_m.size() == body_.mesh.nodes_m.size(), nodes_m.size());
+  std::vector<SeenContact> contacts;
+  for (const ContactSite& site : sites) {
+    const geometry::SurfacePoint rest = rest_surface_.Closest(site.position_m);
+    SeenContact contact;
+    contact.name = site.name;
+    contact.position_m = rest.position_m;
+    for (Eigen::Index corner = 0; corner < 3 && nodes_m.size() > 0; ++corner) {
+      const int node = rest_surface_.surface().triangles(corner, rest.triangle);
+      contact.position_m +=
+          rest.barycentric[corner] * (nodes_m.segment<3>(3 * node) - body_.mesh.nodes_m.col(node));
+    }
+    contact.covariance_m2 = kPlaceSigma_m * kPlaceSigma_m * Eigen::Matrix3d::Identity();
+    contact.extent_m.setConstant(2.0 * site.patch_radius_m);
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+std::vector<ContactSite> SitesOfLoads(const std::vector<experiment::KnownLoad>& loads, double t_s) {
+  const std::vector<Eigen::Vector3d> places_m = DistinctPlaces(loads);
+  std::vector<ContactSite> sites;
+  for (const experiment::KnownLoad& load : experiment::LoadsAt(loads, t_s)) {
+    if (load.force_N.isZero(0.0)) continue;
+    const auto place = std::find(places_m.begin(), places_m.end(), load.position_m);
+    ContactSite site;
+    site.name = "load_" + std::to_string(place - places_m.begin() + 1);
+    site.position_m = load.position_m;
+    site.patch_radius_m = load.patch_radius_m;
+    sites.push_back(site);
+  }
+  return sites;
+}
+
+std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
+                                         const std::vector<SeenContact>& seen) {
+  const std::size_t known_count = known.size();
+  for (const SeenContact& contact : seen) {
+    const bool is_known = std::any_of(
+        known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known_count),
+        [&](const SeenContact& other) {
+          const double reach_m = std::max(kSamePlace_m, 0.5 * contact.extent_m.maxCoeff());
+          return (other.position_m - contact.position_m).norm() <= reach_m;
+        });
+    if (!is_known) known.push_back(contact);
+  }
+  return known;
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/demo/beam_demo.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <optional>
+
+#include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/child_process.hpp"
+#include "components/palpate/demo_data.hpp"
+#include "components/palpate/demo_picture.hpp"
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/node/demo/demo_place.hpp"
+#include "components/palpate/node/demo/demo_step.hpp"
+#include "components/palpate/node/demo/force_listener.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+constexpr auto kStartLimit = std::chrono::seconds(60);
+constexpr auto kPlayLimit = std::chrono::seconds(300);
+
+std::filesystem::path CalibrationFile(const DemoPlace& place) {
+  return place.folder / "calibration.yaml";
+}
+
+DemoData PrepareData(const BeamDemoOptions& options, const DemoPlace& place) {
+  const DemoStep step("[1/4] Data");
+  const auto measured = options.computed ? std::nullopt : FindMeasuredData(options.data);
+  const DemoData data = measured ? ImportMeasuredBeam(*measured, place.folder) : ComputedBeam();
+  fmt::print("  {}\n  {}\n", data.description, data.experiment.string());
+  return data;
+}
+
+void CalibrateOnSelfWeight(const DemoData& data, const DemoPlace& place) {
+  const DemoStep step(fmt::format(
+      "[2/4] Stiffness from the beam's own weight ({}): palpate calibrate", data.self_weight));
+  CalibrateOptions options;
+  options.robot = "beam";
+  options.data = data.experiment;
+  options.recordings = {data.self_weight};
+  options.marker_bias_m = data.marker_bias_m;
+  options.out = CalibrationFile(place);
+  Calibrate(options);
+}
+
+std::unique_ptr<ChildProcess> StartEstimation(const DemoData& data, const DemoPlace& place) {
+  return place.Start(
+      "palpate-force-estimation",
+      {FindRobotFile("beam").string(), "--calibration", CalibrationFile(place).string(), "--set",
+       "contacts=[\"" + data.contact + "\"]", "--set",
+       "marker_bias_m=" + FormatNumber(data.marker_bias_m)},
+      "force_estimation.log");
+}
+
+std::unique_ptr<ChildProcess> StartPlayer(const DemoData& data, const DemoPlace& place) {
+  return place.Start(
+      "palpate-player",
+      {"--data", data.experiment.string(), "--recording", data.hung_weight, "--step"},
+      "player.log");
+}
+
+void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListener* listener) {
+  const DemoStep step(
+      fmt::format("[3/4] Markers of {} through DDS: palpate-player -> "
+                  "palpate-force-estimation (domain {}, loopback only)",
+                  data.hung_weight, place.domain_id));
+  const auto estimation = StartEstimation(data, place);
+  listener->Listen([&] { return listener->estimator_is_there() || estimation->ExitCode(); },
+                   kStartLimit);
+  if (const auto ended = estimation->ExitCode()) {
+    RefuseEnded(*estimation, *ended);
+  }
+  const auto player = StartPlayer(data, place);
+  const bool finished = listener->Listen(
+      [&] { return player->ExitCode().has_value() || estimation->ExitCode().has_value(); },
+      kPlayLimit);
+  if (const auto ended = estimation->ExitCode()) {
+    RefuseEnded(*estimation, *ended);
+  }
+  if (!finished || player->ExitCode().value_or(1) != 0) {
+    RefuseEnded(*player, finished ? *player->ExitCode() : player->Stop());
+  }
+  fmt::print("  {} marker frames answered on /forces; logs: {}, {}\n", listener->estimates().size(),
+             player->log().string(), estimation->log().string());
+}
+
+}  // namespace
+
+int BeamDemo(const BeamDemoOptions& options) {
+  const DemoPlace place = MakeDemoPlace(options.out);
+  fmt::print(
+      "palpate demo: the weight on a soft beam, estimated from how the beam bends.\n"
+      "All that it makes comes to lie in {}.\n",
+      place.folder.string());
+  const DemoData data = PrepareData(options, place);
+  CalibrateOnSelfWeight(data, place);
+  ForceListener listener(place.domain_id);
+  ListenWhileItPlays(data, place, &listener);
+
+  const DemoStep step("[4/4] Force against truth");
+  const DemoResult result =
+      EvaluateDemo(data, CalibrationFile(place), listener.estimates(), listener.mesh_state_m());
+  fmt::print("{}", result.text);
+  if (!result.found) {
+    return app::kExitFailed;
+  }
+  view::SaveScene(place.folder / "scene.png", result.scene);
+  fmt::print("  picture: {}\n", (place.folder / "scene.png").string());
+  return app::kExitDone;
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/demo/demo_results.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/robot_scene.hpp"
+#include "components/view/plot/force_plot.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+// Of the body's diagonal: the longest arrow, and how far the truth stands beside the estimate.
+constexpr double kLongestArrow = 0.45;
+constexpr double kAside = 0.05;
+
+double Largest_N(const ForceMoment& moment) {
+  double largest_N = 1e-6;
+  for (const ComparedForce& force : moment.forces) {
+    if (force.truth) largest_N = std::max(largest_N, force.truth->force_N.norm());
+    if (force.estimate) largest_N = std::max(largest_N, force.estimate->force_N.norm());
+  }
+  return largest_N;
+}
+
+// At right angles to the force and level, so that equal arrows do not hide each other.
+Eigen::Vector3d Aside(const Eigen::Vector3d& force_N) {
+  const Eigen::Vector3d level = force_N.cross(Eigen::Vector3d::UnitZ());
+  return level.norm() > 0.1 * force_N.norm() ? level.normalized() : Eigen::Vector3d::UnitY();
+}
+
+// A force that pushes: the arrow's head is where it acts.
+void AddPush(const Eigen::Vector3d& at_m, const Eigen::Vector3d& vector_m, const view::Color& color,
+             const std::string& label, view::Scene* scene) {
+  scene->arrows.push_back(
+      {.from_m = at_m, .vector_m = vector_m, .points_at = true, .color = color, .label = label});
+}
+
+}  // namespace
+
+view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& moment,
+                           const std::string& title) {
+  view::Scene scene = MakeRobotScene(model, moment.nodes_m);
+  const double diagonal_m = BodyDiagonal_m(model.body());
+  const double metres_per_newton = kLongestArrow * diagonal_m / Largest_N(moment);
+  bool has_truth = false;
+  for (const ComparedForce& force : moment.forces) {
+    if (force.estimate) {
+      const auto& estimate = *force.estimate;
+      AddPush(estimate.position_m, metres_per_newton * estimate.force_N, view::palette::kEstimate,
+              fmt::format("{:.2f} ± {:.2f} N", estimate.force_N.norm(), estimate.ci95_N), &scene);
+    }
+    if (force.truth) {
+      const TrueContact& truth = *force.truth;
+      AddPush(truth.position_m + kAside * diagonal_m * Aside(truth.force_N),
+              metres_per_newton * truth.force_N, view::palette::kTruth,
+              fmt::format("{:.2f} N true", truth.force_N.norm()), &scene);
+      has_truth = true;
+    }
+  }
+  scene.title = title;
+  scene.caption = {
+      fmt::format("{:.1f} s into the run; shape: the model as the camera's frames "
+                  "have moved it",
+                  moment.t_s)};
+  using Mark = view::LegendEntry::Mark;
+  scene.legend.push_back({Mark::kLine, view::palette::kEstimate, "force estimated (95 %)"});
+  if (has_truth) scene.legend.push_back({Mark::kLine, view::palette::kTruth, "true force, aside"});
+  return scene;
+}
+
+void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem::path& robot,
+                      const std::string& title, const LiveComparison& comparison) {
+  view::SaveTimePlot(folder / "forces.svg", view::MakeForcePlot(title, comparison.Tracks()));
+  fmt::print("  {:<18} {}\n", "plot", (folder / "forces.svg").string());
+  if (!comparison.best()) return;
+  const auto model = LoadRobot(robot);
+  if (comparison.best()->nodes_m.size() != model->body().mesh.nodes_m.size()) {
+    fmt::print("  no picture: /robot/mesh_state is of another mesh\n");
+    return;
+  }
+  view::SaveScene(folder / "scene.png", MakeForceScene(*model, *comparison.best(), title));
+  fmt::print("  {:<18} {}\n", "picture", (folder / "scene.png").string());
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "components/palpate/compare/live_comparison.hpp"
+#include "components/view/scene.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// Picture of one moment: the body as the model has it, forces as estimated and, beside them, as
+/// they are in truth. The nodes are the model's.
+view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& moment,
+                           const std::string& title);
+
+/// Writes forces.svg, and scene.png where a force was found; says where. Throws RunError.
+void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem::path& robot,
+                      const std::string& title, const LiveComparison& comparison);
+
+}  // namespace palpate::command

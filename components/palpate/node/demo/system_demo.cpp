@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/demo/system_demo.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "components/capture/network/socket_report.hpp"
+#include "components/palpate/compare/live_line.hpp"
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/node/demo/demo_place.hpp"
+#include "components/palpate/node/demo/demo_results.hpp"
+#include "components/palpate/node/demo/demo_step.hpp"
+#include "components/palpate/node/demo/live_listener.hpp"
+#include "components/palpate/node/demo/live_table.hpp"
+#include "components/palpate/node/demo/replayed_images.hpp"
+#include "components/palpate/node/demo/system_processes.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/app/stop_signal.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/scenario/scenario.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using std::chrono::duration;
+
+constexpr duration<double> kStartLimit = std::chrono::seconds(60);
+constexpr duration<double> kFirstForceLimit = std::chrono::seconds(60);
+constexpr duration<double> kLongestReplay = std::chrono::hours(24);
+constexpr int kUsualSeconds = 30;
+// What the pictures of a depth camera at 30 Hz ask of a socket.
+constexpr int kPictureBuffer_bytes = 2'097'152;
+void AdviseOnKernel() {
+  const auto granted = capture::GrantedReceiveBuffer_bytes(kPictureBuffer_bytes);
+  if (!granted || *granted >= kPictureBuffer_bytes) return;
+  fmt::print(
+      "  Note: this kernel lends a socket {} kB only, and pictures come in bursts: frames will be "
+      "lost.\n  It is mended by: sudo sysctl -w net.core.rmem_max={}\n",
+      *granted / 1024, kPictureBuffer_bytes);
+}
+
+std::filesystem::path ScenarioFile(const SystemDemoOptions& options) {
+  if (!options.scenario.empty()) return std::filesystem::absolute(options.scenario);
+  const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
+  if (file.empty()) throw InputError("config/scenarios/sensing.yaml is not there: --scenario");
+  return file;
+}
+
+// One system that runs, and who listens to it.
+class DemoRun {
+ public:
+  DemoRun(const DemoPlace& place, LiveListener::Truth truth)
+      : listener_(place.domain_id, truth), processes_(place) {}
+
+  SystemProcesses& processes() { return processes_; }
+  const LiveComparison& comparison() const { return listener_.comparison(); }
+
+  // Until all of these have told how they fare. Throws RunError where they do not, false where the
+  // user does not want to wait.
+  bool AwaitComponents(const std::vector<std::string>& components) {
+    const auto all_there = [&] {
+      for (const std::string& component : components) {
+        if (!listener_.Heard(component)) return false;
+      }
+      return true;
+    };
+    const bool there = Listen(all_there, kStartLimit);
+    if (!there && !stop_.Requested()) {
+      throw RunError("the processes do not answer; their logs are in " + log_folder_hint_);
+    }
+    return there;
+  }
+
+  // Listens and shows the newest line, until `done`, the user's stop, or `limit`: then false.
+  bool Listen(const std::function<bool()>& done, duration<double> limit) {
+    const auto finished = [&] {
+      processes_.CheckAlive();
+      return stop_.Requested() || done();
+    };
+    listener_.Listen(finished, limit,
+                     [&](const force_estimation::ForceEstimate& estimate,
+                         const std::vector<ComparedForce>& compared) {
+                       if (first_s_ < 0.0) first_s_ = estimate.t_s;
+                       force_estimation::ForceEstimate shown = estimate;
+                       shown.t_s -= first_s_;
+                       if (table_) table_->Show(LiveLine(shown, compared));
+                     });
+    return done() && !stop_.Requested();
+  }
+
+  void ShowTable() { table_ = std::make_unique<LiveTable>(); }
+  void HideTable() { table_.reset(); }
+  std::string Troubles() const { return listener_.Troubles(); }
+  bool stopped() const { return stop_.Requested(); }
+  void SetLogFolder(const std::filesystem::path& folder) { log_folder_hint_ = folder.string(); }
+
+ private:
+  app::StopSignal stop_;
+  LiveListener listener_;
+  SystemProcesses processes_;
+  std::unique_ptr<LiveTable> table_;
+  double first_s_ = -1.0;
+  std::string log_folder_hint_;
+};
+
+void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot, DemoRun* run) {
+  const std::filesystem::path scenario_file = ScenarioFile(options);
+  const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
+  if (!scenario.camera) throw InputError(scenario_file.string() + ": the scenario has no camera");
+  {
+    const DemoStep step(
+        "[1/3] Start: virtual camera (GigE Vision), capture, perception, force "
+        "estimation, virtual robot");
+    AdviseOnKernel();
+    run->processes().StartVirtualCamera(robot, scenario_file);
+    run->processes().StartSensing(robot, options.calibration, scenario.camera->T_robot_camera);
+    if (!run->AwaitComponents({"capture", "perception", "force_estimation"})) return;
+    run->processes().StartVirtualRobot(robot, scenario_file);
+    const auto answered = [&] { return run->comparison().frames() > 0; };
+    if (!run->Listen(answered, kFirstForceLimit)) return;
+  }
+  const int seconds = options.seconds > 0 ? options.seconds : kUsualSeconds;
+  const DemoStep step(fmt::format("[2/3] {} s of {}: forces against truth", seconds,
+                                  scenario_file.filename().string()));
+  run->ShowTable();
+  run->Listen([] { return false; }, duration<double>(seconds));
+  run->HideTable();
+}
+
+void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::path& robot,
+                    DemoRun* run) {
+  const ReplayedImages images = ExamineImages(options.data);
+  {
+    const DemoStep step("[1/3] Start: perception, force estimation, player");
+    AdviseOnKernel();
+    run->processes().StartSensing(robot, options.calibration, images.T_robot_camera);
+    if (!run->AwaitComponents({"perception", "force_estimation"})) return;
+    run->processes().StartPlayer(options.data);
+    const auto answered = [&] { return run->comparison().frames() > 0; };
+    if (!run->Listen(answered, kFirstForceLimit)) return;
+  }
+  const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each answered before the next",
+                                  images.recordings, images.frames));
+  run->ShowTable();
+  const auto ended = [&] { return run->processes().HasEnded("palpate-player"); };
+  run->Listen(ended, options.seconds > 0 ? duration<double>(options.seconds) : kLongestReplay);
+  run->HideTable();
+}
+
+int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool with_truth,
+             DemoRun* run) {
+  const std::string troubles = run->Troubles();
+  run->processes().Stop();
+  const DemoStep step("[3/3] What came of it");
+  const LiveComparison& comparison = run->comparison();
+  if (comparison.frames() == 0) {
+    fmt::print("  no frame was answered on /forces\n{}  logs: {}\n", troubles,
+               place.folder.string());
+    return app::kExitFailed;
+  }
+  fmt::print("{}", comparison.ToText());
+  WriteDemoResults(place.folder, robot, "Forces on a soft robot, felt by sight", comparison);
+  const bool worked = with_truth ? comparison.summary().found() > 0 : comparison.results() > 0;
+  if (worked) return app::kExitDone;
+  fmt::print("  it did not work: no {}\n{}  logs: {}\n",
+             with_truth ? "steady force was found" : "frame says which forces act", troubles,
+             place.folder.string());
+  return app::kExitFailed;
+}
+
+}  // namespace
+
+int SystemDemo(const SystemDemoOptions& options) {
+  const DemoPlace place = MakeDemoPlace(options.out);
+  const std::filesystem::path robot =
+      std::filesystem::absolute(FindRobotFile(options.robot.empty() ? "four_leg" : options.robot));
+  const bool with_truth = options.data.empty();
+  fmt::print(
+      "palpate demo: forces on a soft robot, felt through a depth camera. DDS domain {}, this "
+      "machine only.\nAll that it makes comes to lie in {}.\n",
+      place.domain_id, place.folder.string());
+  DemoRun run(place, with_truth ? LiveListener::Truth::kKnown : LiveListener::Truth::kNone);
+  run.SetLogFolder(place.folder);
+  if (with_truth) {
+    PlayBench(options, robot, &run);
+  } else {
+    PlayRecordings(options, robot, &run);
+  }
+  return Conclude(place, robot, with_truth, &run);
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "components/view/color.hpp"
+
+namespace palpate::view {
+
+/// A point of the picture, pixels from the upper left corner.
+struct SvgPoint {
+  double x_px = 0.0;
+  double y_px = 0.0;
+};
+
+/// How a line or a text is drawn.
+struct SvgStroke {
+  Color color = palette::kInk;
+  double width_px = 1.0;
+  bool dashed = false;
+};
+
+struct SvgText {
+  enum class Anchor { kStart, kMiddle, kEnd };
+  Anchor anchor = Anchor::kStart;
+  double size_px = 12.0;
+  Color color = palette::kInk;
+  bool bold = false;
+  double turned_deg = 0.0;  ///< anticlockwise
+};
+
+/// Writes a picture in SVG 1.1: well-formed XML, whatever the texts hold.
+class SvgDocument {
+ public:
+  SvgDocument(int width_px, int height_px);
+
+  void Rectangle(const SvgPoint& corner, double width_px, double height_px, const Color& fill);
+  void Line(const SvgPoint& from, const SvgPoint& to, const SvgStroke& stroke);
+  /// At least two points.
+  void Polyline(const std::vector<SvgPoint>& points, const SvgStroke& stroke);
+  void Polygon(const std::vector<SvgPoint>& points, const Color& fill, double opacity);
+  void Dot(const SvgPoint& center, double radius_px, const Color& fill);
+  void Text(const SvgPoint& at, std::string_view text, const SvgText& style);
+
+  /// What comes until EndGroup() is seen inside the rectangle only. `name`: its class.
+  void BeginGroup(const std::string& name, const SvgPoint& corner, double width_px,
+                  double height_px);
+  void EndGroup();
+
+  /// The whole file. No group may be open.
+  std::string Finish() const;
+
+ private:
+  std::string head_;
+  std::string clips_;
+  std::string body_;
+  int clip_count_ = 0;
+  int open_groups_ = 0;
+};
+
+/// "#rrggbb"
+std::string HexText(const Color& color);
+
+/// `text` as the content of an XML element or attribute; characters that XML does not know become
+/// U+FFFD.
+std::string EscapeXml(std::string_view text);
+
+}  // namespace palpate::view

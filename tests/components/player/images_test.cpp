@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "components/player/node/node.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/rgbd/png.hpp"
+#include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/test_folder.hpp"
+
+/// Depth and colour played instead of markers.
+namespace palpate::player {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr auto kActuation = "t_s,top.displacement_m\n0,0\n0.25,0.010\n";
+
+/// Two recordings of two frames each at 10 Hz; the first pixel of the depth says which frame it is.
+class PlayedImages : public testing::Test {
+ protected:
+  PlayedImages() {
+    WriteRecording("a", 0);
+    WriteRecording("b", 10);
+    folder_.Write("exp/experiment.yaml", "robot: none.yaml\nframe: camera\n");
+  }
+
+  void WriteRecording(const std::string& name, int first) {
+    const std::string path = "exp/recordings/" + name;
+    folder_.Write(path + "/recording.yaml", "kind: free\n");
+    folder_.Write(path + "/actuation.csv", kActuation);
+    rgbd::RgbdCamera camera;
+    camera.depth = camera.color = {4, 3, 5.0, 5.0, 1.5, 1.0, {}};
+    camera.color_registered = true;
+    folder_.Write(path + "/camera.yaml", rgbd::FormatCameraFile(camera));
+    for (int i = 0; i < 2; ++i) {
+      const std::string file = std::to_string(100'000'000 * i) + ".png";
+      std::filesystem::create_directories(folder_.path() / path / "depth");
+      std::filesystem::create_directories(folder_.path() / path / "color");
+      rgbd::WriteDepthPng(folder_.path() / path / "depth" / file,
+                          rgbd::DepthImage(4, 3, static_cast<std::uint16_t>(first + i)));
+      rgbd::WriteColorPng(folder_.path() / path / "color" / file, rgbd::ColorImage(4, 3, 9));
+    }
+  }
+
+  ExperimentPlayer Player(const std::string& recording = "") const {
+    return ExperimentPlayer::OfImages(
+        experiment::ReadExperiment(folder_.path() / "exp", app::LoadYaml), recording,
+        app::LoadYaml);
+  }
+
+  test_support::TestFolder folder_;
+};
+
+TEST_F(PlayedImages, ComeInOrderWithTheCableInputsOfTheirTime) {
+  ExperimentPlayer player = Player();
+  std::vector<std::string> seen;
+  while (const auto event = player.Next()) {
+    ASSERT_FALSE(event->markers);
+    ASSERT_TRUE(event->images);
+    ASSERT_EQ(event->cables.size(), 1u);
+    EXPECT_NEAR(event->cables[0].displacement_m.value(), 0.04 * event->t_s, 1e-15);
+    EXPECT_EQ(event->images->t_ns, std::llround(1e9 * event->t_s));
+    seen.push_back(event->recording + std::to_string(event->images->index));
+  }
+  EXPECT_THAT(seen, ElementsAre("a0", "a1", "b0", "b1"));
+}
+
+TEST_F(PlayedImages, RefusesRecordingsWithoutAny) {
+  folder_.Write("exp/recordings/c/recording.yaml", "kind: free\n");
+  EXPECT_EQ(test_support::MessageOf([&] { Player("c"); }),
+            "recording 'c' has no images: nothing to play");
+}
+
+/// Answers each depth image as perception and estimator together do; leaves some unanswered once.
+class FakeChain {
+ public:
+  FakeChain()
+      : node_("fake_chain"),
+        forces_(node_.participant.CreateWriter(dds::kForcesTopic)),
+        joint_states_(node_.participant.CreateReader(dds::kJointStatesTopic)),
+        depths_(node_.participant.CreateReader(dds::kDepthImageTopic)),
+        colors_(node_.participant.CreateReader(dds::kColorImageTopic)),
+        infos_(node_.participant.CreateReader(dds::kFrameInfoTopic)) {
+    node_.loop.Every(std::chrono::milliseconds(5), [] {});
+    node_.loop.Attach(joint_states_, [this] {
+      for (const auto& state : joint_states_.Take()) {
+        last_cables_ns_ = dds::StampNs(state.header.stamp);
+      }
+    });
+    node_.loop.Attach(depths_, [this] {
+      for (const auto& image : depths_.Take()) depth_ = image.data._buffer[0];
+    });
+    node_.loop.Attach(colors_, [this] {
+      for (const auto& image : colors_.Take()) color_ns_ = dds::StampNs(image.header.stamp);
+    });
+    node_.loop.Attach(infos_, [this] { TakeInfos(); });
+  }
+
+  dds::TestNode& node() { return node_; }
+  const std::vector<std::string>& frames() const { return frames_; }
+  void IgnoreOnce(std::size_t frame) { ignored_ = frame; }
+
+ private:
+  void TakeInfos() {
+    for (const auto& info : infos_.Take()) {
+      const std::int64_t stamp_ns = dds::StampNs(info.header.stamp);
+      EXPECT_EQ(last_cables_ns_, stamp_ns);
+      EXPECT_EQ(color_ns_, stamp_ns);
+      frames_.push_back(std::to_string(info.epoch) + ":" + std::to_string(depth_));
+      if (frames_.size() == ignored_) continue;
+      dds::Message<idl::palpate_msgs::ForceArray> forces;
+      dds::SetHeader(forces->header, stamp_ns, "robot");
+      dds::SetText(forces->recording, dds::Text(info.device));
+      EXPECT_TRUE(forces_.Write(forces));
+    }
+  }
+
+  dds::TestNode node_;
+  dds::Writer<idl::palpate_msgs::ForceArray> forces_;
+  dds::Reader<idl::sensor_msgs::JointState> joint_states_;
+  dds::Reader<idl::sensor_msgs::Image> depths_;
+  dds::Reader<idl::sensor_msgs::Image> colors_;
+  dds::Reader<idl::palpate_msgs::FrameInfo> infos_;
+  std::vector<std::string> frames_;  ///< epoch and first pixel
+  std::int64_t last_cables_ns_ = -1, color_ns_ = -1;
+  int depth_ = -1;
+  std::size_t ignored_ = 0;
+};
+
+TEST_F(PlayedImages, InStepsEachFrameWaitsForItsAnswerAndEachRecordingIsAnEpoch) {
+  FakeChain chain;
+  chain.IgnoreOnce(2);
+  NodeConfig config;
+  config.resend_s = 0.05;
+  PlayerNode player(config, {.step = true}, Player(), static_cast<int>(dds::TestDomain()),
+                    dds::BuiltInTable(), {});
+  std::atomic<bool> finished = false;
+  std::thread thread([&] {
+    player.Run();
+    finished = true;
+  });
+  EXPECT_TRUE(chain.node().WaitFor([&] { return finished.load(); }));
+  player.Stop();
+  thread.join();
+  EXPECT_THAT(chain.frames(), ElementsAre("1:0", "1:1", "1:1", "2:10", "2:11"));
+}
+
+}  // namespace
+}  // namespace palpate::player
