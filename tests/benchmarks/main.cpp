@@ -18,6 +18,7 @@
 #include "tests/benchmarks/options.hpp"
 #include "tests/benchmarks/results.hpp"
 #include "tests/benchmarks/scaling_law.hpp"
+#include "tests/benchmarks/sensing_table.hpp"
 #include "tests/benchmarks/suite.hpp"
 #include "tests/benchmarks/table.hpp"
 
@@ -104,6 +105,7 @@ int Run(const Options& options) {
   }
   const std::vector<ScalingLaw> laws = FitScalingLaws(results, suite.family);
   Print(std::cout, laws, suite.family);
+  PrintSensing(std::cout, results);
   if (!results.empty()) {
     std::cout << "\nPeak resident memory of the whole run: "
               << FixedOrDash(PeakResidentBytes() / 1048576.0, 0) << " MiB\n";

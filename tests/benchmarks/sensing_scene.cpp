@@ -112,8 +112,7 @@ void SensingScene::TakeFrame() {
   state_.balanced = false;
   const fem::TimeBudget budget =
       update_ == Update::kOneStep ? fem::TimeBudget(0.0) : fem::TimeBudget();
-  const force_estimation::MarkerFit& fit =
-      fitter_.Fit(frame.targets, frame.cables, &state_, budget);
+  const force_estimation::ForceFit& fit = fitter_.Fit(frame.targets, frame.cables, &state_, budget);
   qp_steps_ = fit.iterations;
   if (fit.restorations > 0) throw RunError("the frame needed a static solve");
   const bool reached = update_ == Update::kConverged

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "libs/fem/sparse/solver_settings.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/benchmarks/robots.hpp"
@@ -49,7 +49,7 @@ class SensingScene {
  private:
   struct Frame {
     std::vector<robot::CableCommand> cables;
-    force_estimation::MarkerTargets targets;
+    force_estimation::RowTargets targets;
   };
 
   SensingScene(robot::RobotBody body, const Settings& settings);
@@ -58,7 +58,7 @@ class SensingScene {
 
   robot::RobotModel model_;
   std::vector<force_estimation::FitSite> sites_;
-  force_estimation::MarkerFitter fitter_;
+  force_estimation::ForceFitter fitter_;
   Update update_;
   std::vector<Frame> frames_;  ///< the first half of the cycle; the way back is the same
   size_t next_ = 0;

@@ -7,6 +7,7 @@ usage: smoke_test.py PROGRAM
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -21,11 +22,13 @@ ALL = MODEL + ("eigen_ldlt",)
 STAGES = {"update_51_points": MODEL, "factorize": ALL, "solve_1_column": ALL,
           "solve_8_columns": ALL, "assemble_stable_neo_hookean": ("1_thread", "2_threads")}
 OWN_ROBOTS = ["four_leg_tet4", "four_leg_tet10", "beam_tet10"]
+SENSING_SETS = ("one_visible", "two_visible", "one_hidden", "nobody_touches", "weights_searched")
 CONTEXT = {"processor", "cores", "blas", "element_kernels", "compiler"}
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+def run(*arguments, **environment):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False,
+                          env=os.environ | environment)
 
 
 def paper_robots(names):
@@ -71,6 +74,11 @@ class PalpateBench(unittest.TestCase):
             for part in ("update_5_points", "converged_frame_51_points"):
                 self.assertIn(f"\n{robot}/{part}/", names)
         self.assertIn("\ndgemm_768/", names)
+        for points in (51, 15):
+            self.assertIn(f"\nsensing/estimate_{points}_points/", names)
+        for eyes in ("whole", "ideal_perception"):
+            for part in SENSING_SETS:
+                self.assertIn(f"\nsensing/{eyes}/{part}/", names)
 
     def test_compares_the_solvers(self):
         result, content = run_to_json("--benchmark_filter=^dgemm|four_leg_tet4/(factorize|solve)")
@@ -137,6 +145,11 @@ class PalpateBench(unittest.TestCase):
         result = run("--benchmark_filter=^read_mesh/beam", "--benchmark_out=/no/such/folder/x.json")
         self.assertEqual(result.returncode, 1)
         self.assertIn("/no/such/folder/x.json", result.stderr)
+
+    def test_refuses_a_size_of_the_sensing_sets_that_is_no_number(self):
+        result = run("--benchmark_list_tests=true", PALPATE_SENSING_CONTACTS="many")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("PALPATE_SENSING_CONTACTS", result.stderr)
 
     def test_refuses_an_unknown_option(self):
         self.assertEqual(run("--no_such_option").returncode, 2)

@@ -10,7 +10,9 @@
 #include "tests/benchmarks/camera_bench.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/measure.hpp"
+#include "tests/benchmarks/perception_bench.hpp"
 #include "tests/benchmarks/robots.hpp"
+#include "tests/benchmarks/sensing_bench.hpp"
 #include "tests/benchmarks/virtual_robot_bench.hpp"
 #include "tests/benchmarks/workbench.hpp"
 
@@ -183,7 +185,9 @@ Suite MakeSuite() {
     suite.blocks.push_back(ReadingBlock(paper.description.mesh));
   }
   suite.blocks.push_back(CameraBlock());
+  suite.blocks.push_back(PerceptionBlock());
   suite.blocks.push_back(VirtualRobotBlock());
+  for (Block& block : SensingBlocks()) suite.blocks.push_back(std::move(block));
   for (const int refinements : {0, 1, 2}) {
     suite.family.push_back(PaperRobot(ElementType::kTet4, refinements).name);
   }

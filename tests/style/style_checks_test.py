@@ -111,9 +111,12 @@ class CheckLayers(TreeTest):
             self.assertIn("only the virtual bench",
                           self.rules(check_layers.check_tree(self.root)[0]))
             file.unlink()
-        for path in ("components/virtual_camera/node/a.cpp", "tests/system/a.cpp"):
+        for path in ("components/virtual_camera/node/a.cpp", "tests/system/a.cpp",
+                     "components/palpate/node/demo/live_listener.cpp"):
             self.plant(path, line)
         self.assertEqual(check_layers.check_tree(self.root)[0], [])
+        self.plant("components/palpate/node/demo/a.cpp", line)
+        self.assertIn("only the virtual bench", self.rules(check_layers.check_tree(self.root)[0]))
 
     def test_our_headers_are_included_from_the_root(self):
         self.assert_broken("libs/fem/a.cpp", '"tet_mesh.hpp"', "from the root")
@@ -175,6 +178,9 @@ class CheckSizes(TreeTest):
         self.plant("components/view/README.md", "x\n" * 81)
         self.assertIn("a.png: 1000000 bytes", self.found())
         self.assertIn("README.md: 81 lines", self.found())
+        self.plant("components/view/README.md",
+                   "x\n" * 70 + "| parameter |\n|---|\n" + "| `a` |\n" * 20 + "x\n" * 8)
+        self.assertNotIn("README.md", self.found())
 
 
 class CheckYaml(TreeTest):

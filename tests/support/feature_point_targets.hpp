@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "components/force_estimation/marker_fitter.hpp"
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -22,15 +22,15 @@ inline robot::RobotBody WithFeaturePointsAsMarkers(robot::RobotBody body) {
 }
 
 /// All markers where the configuration x_m [3n] has them, without noise, known to `sigma_m`.
-inline force_estimation::MarkerTargets ExactTargets(const robot::RobotModel& model,
-                                                    const Eigen::VectorXd& x_m, double sigma_m) {
+inline force_estimation::RowTargets ExactTargets(const robot::RobotModel& model,
+                                                 const Eigen::VectorXd& x_m, double sigma_m) {
   const auto& markers = model.body().markers;
-  force_estimation::MarkerTargets targets;
+  force_estimation::RowTargets targets;
   targets.rows = static_cast<int>(3 * markers.size());
   targets.weight = Eigen::VectorXd::Constant(targets.rows, 1.0 / (sigma_m * sigma_m));
-  targets.position_m.resize(targets.rows);
+  targets.value_m.resize(targets.rows);
   for (size_t m = 0; m < markers.size(); ++m) {
-    targets.position_m.segment<3>(static_cast<Eigen::Index>(3 * m)) =
+    targets.value_m.segment<3>(static_cast<Eigen::Index>(3 * m)) =
         markers[m].point.weights.Position(x_m);
   }
   return targets;

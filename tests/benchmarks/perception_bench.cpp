@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/benchmarks/perception_bench.hpp"
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "components/perception/model/model_segmenter.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "components/virtual_camera/virtual_camera.hpp"
+#include "libs/scenario/scenario_sections.hpp"
+#include "tests/benchmarks/lazy.hpp"
+#include "tests/benchmarks/robots.hpp"
+
+namespace palpate::benchmarks {
+
+namespace {
+
+struct PerceptionSettings {
+  bool registered = true;
+  bool predicted = true;
+  double focal_px = 425.0;
+};
+
+scenario::Scenario MakeScenario(const PerceptionSettings& settings) {
+  scenario::Scenario scenario;
+  scenario::CameraSpec& spec = scenario.camera.emplace();
+  spec.camera.depth = {.width_px = 848,
+                       .height_px = 480,
+                       .fx_px = settings.focal_px,
+                       .fy_px = settings.focal_px,
+                       .cx_px = 423.5,
+                       .cy_px = 239.5};
+  spec.camera.baseline_m = 0.05;
+  spec.camera.color = spec.camera.depth;
+  spec.camera.color_registered = settings.registered;
+  if (!settings.registered) {
+    spec.camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
+  }
+  spec.T_robot_camera = scenario::LookAt({0.343, -0.198, 0.275}, {0.0, 0.0, 0.065});
+  scenario.tools.emplace_back().name = "ball";
+  return scenario;
+}
+
+// Some frames in turn, and where the robot is in them.
+struct PerceptionScene {
+  explicit PerceptionScene(const PerceptionSettings& settings) {
+    const scenario::Scenario scenario = MakeScenario(settings);
+    const robot::RobotBody body = BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10));
+    virtual_camera::Skin skin;
+    skin.rest_m = body.mesh.nodes_m;
+    skin.triangles = body.boundary.DrawnTriangles();
+    skin.markers_m = Eigen::Vector3d(0.0, 0.0, 0.125);
+    predicted.vertices_m = scenario.camera->T_robot_camera.inverse() * skin.rest_m;
+    predicted.triangles = skin.triangles;
+    virtual_camera::View view;
+    view.nodes_m = skin.rest_m;
+    view.T_robot_camera = scenario.camera->T_robot_camera;
+    view.tools.resize(1);
+    view.tools[0].tool = "ball";
+    view.tools[0].T_robot_tool.translation() = Eigen::Vector3d(0.03, -0.03, 0.11);
+    virtual_camera::VirtualCamera eye(scenario, std::move(skin), {}, 1);
+    for (rgbd::RgbdFrame& frame : frames) eye.Take(view, &frame);
+    camera = scenario.camera->camera;
+    segmenter.SetCamera(camera);
+    registration = std::make_unique<perception::Registration>(camera);
+    segmenter.Segment(frames[0], &predicted);
+  }
+
+  const rgbd::RgbdFrame& Next() { return frames[++taken % frames.size()]; }
+
+  std::array<rgbd::RgbdFrame, 8> frames;
+  std::size_t taken = 0;
+  rgbd::RgbdCamera camera;
+  perception::PredictedSurface predicted;
+  perception::ModelSegmenter segmenter{perception::Config()};
+  std::unique_ptr<perception::Registration> registration;
+  perception::RegisteredFrame registered;
+};
+
+Benchmark SegmentationBenchmark(const char* name, const PerceptionSettings& settings) {
+  const auto scene =
+      MakeLazy<PerceptionScene>([settings] { return std::make_unique<PerceptionScene>(settings); });
+  return {.name = std::string("perception/") + name,
+          .measure =
+              [scene, settings](benchmark::State& state) {
+                PerceptionScene& bench = scene->Get();
+                const auto* predicted = settings.predicted ? &bench.predicted : nullptr;
+                for (int warm = 0; warm < 3; ++warm) {
+                  bench.segmenter.Segment(bench.Next(), predicted);
+                }
+                for ([[maybe_unused]] auto iteration : state) {
+                  benchmark::DoNotOptimize(&bench.segmenter.Segment(bench.Next(), predicted));
+                }
+              },
+          .max_repetitions = 300};
+}
+
+Benchmark RegistrationBenchmark(const char* name, const PerceptionSettings& settings) {
+  const auto scene =
+      MakeLazy<PerceptionScene>([settings] { return std::make_unique<PerceptionScene>(settings); });
+  return {.name = std::string("perception/") + name,
+          .measure =
+              [scene](benchmark::State& state) {
+                PerceptionScene& bench = scene->Get();
+                for ([[maybe_unused]] auto iteration : state) {
+                  const Status status =
+                      bench.registration->Register(bench.Next(), &bench.registered);
+                  benchmark::DoNotOptimize(status.ok());
+                }
+              },
+          .max_repetitions = 300};
+}
+
+}  // namespace
+
+Block PerceptionBlock() {
+  return {
+      .heading = "perception, 848x480, four_leg_tet10 (8792 triangles) at 0.45 m",
+      .benchmarks = {SegmentationBenchmark("segment_by_model", {}),
+                     SegmentationBenchmark("segment_by_model_color_camera", {.registered = false}),
+                     SegmentationBenchmark("segment_by_model_near", {.focal_px = 665.0}),
+                     SegmentationBenchmark("segment_without_prediction", {.predicted = false}),
+                     RegistrationBenchmark("register", {}),
+                     RegistrationBenchmark("register_color_camera", {.registered = false})}};
+}
+
+}  // namespace palpate::benchmarks

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/benchmarks/sensing_bench.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "tests/benchmarks/lazy.hpp"
+#include "tests/benchmarks/sensing_sets.hpp"
+
+namespace palpate::benchmarks {
+
+namespace {
+
+using force_estimation::ShapeForceEstimator;
+using test_support::AccuracySummary;
+using test_support::ContactWish;
+using Eyes = SensingSets::Eyes;
+using SharedSets = std::shared_ptr<Lazy<SensingSets>>;
+
+constexpr int kUntouchedFrames = 20;
+
+int NumberFrom(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  if (text == nullptr) return otherwise;
+  double number = 0.0;
+  if (!ParseFinite(text, &number) || number < 1.0 || number > 1e6) {
+    throw InputError(std::string(variable) + " is '" + text + "', not a number from 1 to 1000000");
+  }
+  return static_cast<int>(number);
+}
+
+SensingSize SizeFromEnvironment() {
+  SensingSize size;
+  size.contacts = NumberFrom("PALPATE_SENSING_CONTACTS", size.contacts);
+  size.untouched_frames = NumberFrom("PALPATE_SENSING_FRAMES", size.untouched_frames);
+  size.seed = static_cast<std::uint64_t>(NumberFrom("PALPATE_SENSING_SEED", 1));
+  return size;
+}
+
+/// What is not known is left out.
+void Count(benchmark::State& state, const char* name, double value) {
+  if (std::isfinite(value)) state.counters[name] = value;
+}
+
+void CountFalseAlarms(benchmark::State& state, const AccuracySummary& summary) {
+  Count(state, "frames", summary.frames);
+  Count(state, "false_alarms", summary.false_alarms);
+  Count(state, "failed_frames", summary.failed_frames);
+}
+
+void CountAccuracy(benchmark::State& state, const test_support::Watched& watched) {
+  constexpr double kPercent = 100.0;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const AccuracySummary held = watched.held.Summary();
+  AccuracySummary all = watched.underway.Summary();
+  all.frames += held.frames;
+  all.false_alarms += held.false_alarms;
+  all.failed_frames += held.failed_frames;
+  CountFalseAlarms(state, all);
+  Count(state, "forces", held.forces);
+  Count(state, "found_percent", kPercent * held.found_share);
+  Count(state, "error_mean_percent", kPercent * held.mean_relative_error);
+  Count(state, "error_median_percent", kPercent * held.median_relative_error);
+  Count(state, "error_largest_percent", kPercent * held.largest_relative_error);
+  Count(state, "location_median_mm", 1e3 * held.median_location_error_m);
+  Count(state, "location_largest_mm", 1e3 * held.largest_location_error_m);
+  Count(state, "force_coverage_percent", kPercent * held.force_coverage);
+  Count(state, "location_coverage_percent", kPercent * held.location_coverage);
+  Count(state, "directions", held.directions);
+  Count(state, "direction_mean_deg", kDegrees * held.mean_direction_error_rad);
+  Count(state, "direction_largest_deg", kDegrees * held.largest_direction_error_rad);
+  Count(state, "found_from_N", test_support::Median(watched.found_from_N));
+}
+
+/// First part of the names of what these eyes see.
+std::string NameOf(Eyes eyes) {
+  return eyes == Eyes::kIdeal ? "sensing/ideal_perception/" : "sensing/whole/";
+}
+
+Benchmark OfTouches(const SharedSets& sets, Eyes eyes, const std::string& name,
+                    const ContactWish& wish, int contacts) {
+  return {.name = NameOf(eyes) + name,
+          .measure =
+              [sets, eyes, wish, contacts](benchmark::State& state) {
+                test_support::Watched watched;
+                for ([[maybe_unused]] auto iteration : state) {
+                  watched = sets->Get().Touches(eyes, wish, contacts);
+                }
+                CountAccuracy(state, watched);
+              },
+          .max_repetitions = 1};
+}
+
+Benchmark OfNobody(const SharedSets& sets, Eyes eyes) {
+  return {.name = NameOf(eyes) + "nobody_touches",
+          .measure =
+              [sets, eyes](benchmark::State& state) {
+                SensingSets::Untouched untouched;
+                for ([[maybe_unused]] auto iteration : state) {
+                  untouched = sets->Get().NobodyTouches(eyes);
+                }
+                CountFalseAlarms(state, untouched.alarms.Summary());
+                Count(state, "smallest_force_N", untouched.smallest_force_N);
+              },
+          .max_repetitions = 1};
+}
+
+Benchmark OfWeights(const SharedSets& sets, Eyes eyes, const char* name, bool given) {
+  return {.name = NameOf(eyes) + name,
+          .measure =
+              [sets, eyes, given](benchmark::State& state) {
+                std::array<double, kTableWeights_mN.size()> found_N = {};
+                for ([[maybe_unused]] auto iteration : state) {
+                  found_N = sets->Get().HangWeights(eyes, given);
+                }
+                for (std::size_t w = 0; w < found_N.size(); ++w) {
+                  const std::string weight = "weight_" + std::to_string(kTableWeights_mN[w]);
+                  state.counters[weight + "_mN"] = 1e3 * found_N[w];
+                }
+              },
+          .max_repetitions = 1};
+}
+
+/// An estimator that sees the same frames again and again.
+class Replay {
+ public:
+  Replay(std::vector<force_estimation::ShapeFrame> frames, int feature_points)
+      : frames_(std::move(frames)),
+        model_(BodyWith(feature_points)),
+        estimator_(model_, force_estimation::Config(), force_estimation::ShapeConfig()) {
+    for (; next_ < kUntouchedFrames; ++next_) estimator_.Update(frames_[next_]);
+    TakeFrame();
+  }
+
+  void TakeFrame() {
+    const force_estimation::ForceEstimate& estimate = estimator_.Update(frames_[next_]);
+    if (!estimate.status.ok() && estimate.status.code() != StatusCode::kNoContact) {
+      throw RunError("the frame was not used: " + estimate.status.message());
+    }
+    if (++next_ == frames_.size()) next_ = kUntouchedFrames;
+  }
+
+ private:
+  static robot::RobotBody BodyWith(int feature_points) {
+    robot::RobotDescription robot = test_support::FourLeg();
+    robot.feature_point_count = feature_points;
+    return robot::BuildRobotBody(robot);
+  }
+
+  std::vector<force_estimation::ShapeFrame> frames_;
+  robot::RobotModel model_;
+  ShapeForceEstimator estimator_;
+  std::size_t next_ = 0;
+};
+
+Benchmark OfFrames(const SharedSets& sets, int feature_points) {
+  const auto replay = MakeLazy<Replay>([sets, feature_points] {
+    return std::make_unique<Replay>(sets->Get().Frames(kUntouchedFrames), feature_points);
+  });
+  return {.name = "sensing/estimate_" + std::to_string(feature_points) + "_points",
+          .measure =
+              [replay](benchmark::State& state) {
+                Replay& frames = replay->Get();
+                for ([[maybe_unused]] auto iteration : state) frames.TakeFrame();
+              },
+          .max_repetitions = 300};
+}
+
+}  // namespace
+
+std::vector<Block> SensingBlocks() {
+  using Where = ContactWish::Where;
+  const SensingSize size = SizeFromEnvironment();
+  const SharedSets sets =
+      MakeLazy<SensingSets>([size] { return std::make_unique<SensingSets>(size); });
+  const int half = (size.contacts + 1) / 2;
+  Block frames{.heading = "force sensing by sight, four_leg_tet10: one frame of the estimator",
+               .benchmarks = {}};
+  for (const int feature_points : {51, 15})
+    frames.benchmarks.push_back(OfFrames(sets, feature_points));
+  std::vector<Block> blocks = {std::move(frames)};
+  const auto add = [&](Benchmark set) {
+    blocks.push_back({.heading = "force sensing by sight: whole sets (their accuracy: below)",
+                      .benchmarks = {std::move(set)}});
+  };
+  for (const Eyes eyes : {Eyes::kPerception, Eyes::kIdeal}) {
+    add(OfTouches(sets, eyes, "one_visible", {.where = Where::kVisible}, size.contacts));
+    add(OfTouches(sets, eyes, "two_visible", {.where = Where::kVisible, .count = 2}, half));
+    add(OfTouches(sets, eyes, "one_hidden", {.where = Where::kHidden}, half));
+    add(OfNobody(sets, eyes));
+    add(OfWeights(sets, eyes, "weights_searched", false));
+  }
+  add(OfWeights(sets, Eyes::kIdeal, "weights_given", true));
+  return blocks;
+}
+
+}  // namespace palpate::benchmarks

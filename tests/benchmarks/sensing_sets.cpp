@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/benchmarks/sensing_sets.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "libs/core/error.hpp"
+#include "tests/support/sensing/accuracy.hpp"
+#include "tests/support/sensing/paths.hpp"
+
+namespace palpate::benchmarks {
+
+namespace {
+
+using test_support::ContactWish;
+using test_support::FourLeg;
+using test_support::Median;
+using test_support::SceneState;
+using test_support::SensingChain;
+using test_support::Watched;
+
+constexpr double kLargestCable_m = 0.003;
+constexpr int kLearningFrames = 40;
+constexpr int kPostures = 4;
+constexpr int kHandFrames = 30;
+constexpr double kHandNearest_m = 0.008;
+const Eigen::Vector3d kTip_m(0.0, 0.0, 0.125);
+constexpr double kTipPatch_m = 0.006;
+
+std::string KeyOf(const ContactWish& wish, int count) {
+  return std::to_string(static_cast<int>(wish.where)) + " " + std::to_string(wish.count) + " " +
+         std::to_string(count);
+}
+
+double MedianSmallestForce_N(SensingChain& chain) {
+  std::vector<double> smallest_N;
+  const auto& features = chain.estimator().features();
+  const auto& points = chain.model().body().feature_points;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (features[k].state != force_estimation::MatchState::kMatched) continue;
+    const double force_N = chain.estimator().SmallestForce_N(points[k].rest_m);
+    if (std::isfinite(force_N)) smallest_N.push_back(force_N);
+  }
+  return Median(smallest_N);
+}
+
+}  // namespace
+
+SensingSets::SensingSets(const SensingSize& size)
+    : size_(size), scene_(FourLeg(), test_support::BallScenario(), size.seed) {}
+
+SensingChain& SensingSets::ChainOf(Eyes eyes, bool weights_given) {
+  std::unique_ptr<SensingChain>& chain = chains_[{eyes, weights_given}];
+  if (chain == nullptr) {
+    test_support::ChainSettings settings;
+    settings.eyes = eyes;
+    settings.weights_given = weights_given;
+    chain = std::make_unique<SensingChain>(FourLeg(), scene_, settings, size_.seed);
+    chain->Learn(kLearningFrames, kPostures, kLargestCable_m);
+  }
+  if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
+  return *chain;
+}
+
+const std::vector<SensingSets::Path>& SensingSets::PathsOf(const ContactWish& wish, int count) {
+  std::vector<Path>& paths = paths_[KeyOf(wish, count)];
+  if (!paths.empty()) return paths;
+  ContactWish with_cables = wish;
+  with_cables.largest_cable_m = kLargestCable_m;
+  if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
+  test_support::ContactGenerator generator(scene_, with_cables, size_.seed);
+  while (static_cast<int>(paths.size()) < count && generator.Next()) {
+    paths.push_back(generator.path());
+  }
+  if (paths.empty()) throw RunError("no contact of this kind was found");
+  return paths;
+}
+
+Watched SensingSets::Touches(Eyes eyes, const ContactWish& wish, int count) {
+  const std::vector<Path>& paths = PathsOf(wish, count);
+  SensingChain& chain = ChainOf(eyes);
+  Watched watched;
+  for (const Path& path : paths) test_support::Watch(path, {}, scene_, chain, &watched);
+  return watched;
+}
+
+SensingSets::Untouched SensingSets::NobodyTouches(Eyes eyes) {
+  SensingChain& chain = ChainOf(eyes);
+  Untouched untouched;
+  scenario::Random random(size_.seed, "hand");
+  const SceneState rest = scene_.state();
+  const int at_rest = size_.untouched_frames / 2;
+  for (int k = 0; k < at_rest; ++k) untouched.alarms.Add({}, chain.Take());
+  untouched.smallest_force_N = MedianSmallestForce_N(chain);
+  for (int k = at_rest; k < size_.untouched_frames;) {
+    scene_.Show(rest);
+    for (const SceneState& state :
+         test_support::HandComesNear(scene_, kHandNearest_m, kHandFrames, &random)) {
+      if (k++ == size_.untouched_frames) break;
+      scene_.Show(state);
+      untouched.alarms.Add({}, chain.Take());
+    }
+  }
+  scene_.Show(rest);
+  return untouched;
+}
+
+std::array<double, kTableWeights_mN.size()> SensingSets::HangWeights(Eyes eyes, bool given) {
+  std::array<double, kTableWeights_mN.size()> found_N = {};
+  constexpr int kSettling = 5;
+  constexpr int kMeasured = 10;
+  SensingChain& chain = ChainOf(eyes, given);
+  for (std::size_t w = 0; w < kTableWeights_mN.size(); ++w) {
+    const Path path =
+        test_support::HangWeight(scene_, kTip_m, 1e-3 * kTableWeights_mN[w], kTipPatch_m);
+    for (int k = 0; k < kSettling; ++k) {  // the weight before has gone
+      scene_.Show(path.front());
+      chain.Take();
+    }
+    for (const SceneState& state : path) {
+      scene_.Show(state);
+      chain.Take();
+    }
+    for (int k = 0; k < kSettling; ++k) chain.Take();
+    for (int k = 0; k < kMeasured; ++k) {
+      const force_estimation::ForceEstimate& estimate = chain.Take();
+      Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+      if (estimate.status.ok()) {
+        for (const auto& contact : estimate.contacts) force_N += contact.force_N;
+      }
+      found_N[w] += force_N.norm() / kMeasured;
+    }
+  }
+  return found_N;
+}
+
+std::vector<force_estimation::ShapeFrame> SensingSets::Frames(int untouched) {
+  std::vector<force_estimation::ShapeFrame> frames;
+  const std::vector<Path>& paths = PathsOf({}, 1);
+  SensingChain& chain = ChainOf(Eyes::kIdeal);
+  for (int k = 0; k < untouched; ++k) {
+    chain.Take();
+    frames.push_back(chain.frame());
+    frames.back().untouched = true;
+  }
+  const auto show = [&](const SceneState& state) {
+    scene_.Show(state);
+    chain.Take();
+    frames.push_back(chain.frame());
+  };
+  for (const SceneState& state : paths.front()) show(state);
+  for (int k = 0; k < kHandFrames; ++k) show(paths.front().back());
+  for (auto state = paths.front().rbegin(); state != paths.front().rend(); ++state) show(*state);
+  return frames;
+}
+
+}  // namespace palpate::benchmarks

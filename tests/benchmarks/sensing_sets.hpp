@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/force_estimation/shape/shape_frame.hpp"
+#include "tests/support/sensing/contact_generator.hpp"
+#include "tests/support/sensing/sensing_chain.hpp"
+#include "tests/support/sensing/watch.hpp"
+
+namespace palpate::benchmarks {
+
+/// The weights of the paper's Table III, hung on the tip, and what was computed there, mN.
+inline constexpr std::array<int, 6> kTableWeights_mN = {260, 460, 660, 760, 860, 1060};
+inline constexpr std::array<int, 6> kTableComputed_mN = {230, 434, 634, 756, 873, 1045};
+
+struct SensingSize {
+  int contacts = 10;
+  int untouched_frames = 300;
+  std::uint64_t seed = 1;
+};
+
+/// Sets of contacts with their truth, each made when it is first asked for, and what the chain from
+/// camera frames to forces makes of them. The chain learns from 40 untouched frames, 8 at rest and
+/// 8 in each of four other postures, then takes one set after the other.
+class SensingSets {
+ public:
+  using Path = std::vector<test_support::SceneState>;
+  using Eyes = test_support::ChainSettings::Eyes;
+
+  explicit SensingSets(const SensingSize& size);
+
+  /// `count` of them, with cables pulled in by up to 3 mm. Throws RunError where there are none.
+  test_support::Watched Touches(Eyes eyes, const test_support::ContactWish& wish, int count);
+
+  struct Untouched {
+    test_support::Accuracy alarms{1e9};
+    double smallest_force_N = 0.0;  ///< that would be found, median over the features in view
+  };
+  /// Half of the frames at rest, half with a hand that comes as near as 8 mm.
+  Untouched NobodyTouches(Eyes eyes);
+
+  /// Mean of |F| over the frames for each weight of Table III, N; 0 where it was not found.
+  /// `given`: the estimator is told that something touches the tip; else it finds out.
+  std::array<double, kTableWeights_mN.size()> HangWeights(Eyes eyes, bool given);
+
+  /// The frames of one contact coming, held and going, as an estimator gets them, with the first
+  /// `untouched` ones.
+  std::vector<force_estimation::ShapeFrame> Frames(int untouched);
+
+ private:
+  /// Shows the scene at rest.
+  test_support::SensingChain& ChainOf(Eyes eyes, bool weights_given = false);
+  const std::vector<Path>& PathsOf(const test_support::ContactWish& wish, int count);
+
+  SensingSize size_;
+  test_support::SensingScene scene_;
+  std::map<std::string, std::vector<Path>> paths_;
+  std::map<std::pair<Eyes, bool>, std::unique_ptr<test_support::SensingChain>> chains_;
+};
+
+}  // namespace palpate::benchmarks

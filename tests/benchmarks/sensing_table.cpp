@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/benchmarks/sensing_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/benchmarks/sensing_sets.hpp"
+
+namespace palpate::benchmarks {
+
+namespace {
+
+constexpr int kNameWidth = 42;
+
+struct Column {
+  const char* head;
+  const char* counter;
+  int width;
+  int digits;
+};
+
+const std::vector<Column> kColumns = {{"forces", "forces", 8, 0},
+                                      {"found %", "found_percent", 9, 0},
+                                      {"mean %", "error_mean_percent", 8, 1},
+                                      {"median %", "error_median_percent", 10, 1},
+                                      {"max %", "error_largest_percent", 8, 1},
+                                      {"place mm", "location_median_mm", 10, 1},
+                                      {"max mm", "location_largest_mm", 8, 1},
+                                      {"dir deg", "direction_mean_deg", 9, 1},
+                                      {"max deg", "direction_largest_deg", 9, 1},
+                                      {"F in ci", "force_coverage_percent", 9, 0},
+                                      {"x in ci", "location_coverage_percent", 9, 0},
+                                      {"frames", "frames", 8, 0},
+                                      {"false", "false_alarms", 7, 0},
+                                      {"failed", "failed_frames", 8, 0},
+                                      {"from N", "found_from_N", 8, 2}};
+
+std::string Figure(const Result& result, const std::string& counter, int digits) {
+  const auto found = result.counters.find(counter);
+  if (found == result.counters.end()) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << found->second;
+  return text.str();
+}
+
+bool IsOfFrames(const std::string& name, const Result& result) {
+  return result.ok() && name.rfind("sensing/", 0) == 0 && result.counters.contains("frames");
+}
+
+void PrintHead(std::ostream& out) {
+  out << R"(
+Force sensing by sight against the virtual bench. |F| and place of the contacts held (each force in each
+frame counts; one that is not found errs by 100 % and has no place), mean direction error where the
+estimate says that it was observable, share of forces and places inside their 95 % intervals; over all
+frames, also of the way there and back: estimated forces that belong to no true one, frames without an
+estimate; smallest true force, on its way up, from which on it was found (median).
+
+)" << std::left
+      << std::setw(kNameWidth) << "set" << std::right;
+  for (const Column& column : kColumns) out << std::setw(column.width) << column.head;
+  out << '\n';
+}
+
+void PrintAccuracy(std::ostream& out, const Results& results) {
+  bool has_head = false;
+  for (const auto& [name, result] : results.all()) {
+    if (!IsOfFrames(name, result)) continue;
+    if (!has_head) PrintHead(out);
+    has_head = true;
+    out << std::left << std::setw(kNameWidth) << name << std::right;
+    for (const Column& column : kColumns) {
+      out << std::setw(column.width) << Figure(result, column.counter, column.digits);
+    }
+    out << '\n';
+    if (result.counters.contains("smallest_force_N")) {
+      out << "Smallest force that would be found at rest, median over the features in view: "
+          << Figure(result, "smallest_force_N", 3) << " N\n";
+    }
+  }
+}
+
+void PrintWeight(std::ostream& out, int of_mN, double found_mN) {
+  out << std::setw(11) << std::fixed << std::setprecision(0) << found_mN << std::setw(7)
+      << std::setprecision(1) << 100.0 * (found_mN - of_mN) / of_mN << " %";
+}
+
+void PrintWeights(std::ostream& out, const Results& results) {
+  std::vector<const Result*> found;
+  for (const char* name : {"whole/weights_searched", "ideal_perception/weights_given",
+                           "ideal_perception/weights_searched"}) {
+    found.push_back(results.Find(std::string("sensing/") + name));
+  }
+  if (std::count(found.begin(), found.end(), nullptr) == std::ssize(found)) return;
+  out << R"(
+Weights hung on the tip, mN. The paper (Table III): a real robot, the contact seen. Ours: the virtual
+bench, no tool in sight, so that the force is searched; or its place is given, as a contact seen.
+
+weight           the paper       whole, searched   ideal cloud, given  ideal cloud, searched
+)";
+  for (std::size_t w = 0; w < kTableWeights_mN.size(); ++w) {
+    const int of_mN = kTableWeights_mN[w];
+    out << std::setw(6) << of_mN;
+    PrintWeight(out, of_mN, kTableComputed_mN[w]);
+    for (const Result* result : found) {
+      if (result == nullptr) {
+        out << std::setw(20) << "-";
+      } else {
+        PrintWeight(out, of_mN, result->Counter("weight_" + std::to_string(of_mN) + "_mN"));
+      }
+    }
+    out << '\n';
+  }
+}
+
+}  // namespace
+
+void PrintSensing(std::ostream& out, const Results& results) {
+  PrintAccuracy(out, results);
+  PrintWeights(out, results);
+}
+
+}  // namespace palpate::benchmarks

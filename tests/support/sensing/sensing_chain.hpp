@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/force_estimation/shape/shape_force_estimator.hpp"
+#include "components/perception/perception.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/scenario/random.hpp"
+#include "tests/support/sensing/ideal_perception.hpp"
+#include "tests/support/sensing/scene_sight.hpp"
+#include "tests/support/sensing/sensing_scene.hpp"
+
+namespace palpate::test_support {
+
+struct ChainSettings {
+  /// Who looks at the frames.
+  enum class Eyes { kIdeal, kPerception };
+
+  Eyes eyes = Eyes::kIdeal;
+  force_estimation::Config config;
+  force_estimation::ShapeConfig shape;
+  perception::Config perception;
+  /// Error of the places of ideal contacts along each axis; drawn when a tool comes, kept as long
+  /// as it touches.
+  double location_sigma_m = 1.5e-3;
+  /// Contacts of which the camera sees less (SceneSight, within 10 mm) have no SeenContact.
+  double seen_share = 0.3;
+  /// Contacts are given for hung weights, too, wherever the camera is.
+  bool weights_given = false;
+};
+
+/// From the camera's frames of a scene to forces: the robot file's model, which knows nothing of
+/// the scene's, behind ideal perception or our own, which is fed with the last predicted surface.
+class SensingChain {
+ public:
+  SensingChain(const robot::RobotDescription& robot, SensingScene& scene,
+               const ChainSettings& settings, std::uint64_t seed);
+
+  /// Frames of a robot that nobody touches: at the scene's commands zero, then at `postures`
+  /// others, with each cable pulled in by 0 to `largest_cable_m`. The scene ends at zero.
+  void Learn(int frames, int postures = 0, double largest_cable_m = 0.0);
+
+  /// Takes a frame of the scene as it is. The estimate holds until the next call.
+  const force_estimation::ForceEstimate& Take(bool untouched = false);
+
+  force_estimation::ShapeForceEstimator& estimator() { return estimator_; }
+  /// What the estimator was given last.
+  const force_estimation::ShapeFrame& frame() const { return frame_; }
+  robot::RobotModel& model() { return model_; }
+
+ private:
+  std::vector<force_estimation::SeenContact> IdealContacts();
+  force_estimation::ShapeFrame Perceive();
+
+  SensingScene& scene_;
+  ChainSettings settings_;
+  robot::RobotModel model_;
+  force_estimation::ShapeForceEstimator estimator_;
+  IdealPerception ideal_;
+  perception::Perception perception_;
+  bool has_prediction_ = false;
+  perception::PredictedSurface prediction_;
+  SceneSight sight_;
+  scenario::Random random_;
+  std::map<std::string, Eigen::Vector3d> location_error_m_;  ///< of the tools that touch
+  force_estimation::ShapeFrame frame_;
+};
+
+}  // namespace palpate::test_support
