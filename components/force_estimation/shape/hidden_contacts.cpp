@@ -15,6 +15,9 @@ constexpr double kTakenRadius_m = 0.03;
 constexpr int kFindAgainRounds = 2;
 /// Frames of its life in which a hidden contact is looked for again.
 constexpr int kYoungFrames = 5;
+constexpr int kFramesBetweenSearches = 3;
+/// Residual over noise, mean square, that calls for a search at once.
+constexpr double kMuchLeft = 1.5;
 constexpr double kSamePlace_m = 6e-3;
 /// Another place must fit by so much better.
 constexpr double kBetter = 0.95;
@@ -35,7 +38,7 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
   const auto hidden =
       std::find_if(sites.begin(), sites.end(), [](const ShapeSite& site) { return site.hidden; });
   bool found_any = hidden != sites.end() && hidden->frames < kYoungFrames;
-  if (hidden == sites.end() && !fit_.book().full()) {
+  if (hidden == sites.end() && !fit_.book().full() && IsTimeToSearch()) {
     const std::vector<HiddenContact> found = search_.Find(
         LeftOver(), kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
     if (found.empty()) return status;
@@ -45,6 +48,16 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
     if (!FindAgain(frame, bias, &status)) break;
   }
   return status;
+}
+
+/// Each few frames, and at once where much is left over.
+bool HiddenContacts::IsTimeToSearch() {
+  const double limit = kMuchLeft * fit_.targets().Count();
+  if (++frames_since_search_ < kFramesBetweenSearches && fit_.fitter().fit().chi_squared < limit) {
+    return false;
+  }
+  frames_since_search_ = 0;
+  return true;
 }
 
 /// True where another place was better.

@@ -25,6 +25,7 @@ class HiddenContacts {
 
  private:
   bool FindAgain(const ShapeFrame& frame, const DepthBias& bias, Status* status);
+  bool IsTimeToSearch();
   Unexplained LeftOver() const;
   Unexplained WithoutHidden() const;
   bool Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
@@ -35,6 +36,7 @@ class HiddenContacts {
   ShapeConfig config_;
   ShapeFit& fit_;
   HiddenSearch search_;
+  int frames_since_search_ = 0;
 };
 
 }  // namespace palpate::force_estimation

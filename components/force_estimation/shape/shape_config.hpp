@@ -27,7 +27,7 @@ struct ShapeConfig {
   double largest_friction = 1.0;
   double force_relative_sigma = 0.015;
   double force_rate_N_s = 2.0;
-  double fit_tolerance = 1e-3;
+  double fit_tolerance = 3e-3;
   double significance = 1e-5;
   double hidden_significance = 1e-6;
 
