@@ -73,12 +73,12 @@ endif()
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
 
-# add_component_test(NAME [LIBS lib...] [PRIVATE target...] [LOOPBACK] [TIMEOUT seconds])
+# add_component_test(NAME [LIBS lib...] [PRIVATE target...] [LOOPBACK] [ALONE] [TIMEOUT seconds])
 # One test program from the sources of this folder, each of its cases a test of ctest, named
 # NAME.Suite.Case. LOOPBACK: DDS on 127.0.0.1 only, a domain id of its own, so that tests run in
-# parallel and meet nobody.
+# parallel and meet nobody. ALONE: nothing else runs beside, for processes that keep a rate.
 function(add_component_test name)
-  cmake_parse_arguments(ARG "LOOPBACK" "TIMEOUT" "LIBS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LOOPBACK;ALONE" "TIMEOUT" "LIBS;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
@@ -96,7 +96,7 @@ function(add_component_test name)
     set(ARG_TIMEOUT 300)
   endif()
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
   if(ARG_LOOPBACK)
     palpate_use_loopback(${name})
   endif()
