@@ -3,12 +3,16 @@
 
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "components/perception/color/color_config.hpp"
 #include "components/perception/contacts/contact_config.hpp"
 #include "components/perception/model/model_config.hpp"
 #include "libs/core/config_reader.hpp"
+#include "libs/rgbd/depth_noise.hpp"
 
 namespace palpate::perception {
 
@@ -18,6 +22,7 @@ struct Config {
   double min_z_m = 0.1;
   double max_z_m = 2.0;
   int max_cloud_points = 10000;
+  std::vector<double> robot_color_rgb;
   double depth_subpixel_px = 0.08;
   double depth_range_sigma_m = 1e-3;
   double depth_correlation_px = 1.5;
@@ -33,6 +38,9 @@ struct Config {
       "region growing");
     v("min_z_m", min_z_m, {.min = 0.0, .min_open = true}, "Nearer points are left out");
     v("max_z_m", max_z_m, {.min = 0.0, .min_open = true}, "Farther points are left out");
+    v("robot_color_rgb", robot_color_rgb, {.min = 0.0, .max = 1.0},
+      "Red, green, blue of the robot: model starts with it and learns on, color keeps it; empty: "
+      "not known before it is learnt");
     v("max_cloud_points", max_cloud_points, {.min = 100.0, .max = 10000.0},
       "Points of each published cloud (20 bytes each)");
     v("depth_subpixel_px", depth_subpixel_px, {.min = 0.0, .min_open = true},
@@ -47,5 +55,11 @@ struct Config {
     v("model", model, "Segmentation by the predicted surface");
   }
 };
+
+/// Noise of the depth image, where the camera does not say its own.
+rgbd::DepthNoise NoiseOf(const Config& config);
+
+/// robot_color_rgb, or nothing where it is empty. Throws InputError where it is no colour.
+std::optional<Eigen::Vector3d> RobotColor(const Config& config);
 
 }  // namespace palpate::perception

@@ -52,7 +52,8 @@ const Observation& Perception::Update(const rgbd::RgbdFrame& frame,
   observation.stamp_ns = frame.stamp_ns;
   observation.frame = parts_->segmenter->Segment(frame, predicted);
   // A frame that cannot be used shows no contact; hysteresis bridges a few of them.
-  const auto& located = parts_->locator.Locate(observation.frame.robot, observation.frame.object);
+  const auto& located = parts_->locator.Locate(observation.frame.robot, observation.frame.object,
+                                               parts_->segmenter->FittedSurface());
   observation.contacts = parts_->tracker.Update(located);
   return observation;
 }

@@ -21,6 +21,10 @@ class Segmenter {
   /// call.
   virtual const SegmentedFrame& Segment(const rgbd::RgbdFrame& frame,
                                         const PredictedSurface* predicted) = 0;
+
+  /// What was predicted of the robot's surface for the last frame, moved onto what was measured;
+  /// nullptr where that was not done. Holds until the next call of Segment.
+  virtual const PredictedSurface* FittedSurface() const { return nullptr; }
 };
 
 }  // namespace palpate::perception

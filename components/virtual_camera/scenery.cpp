@@ -134,7 +134,8 @@ void Scenery::AddRobot(const Skin& skin, const scenario::Stage& stage) {
     kernels::Disc& disc = drawing_.discs.emplace_back();
     CopyColor(skin.markers_m.col(i), disc.center_m);
     disc.radius_m = static_cast<float>(stage.marker_radius_m);
-    CopyColor(MarkerColor(i, markers, HueOf(stage.robot_color_rgb)), disc.rgb);
+    const double robot_hue = HueOf(stage.robot_color_rgb);
+    CopyColor(stage.marker_color_rgb.value_or(MarkerColor(i, markers, robot_hue)), disc.rgb);
   }
   robot.disc_begin.push_back(0);
   for (Eigen::Index t = 0; t < skin.triangles.cols(); ++t) {

@@ -77,6 +77,9 @@ Stage ReadStage(const ConfigNode& node) {
   color("background_color_rgb", &stage.background_color_rgb);
   color("robot_color_rgb", &stage.robot_color_rgb);
   stage.marker_radius_m = reader.Number("marker_radius_m", stage.marker_radius_m, kNonNegative);
+  if (const ConfigNode* entry = reader.Optional("marker_color_rgb")) {
+    stage.marker_color_rgb = ReadColor(*entry);
+  }
   stage.light = reader.Number("light", stage.light, {.min = 0.0, .max = 10.0, .min_open = true});
   reader.Finish();
   return stage;

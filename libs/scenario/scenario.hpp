@@ -143,7 +143,9 @@ struct Stage {
   Eigen::Vector3d background_color_rgb{0.75, 0.76, 0.78};
   Eigen::Vector3d robot_color_rgb{0.85, 0.30, 0.25};
   double marker_radius_m = 0.004;  ///< of the coloured discs at the robot's markers; 0: none
-  double light = 1.0;              ///< brightness of the lamps
+  /// Of all these discs; without: hues of their own, as far apart as can be.
+  std::optional<Eigen::Vector3d> marker_color_rgb;
+  double light = 1.0;  ///< brightness of the lamps
 };
 
 struct MarkerSpec {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "components/virtual_camera/virtual_camera.hpp"
-#include "libs/scenario/scenario_sections.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/robots.hpp"
+#include "tests/support/sensing/drawn_robot.hpp"
 
 namespace palpate::benchmarks {
 
@@ -23,19 +23,14 @@ struct CameraSettings {
 };
 
 scenario::Scenario MakeScenario(const CameraSettings& settings) {
-  scenario::Scenario scenario;
-  scenario::CameraSpec& spec = scenario.camera.emplace();
-  spec.camera.depth = {.width_px = 848,
-                       .height_px = 480,
-                       .fx_px = 665.0,
-                       .fy_px = 665.0,
-                       .cx_px = 423.5,
-                       .cy_px = 239.5};
-  if (settings.distortion) spec.camera.depth.distortion[0] = -0.05;
-  spec.camera.baseline_m = 0.055;
-  if (settings.color) spec.camera.color = spec.camera.depth;
+  scenario::Scenario scenario =
+      test_support::StereoScenario(665.0, 0.055, {0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
+  scenario::CameraSpec& spec = *scenario.camera;
+  if (settings.distortion) {
+    spec.camera.depth.distortion[0] = spec.camera.color.distortion[0] = -0.05;
+  }
+  if (!settings.color) spec.camera.color = {};
   spec.camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
-  spec.T_robot_camera = scenario::LookAt({0.12, -0.45, 0.30}, {0.0, 0.0, 0.05});
   if (!settings.noise) spec.noise.sensor = scenario::DepthSensor::kNone;
   scenario::Tool& tool = scenario.tools.emplace_back();
   tool.name = "tool";
@@ -47,16 +42,9 @@ scenario::Scenario MakeScenario(const CameraSettings& settings) {
 struct CameraScene {
   explicit CameraScene(const CameraSettings& settings) {
     const scenario::Scenario scenario = MakeScenario(settings);
-    const robot::RobotBody body = BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10));
-    virtual_camera::Skin skin;
-    skin.rest_m = body.mesh.nodes_m;
-    skin.triangles = body.boundary.DrawnTriangles();
-    skin.markers_m = Eigen::Vector3d(0.0, 0.0, 0.125);
-    view.nodes_m = skin.rest_m;
-    view.T_robot_camera = scenario.camera->T_robot_camera;
-    view.tools.resize(1);
-    view.tools[0].tool = "tool";
-    view.tools[0].T_robot_tool.translation() = Eigen::Vector3d(0.10, -0.02, 0.15);
+    virtual_camera::Skin skin =
+        test_support::SkinOf(BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10)));
+    view = test_support::ViewWithTool(scenario, skin, "tool", {0.10, -0.02, 0.15});
     camera = std::make_unique<virtual_camera::VirtualCamera>(
         scenario, std::move(skin), std::vector<scenario::ActiveEffect>{}, 1);
   }

@@ -10,9 +10,9 @@
 #include "components/perception/model/model_segmenter.hpp"
 #include "components/perception/registered_frame.hpp"
 #include "components/virtual_camera/virtual_camera.hpp"
-#include "libs/scenario/scenario_sections.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/robots.hpp"
+#include "tests/support/sensing/drawn_robot.hpp"
 
 namespace palpate::benchmarks {
 
@@ -25,21 +25,11 @@ struct PerceptionSettings {
 };
 
 scenario::Scenario MakeScenario(const PerceptionSettings& settings) {
-  scenario::Scenario scenario;
-  scenario::CameraSpec& spec = scenario.camera.emplace();
-  spec.camera.depth = {.width_px = 848,
-                       .height_px = 480,
-                       .fx_px = settings.focal_px,
-                       .fy_px = settings.focal_px,
-                       .cx_px = 423.5,
-                       .cy_px = 239.5};
-  spec.camera.baseline_m = 0.05;
-  spec.camera.color = spec.camera.depth;
-  spec.camera.color_registered = settings.registered;
-  if (!settings.registered) {
-    spec.camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
-  }
-  spec.T_robot_camera = scenario::LookAt({0.343, -0.198, 0.275}, {0.0, 0.0, 0.065});
+  scenario::Scenario scenario = test_support::StereoScenario(
+      settings.focal_px, 0.05, {0.343, -0.198, 0.275}, {0.0, 0.0, 0.065});
+  rgbd::RgbdCamera& camera = scenario.camera->camera;
+  camera.color_registered = settings.registered;
+  if (!settings.registered) camera.T_depth_color.translation() = Eigen::Vector3d(0.015, 0.0, 0.0);
   scenario.tools.emplace_back().name = "ball";
   return scenario;
 }
@@ -48,19 +38,12 @@ scenario::Scenario MakeScenario(const PerceptionSettings& settings) {
 struct PerceptionScene {
   explicit PerceptionScene(const PerceptionSettings& settings) {
     const scenario::Scenario scenario = MakeScenario(settings);
-    const robot::RobotBody body = BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10));
-    virtual_camera::Skin skin;
-    skin.rest_m = body.mesh.nodes_m;
-    skin.triangles = body.boundary.DrawnTriangles();
-    skin.markers_m = Eigen::Vector3d(0.0, 0.0, 0.125);
+    virtual_camera::Skin skin =
+        test_support::SkinOf(BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10)));
+    const virtual_camera::View view =
+        test_support::ViewWithTool(scenario, skin, "ball", {0.03, -0.03, 0.11});
     predicted.vertices_m = scenario.camera->T_robot_camera.inverse() * skin.rest_m;
     predicted.triangles = skin.triangles;
-    virtual_camera::View view;
-    view.nodes_m = skin.rest_m;
-    view.T_robot_camera = scenario.camera->T_robot_camera;
-    view.tools.resize(1);
-    view.tools[0].tool = "ball";
-    view.tools[0].T_robot_tool.translation() = Eigen::Vector3d(0.03, -0.03, 0.11);
     virtual_camera::VirtualCamera eye(scenario, std::move(skin), {}, 1);
     for (rgbd::RgbdFrame& frame : frames) eye.Take(view, &frame);
     camera = scenario.camera->camera;

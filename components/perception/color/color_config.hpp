@@ -3,15 +3,12 @@
 
 #pragma once
 
-#include <vector>
-
 #include "libs/core/config_reader.hpp"
 
 namespace palpate::perception {
 
 /// Segmentation as the paper has it (section V.A, 1 and 2).
 struct ColorConfig {
-  std::vector<double> robot_color_rgb;
   double robot_color_tolerance = 0.15;
   double surface_distance_m = 0.01;
   double near_robot_m = 0.12;
@@ -28,8 +25,6 @@ struct ColorConfig {
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
-    v("robot_color_rgb", robot_color_rgb, {.min = 0.0, .max = 1.0},
-      "Red, green, blue of the robot; empty: learnt from what lies on the predicted surface");
     v("robot_color_tolerance", robot_color_tolerance, {.min = 0.0, .max = 2.0, .min_open = true},
       "A region of the robot differs so little from that colour; colours as directions, so that "
       "shading does not count");

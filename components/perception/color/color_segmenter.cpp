@@ -35,13 +35,7 @@ double ShareOf(const std::vector<int>& region, const std::vector<char>& marked) 
 }  // namespace
 
 ColorSegmenter::ColorSegmenter(const Config& config) : config_(config) {
-  const std::vector<double>& rgb = config.color.robot_color_rgb;
-  if (rgb.empty()) return;
-  if (rgb.size() != 3) {
-    throw InputError("color.robot_color_rgb has " + std::to_string(rgb.size()) +
-                     " numbers; must have three, or none");
-  }
-  robot_color_ = Direction(255.0 * Eigen::Vector3d(rgb[0], rgb[1], rgb[2]));
+  if (const auto rgb = RobotColor(config)) robot_color_ = Direction(255.0 * *rgb);
 }
 
 void ColorSegmenter::SetCamera(const rgbd::RgbdCamera& camera) {
@@ -61,8 +55,7 @@ const SegmentedFrame& ColorSegmenter::Segment(const rgbd::RgbdFrame& frame,
     return fail(std::move(status));
   }
   const VoxelCloud cloud =
-      FilterFrame(registered_, *registration_, Bounds(predicted), config_.color,
-                  config_.max_cloud_points, &segmented_.rejected);
+      FilterFrame(registered_, *registration_, Bounds(predicted), config_, &segmented_.rejected);
   if (cloud.Count() == 0)
     return fail({StatusCode::kNoRobotSeen, "no coloured depth within the limits"});
   MarkOnSurface(cloud, predicted);
@@ -118,7 +111,7 @@ void ColorSegmenter::MarkOnSurface(const VoxelCloud& cloud, const PredictedSurfa
 /// Median of what lies on the predicted surface: a tool before it, or a marker on it, does not
 /// count. Kept for frames without a prediction.
 void ColorSegmenter::LearnColor(const VoxelCloud& cloud) {
-  if (!config_.color.robot_color_rgb.empty()) return;
+  if (!config_.robot_color_rgb.empty()) return;
   std::vector<double> channels[3];
   for (int i = 0; i < cloud.Count(); ++i) {
     if (on_surface_[static_cast<std::size_t>(i)] == 0) continue;
@@ -176,9 +169,7 @@ void ColorSegmenter::LabelObjects(const VoxelCloud& cloud,
 }
 
 rgbd::SensedCloud ColorSegmenter::Take(const VoxelCloud& cloud, Label label) const {
-  const rgbd::DepthNoise noise{.subpixel_px = config_.depth_subpixel_px,
-                               .range_sigma_m = config_.depth_range_sigma_m,
-                               .correlation_px = config_.depth_correlation_px};
+  const rgbd::DepthNoise noise = NoiseOf(config_);
   rgbd::SensedCloud taken;
   const auto count = std::count(labels_.begin(), labels_.end(), label);
   taken.points_m.resize(3, count);

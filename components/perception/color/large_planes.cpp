@@ -16,7 +16,8 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr int kMostPlanes = 3;
+constexpr std::size_t kMostPlanes = 3;
+constexpr int kMostTries = 6;
 constexpr int kRansacRounds = 200;
 constexpr double kLeastShare = 0.2;
 /// RMS distance of a plane's points, in thicknesses: 0.58 where the plane cuts through something.
@@ -32,6 +33,12 @@ double RmsDistance_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chose
   const Eigen::Matrix3Xf of_plane_m = points_m(Eigen::all, chosen);
   const Eigen::RowVectorXf off_m = (plane.head<3>().transpose() * of_plane_m).array() + plane[3];
   return std::sqrt(static_cast<double>(off_m.squaredNorm()) / static_cast<double>(off_m.size()));
+}
+
+bool IsLargeAndFlat(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen,
+                    const Eigen::Vector4f& plane, const ColorConfig& config) {
+  return static_cast<double>(Extent_m(points_m, chosen)) >= config.background_extent_m &&
+         RmsDistance_m(points_m, chosen, plane) <= kFlat * config.background_thickness_m;
 }
 
 }  // namespace
@@ -54,19 +61,17 @@ std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
   std::iota(left->begin(), left->end(), 0);
   const double fewest = std::max(3.0, kLeastShare * static_cast<double>(cloud->size()));
   std::vector<Eigen::Vector4f> planes;
-  while (planes.size() < kMostPlanes && static_cast<double>(left->size()) >= fewest) {
+  for (int tries = 0; tries < kMostTries && planes.size() < kMostPlanes &&
+                      static_cast<double>(left->size()) >= fewest;
+       ++tries) {
     pcl::PointIndices on_plane;
     pcl::ModelCoefficients plane;
     ransac.setIndices(left);
     ransac.segment(on_plane, plane);
     if (static_cast<double>(on_plane.indices.size()) < fewest) break;
-    if (static_cast<double>(Extent_m(points_m, on_plane.indices)) < config.background_extent_m) {
-      break;
-    }
+    // One that cuts through several things stands for none, but may come before those that do.
     const Eigen::Vector4f found(plane.values.data());
-    const double rms_m = RmsDistance_m(points_m, on_plane.indices, found);
-    if (rms_m > kFlat * config.background_thickness_m) break;
-    planes.push_back(found);
+    if (IsLargeAndFlat(points_m, on_plane.indices, found, config)) planes.push_back(found);
     pcl::Indices rest;
     std::set_difference(left->begin(), left->end(), on_plane.indices.begin(),
                         on_plane.indices.end(), std::back_inserter(rest));

@@ -15,11 +15,15 @@
 #include <numeric>
 
 #include "components/perception/color/large_planes.hpp"
+#include "components/perception/noise_law.hpp"
 #include "libs/core/check.hpp"
 
 namespace palpate::perception {
 
 namespace {
+
+/// Nearly all of a surface lies within so many sigmas of the depth.
+constexpr float kNoiseSigmas = 4.0f;
 
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
@@ -129,21 +133,22 @@ Cloud::Ptr Downsample(const Cloud::Ptr& cloud, int most_points, double* voxel_m)
   }
 }
 
-/// Without table and walls, which are looked for in a coarser cloud.
-Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const ColorConfig& config, int most_points) {
-  double voxel_m = std::max(config.background_thickness_m, SmallestVoxel_m(*cloud));
-  const Cloud::Ptr coarse = Downsample(cloud, most_points, &voxel_m);
+/// Without table and walls, which are looked for in a coarser cloud. Far away the noise is thicker
+/// than they are.
+Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const Config& config, const NoiseLaw& noise) {
+  double voxel_m = std::max(config.color.background_thickness_m, SmallestVoxel_m(*cloud));
+  const Cloud::Ptr coarse = Downsample(cloud, config.max_cloud_points, &voxel_m);
   Eigen::Matrix3Xf points_m(3, static_cast<Eigen::Index>(coarse->size()));
   for (std::size_t i = 0; i < coarse->size(); ++i) {
     points_m.col(static_cast<Eigen::Index>(i)) = (*coarse)[i].getVector3fMap();
   }
-  const std::vector<Eigen::Vector4f> planes = FindLargePlanes(points_m, config);
-  const auto thickness_m = static_cast<float>(config.background_thickness_m);
+  const std::vector<Eigen::Vector4f> planes = FindLargePlanes(points_m, config.color);
+  const auto thickness_m = static_cast<float>(config.color.background_thickness_m);
   const Cloud::Ptr rest(new Cloud);
   std::copy_if(cloud->begin(), cloud->end(), std::back_inserter(*rest), [&](const Point& point) {
     return std::none_of(planes.begin(), planes.end(), [&](const Eigen::Vector4f& plane) {
       const float off_m = plane.head<3>().dot(point.getVector3fMap()) + plane[3];
-      return std::abs(off_m) <= thickness_m;
+      return std::abs(off_m) <= std::max(thickness_m, kNoiseSigmas * noise.At(point.z));
     });
   });
   return rest;
@@ -176,8 +181,7 @@ VoxelCloud Take(const Cloud& voxels, const std::vector<int>& pixels, const pcl::
 }  // namespace
 
 VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registration,
-                       const geometry::Box& box, const ColorConfig& config, int most_points,
-                       Rejections* rejected) {
+                       const geometry::Box& box, const Config& config, Rejections* rejected) {
   const std::int64_t before = rejected->invalid_depth + rejected->ambiguous;
   const Cloud::Ptr whole = Unproject(frame, registration, rejected);
   const std::int64_t valid = static_cast<std::int64_t>(whole->size()) + before -
@@ -185,17 +189,17 @@ VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registr
   Cloud::Ptr passed = PassThrough(whole, box);
   rejected->out_of_range += valid - static_cast<std::int64_t>(passed->size());
   if (passed->empty()) return {};
-  passed = WithoutPlanes(passed, config, most_points);
+  passed = WithoutPlanes(passed, config, NoiseLaw(registration.camera(), NoiseOf(config)));
   if (passed->empty()) return {};
-  double voxel_m = config.voxel_m > 0.0
-                       ? config.voxel_m
+  double voxel_m = config.color.voxel_m > 0.0
+                       ? config.color.voxel_m
                        : 2.0 * PixelPitch_m(*passed, registration.camera().depth.fx_px);
   voxel_m = std::max(voxel_m, SmallestVoxel_m(*passed));
-  const Cloud::Ptr voxels = Downsample(passed, most_points, &voxel_m);
+  const Cloud::Ptr voxels = Downsample(passed, config.max_cloud_points, &voxel_m);
   const std::vector<int> pixels = CountInVoxels(*passed, static_cast<float>(voxel_m));
   PALPATE_CHECK(pixels.size() == voxels->size(), pixels.size(), voxels->size());
-  const pcl::Indices kept =
-      WithNeighbours(voxels, config.outlier_radius_voxels * voxel_m, config.outlier_neighbours);
+  const pcl::Indices kept = WithNeighbours(voxels, config.color.outlier_radius_voxels * voxel_m,
+                                           config.color.outlier_neighbours);
   VoxelCloud cloud = Take(*voxels, pixels, kept);
   cloud.voxel_m = voxel_m;
   const std::int64_t left = std::accumulate(cloud.pixels.begin(), cloud.pixels.end(), 0);

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/perception/color/color_config.hpp"
+#include "components/perception/config.hpp"
 #include "components/perception/observation.hpp"
 #include "components/perception/registered_frame.hpp"
 #include "libs/geometry/box.hpp"
@@ -29,10 +29,10 @@ struct VoxelCloud {
 };
 
 /// The paper's filters, by PCL: unprojection of the whole image, PassThrough in z, x and y to
-/// `box`, table and walls taken out, VoxelGrid, RadiusOutlierRemoval. At most `most_points` remain:
-/// the voxels grow until then. Pixels of unknown colour are left out. Counts pixels in `rejected`.
+/// `box`, table and walls taken out, VoxelGrid, RadiusOutlierRemoval. At most `max_cloud_points`
+/// remain: the voxels grow until then. Pixels of unknown colour are left out. Counts pixels in
+/// `rejected`.
 VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registration,
-                       const geometry::Box& box, const ColorConfig& config, int most_points,
-                       Rejections* rejected);
+                       const geometry::Box& box, const Config& config, Rejections* rejected);
 
 }  // namespace palpate::perception

@@ -42,18 +42,25 @@ double MedianSigma_m(const Eigen::VectorXf& sigma_m, std::vector<float>* buffer)
 }  // namespace
 
 const std::vector<DetectedContact>& ContactLocator::Locate(const rgbd::SensedCloud& robot,
-                                                           const rgbd::SensedCloud& object) {
+                                                           const rgbd::SensedCloud& object,
+                                                           const PredictedSurface* surface) {
   contacts_.clear();
   if (robot.Count() == 0 || object.Count() == 0) return contacts_;
   Derive(robot, object);
   FindTouching(robot, object);
   KeepNearest(object);
-  Cluster();
+  Cluster(touching_m_, thresholds_.cluster_distance_m);
+  in_contact_.assign(static_cast<std::size_t>(object.Count()), 0);
   for (const std::vector<int>& members : clusters_) {
     if (static_cast<int>(members.size()) < config_.min_points) continue;
     DetectedContact contact = Summarise(robot, object, members);
-    if (LookBehind(robot, object, members, &contact)) contacts_.push_back(std::move(contact));
+    if (!LookBehind(robot, object, members, &contact)) continue;
+    contacts_.push_back(std::move(contact));
+    for (const int k : members) {
+      in_contact_[static_cast<std::size_t>(touching_[static_cast<std::size_t>(k)].object)] = 1;
+    }
   }
+  if (surface != nullptr) LocateLarge(object, *surface);
   std::sort(contacts_.begin(), contacts_.end(), [](const auto& a, const auto& b) {
     const auto key = [](const DetectedContact& c) {
       return std::tuple(-c.point_count, c.position_m.z(), c.position_m.x(), c.position_m.y());
@@ -109,12 +116,13 @@ void ContactLocator::KeepNearest(const rgbd::SensedCloud& object) {
   taken_.assign(touching_.size(), 0);
   for (std::size_t k = 0; k < touching_.size(); ++k) {
     const float limit_m = touching_[k].distance_m - resolution_m;
+    int nearer = 0;
     grid_.ForEachNear(
         touching_m_.col(static_cast<Eigen::Index>(k)), radius_m, [&](int other, float) {
-          const bool nearer = touching_[static_cast<std::size_t>(other)].distance_m < limit_m;
-          taken_[k] = nearer ? 1 : 0;
-          return !nearer;
+          nearer += touching_[static_cast<std::size_t>(other)].distance_m < limit_m ? 1 : 0;
+          return nearer < config_.min_points;
         });
+    taken_[k] = nearer < config_.min_points ? 0 : 1;
   }
   for (std::size_t k = 0; k < touching_.size(); ++k) {
     if (taken_[k] == 0) touching_[kept++] = touching_[k];
@@ -130,23 +138,41 @@ void ContactLocator::Gather(const rgbd::SensedCloud& object) {
   }
 }
 
-void ContactLocator::Cluster() {
+void ContactLocator::Cluster(const Eigen::Matrix3Xf& points_m, double link_m) {
   clusters_.clear();
-  const auto distance_m = static_cast<float>(thresholds_.cluster_distance_m);
-  grid_.Build(touching_m_, distance_m);
-  taken_.assign(touching_.size(), 0);
-  for (std::size_t seed = 0; seed < touching_.size(); ++seed) {
+  const auto distance_m = static_cast<float>(link_m);
+  grid_.Build(points_m, distance_m);
+  taken_.assign(static_cast<std::size_t>(points_m.cols()), 0);
+  for (std::size_t seed = 0; seed < taken_.size(); ++seed) {
     if (taken_[seed] != 0) continue;
     taken_[seed] = 1;
     std::vector<int>& members = clusters_.emplace_back(1, static_cast<int>(seed));
     for (std::size_t next = 0; next < members.size(); ++next) {
-      grid_.ForEachNear(touching_m_.col(members[next]), distance_m, [&](int other, float) {
+      grid_.ForEachNear(points_m.col(members[next]), distance_m, [&](int other, float) {
         char& taken = taken_[static_cast<std::size_t>(other)];
         if (taken == 0) members.push_back(other);
         taken = 1;
         return true;
       });
     }
+  }
+}
+
+/// Objects of which too little is near what is seen of the robot.
+void ContactLocator::LocateLarge(const rgbd::SensedCloud& object, const PredictedSurface& surface) {
+  Cluster(object.points_m, 0.5 * thresholds_.cluster_distance_m);
+  for (const std::vector<int>& members : clusters_) {
+    const auto is_located = [this](int k) { return in_contact_[static_cast<std::size_t>(k)] != 0; };
+    if (std::any_of(members.begin(), members.end(), is_located)) continue;
+    const Eigen::Matrix3Xd points_m = object.points_m(Eigen::all, members).cast<double>();
+    const auto hidden = FindContactUnder(points_m, surface, thresholds_.noise_m);
+    if (!hidden) continue;
+    DetectedContact& contact = contacts_.emplace_back();
+    contact.point_count = static_cast<int>(members.size());
+    contact.position_m = hidden->position_m;
+    contact.covariance_m2 = hidden->covariance_m2;
+    // As far as the rim of a ball of this size reaches that is seen from the side.
+    contact.extent_m.setConstant(hidden->radius_m);
   }
 }
 

@@ -18,8 +18,9 @@ namespace palpate::perception {
 ///
 /// An object mostly hides its contact from the camera, so r_search has to reach from its visible
 /// rim to the robot. So that a contact is not smeared over all that lies within r_search, only
-/// those points make its rim that are as near to the robot as any about them, to the resolution of
-/// the clouds. A mean of what is seen would lie before the contact by most of the object's radius:
+/// those points make its rim that are as near to the robot as any min_points about them, to the
+/// resolution of the clouds: a pixel of the object that was taken for the robot makes no rim. A
+/// mean of what is seen would lie before the contact by most of the object's radius:
 /// - where the object is round next to its rim, the contact is where its hidden side meets the
 ///   robot (FindHiddenContact), or there is none where it does not;
 /// - else it is at the mean of the robot's points nearest to the rim. Its covariance then has three
@@ -40,10 +41,12 @@ class ContactLocator {
 
   explicit ContactLocator(const ContactConfig& config) : config_(config) {}
 
-  /// Contacts without names, those of most points first. Camera frame, z > 0. Holds until the next
-  /// call.
+  /// Contacts without names, those of most points first. Camera frame, z > 0. `surface`: where the
+  /// robot's surface is known to be, seen or not; then round objects are found that are so large
+  /// that they hide all of the robot within r_search. Holds until the next call.
   const std::vector<DetectedContact>& Locate(const rgbd::SensedCloud& robot,
-                                             const rgbd::SensedCloud& object);
+                                             const rgbd::SensedCloud& object,
+                                             const PredictedSurface* surface = nullptr);
 
   const Thresholds& thresholds() const { return thresholds_; }
 
@@ -59,7 +62,8 @@ class ContactLocator {
   void FindTouching(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object);
   void KeepNearest(const rgbd::SensedCloud& object);
   void Gather(const rgbd::SensedCloud& object);
-  void Cluster();
+  void Cluster(const Eigen::Matrix3Xf& points_m, double link_m);
+  void LocateLarge(const rgbd::SensedCloud& object, const PredictedSurface& surface);
   DetectedContact Summarise(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
                             const std::vector<int>& members) const;
   /// False where the object's far side does not reach the robot.
@@ -74,8 +78,9 @@ class ContactLocator {
   std::vector<Touch> touching_;
   Eigen::Matrix3Xf touching_m_;  ///< [3 x touching] of the object
   std::vector<float> sigma_m_;
-  std::vector<std::vector<int>> clusters_;  ///< numbers in touching_
+  std::vector<std::vector<int>> clusters_;  ///< numbers in what was clustered
   std::vector<char> taken_;
+  std::vector<char> in_contact_;  ///< [object] of a contact that was located
   std::vector<DetectedContact> contacts_;
 };
 

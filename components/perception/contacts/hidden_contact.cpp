@@ -5,9 +5,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "components/perception/contacts/ball_fit.hpp"
+#include "libs/geometry/closest_point.hpp"
 
 namespace palpate::perception {
 
@@ -27,6 +29,9 @@ constexpr double kFade_m = 0.005;   ///< the nearest points counting most
 constexpr Eigen::Index kFewestBelow = 8;
 /// The robot's surface under the ball is not seen: its normal is known to about this, rad.
 constexpr double kTurnSigma = 0.2;
+/// The predicted surface, once it is fitted to the frame, is known to about this.
+constexpr double kSurfaceSigma_m = 1.2e-3;
+constexpr double kGapSigmas = 3.0;
 
 Eigen::Matrix3Xd Near(const rgbd::SensedCloud& cloud, const Eigen::Vector3d& place_m,
                       double radius_m) {
@@ -67,6 +72,20 @@ Plane FitPlane(const Eigen::Matrix3Xd& points_m, const Ball& ball) {
   return plane;
 }
 
+Eigen::Vector3d NearestOn(const PredictedSurface& surface, const Eigen::Vector3d& place_m) {
+  Eigen::Vector3d nearest_m = Eigen::Vector3d::Constant(1e3);
+  for (const auto& corners : surface.triangles.colwise()) {
+    const Eigen::Matrix3d triangle_m = surface.vertices_m(Eigen::all, corners);
+    const Eigen::Vector3d point_m =
+        triangle_m * geometry::ClosestPointOnTriangle(triangle_m.col(0), triangle_m.col(1),
+                                                      triangle_m.col(2), place_m);
+    if ((point_m - place_m).squaredNorm() < (nearest_m - place_m).squaredNorm()) {
+      nearest_m = point_m;
+    }
+  }
+  return nearest_m;
+}
+
 }  // namespace
 
 std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
@@ -80,6 +99,7 @@ std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
     const Plane plane = FitPlane(below_m, *ball);
     const double turn_m = kTurnSigma * ball->radius_m;
     HiddenContact contact;
+    contact.radius_m = ball->radius_m;
     contact.position_m = ball->center_m - ball->radius_m * plane.normal;
     contact.covariance_m2 =
         ball->center_covariance_m2 + turn_m * turn_m * Eigen::Matrix3d::Identity();
@@ -87,6 +107,27 @@ std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
     return contact;
   }
   return std::nullopt;
+}
+
+std::optional<HiddenContact> FindContactUnder(const Eigen::Matrix3Xd& points_m,
+                                              const PredictedSurface& surface, double noise_m) {
+  const std::optional<Ball> ball = FitBall(points_m, noise_m);
+  if (!ball || !IsRound(*ball, noise_m)) return std::nullopt;
+  const Eigen::Vector3d nearest_m = NearestOn(surface, ball->center_m);
+  const double distance_m = (nearest_m - ball->center_m).norm();
+  if (!(distance_m > 0.0)) return std::nullopt;
+  const Eigen::Vector3d down = (nearest_m - ball->center_m) / distance_m;
+  HiddenContact contact;
+  contact.radius_m = ball->radius_m;
+  contact.position_m = ball->center_m + ball->radius_m * down;
+  contact.gap_m = distance_m - ball->radius_m;
+  const double turn_m = kTurnSigma * ball->radius_m;
+  contact.covariance_m2 =
+      ball->center_covariance_m2 + turn_m * turn_m * Eigen::Matrix3d::Identity();
+  const double along_m2 = down.dot(ball->center_covariance_m2 * down);
+  const double sigma_m = std::sqrt(along_m2 + kSurfaceSigma_m * kSurfaceSigma_m);
+  if (contact.gap_m > kGapSigmas * sigma_m) return std::nullopt;
+  return contact;
 }
 
 }  // namespace palpate::perception

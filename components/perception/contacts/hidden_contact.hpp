@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "components/perception/observation.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
 
 namespace palpate::perception {
@@ -14,6 +15,7 @@ namespace palpate::perception {
 struct HiddenContact {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  double radius_m = 0.0;  ///< of the ball
   double gap_m = 0.0;  ///< from the object to the robot's surface around; < 0: it dents the robot
 };
 
@@ -24,5 +26,11 @@ struct HiddenContact {
 std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
                                                const rgbd::SensedCloud& object,
                                                const Eigen::Vector3d& rim_m, double noise_m);
+
+/// The same for an object so large that nothing of the robot is seen near what is seen of it: all
+/// its points [3 x n] make the ball, the contact is the ball's point nearest to `surface`. Nothing
+/// where it is not round, or does not reach the surface to what both are known to.
+std::optional<HiddenContact> FindContactUnder(const Eigen::Matrix3Xd& points_m,
+                                              const PredictedSurface& surface, double noise_m);
 
 }  // namespace palpate::perception

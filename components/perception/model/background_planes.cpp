@@ -28,6 +28,11 @@ constexpr float kLargerThanRobot = 1.0f;
 /// Of the robot's points that may lie behind the plane: its feet stand on it.
 constexpr double kMostBehind = 0.02;
 constexpr float kBehind_m = 0.015f;
+/// What the robot stands on may be smaller than the robot: a base, a pedestal. Tools are smaller
+/// still.
+constexpr float kOfBase = 0.4f;
+constexpr float kFoot_m = 0.010f;
+constexpr double kLeastFeet = 0.01;
 
 Plane Facing(const Eigen::Vector3f& normal, const Eigen::Vector3f& point_m) {
   const float offset_m = normal.dot(point_m);
@@ -84,6 +89,16 @@ bool IsBehindRobot(const Plane& plane, const Points& robot_m) {
   return static_cast<double>(behind) <= kMostBehind * static_cast<double>(robot_m.size());
 }
 
+bool CarriesRobot(const Plane& plane, const Points& robot_m) {
+  const auto is_foot = [&](const Eigen::Vector3f& point_m) {
+    return std::abs(plane.Height_m(point_m)) < kFoot_m;
+  };
+  const auto feet = std::count_if(robot_m.begin(), robot_m.end(), is_foot);
+  return !robot_m.empty() &&
+         static_cast<double>(feet) >= kLeastFeet * static_cast<double>(robot_m.size()) &&
+         IsBehindRobot(plane, robot_m);
+}
+
 float SizeOf(const Points& robot_m) {
   if (robot_m.empty()) return kLeastExtent_m;
   Moments moments;
@@ -111,7 +126,10 @@ void BackgroundPlanes::Update(const Points& points_m, const Points& robot_m,
       for (const Eigen::Vector3f& point_m : left_m) {
         if (IsOn(plane, point_m, tolerance)) held.Add(point_m);
       }
-      return held.count >= least && ExtentOf(held.Covariance()).x() >= least_extent_m;
+      if (held.count < least) return false;
+      const float extent_m = ExtentOf(held.Covariance()).x();
+      return extent_m >= least_extent_m ||
+             (extent_m >= kOfBase * least_extent_m && CarriesRobot(plane, robot_m));
     };
     const bool is_known = planes_.size() < known.size();
     if (is_known) plane = known[planes_.size()];

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/perception/model/noise_law.hpp"
+#include "components/perception/noise_law.hpp"
 
 namespace palpate::perception {
 
@@ -21,7 +21,9 @@ struct Plane {
 };
 
 /// What the robot stands on and what is behind it: planes that are larger than the robot and have
-/// it on the camera's side. They are kept from frame to frame, fitted anew to each.
+/// it on the camera's side, and smaller ones, nearly half as large, that it touches besides: a base
+/// (or a plate as large that pushes the robot from behind). They are kept from frame to frame,
+/// fitted anew to each.
 class BackgroundPlanes {
  public:
   struct Tolerance {

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <vector>
-
 #include "libs/core/config_reader.hpp"
 
 namespace palpate::perception {
@@ -18,7 +16,6 @@ struct ModelConfig {
   double fit_spacing_m = 0.07;
   double background_bias = 0.006;
   double color_update = 0.1;
-  std::vector<double> robot_color_rgb;
   int min_robot_pixels = 200;
 
   template <typename Visitor>
@@ -37,9 +34,6 @@ struct ModelConfig {
       "Share of z by which the depth of a plane behind the robot may be bent");
     v("color_update", color_update, {.min = 0.0, .max = 1.0, .min_open = true},
       "Share of a frame in the learnt colours");
-    v("robot_color_rgb", robot_color_rgb, {.min = 0.0, .max = 1.0},
-      "Colour of the robot until it is learnt, used where there is no predicted surface; empty: "
-      "not known");
     v("min_robot_pixels", min_robot_pixels, {.min = 1.0},
       "With fewer pixels of it the robot is not seen");
   }

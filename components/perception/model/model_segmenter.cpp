@@ -8,9 +8,9 @@
 
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/cloud_builder.hpp"
-#include "components/perception/model/noise_law.hpp"
 #include "components/perception/model/pixel_judge.hpp"
 #include "components/perception/model/prediction_view.hpp"
+#include "components/perception/noise_law.hpp"
 #include "components/perception/registered_frame.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -34,12 +34,7 @@ constexpr Eigen::Index kRobotPoints = 400;
 constexpr float kColorAlone = 1.0f;
 constexpr double kPatchShare = 0.03;
 constexpr int kStepOfColorSites_px = 4;
-
-rgbd::DepthNoise NoiseOf(const Config& config) {
-  return {.subpixel_px = config.depth_subpixel_px,
-          .range_sigma_m = config.depth_range_sigma_m,
-          .correlation_px = config.depth_correlation_px};
-}
+constexpr int kStepOfColors_px = 4;
 
 }  // namespace
 
@@ -53,7 +48,8 @@ struct ModelSegmenter::Parts {
   Status SegmentByPrediction(const rgbd::RgbdFrame& raw, const PredictedSurface& predicted);
   Status SegmentByColor(const rgbd::RgbdFrame& raw);
   bool ColorKnown(int u, int v) const;
-  bool ColorsHold() const;
+  ColorModel::Histogram ColorsNearPrediction() const;
+  bool ColorsHold();
   void SetLabels(float robot_from);
   void DropSpecks(std::int64_t least_robot_px);
   void DropFarObjects();
@@ -75,6 +71,7 @@ struct ModelSegmenter::Parts {
   std::vector<Eigen::Vector3f> robot_m;
   SampleGrid color_sites;
   SegmentedFrame result;
+  bool fitted = false;  ///< the prediction, to this frame
 };
 
 ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& camera,
@@ -133,7 +130,7 @@ void ModelSegmenter::Parts::UpdateBackground(bool predicted) {
     }
   }
   if (predicted) {
-    const Eigen::Matrix3Xd& vertices_m = prediction.vertices_m();
+    const Eigen::Matrix3Xd& vertices_m = prediction.surface().vertices_m;
     const Eigen::Index step = std::max<Eigen::Index>(1, vertices_m.cols() / kRobotPoints);
     for (Eigen::Index i = 0; i < vertices_m.cols(); i += step) {
       robot_m.push_back(vertices_m.col(i).cast<float>());
@@ -150,13 +147,15 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   ReadRegion(raw);
   UpdateBackground(true);
   const bool has_color = registration.camera().color.width_px > 0;
-  const auto mean_z_m = static_cast<float>(prediction.vertices_m().row(2).mean());
+  const auto mean_z_m = static_cast<float>(prediction.surface().vertices_m.row(2).mean());
   const bool use_colors = has_color && ColorsHold();
   const auto is_foreign = [&](int u, int v, const Eigen::Vector3f& point_m) {
     return background.Holds(point_m, tolerance) ||
-           (use_colors && ColorKnown(u, v) && judge.IsForeign(frame.color.Pixel(u, v)));
+           (use_colors && ColorKnown(u, v) &&
+            judge.IsForeign(judge.BinOf(frame.color.Pixel(u, v))));
   };
   prediction.FitTo(registration, region, is_foreign, judge.Sigma_m(mean_z_m));
+  fitted = true;
   prediction.Measure(registration, &region);
   judge.JudgeDistances(registration, background, &region);
   status = judge.CheckAgreement(prediction, region);
@@ -176,23 +175,33 @@ bool ModelSegmenter::Parts::ColorKnown(int u, int v) const {
                            static_cast<std::size_t>(u)] != 0;
 }
 
-/// Whether most of what is seen near the predicted surface still has colours of the robot: not when
-/// the light has just changed.
-bool ModelSegmenter::Parts::ColorsHold() const {
-  int near = 0;
-  int foreign = 0;
+/// Pixels of each colour where what is seen is near the predicted surface.
+ColorModel::Histogram ModelSegmenter::Parts::ColorsNearPrediction() const {
+  ColorModel::Histogram counts(ColorModel::kBins, 0.0f);
   const auto near_m = static_cast<float>(config.model.largest_error_m);
-  for (int row = 0; row < region.height; row += kSparse_px) {
-    for (int column = 0; column < region.width; column += kSparse_px) {
+  for (int row = 0; row < region.height; row += kStepOfColors_px) {
+    for (int column = 0; column < region.width; column += kStepOfColors_px) {
       const int u = region.u_begin + column, v = region.v_begin + row;
       const float z_m = region.z_m[region.At(column, row)];
       const bool is_near = prediction.Covers(u, v) && std::abs(z_m - prediction.Z_m(u, v)) < near_m;
-      if (!is_near || !ColorKnown(u, v)) continue;
-      ++near;
-      foreign += judge.IsForeign(frame.color.Pixel(u, v)) ? 1 : 0;
+      if (is_near && ColorKnown(u, v)) counts[judge.BinOf(frame.color.Pixel(u, v))] += 1.0f;
     }
   }
-  return 2 * foreign < near;
+  return counts;
+}
+
+/// Whether most of what is seen near the predicted surface still has colours of the robot: not when
+/// the light has just changed. Where none are known yet, they are guessed.
+bool ModelSegmenter::Parts::ColorsHold() {
+  const ColorModel::Histogram counts = ColorsNearPrediction();
+  if (!judge.knows_colors()) judge.GuessForeign(counts);
+  float near = 0.0f;
+  float foreign = 0.0f;
+  for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+    near += counts[bin];
+    if (judge.IsForeign(static_cast<std::uint16_t>(bin))) foreign += counts[bin];
+  }
+  return 2.0f * foreign < near;
 }
 
 Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
@@ -214,7 +223,7 @@ Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
   }
   DropSpecks(static_cast<std::int64_t>(kPatchShare * static_cast<double>(largest)));
   DropFarObjects();
-  result.notes.push_back("no predicted surface: the robot is told by its colour alone");
+  result.notes.emplace_back("no predicted surface: the robot is told by its colour alone");
   return Status::Ok();
 }
 
@@ -291,12 +300,7 @@ void ModelSegmenter::Parts::BuildClouds() {
 }
 
 ModelSegmenter::ModelSegmenter(const Config& config) : config_(config) {
-  const std::size_t channels = config.model.robot_color_rgb.size();
-  if (channels != 0 && channels != 3) {
-    throw InputError("model.robot_color_rgb has " + std::to_string(channels) +
-                     " values: it is empty or [red, green, blue]");
-  }
-  if (config.min_z_m >= config.max_z_m) throw InputError("min_z_m is not less than max_z_m");
+  RobotColor(config);  // refuses what is none
 }
 
 ModelSegmenter::~ModelSegmenter() = default;
@@ -310,12 +314,18 @@ const PixelRegion& ModelSegmenter::region() const {
   return parts_->region;
 }
 
+const PredictedSurface* ModelSegmenter::FittedSurface() const {
+  PALPATE_CHECK(parts_ != nullptr);
+  return parts_->fitted ? &parts_->prediction.surface() : nullptr;
+}
+
 const SegmentedFrame& ModelSegmenter::Segment(const rgbd::RgbdFrame& frame,
                                               const PredictedSurface* predicted) {
   PALPATE_CHECK(parts_ != nullptr);
   Parts& parts = *parts_;
   SegmentedFrame& result = parts.result;
   result = {};
+  parts.fitted = false;
   parts.region.Place(0, 0, 0, 0);
   result.status = parts.registration.RegisterDepth(frame, &parts.frame);
   if (!result.status.ok()) return result;

@@ -15,7 +15,7 @@ namespace palpate::perception {
 /// from pixels where prediction and depth agree; and by depth edges. Geometry decides where it can:
 /// a tool of the robot's own colour stands out of the surface. Colours decide where it cannot: at
 /// the rim of a contact. They are forgotten when the light changes, and learnt anew from the same
-/// frame. Without a prediction the learnt colours, or Config::model.robot_color_rgb, are used
+/// frame. Without a prediction the learnt colours, or Config::robot_color_rgb, are used
 /// alone.
 class ModelSegmenter : public Segmenter {
  public:
@@ -27,6 +27,7 @@ class ModelSegmenter : public Segmenter {
   /// After SetCamera.
   const SegmentedFrame& Segment(const rgbd::RgbdFrame& frame,
                                 const PredictedSurface* predicted) override;
+  const PredictedSurface* FittedSurface() const override;
 
   /// What each pixel of the last frame was taken for; outside of the region it is background.
   const PixelRegion& region() const;

@@ -47,8 +47,7 @@ PixelJudge::PixelJudge(const Config& config, const NoiseLaw& noise)
     : config_(config.model),
       noise_(noise),
       tolerance_{.noise = noise, .bias = static_cast<float>(config.model.background_bias)} {
-  const std::vector<double>& rgb = config_.robot_color_rgb;
-  if (rgb.size() == 3) colors_.Assume({rgb[0], rgb[1], rgb[2]});
+  if (const auto rgb = RobotColor(config)) colors_.Assume({rgb->x(), rgb->y(), rgb->z()});
 }
 
 float PixelJudge::Sigma_m(float z_m) const {
@@ -147,11 +146,11 @@ bool PixelJudge::MeetColors(const RegisteredFrame& frame, const PixelRegion& reg
   if (sample_.robot_count < LeastCount()) return colors_.learnt();
   const auto without_color = static_cast<double>(sample_.robot[ColorModel::kNoColor]);
   if (without_color > kMostWithoutColor * sample_.robot_count) {
-    notes->push_back("the robot's colour is saturated or dark: the shape alone is used");
+    notes->emplace_back("the robot's colour is saturated or dark: the shape alone is used");
     return false;
   }
   if (colors_.learnt() && colors_.Likeness(sample_.robot) < kLeastLikeness) {
-    notes->push_back("the light has changed: colours are learnt anew");
+    notes->emplace_back("the light has changed: colours are learnt anew");
     colors_.Forget();
   }
   if (!colors_.learnt()) colors_.Learn(sample_.robot, Others(), 1.0);

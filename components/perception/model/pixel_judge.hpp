@@ -10,9 +10,10 @@
 #include "components/perception/config.hpp"
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/color_model.hpp"
-#include "components/perception/model/noise_law.hpp"
 #include "components/perception/model/pixel_region.hpp"
 #include "components/perception/model/prediction_view.hpp"
+#include "components/perception/model/rare_colors.hpp"
+#include "components/perception/noise_law.hpp"
 #include "components/perception/registered_frame.hpp"
 
 namespace palpate::perception {
@@ -42,9 +43,12 @@ class PixelJudge {
   /// Learns a little from pixels that are labelled.
   void LearnColors(const RegisteredFrame& frame, const PixelRegion& region);
   bool knows_colors() const { return colors_.learnt(); }
+  /// Before colours are learnt: what few of these pixels near the robot have is taken for foreign.
+  void GuessForeign(const ColorModel::Histogram& near_robot) { rare_ = RareColors(near_robot); }
+  std::uint16_t BinOf(const std::uint8_t* rgb) const { return colors_.BinOf(rgb); }
   /// Of a colour that the robot does not have.
-  bool IsForeign(const std::uint8_t* rgb) const {
-    return colors_.LogRatio(colors_.BinOf(rgb)) < kForeign;
+  bool IsForeign(std::uint16_t bin) const {
+    return colors_.learnt() ? colors_.LogRatio(bin) < kForeign : rare_.Hold(bin);
   }
   void JudgeColors(const RegisteredFrame& frame, PixelRegion* region) const;
 
@@ -68,6 +72,7 @@ class PixelJudge {
   NoiseLaw noise_;
   BackgroundPlanes::Tolerance tolerance_;
   ColorModel colors_;
+  RareColors rare_;
   Sample sample_;
 };
 

@@ -34,33 +34,33 @@ Status PredictionView::Look(const PredictedSurface& predicted) {
   if (!IsSurface(predicted)) {
     return Status(StatusCode::kInvalidInput, "the predicted surface is empty or has no numbers");
   }
-  vertices_m_ = predicted.vertices_m;
-  facing_.resize(3, predicted.triangles.cols());
+  surface_.vertices_m = predicted.vertices_m;
+  surface_.triangles.resize(3, predicted.triangles.cols());
   Eigen::Index facing = 0;
   for (Eigen::Index t = 0; t < predicted.triangles.cols(); ++t) {
     const Eigen::Vector3i corners = predicted.triangles.col(t);
-    const Eigen::Vector3d a = vertices_m_.col(corners[0]);
+    const Eigen::Vector3d a = surface_.vertices_m.col(corners[0]);
     const Eigen::Vector3d area =
-        (vertices_m_.col(corners[1]) - a).cross(vertices_m_.col(corners[2]) - a);
-    if (area.dot(a) < 0.0) facing_.col(facing++) = corners;
+        (surface_.vertices_m.col(corners[1]) - a).cross(surface_.vertices_m.col(corners[2]) - a);
+    if (area.dot(a) < 0.0) surface_.triangles.col(facing++) = corners;
   }
-  facing_.conservativeResize(3, facing);
+  surface_.triangles.conservativeResize(3, facing);
   Redraw();
   if (view_.bounds().empty()) {
     return Status(StatusCode::kNoRobotSeen, "the predicted robot is out of the camera's view");
   }
-  nearest_z_m_ =
-      static_cast<float>(std::max(vertices_m_.row(2).minCoeff(), rgbd::SurfaceView::kNearest_m));
+  nearest_z_m_ = static_cast<float>(
+      std::max(surface_.vertices_m.row(2).minCoeff(), rgbd::SurfaceView::kNearest_m));
   return Status::Ok();
 }
 
 void PredictionView::Redraw() {
-  view_.Look(vertices_m_, facing_);
-  normals_.resize(3, facing_.cols());
-  for (Eigen::Index t = 0; t < facing_.cols(); ++t) {
-    const Eigen::Vector3d a = vertices_m_.col(facing_(0, t));
-    const Eigen::Vector3d area =
-        (vertices_m_.col(facing_(1, t)) - a).cross(vertices_m_.col(facing_(2, t)) - a);
+  view_.Look(surface_.vertices_m, surface_.triangles);
+  normals_.resize(3, surface_.triangles.cols());
+  for (Eigen::Index t = 0; t < surface_.triangles.cols(); ++t) {
+    const Eigen::Vector3d a = surface_.vertices_m.col(surface_.triangles(0, t));
+    const Eigen::Vector3d area = (surface_.vertices_m.col(surface_.triangles(1, t)) - a)
+                                     .cross(surface_.vertices_m.col(surface_.triangles(2, t)) - a);
     normals_.col(t) = area.normalized().cast<float>();
   }
 }
@@ -111,8 +111,8 @@ void PredictionView::FitTo(const Registration& registration, const PixelRegion& 
                    .largest_error_m = config_.largest_error_m,
                    .point_sigma_m = point_sigma_m});
   fit_.Fit(&grid_);
-  for (Eigen::Index i = 0; i < vertices_m_.cols(); ++i) {
-    vertices_m_.col(i) += fit_.At(vertices_m_.col(i).cast<float>()).cast<double>();
+  for (Eigen::Index i = 0; i < surface_.vertices_m.cols(); ++i) {
+    surface_.vertices_m.col(i) += fit_.At(surface_.vertices_m.col(i).cast<float>()).cast<double>();
   }
   Redraw();
   LayGrid(registration, region);

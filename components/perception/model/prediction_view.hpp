@@ -40,7 +40,8 @@ class PredictionView {
   }
   /// z of the fitted surface; 0: not there.
   float Z_m(int u_px, int v_px) const { return view_.Z_m(u_px, v_px); }
-  const Eigen::Matrix3Xd& vertices_m() const { return vertices_m_; }
+  /// The fitted surface: all vertices, the triangles that face the camera.
+  const PredictedSurface& surface() const { return surface_; }
 
  private:
   struct Distance {
@@ -56,9 +57,8 @@ class PredictionView {
   ModelConfig config_;
   double focal_px_;
   rgbd::SurfaceView view_;
-  Eigen::Matrix3Xd vertices_m_;
-  Eigen::Matrix3Xi facing_;   ///< triangles that face the camera
-  Eigen::Matrix3Xf normals_;  ///< of them
+  PredictedSurface surface_;
+  Eigen::Matrix3Xf normals_;  ///< of its triangles
   float nearest_z_m_ = 0.0f;
   SampleGrid grid_;
   SurfaceFit fit_;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace palpate::perception {
 namespace {
@@ -56,6 +57,17 @@ TEST(BackgroundPlanes, AreLargerThanTheRobot) {
   BackgroundPlanes planes;
   planes.Update(Sheet(0.9f, 0.0f, 0.15f), Body({0.0f, 0.0f, 0.5f}), kTolerance);
   EXPECT_TRUE(planes.planes().empty()) << "a plate that pushes from behind is an object";
+}
+
+TEST(BackgroundPlanes, MayBeSmallerWhereTheRobotStandsOnThem) {
+  const Points body = Body({0.0f, 0.0f, 0.5f});  // its feet are at z = 0.55
+  for (const auto& [z_m, size_m, is_base] :
+       {std::tuple(0.55f, 0.15f, true), std::tuple(0.55f, 0.05f, false),
+        std::tuple(0.60f, 0.15f, false)}) {
+    BackgroundPlanes planes;
+    planes.Update(Sheet(z_m, 0.0f, size_m), body, kTolerance);
+    EXPECT_EQ(planes.planes().size(), is_base ? 1u : 0u) << z_m << " m away, " << size_m << " m";
+  }
 }
 
 TEST(BackgroundPlanes, FollowAPlaneFromFrameToFrame) {

@@ -49,7 +49,7 @@ ColorSegmenter MakeSegmenter(const Config& config = {}) {
 Config WithRobotColor() {
   Config config;
   const Eigen::Vector3d& rgb = TheBench().scenario.stage.robot_color_rgb;
-  config.color.robot_color_rgb = {rgb.x(), rgb.y(), rgb.z()};
+  config.robot_color_rgb = {rgb.x(), rgb.y(), rgb.z()};
   return config;
 }
 
@@ -69,8 +69,8 @@ double ShareOf(const rgbd::SensedCloud& cloud, Truth truth) {
 
 void ExpectSorted(const SegmentedFrame& frame) {
   ASSERT_TRUE(frame.status.ok()) << frame.status.message();
-  EXPECT_GT(frame.robot.Count(), 2000);
-  EXPECT_GT(frame.object.Count(), 100);
+  EXPECT_GT(frame.robot.Count(), 3000);
+  EXPECT_GT(frame.object.Count(), 200);
   EXPECT_GT(ShareOf(frame.robot, Truth::kRobot), 0.97);
   EXPECT_GT(ShareOf(frame.object, Truth::kTool), 0.9);
 }
@@ -89,7 +89,7 @@ TEST(ColorSegmenter, TakesTheColorFromTheSettings) {
   ColorSegmenter segmenter = MakeSegmenter(WithRobotColor());
   ExpectSorted(segmenter.Segment(TheBench().scene.frame(), nullptr));
   Config blue;
-  blue.color.robot_color_rgb = {0.0, 0.1, 0.9};
+  blue.robot_color_rgb = {0.0, 0.1, 0.9};
   blue.color.robot_color_tolerance = 0.05;
   ColorSegmenter other = MakeSegmenter(blue);
   const SegmentedFrame& frame = other.Segment(TheBench().scene.frame(), nullptr);
@@ -131,9 +131,9 @@ TEST(ColorSegmenter, FramesThatCannotBeUsedAreSaid) {
 
 TEST(ColorSegmenter, AColorThatIsNoneIsRefused) {
   Config config;
-  config.color.robot_color_rgb = {0.5, 0.5};
+  config.robot_color_rgb = {0.5, 0.5};
   EXPECT_THAT(test_support::MessageOf<InputError>([&] { ColorSegmenter segmenter(config); }),
-              HasSubstr("color.robot_color_rgb has 2 numbers; must have three, or none"));
+              HasSubstr("robot_color_rgb has 2 numbers; must have three, or none"));
 }
 
 TEST(FilterFrame, EveryPixelIsInAPointOrRejectedForAReason) {
@@ -141,13 +141,13 @@ TEST(FilterFrame, EveryPixelIsInAPointOrRejectedForAReason) {
   RegisteredFrame registered;
   ASSERT_TRUE(registration.Register(TheBench().scene.frame(), &registered).ok());
   for (std::size_t i = 0; i < 1000; ++i) registered.color_known[200'000 + i] = 0;
-  ColorConfig config;
-  config.background_extent_m = 100.0;  // no plane is so large
+  Config config;
+  config.color.background_extent_m = 100.0;  // no plane is so large
   for (const int most_points : {2000, 10000}) {
+    config.max_cloud_points = most_points;
     Rejections rejected;
-    const VoxelCloud cloud =
-        FilterFrame(registered, registration, {{-0.2, -0.3, 0.2}, {0.3, 0.2, 0.7}}, config,
-                    most_points, &rejected);
+    const VoxelCloud cloud = FilterFrame(registered, registration,
+                                         {{-0.2, -0.3, 0.2}, {0.3, 0.2, 0.7}}, config, &rejected);
     EXPECT_LE(cloud.Count(), most_points);
     EXPECT_GT(cloud.Count(), most_points / 3);
     EXPECT_GT(rejected.out_of_range, 0);

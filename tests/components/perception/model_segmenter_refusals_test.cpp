@@ -94,12 +94,9 @@ TEST_F(ModelSegmenterRefuses, APredictionThatIsNotInView) {
   ExpectRefusal(scene.frame(), surface, StatusCode::kNoRobotSeen);
 }
 
-TEST_F(ModelSegmenterRefuses, SettingsThatDoNotGoTogether) {
+TEST_F(ModelSegmenterRefuses, AColorThatIsNone) {
   Config config;
-  config.model.robot_color_rgb = {0.5, 0.5};
-  EXPECT_THROW(ModelSegmenter{config}, InputError);
-  config = {};
-  config.min_z_m = 3.0;
+  config.robot_color_rgb = {0.5, 0.5};
   EXPECT_THROW(ModelSegmenter{config}, InputError);
 }
 

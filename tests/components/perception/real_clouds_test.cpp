@@ -142,8 +142,7 @@ class RealClouds : public testing::TestWithParam<RealCloud> {
     Config config;
     config.segmentation = segmentation;
     config.max_z_m = 4.0;
-    config.color.robot_color_rgb = GetParam().robot_color_rgb;
-    config.model.robot_color_rgb = GetParam().robot_color_rgb;
+    config.robot_color_rgb = GetParam().robot_color_rgb;
     config.tracking.appear_frames = 1;
     Perception perception(config);
     perception.SetCamera(Kinect());

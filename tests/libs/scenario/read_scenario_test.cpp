@@ -113,6 +113,7 @@ TEST(ReadScenario, ReadsStageMarkersAndRest) {
   EXPECT_EQ(stage.background_color_rgb, Vector::Constant(0.2));
   EXPECT_EQ(stage.robot_color_rgb, Vector::Constant(0.3));
   EXPECT_EQ(stage.marker_radius_m, 0.003);
+  EXPECT_EQ(stage.marker_color_rgb, Eigen::Vector3d(0.1, 0.7, 0.2));
   EXPECT_EQ(stage.light, 0.8);
   EXPECT_EQ(scenario.markers->sigma_m, Vector(1e-4, 2e-4, 3e-4));
   EXPECT_EQ(scenario.markers->rate_hz, 60.0);

@@ -37,7 +37,7 @@ camera:
   T_robot_camera: {translation_m: [0.1, -0.4, 0.2], rotation_xyzw: [1, 0, 0, 0]}
   rate_hz: 15
   noise: {sensor: time_of_flight, subpixel_px: 0.1, correlation_px: 2, temporal_correlation: 0.4, disparity_step_px: 0.125, periodic_bias_px: 0.02, low_frequency_bias: 0.001, edge_hole_ratio: 0.4, flying_pixel_ratio: 0.2, grazing_angle_rad: 1.1, range_sigma_m: 0.003}
-stage: {table_height_m: -0.01, table_size_m: [0.5, 0.6], table_color_rgb: [0.1, 0.1, 0.1], background_distance_m: 0.7, background_color_rgb: [0.2, 0.2, 0.2], robot_color_rgb: [0.3, 0.3, 0.3], marker_radius_m: 0.003, light: 0.8}
+stage: {table_height_m: -0.01, table_size_m: [0.5, 0.6], table_color_rgb: [0.1, 0.1, 0.1], background_distance_m: 0.7, background_color_rgb: [0.2, 0.2, 0.2], robot_color_rgb: [0.3, 0.3, 0.3], marker_radius_m: 0.003, marker_color_rgb: [0.1, 0.7, 0.2], light: 0.8}
 markers: {sigma_m: [0.0001, 0.0002, 0.0003], rate_hz: 60}
 rest_between_s: 2.5
 recordings:

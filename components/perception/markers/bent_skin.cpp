@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/markers/bent_skin.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace palpate::perception {
+
+namespace {
+
+constexpr int kLeastSamples = 6;
+constexpr int kRounds = 5;
+/// A sample so many sigma off is of another surface; a little more for what a parabola cannot be.
+constexpr double kGateSigmas = 4.0;
+constexpr double kGateBend = 0.1;
+/// Sigma of dz/dx before anything is known: surfaces are rarely seen more edge-on.
+constexpr double kSlope = 2.0;
+
+}  // namespace
+
+BentSkin::Coefficients BentSkin::Terms(const Eigen::Vector2d& ray) const {
+  const Eigen::Vector2d at = (z_m_ / reach_m_) * (ray - center_);
+  Coefficients terms;
+  terms << 1.0, at.x(), at.y(), at.x() * at.x(), at.x() * at.y(), at.y() * at.y();
+  return terms;
+}
+
+/// Of a slanted surface z bends more than the surface does.
+BentSkin::Coefficients BentSkin::PriorInformation(const SkinPrior& prior) const {
+  const double slope_squared = coefficients_.segment<2>(1).squaredNorm() / (reach_m_ * reach_m_);
+  const double bend = std::pow(1.0 + slope_squared, 1.5) / prior.bend_radius_m;
+  Coefficients sigma;
+  sigma << 1.0, kSlope * reach_m_, kSlope * reach_m_, 0.5 * bend * reach_m_ * reach_m_,
+      bend * reach_m_ * reach_m_, 0.5 * bend * reach_m_ * reach_m_;
+  return sigma.array().square().inverse();
+}
+
+bool BentSkin::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior) {
+  const double information = 1.0 / (prior.sigma_m * prior.sigma_m * prior.alike);
+  gate_m_ = kGateSigmas * prior.sigma_m + kGateBend * reach_m_;
+  coefficients_.setZero();
+  coefficients_[0] = z_m_;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix<double, 6, 6> A = PriorInformation(prior).asDiagonal();
+    Coefficients b = Coefficients::Zero();
+    b[0] = A(0, 0) * z_m_;
+    int used = 0;
+    for (const SkinSample& sample : samples) {
+      const Coefficients terms = Terms(sample.ray);
+      const double off_m = sample.z_m - terms.dot(coefficients_);
+      const bool fits = round == 0 ? sample.inner : std::abs(off_m) < gate_m_;
+      if (!fits) continue;
+      ++used;
+      A += information * terms * terms.transpose();
+      b += information * sample.z_m * terms;
+    }
+    if (used < kLeastSamples) return false;
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(A);
+    coefficients_ = factor.solve(b);
+    covariance_ = factor.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  }
+  return coefficients_.allFinite() && coefficients_[0] > 0.0;
+}
+
+BentSkin::Point BentSkin::At(const Eigen::Vector2d& ray, const Coefficients& c) const {
+  const Eigen::Vector2d at = (z_m_ / reach_m_) * (ray - center_);
+  const double z_m = Terms(ray).dot(c);
+  const double per_ray = z_m_ / reach_m_;
+  const double z_x = per_ray * (c[1] + 2.0 * c[3] * at.x() + c[4] * at.y());
+  const double z_y = per_ray * (c[2] + c[4] * at.x() + 2.0 * c[5] * at.y());
+  const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
+  return {.position_m = z_m * direction,
+          .along_x_m = z_x * direction + z_m * Eigen::Vector3d::UnitX(),
+          .along_y_m = z_y * direction + z_m * Eigen::Vector3d::UnitY()};
+}
+
+BentSkin::Point BentSkin::Foot(const Eigen::Vector3d& point_m, const Coefficients& c) const {
+  constexpr int kSteps = 4;
+  Point foot = At(point_m.head<2>() / point_m.z(), c);
+  const Eigen::Vector3d normal = foot.AreaVector().normalized();
+  Eigen::Vector3d place_m = point_m;
+  for (int step = 0; step < kSteps; ++step) {
+    place_m += normal.dot(foot.position_m - place_m) * normal;
+    foot = At(place_m.head<2>() / place_m.z(), c);
+  }
+  return foot;
+}
+
+double BentSkin::SlopeSigma() const {
+  return std::sqrt(0.5 * (covariance_(1, 1) + covariance_(2, 2))) / reach_m_;
+}
+
+}  // namespace palpate::perception

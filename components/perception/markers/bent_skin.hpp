@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace palpate::perception {
+
+/// A measured depth: it lies at z_m * (ray.x, ray.y, 1) in the camera's frame.
+struct SkinSample {
+  Eigen::Vector2d ray = Eigen::Vector2d::Zero();
+  double z_m = 0.0;
+  bool inner = false;  ///< surely on the surface
+};
+
+/// What is known of the samples before they are fitted.
+struct SkinPrior {
+  double sigma_m = 1e-3;        ///< of each z
+  double alike = 1.0;           ///< how many neighbours count for one, >= 1
+  double bend_radius_m = 0.01;  ///< one sigma of the curvature is its inverse
+};
+
+/// A small patch of a surface: z is a polynomial of second degree in x and y.
+class BentSkin {
+ public:
+  using Coefficients = Eigen::Matrix<double, 6, 1>;
+
+  /// About the ray `center` at about `z_m`; `reach_m` is about the size of the patch.
+  BentSkin(const Eigen::Vector2d& center, double z_m, double reach_m)
+      : center_{center}, z_m_{z_m}, reach_m_{reach_m} {}
+
+  /// Fits z to the inner samples, then to all that lie no farther than gate_m() from it. False
+  /// where there are fewer than six inner ones.
+  bool Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior);
+
+  double gate_m() const { return gate_m_; }
+  const Coefficients& coefficients() const { return coefficients_; }
+  const Eigen::Matrix<double, 6, 6>& covariance() const { return covariance_; }
+
+  struct Point {
+    Eigen::Vector3d position_m;  ///< camera frame
+    Eigen::Vector3d along_x_m;   ///< derivative of the position by ray.x
+    Eigen::Vector3d along_y_m;   ///< likewise
+    Eigen::Vector3d AreaVector() const { return along_x_m.cross(along_y_m); }
+  };
+  Point At(const Eigen::Vector2d& ray, const Coefficients& coefficients) const;
+  Point At(const Eigen::Vector2d& ray) const { return At(ray, coefficients_); }
+  double Z_m(const Eigen::Vector2d& ray) const { return Terms(ray).dot(coefficients_); }
+  /// The place on it below or above `point_m` along its normal there.
+  Point Foot(const Eigen::Vector3d& point_m, const Coefficients& coefficients) const;
+  /// Sigma of its slope dz/dx, one number for both directions.
+  double SlopeSigma() const;
+
+ private:
+  Coefficients Terms(const Eigen::Vector2d& ray) const;
+  Coefficients PriorInformation(const SkinPrior& prior) const;
+
+  Eigen::Vector2d center_;
+  double z_m_;
+  double reach_m_;
+  double gate_m_ = 0.0;
+  Coefficients coefficients_ = Coefficients::Zero();
+  Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+}  // namespace palpate::perception

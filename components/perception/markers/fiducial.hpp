@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libs/core/status.hpp"
+
+namespace palpate::perception {
+
+/// A coloured disc that was seen on a surface. Nobody says which of the robot's markers it is.
+struct Fiducial {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< centre, on the surface; depth camera
+  /// One sigma: its place in the image moves it along the surface, the depth along the ray.
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Vector2d pixel_px = Eigen::Vector2d::Zero();  ///< where that is seen in the depth image
+  double radius_px = 0.0;                              ///< as seen squarely at its depth
+  double radius_m = 0.0;                               ///< on the surface
+  double contrast = 0.0;  ///< of its colour and that of what is round it, as directions, [0, 1.4]
+  double open_rim = 0.0;  ///< share of the rim that does not border on the surface it is on
+  int color = 0;          ///< which of FiducialConfig::color_rgb
+};
+
+/// Spots of a marker's colour that are no markers, by the first reason found.
+struct FiducialRejections {
+  int too_small = 0;
+  int too_large = 0;
+  int not_round = 0;    ///< also: partly covered
+  int no_depth = 0;     ///< too few pixels with depth, or out of range
+  int at_edge = 0;      ///< of the picture or of the surface, seen edge-on, or something before it
+  int wrong_color = 0;  ///< hardly differs from what is round it
+
+  int Count() const { return too_small + too_large + not_round + no_depth + at_edge + wrong_color; }
+};
+
+/// What one frame shows.
+struct FiducialFrame {
+  Status status;                    ///< kInvalidInput with the reason: no fiducials
+  std::vector<Fiducial> fiducials;  ///< from the top of the picture to its bottom
+  FiducialRejections rejected;
+};
+
+}  // namespace palpate::perception

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/markers/fiducial_detector.hpp"
+
+#include <optional>
+
+#include "components/perception/markers/color_spots.hpp"
+#include "components/perception/markers/spot_judge.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+void CheckRange(const char* name, double low, double high) {
+  if (low <= high) return;
+  throw InputError(std::string("min_") + name + " is " + FormatNumber(low) + ", max_" + name +
+                   " is " + FormatNumber(high) + "; the first must not be larger");
+}
+
+}  // namespace
+
+struct FiducialDetector::Parts {
+  explicit Parts(const FiducialConfig& settings) : config{settings}, spots{settings} {}
+
+  FiducialConfig config;
+  ColorSpots spots;
+  std::optional<Registration> registration;
+  std::optional<SpotJudge> judge;
+  RegisteredFrame registered;
+  FiducialFrame found;
+};
+
+FiducialDetector::FiducialDetector(const FiducialConfig& config)
+    : parts_{std::make_unique<Parts>(config)} {
+  CheckRange("radius_m", config.min_radius_m, config.max_radius_m);
+  CheckRange("z_m", config.min_z_m, config.max_z_m);
+}
+
+FiducialDetector::~FiducialDetector() = default;
+
+void FiducialDetector::SetCamera(const rgbd::RgbdCamera& camera) {
+  parts_->judge.reset();
+  parts_->registration.emplace(camera);
+  parts_->judge.emplace(parts_->config, *parts_->registration);
+  parts_->registered = {};
+}
+
+const FiducialFrame& FiducialDetector::Detect(const rgbd::RgbdFrame& frame) {
+  PALPATE_CHECK(parts_->registration.has_value());
+  FiducialFrame& found = parts_->found;
+  found.fiducials.clear();
+  found.rejected = {};
+  found.status = Status(StatusCode::kInvalidInput, "the camera has no colours");
+  if (parts_->registration->camera().color.width_px <= 0) return found;
+  found.status = parts_->registration->Register(frame, &parts_->registered);
+  if (!found.status.ok()) return found;
+  for (const ColorSpot& spot : parts_->spots.Find(parts_->registered)) {
+    parts_->judge->Judge(spot, parts_->registered, &found);
+  }
+  return found;
+}
+
+}  // namespace palpate::perception
