@@ -59,10 +59,11 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
       }
       frame.markers.push_back(marker);
     }
-    for (const std::string& cable : cable_names) {
+    for (int c = 0; c < model.CableCount(); ++c) {
       using Quantity = experiment::CableQuantity;
-      frame.cables.push_back(robot::ChooseCommand(
-          experiment::CableInputAt(recording, cable, Quantity::kDisplacement, measured.t_s),
+      const std::string& cable = cable_names[static_cast<size_t>(c)];
+      frame.cables.push_back(model.CommandFor(
+          c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, measured.t_s),
           experiment::CableInputAt(recording, cable, Quantity::kTension, measured.t_s), preferred));
     }
     frames.push_back(std::move(frame));

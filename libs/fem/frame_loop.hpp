@@ -15,6 +15,8 @@ struct FrameSettings {
   /// Begin with the factor of an earlier frame, and go on with it as long as each step brings the
   /// error below 0.3 of what it was.
   bool keep_factor = false;
+  /// What an exact step costs, on the budget's clock; 0: as much as the last one did.
+  double exact_step_cost_s = 0.0;
 };
 
 /// What came of one frame.
@@ -60,7 +62,9 @@ class FrameProblem {
 /// error is within the tolerance, or the steps or the time are used up. An exact step is not begun
 /// where one as long as the last would overrun the budget; one is always made. Diverged: no step,
 /// an error that is no number, or one that has not fallen for several exact steps. Newton's first
-/// step may raise it: bending bodies pass through stretched states.
+/// step may raise it: bending bodies pass through stretched states. Where a kept factor gives a
+/// step and the budget has no room for an exact one of a known cost, chord steps alone go on as
+/// long as each gains.
 FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
                       const TimeBudget& budget);
 

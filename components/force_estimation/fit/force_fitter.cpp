@@ -125,7 +125,8 @@ Status ForceFitter::RunLoop() {
       fem::RunFrame(*this,
                     {.relative_tolerance = config_.frame_tolerance,
                      .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations),
-                     .keep_factor = keep_factor_},
+                     .keep_factor = keep_factor_,
+                     .exact_step_cost_s = counts_work_ ? kFactorWork + kColumnsWork : 0.0},
                     *frame_.budget);
   fit_.iterations += outcome.exact_steps;
   fit_.chord_steps += outcome.chord_steps;
@@ -145,6 +146,7 @@ Status ForceFitter::PrepareExactStep() {
 
 /// With the factor of an earlier frame: what it was told of the state is new, W is not.
 Status ForceFitter::PrepareKeptStep() {
+  step_.valid = step_before_.valid = false;
   if (!factor_known_) return {};
   const ModelState& state = *frame_.state;
   if (!IsEvaluated(state)) {
@@ -155,10 +157,12 @@ Status ForceFitter::PrepareKeptStep() {
     if (columns_current_) {
       compliance_.ComputeChord(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
                                state.lambda_f_N);
+      work_ += 1.0;
     } else {
       compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
                           state.lambda_f_N);
       columns_current_ = true;
+      work_ += kColumnsWork;
     }
   }
   compliance_.Observe(state.x_m, model_.cable_rest_length_m());
@@ -185,10 +189,12 @@ Status ForceFitter::SolveInObservableDirections(const ModelState& state) {
 
 Status ForceFitter::Try(double length, bool last) {
   const ModelState& state = *frame_.state;
+  length *= StepShare(state);
   trial_.x_m = state.x_m;
   compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.x_m);
   trial_.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
   trial_.lambda_f_N = state.lambda_f_N + length * (new_lambda_f_ - state.lambda_f_N);
+  if (keep_factor_ && length == 1.0) Accelerate();
   UpdateExternalForce(trial_.lambda_f_N);
   Status status =
       model_.linearisation().UpdateResidual(trial_.x_m, trial_.lambda_a_N, external_force_N_);
@@ -196,6 +202,7 @@ Status ForceFitter::Try(double length, bool last) {
   // What the next step would change takes a substitution to know.
   trial_error_ = BalanceError(trial_);
   if (last && trial_error_ > config_.frame_tolerance) return status;
+  work_ += 1.0;
   compliance_.ComputeChord(trial_.x_m, model_.cable_rest_length_m(), trial_.lambda_a_N,
                            trial_.lambda_f_N);
   status = SolveQp(*frame_.targets, *frame_.cables, trial_);
@@ -209,6 +216,8 @@ Status ForceFitter::Try(double length, bool last) {
 }
 
 void ForceFitter::AcceptTrial() {
+  std::swap(step_before_, step_);
+  step_.valid = false;
   frame_.state->x_m.swap(trial_.x_m);
   frame_.state->lambda_a_N.swap(trial_.lambda_a_N);
   frame_.state->lambda_f_N.swap(trial_.lambda_f_N);
@@ -258,13 +267,14 @@ Status ForceFitter::StepToEquilibrium(double fraction) {
 
 Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   UpdateExternalForce(state.lambda_f_N);
-  factor_known_ = false;
+  factor_known_ = step_.valid = step_before_.valid = false;
   Status status =
       model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_, allow_shift);
   if (!status.ok()) return status;
   factor_known_ = !model_.linearisation().shifted();
   columns_current_ = true;
   compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N, state.lambda_f_N);
+  work_ += kFactorWork + kColumnsWork;
   return status;
 }
 
@@ -325,46 +335,6 @@ Status ForceFitter::SolveQp(const RowTargets& targets,
   }
   elimination_.CableForces(new_lambda_f_, &new_lambda_a_);
   return Status::Ok();
-}
-
-/// At the state that the linearisation and the QP were updated at last.
-double ForceFitter::Error(const ModelState& state) const {
-  return std::max(BalanceError(state), LargestChange(state));
-}
-
-/// At the state that the linearisation was updated at last.
-double ForceFitter::BalanceError(const ModelState& state) const {
-  const fem::Linearisation& linearisation = model_.linearisation();
-  const double residual_N = linearisation.residual_N().norm();
-  double error = CableError(state);
-  if (residual_N > fem::RoundingForce_N(linearisation, state.x_m)) {
-    const double scale_N = std::max(
-        {linearisation.internal_force_norm_N(), weight_N_.norm(), state.lambda_f_N.norm(), 1e-9});
-    error = std::max(error, residual_N / scale_N);
-  }
-  return error;
-}
-
-/// Length by which a taut cable misses its displacement, or a slack one is too long, over its rest
-/// length.
-double ForceFitter::CableError(const ModelState& state) const {
-  double error = 0.0;
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const robot::CableCommand& command = (*frame_.cables)[static_cast<size_t>(c)];
-    if (command.kind != Kind::kDisplacement) continue;
-    const double missing_m = command.value - model_.cable(c).Displacement_m(state.x_m);
-    const bool taut = state.lambda_a_N[c] > 0.0;
-    error =
-        std::max(error, (taut ? std::abs(missing_m) : missing_m) / model_.cable(c).rest_length_m());
-  }
-  return error;
-}
-
-/// Largest change of a force that the QP asks for, relative where forces are above 1 N.
-double ForceFitter::LargestChange(const ModelState& state) const {
-  const double change = std::max((new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>(),
-                                 (new_lambda_a_ - state.lambda_a_N).lpNorm<Eigen::Infinity>());
-  return change / std::max(1.0, new_lambda_f_.lpNorm<Eigen::Infinity>());
 }
 
 double ForceFitter::ChiSquared(const RowTargets& targets, const ModelState& state,

@@ -48,6 +48,10 @@ struct ForceFit {
   std::vector<int> unknowns;                 ///< [k] force components that were fitted
 };
 
+/// What the parts of a fit cost, in substitutions of a single right-hand side.
+inline constexpr double kFactorWork = 8.0;
+inline constexpr double kColumnsWork = 2.0;  ///< of some twenty right-hand sides at once
+
 /// Forces at given sites that bring what is observed of the model to its targets in the
 /// least-squares sense, in equilibrium: the paper's QP (11)-(14), relinearised until nothing
 /// changes. Each step moves forces, tensions and configuration at once (Gauss-Newton), in the loop
@@ -78,6 +82,21 @@ class ForceFitter final : private fem::FrameProblem {
   /// pull either way: the fit then stands as long as the cable pushes no more than this; at first
   /// 0.
   void TolerateCablesThatPush(double most_N) { most_push_N_ = most_N; }
+  /// Forces that change by less than so many of their standard deviations in the next step have
+  /// converged, however small they are; at first 0.
+  void AcceptChangesWithin(double sigmas) { accepted_sigmas_ = sigmas; }
+  /// No exact step changes a contact's force by more, which keeps Newton's steps where they
+  /// converge; at first there is no limit.
+  void LimitForceStep(double most_N) { longest_step_N_ = most_N; }
+  /// A budget that counts work instead of seconds, in substitutions of a single right-hand side, so
+  /// that the same input gives the same result: for this fitter's fits from now on. It must outlive
+  /// the budget. Infinite: no limit.
+  fem::TimeBudget BudgetOfWork(double work) {
+    counts_work_ = true;
+    return fem::TimeBudget(work, [this] { return work_; });
+  }
+  /// What others do for the same frame.
+  void AddWork(double work) { work_ += work; }
   /// Static solves that a fit may try where Newton's steps diverge; at first 8.
   void LimitRestorations(int most) { most_restorations_ = most; }
   /// Whether fits tell modulus_sensitivity_N, which costs a substitution each; at first they do.
@@ -136,6 +155,7 @@ class ForceFitter final : private fem::FrameProblem {
   Status Try(double length, bool last) override;
   double TrialError() const override { return trial_error_; }
   void AcceptTrial() override;
+  void Accelerate();
 
   Status RunLoop();
   Status FitWithRestorations();
@@ -150,6 +170,8 @@ class ForceFitter final : private fem::FrameProblem {
   double BalanceError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
   double LargestChange(const ModelState& state) const;
+  double ChangeInSigmas(const ModelState& state) const;
+  double StepShare(const ModelState& state) const;
   void UpdateWeight();
   void UpdateExternalForce(const Eigen::VectorXd& lambda_f_N);
 
@@ -169,6 +191,10 @@ class ForceFitter final : private fem::FrameProblem {
   bool tell_modulus_sensitivity_ = true;
   int most_restorations_ = 8;
   double most_push_N_ = 0.0;
+  double accepted_sigmas_ = 0.0;
+  double longest_step_N_ = 0.0;  ///< 0: no limit
+  double work_ = 0.0;
+  bool counts_work_ = false;
   bool factor_known_ = false;     ///< the linearisation has a factor that may be kept
   bool columns_current_ = false;  ///< the compliance has the columns of the present sites
   double start_error_ = 0.0;
@@ -176,7 +202,14 @@ class ForceFitter final : private fem::FrameProblem {
   ForceFit fit_;
   Frame frame_;
   ModelState start_, trial_, last_good_;
-  ModelState evaluated_;  ///< where linearisation and compliance have the residual of
+  /// A state and the step from it.
+  struct Step {
+    bool valid = false;
+    ModelState from;
+    Eigen::VectorXd x_m, lambda_a_N, lambda_f_N;
+  };
+  Step step_, step_before_;  ///< with the present factor
+  ModelState evaluated_;     ///< where linearisation and compliance have the residual of
   double trial_error_ = 0.0;
   double linearised_error_ = 0.0;     ///< of the state at which the tangent was taken
   Eigen::VectorXd weight_N_;          ///< [3n] gravity

@@ -78,9 +78,10 @@ std::vector<robot::CableCommand> CableHistory::Commands(const CableSample& befor
   for (size_t i = 0; i < cable_count_; ++i) {
     const auto& first = before.cables[i];
     const auto& second = after.cables[i];
-    commands.push_back(
-        robot::ChooseCommand(Between(first.displacement_m, second.displacement_m, share),
-                             Between(first.tension_N, second.tension_N, share), preferred_));
+    auto displacement_m = Between(first.displacement_m, second.displacement_m, share);
+    if (displacement_m) displacement_m = drives_[i].TakenIn_m(*displacement_m);
+    commands.push_back(robot::ChooseCommand(
+        displacement_m, Between(first.tension_N, second.tension_N, share), preferred_));
   }
   return commands;
 }

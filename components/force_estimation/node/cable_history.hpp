@@ -28,7 +28,10 @@ struct CableSample {
 class CableHistory {
  public:
   CableHistory(size_t cable_count, robot::CableInput preferred)
-      : cable_count_(cable_count), preferred_(preferred) {}
+      : cable_count_(cable_count), preferred_(preferred), drives_(cable_count) {}
+
+  /// How displacements are read, from now on; at first as they are.
+  void SetDrives(const std::vector<robot::DriveCalibration>& drives) { drives_ = drives; }
 
   /// A stamp below the last one says that time went back: what was before is forgotten.
   void Add(CableSample sample);
@@ -51,8 +54,9 @@ class CableHistory {
 
   size_t cable_count_;
   robot::CableInput preferred_;
-  std::deque<CableSample> samples_;  ///< rising stamps
-  bool went_back_ = true;            ///< since the last sequence began
+  std::vector<robot::DriveCalibration> drives_;  ///< [cable_count_]
+  std::deque<CableSample> samples_;              ///< rising stamps
+  bool went_back_ = true;                        ///< since the last sequence began
 };
 
 }  // namespace palpate::force_estimation

@@ -10,6 +10,7 @@
 #include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -24,14 +25,18 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
-/// Gives the model the calibrated moduli; returns their relative standard error.
-double Calibrate(const std::filesystem::path& file, robot::RobotModel* model) {
+/// Gives the model what was calibrated, and source=shape the camera's pose where the settings have
+/// none; returns the moduli's relative standard error.
+double Calibrate(const std::filesystem::path& file, robot::RobotModel* model, NodeConfig* config) {
   if (file.empty()) {
     app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
     return 0.0;
   }
   const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
+  if (calibration.pose && config->source == "shape" && config->camera_pose.empty()) {
+    config->camera_pose = geometry::FormatPose(calibration.pose->T_robot_camera);
+  }
   return robot::RelativeModulusError(calibration);
 }
 
@@ -65,11 +70,16 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 }
 
 std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
+  for (const ContactSite& site : ParseContactSites(command.config.contacts)) {
+    if (site.direction.isZero(0.0) || !IsFromShape(command.config)) continue;
+    app::LogWarning("the direction of contact '{}' counts for markers only", site.name);
+  }
   auto model = LoadRobot(command.robot, {command.config.solver, command.config.threads});
-  const double modulus_error = Calibrate(command.calibration, model.get());
+  NodeConfig config = command.config;
+  const double modulus_error = Calibrate(command.calibration, model.get(), &config);
   return std::make_unique<ForceEstimationNode>(
-      command.config, std::move(model), modulus_error, command.options.domain_id,
-      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+      config, std::move(model), modulus_error, command.options.domain_id,
+      dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::force_estimation

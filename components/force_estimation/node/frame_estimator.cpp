@@ -3,7 +3,11 @@
 
 #include "components/force_estimation/node/frame_estimator.hpp"
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "components/force_estimation/node/convert.hpp"
+#include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
 
 namespace palpate::force_estimation {
@@ -29,12 +33,15 @@ class FromMarkers : public FrameEstimator {
   ModelGapMeter gap_;
 };
 
-/// As `palpate estimate` does with recorded images: the first frames of a sequence in which the
-/// robot was seen are known to be untouched; where it was not seen, perception knows why.
+/// As `palpate estimate` does with recorded images: contacts that are given come before those that
+/// perception sees; the first frames of a sequence in which the robot was seen are known to be
+/// untouched; where it was not seen, perception knows why.
 class FromShape : public FrameEstimator {
  public:
   FromShape(robot::RobotModel& model, const NodeConfig& config, double modulus_sigma)
       : untouched_frames_(config.shape.untouched_frames),
+        sites_(ParseContactSites(config.contacts)),
+        known_contacts_(model.body()),
         estimator_(model, config, config.shape, modulus_sigma),
         gap_(model.body()) {}
 
@@ -42,10 +49,14 @@ class FromShape : public FrameEstimator {
     auto& seen = std::get<SeenShape>(input.frame);
     seen.frame.untouched = seen_ < untouched_frames_;
     seen_ += seen.looked.ok() ? 1 : 0;
+    seen.frame.contacts =
+        KnownBeforeSeen(known_contacts_.At(sites_, nodes_m_), seen.frame.contacts);
     FrameResult result{input.head, estimator_.Update(seen.frame), {}, false, {}};
     Status& status = result.estimate.status;
     result.gap = gap_.Measure(estimator_.features(), status);
     result.state_is_known = PredictsShape(result.estimate);
+    // In single precision, as the estimate over recordings and perception have it.
+    if (result.state_is_known) nodes_m_ = result.estimate.x_m.cast<float>().cast<double>();
     // While the depth bias is learnt there are no forces, but the model is where the robot is.
     const bool stands = IsUsable(status) || status.code() == StatusCode::kNoCalibration;
     result.state = result.state_is_known && stands ? Status::Ok() : status;
@@ -56,6 +67,9 @@ class FromShape : public FrameEstimator {
  private:
   int untouched_frames_;
   int seen_ = 0;
+  std::vector<ContactSite> sites_;
+  KnownContacts known_contacts_;
+  Eigen::VectorXd nodes_m_;  ///< [3n] of the last frame that says where they are; empty before
   ShapeForceEstimator estimator_;
   FeatureGapMeter gap_;
 };

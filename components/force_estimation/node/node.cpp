@@ -65,6 +65,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
   last_status_ = {StatusCode::kNotRun, "no " + source_->name() + " on /perception/" +
                                            (IsFromShape(config) ? "robot_cloud" : "markers") +
                                            " yet"};
+  cables_.SetDrives(worker_.model().drives());
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kCablePeriod, [this] { MatchWithCables(); });

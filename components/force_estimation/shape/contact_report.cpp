@@ -17,7 +17,7 @@ constexpr double kQuietShare = 0.5;
 /// Of the prior's variance: with more left the tangential force counts as not observed.
 constexpr double kToldShare = 0.5;
 /// Depth noise is correlated from frame to frame (0.3 of stereo cameras): so much less does
-/// averaging help.
+/// averaging over many frames help.
 constexpr double kTemporalCorrelation = 1.86;
 
 /// With the place, where that is not known.
@@ -41,6 +41,13 @@ Eigen::Matrix3d RandomCovariance(const ShapeFit& fit, std::size_t site) {
                                     fit.targets().targets().weight.asDiagonal();
   return estimator * fit.targets().noise_m().array().square().matrix().asDiagonal() *
          estimator.transpose();
+}
+
+/// Of a mean over n frames with noise of that correlation the filter, which takes the variance of a
+/// single frame for the larger one, has 1.86 / n of it: right for many frames, too much for few.
+Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix3d& filtered_N2) {
+  const double averaged = filtered_N2.trace() / (kTemporalCorrelation * single_N2.trace());
+  return filtered_N2 / (1.0 + (kTemporalCorrelation - 1.0) * std::min(1.0, averaged));
 }
 
 }  // namespace
@@ -98,13 +105,15 @@ ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
   contact.position_m = followed.patch.weights.Position(fit.state().x_m);
   contact.force_N = followed.filter.force_N();
   const Eigen::Matrix3d whole = WholeCovariance(fit, site);
+  const Eigen::Matrix3d single_N2 = RandomCovariance(fit, site);
   const Eigen::Matrix3d averaged_away =
-      RandomCovariance(fit, site) - followed.filter.covariance_N2() / kTemporalCorrelation;
+      single_N2 - RandomLeft(single_N2, followed.filter.covariance_N2());
   const Eigen::Vector3d shared_N = force_relative_sigma_ * contact.force_N;
   contact.covariance_N2 = inflation * (whole - averaged_away) + shared_N * shared_N.transpose();
   contact.ci95_N = kSigmas95 * SigmaOfSize_N(contact.force_N, contact.covariance_N2);
+  const double seen_m2 = followed.seen_sigma_m * followed.seen_sigma_m;  // in both directions
   const double place_variance =
-      located ? inflation * fit.located()[site].location_covariance_m2.trace() : 0.0;
+      located ? inflation * fit.located()[site].location_covariance_m2.trace() : 2.0 * seen_m2;
   contact.location_ci95_m = std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * place_variance);
   return contact;
 }

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "components/force_estimation/shape/hidden_search.hpp"
 #include "components/force_estimation/shape/shape_fit.hpp"
 
@@ -20,14 +23,19 @@ class HiddenContacts {
   /// About the fit's state, which must be one without contact.
   Status Prepare(const std::vector<robot::CableCommand>& cables);
 
-  /// After a fit of the contacts that are known. Not ok: the way back failed, too.
+  /// After a fit of the contacts that are known; later where the frame's work is used up.
+  /// kBudgetReached: that was while hidden contacts were tried, on which the next frame decides;
+  /// else not ok: the way back failed, too.
   Status Find(const ShapeFrame& frame, const DepthBias& bias);
+  /// No site is hidden any more.
+  void Forget();
 
  private:
   bool FindAgain(const ShapeFrame& frame, const DepthBias& bias, Status* status);
   bool IsTimeToSearch();
   Unexplained LeftOver() const;
   Unexplained WithoutHidden() const;
+  Status Decide(const ShapeFrame& frame, const DepthBias& bias);
   bool Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
            const DepthBias& bias, Status* status);
   bool AreWhereTheyWere(const std::vector<HiddenContact>& found) const;
@@ -37,6 +45,9 @@ class HiddenContacts {
   ShapeFit& fit_;
   HiddenSearch search_;
   int frames_since_search_ = 0;
+  int pause_;  ///< between searches, frames
+  /// What there was before the hidden contacts that are still being tried.
+  std::optional<ShapeFit::Attempt> before_;
 };
 
 }  // namespace palpate::force_estimation

@@ -10,6 +10,7 @@ bool PredictsShape(const ForceEstimate& estimate) {
     case StatusCode::kOk:
     case StatusCode::kNoContact:
     case StatusCode::kNoCalibration:  // while it learns
+    case StatusCode::kBudgetReached:  // on the way
     case StatusCode::kNoRobotSeen:    // where the robot would be
       return estimate.x_m.size() > 0 && estimate.x_m.allFinite();
     default: return false;

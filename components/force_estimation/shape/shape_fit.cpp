@@ -22,8 +22,14 @@ constexpr int kFramesToSettle = 4;
 constexpr int kFramesBetweenPlaces = 5;
 constexpr double kSettledShare = 0.3;
 constexpr int kReweightings = 1;
-constexpr int kMostRestorations = 2;
+/// With steps of this length there is nothing to restore, and restoring takes seconds.
+constexpr int kMostRestorations = 0;
+constexpr double kLongestForceStep_N = 0.5;
 constexpr double kMostPush_N = 0.15;
+constexpr double kMatchWork = 1.0;
+/// A shape half way between two frames misleads all that looks at it: a fit that was begun may go
+/// on beyond the work of a frame as far as this times it.
+constexpr double kFitWorkShare = 4.0;
 /// Standard deviation of the tangential force before it is seen, as a share of the largest
 /// friction.
 constexpr double kFrictionSigma = 0.5;
@@ -50,6 +56,14 @@ ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeCo
   fitter_.TellModulusSensitivity(false);
   fitter_.LimitRestorations(kMostRestorations);
   fitter_.TolerateCablesThatPush(kMostPush_N);
+  fitter_.AcceptChangesWithin(shape.fit_tolerance_sigmas);
+  fitter_.LimitForceStep(kLongestForceStep_N);
+}
+
+void ShapeFit::BeginFrame() {
+  if (shape_.frame_work == 0.0) return;
+  budget_ = fitter_.BudgetOfWork(shape_.frame_work);
+  fit_budget_ = fitter_.BudgetOfWork(kFitWorkShare * shape_.frame_work);
 }
 
 void ShapeFit::StartAt(const fem::StaticState& state) {
@@ -131,6 +145,7 @@ Eigen::Vector3d ShapeFit::NormalAt(std::size_t site) const {
 }
 
 Status ShapeFit::Match(const ShapeFrame& frame) {
+  AddWork(kMatchWork);
   matches_ = &matching_.Match(frame, state_.x_m);
   const auto matched = std::count_if(matches_->begin(), matches_->end(), [](const auto& match) {
     return match.state == MatchState::kMatched;
@@ -164,7 +179,7 @@ Status ShapeFit::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
 Status ShapeFit::Fit(const ShapeFrame& frame) {
   for (int k = 0;; ++k) {
     SetForcePrior();
-    const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_);
+    const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_, fit_budget_);
     iterations_ += fit.iterations;
     if (!fit.status.ok()) return fit.status;
     if (!targets_.Reweight(fit.residual_m) || k == kReweightings) return Status::Ok();
@@ -204,6 +219,10 @@ bool ShapeFit::IsTimeToLocate() const {
   return std::any_of(sites().begin(), sites().end(), [](const ShapeSite& site) {
     return site.frames < kFramesToSettle || site.frames % kFramesBetweenPlaces == 0;
   });
+}
+
+double ShapeFit::Misfit() const {
+  return fitter_.fit().chi_squared / std::max(1, targets_.Count());
 }
 
 void ShapeFit::GoBack(const Attempt& attempt) {

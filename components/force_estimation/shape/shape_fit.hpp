@@ -33,13 +33,20 @@ class ShapeFit {
   bool started() const { return state_.valid; }
   void Stop() { state_.valid = false; }
 
+  /// A new frame's work begins.
+  void BeginFrame();
+  /// Whether nothing more should be begun in this frame.
+  bool IsWorkUsedUp() const { return budget_.Over(); }
+  void AddWork(double work) { fitter_.AddWork(work); }
+
   /// Takes the contacts that perception has located.
   void See(const ShapeFrame& frame);
   /// The same about the shape that a fit has found; true where a contact has another place.
   bool SeeAgain(const ShapeFrame& frame);
   /// Matches the features about the present state. kNoRobotSeen where too few match.
   Status Match(const ShapeFrame& frame);
-  /// Matches and fits forces, in rounds, until the features stay where they are.
+  /// Matches and fits forces, in rounds, until the features stay where they are. kBudgetReached:
+  /// the state is sound, and nearer, but the frame's work is used up.
   Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
   /// Moves the contacts to where the deformation, and where they were seen, ask for: all the way in
   /// their first frames, then by a share of it, so that noise is averaged.
@@ -69,6 +76,8 @@ class ShapeFit {
   const ForceFitter& fitter() const { return fitter_; }
   const ModelState& state() const { return state_; }
   const std::vector<LocatedForce>& located() const { return located_; }
+  /// Mean square of residual over expected error, of the last fit; 1 where it fits.
+  double Misfit() const;
   int TakeIterations() { return std::exchange(iterations_, 0); }
 
   Eigen::Vector3d ForceAt(std::size_t site) const {
@@ -94,6 +103,8 @@ class ShapeFit {
   SiteBook book_;
   ForceFitter fitter_;
   LocationStep location_;
+  fem::TimeBudget budget_;      ///< for what can wait
+  fem::TimeBudget fit_budget_;  ///< for what was begun
   ModelState state_;
   Eigen::VectorXd learnt_x_m_;             ///< [3n]; empty: the first shape that was started at
   std::vector<std::string> fitted_names_;  ///< of the sites that the fitter has

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "components/force_estimation/shape/contact_report.hpp"
@@ -20,6 +21,12 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr Eigen::Index kFewestPoints = 50;
+/// Residual over what is expected of it, mean square, from which on no force explains the shape.
+constexpr double kWorstMisfit = 30.0;
+/// After so many such frames the model begins anew from where it is without contact.
+constexpr int kMisfitsToRestart = 3;
+/// A fit that needs more frames than this follows something that is not the robot's shape.
+constexpr int kMostFramesOnBudget = 8;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -62,6 +69,7 @@ class ShapeForceEstimator::Impl {
   Status Estimate(const ShapeFrame& frame);
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
+  Status CheckMisfit(const ShapeFit::Attempt& before);
   void Publish();
   void PublishState();
   void ReportFeatures();
@@ -74,7 +82,9 @@ class ShapeForceEstimator::Impl {
   HiddenContacts hidden_;
   ContactReport report_;
   fem::StaticState free_state_;
-  bool learning_ = false;  ///< untouched frames came since the bias was solved for
+  int misfits_ = 0;           ///< frames in a row
+  int frames_on_budget_ = 0;  ///< in a row
+  bool learning_ = false;     ///< untouched frames came since the bias was solved for
   std::vector<FeatureReport> features_;
   ForceEstimate estimate_;
   bool published_ = false;
@@ -139,34 +149,64 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     return {StatusCode::kNoRobotSeen,
             "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
   }
+  fit_.BeginFrame();
   Status status = FitFrame(frame);
-  if (status.code() == StatusCode::kNoRobotSeen) {
+  frames_on_budget_ = status.code() == StatusCode::kBudgetReached ? frames_on_budget_ + 1 : 0;
+  const bool goes_on = frames_on_budget_ < kMostFramesOnBudget;
+  if (status.code() == StatusCode::kNoRobotSeen || (frames_on_budget_ > 0 && goes_on)) {
     PublishState();  // where the robot would be, so that perception finds it
     return status;
   }
   if (!status.ok()) {
     // The last state leads nowhere: once more from the equilibrium without contact.
-    fit_.book().ForgetHidden();
+    hidden_.Forget();
+    if (fit_.IsWorkUsedUp()) {
+      fit_.Stop();
+      frames_on_budget_ = 0;
+      return {goes_on ? StatusCode::kBudgetReached : StatusCode::kNotConverged,
+              "the model does not come to the shape that is seen: it is set up anew"};
+    }
     status = StartFromFreeState(frame);
     if (status.ok()) status = FitFrame(frame);
   }
   if (!status.ok()) {
     fit_.Stop();
-    return status;
+    if (!status.message().empty()) return status;
+    return {status.code(), "the model does not come to the shape that is seen"};
   }
   Publish();
   return estimate_.contacts.empty() ? Status(StatusCode::kNoContact, {}) : Status::Ok();
 }
 
 Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
+  const ShapeFit::Attempt before = fit_.Keep();
   fit_.book().ForgetQuiet();
   fit_.See(frame);
   Status status = fit_.MatchAndFit(frame, bias_);
   if (status.ok() && fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
+  if (status.ok()) status = CheckMisfit(before);
   if (status.ok()) report_.Judge(frame.t_s, &fit_);
   return status;
+}
+
+/// A shape that neither contacts nor noise explain is not the robot's, or not seen from where the
+/// camera is said to be: the model stays as it was before.
+Status ShapeForceEstimator::Impl::CheckMisfit(const ShapeFit::Attempt& before) {
+  const double misfit = fit_.Misfit();
+  if (misfit <= kWorstMisfit) {
+    misfits_ = 0;
+    return Status::Ok();
+  }
+  fit_.GoBack(before);
+  if (++misfits_ % kMisfitsToRestart == 0) {
+    hidden_.Forget();
+    fit_.StartAt(free_state_);
+  }
+  return {StatusCode::kNoRobotSeen, "no forces explain the shape that is seen, " +
+                                        std::to_string(std::lround(std::sqrt(misfit))) +
+                                        " sigmas off: camera pose, intrinsics, or not the robot"};
 }
 
 void ShapeForceEstimator::Impl::Publish() {

@@ -28,6 +28,10 @@ constexpr int kFramesToAppear = 2;
 constexpr int kFramesToAppearHidden = 4;
 constexpr int kQuietFramesToVanish = 3;
 
+bool IsSame(const ShapeSite& site, const Eigen::Vector3d& rest_m) {
+  return (site.centre.rest_m - rest_m).norm() < kSameContact_m;
+}
+
 /// Largest sigma along the surface with this normal.
 double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vector3d& normal) {
   const Eigen::Matrix<double, 3, 2> tangents = Tangents(normal);
@@ -43,13 +47,8 @@ SiteBook::SiteBook(const robot::RobotModel& model, const ShapeConfig& config)
     : model_(model), config_(config), map_(model) {}
 
 bool SiteBook::See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m) {
-  map_.Deform(x_m);
-  const auto is_gone = [&](const ShapeSite& site) {
-    return !site.hidden && std::none_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-      return contact.name == site.name;
-    });
-  };
-  bool changed = std::erase_if(sites_, is_gone) > 0;
+  if (!contacts.empty()) map_.Deform(x_m);
+  bool changed = LoseSight(contacts);
   for (const SeenContact& contact : contacts) {
     if (ShapeSite* site = Find(contact.name)) {
       changed = DropHiddenNear(site->centre.rest_m) || changed;
@@ -60,11 +59,10 @@ bool SiteBook::See(const std::vector<SeenContact>& contacts, const Eigen::Vector
     }
     const SkinPoint centre = map_.NearestNow(contact.position_m);
     if (centre.distance_m > kFarthest_m) continue;
+    ShapeSite site = NewSiteAt(centre.rest_m);
     changed = DropHiddenNear(centre.rest_m) || changed;
     if (full()) continue;
-    ShapeSite site;
     site.name = contact.name;
-    site.filter = ForceFilter(config_.force_rate_N_s);
     site.radius_m =
         std::clamp(kPatchShareOfExtent * contact.extent_m.maxCoeff(), config_.contact_radius_m,
                    std::max(config_.contact_radius_m, kLargestRadius_m));
@@ -76,10 +74,40 @@ bool SiteBook::See(const std::vector<SeenContact>& contacts, const Eigen::Vector
   return changed;
 }
 
+/// Of those that nobody sees any more, what pushes goes on as hidden, the rest is gone. True where
+/// there were any.
+bool SiteBook::LoseSight(const std::vector<SeenContact>& contacts) {
+  bool changed = false;
+  for (ShapeSite& site : sites_) {
+    const bool seen = std::any_of(contacts.begin(), contacts.end(),
+                                  [&](const auto& contact) { return contact.name == site.name; });
+    if (site.hidden || seen) continue;
+    changed = site.hidden = true;
+    site.name = site.acts && site.quiet_frames == 0 ? HiddenName() : std::string();
+    site.seen_sigma_m = kHiddenSigma_m;
+  }
+  std::erase_if(sites_, [](const ShapeSite& site) { return site.name.empty(); });
+  return changed;
+}
+
+/// With the history of a hidden contact so near: what pushed before goes on.
+ShapeSite SiteBook::NewSiteAt(const Eigen::Vector3d& rest_m) const {
+  ShapeSite site;
+  site.filter = ForceFilter(config_.force_rate_N_s);
+  for (const ShapeSite& other : sites_) {
+    if (!other.hidden || !other.acts || !IsSame(other, rest_m)) continue;
+    site.filter = other.filter;
+    site.significant_frames = other.significant_frames;
+    site.quiet_frames = other.quiet_frames;
+    site.acts = true;
+  }
+  return site;
+}
+
 /// What was hidden so near to a contact that is seen is the same.
 bool SiteBook::DropHiddenNear(const Eigen::Vector3d& rest_m) {
   return std::erase_if(sites_, [&](const ShapeSite& site) {
-           return site.hidden && (site.centre.rest_m - rest_m).norm() < kSameContact_m;
+           return site.hidden && IsSame(site, rest_m);
          }) > 0;
 }
 
@@ -118,7 +146,7 @@ void SiteBook::ReplaceHidden(const std::vector<HiddenContact>& found) {
 
 void SiteBook::AddHidden(const HiddenContact& found) {
   ShapeSite site;
-  site.name = "hidden_" + std::to_string(++hidden_names_);
+  site.name = HiddenName();
   site.hidden = true;
   site.filter = ForceFilter(config_.force_rate_N_s);
   site.radius_m = config_.contact_radius_m;
@@ -159,12 +187,6 @@ bool SiteBook::ForgetQuiet() {
   return std::erase_if(sites_, [](const ShapeSite& site) {
            return site.hidden && site.quiet_frames >= kQuietFramesToVanish;
          }) > 0;
-}
-
-std::vector<Eigen::Vector3d> SiteBook::RestPositions_m() const {
-  std::vector<Eigen::Vector3d> positions_m;
-  for (const ShapeSite& site : sites_) positions_m.push_back(site.centre.rest_m);
-  return positions_m;
 }
 
 bool SiteBook::full() const { return sites_.size() >= kMostSites; }

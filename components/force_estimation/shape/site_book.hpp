@@ -23,8 +23,9 @@ class SiteBook {
 
   /// Contacts of a new frame, mapped onto the skin in the shape `x_m` [3n]. A contact farther than
   /// kFarthest_m from the skin is left out, as are those beyond the number that can be fitted. A
-  /// hidden site where a contact has come into view gives way to it. True where the set of places
-  /// has changed.
+  /// hidden site where a contact has come into view gives way to it; one that pushes and goes out
+  /// of view becomes hidden: what is known of its force goes on. True where the set of places has
+  /// changed.
   bool See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m);
 
   /// The hidden sites become these, by the names that there are as far as they go.
@@ -41,7 +42,6 @@ class SiteBook {
   bool ForgetQuiet();
 
   const std::vector<ShapeSite>& sites() const { return sites_; }
-  std::vector<Eigen::Vector3d> RestPositions_m() const;
   bool full() const;
 
   static constexpr double kFarthest_m = 0.025;
@@ -52,6 +52,9 @@ class SiteBook {
   void AddHidden(const HiddenContact& found);
   void Refresh(const SeenContact& contact, ShapeSite* site);
   bool PlaceAgainIfFar(ShapeSite* site) const;
+  bool LoseSight(const std::vector<SeenContact>& contacts);
+  ShapeSite NewSiteAt(const Eigen::Vector3d& rest_m) const;
+  std::string HiddenName() { return "hidden_" + std::to_string(++hidden_names_); }
   bool DropHiddenNear(const Eigen::Vector3d& rest_m);
   ShapeSite* Find(const std::string& name);
 

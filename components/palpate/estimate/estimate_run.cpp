@@ -19,8 +19,10 @@ namespace palpate::command {
 
 namespace {
 
-// Gives the model the calibrated moduli; returns their relative standard error.
-double ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model) {
+/// Gives the model and the experiment what was calibrated; returns the moduli's relative standard
+/// error.
+double ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
+                        experiment::Experiment* experiment) {
   if (file.empty()) {
     fmt::print(stderr,
                "palpate estimate: no --calibration: the moduli of the robot file are "
@@ -29,6 +31,7 @@ double ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* mo
   }
   const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
+  if (calibration.pose) experiment->T_robot_camera = calibration.pose->T_robot_camera;
   return robot::RelativeModulusError(calibration);
 }
 
@@ -39,12 +42,12 @@ bool IsResult(const Status& status) {
 }  // namespace
 
 EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
-                         const experiment::Experiment& experiment, robot::RobotModel* model)
+                         experiment::Experiment* experiment, robot::RobotModel* model)
     : options_(options),
       settings_(settings),
-      experiment_(experiment),
+      experiment_(*experiment),
       model_(*model),
-      modulus_error_(ApplyCalibration(options.calibration, model)),
+      modulus_error_(ApplyCalibration(options.calibration, model, experiment)),
       json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {}
 
 EstimateRun::~EstimateRun() = default;

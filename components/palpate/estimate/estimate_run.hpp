@@ -21,9 +21,10 @@ namespace palpate::command {
 /// One run of `palpate estimate`: what is estimated is printed at once and gathered for forces.csv.
 class EstimateRun {
  public:
-  /// Gives the model the calibrated moduli. All arguments must outlive the run. Throws InputError.
+  /// Gives model and experiment what was calibrated. All arguments must outlive the run. Throws
+  /// InputError.
   EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
-              const experiment::Experiment& experiment, robot::RobotModel* model);
+              experiment::Experiment* experiment, robot::RobotModel* model);
   ~EstimateRun();
 
   /// Lets the untouched recordings teach, where one of `plan` is estimated from its shape.

@@ -12,12 +12,12 @@
 namespace palpate::command {
 
 int Estimate(const EstimateOptions& options) {
-  const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+  experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const EstimateSettings settings =
       ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts);
   const auto plan = PlanEstimates(experiment, options.recordings, options.from);
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads});
-  EstimateRun run(options, settings, experiment, model.get());
+  EstimateRun run(options, settings, &experiment, model.get());
   run.Teach(plan);
   for (const PlannedRecording& planned : plan) run.Estimate(planned);
   return run.Finish();

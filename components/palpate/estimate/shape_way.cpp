@@ -95,7 +95,8 @@ const ForceEstimate& ShapeWay::Step(const Scene& scene, const rgbd::RgbdFrame& f
   force_estimation::ShapeFrame shape = MakeShapeFrame(seen, scene.T_robot_camera);
   shape.t_s = static_cast<double>(frame.stamp_ns) / kNsPerSecond;
   shape.cables = CablesAt(scene.recording, shape.t_s);
-  shape.contacts = KnownBeforeSeen(KnownContactsAt(scene.recording, shape.t_s), shape.contacts);
+  shape.contacts = force_estimation::KnownBeforeSeen(KnownContactsAt(scene.recording, shape.t_s),
+                                                     shape.contacts);
   const Status looked = seen.frame.status;
   shape.untouched = untouched || frames_seen_ < inputs_.first_untouched;
   frames_seen_ += looked.ok() ? 1 : 0;
@@ -113,9 +114,10 @@ const ForceEstimate& ShapeWay::Step(const Scene& scene, const rgbd::RgbdFrame& f
 std::vector<robot::CableCommand> ShapeWay::CablesAt(const Recording& recording, double t_s) const {
   using Quantity = experiment::CableQuantity;
   std::vector<robot::CableCommand> commands;
-  for (const std::string& cable : inputs_.model->CableNames()) {
-    commands.push_back(robot::ChooseCommand(
-        experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
+  for (int c = 0; c < inputs_.model->CableCount(); ++c) {
+    const std::string& cable = inputs_.model->body().cables[static_cast<std::size_t>(c)].name;
+    commands.push_back(inputs_.model->CommandFor(
+        c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
         experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), inputs_.cable_input));
   }
   return commands;
@@ -126,7 +128,8 @@ std::vector<force_estimation::SeenContact> ShapeWay::KnownContactsAt(const Recor
   const Eigen::Matrix3Xd nodes_m = nodes_m_.cast<double>();
   const Eigen::Map<const Eigen::VectorXd> x_m(nodes_m.data(), nodes_m.size());
   return known_contacts_.At(
-      inputs_.sites.empty() ? SitesOfLoads(recording.loads, t_s) : inputs_.sites, x_m);
+      inputs_.sites.empty() ? force_estimation::SitesOfLoads(recording.loads, t_s) : inputs_.sites,
+      x_m);
 }
 
 force_estimation::ShapeFrame MakeShapeFrame(const perception::Observation& observation,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/force_estimation/contact_site.hpp"
-#include "components/palpate/estimate/known_contacts.hpp"
+#include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/palpate/estimate/marker_way.hpp"
 #include "components/palpate/estimate/shape_senses.hpp"
 #include "libs/core/status.hpp"
@@ -58,7 +58,7 @@ class ShapeWay {
 
   Inputs inputs_;
   ShapeSenses senses_;
-  KnownContacts known_contacts_;
+  force_estimation::KnownContacts known_contacts_;
   Eigen::Matrix3Xi triangles_;
   Eigen::Vector3d gravity_m_s2_;
   Eigen::Matrix3Xf nodes_m_;  ///< of the last estimate that stands, as it would travel; or none

@@ -146,6 +146,32 @@ TEST(ContactSearch, NeverPutsTwoContactsOnOnePoint) {
   }
 }
 
+TEST(ContactSearch, FindsTheSameContactAgainAfterItsRelease) {
+  const auto model = Build(BeamRobot());
+  const Eigen::Vector3d place =
+      model->body().feature_points[Nearest(*model, {0.0, 0.015, 0.03})].rest_m;
+  const Eigen::Vector3d force_N(0.05, 0.3, -0.4);
+  MarkerForceEstimator estimator(*model, Config{});
+  double t_s = 0.0;
+  const auto update = [&](double share) -> const ForceEstimate& {
+    MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, place, 0.005, share * force_N)});
+    frame.t_s = (t_s += 0.1);
+    return estimator.Update(frame);
+  };
+  for (const double share : {1.0, 0.0, 0.5, 0.0, 1.0}) {
+    const ForceEstimate& estimate = update(share);
+    if (share == 0.0) {
+      EXPECT_EQ(estimate.status.code(), StatusCode::kNoContact);
+      EXPECT_TRUE(estimate.contacts.empty());
+      continue;
+    }
+    ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
+    ASSERT_EQ(estimate.contacts.size(), 1U);
+    EXPECT_EQ(estimate.contacts[0].name, "contact_1");
+    EXPECT_LT((estimate.contacts[0].force_N - share * force_N).norm(), 1e-5);
+  }
+}
+
 TEST(ContactSearch, TooFewMarkersAreSaid) {
   const auto model = Build(BeamRobot());
   MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, {0, 0.015, 0.03}, 0.005, {0, 0, -1})});

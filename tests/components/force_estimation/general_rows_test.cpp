@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "components/force_estimation/fit/force_fitter.hpp"
 #include "components/force_estimation/shape/location_step.hpp"
 #include "components/force_estimation/shape/surface_map.hpp"
@@ -110,6 +113,76 @@ TEST_F(GeneralRows, AKeptFactorComesToTheSameFit) {
   EXPECT_EQ(fit.iterations, 0);
   EXPECT_GE(fit.chord_steps, 1);
   EXPECT_GE(linearisations, 1);
+}
+
+/// Two loadings, one after the other, with the factor of the first.
+class KeptFactor : public GeneralRows {
+ protected:
+  KeptFactor() {
+    fitter_.SetSites({SiteAt(kTip)});
+    fitter_.KeepFactor(true);
+    state_ = StartState();
+    EXPECT_TRUE(fitter_.Fit(TargetsUnder(kForce_N), {}, &state_, Work(kNoLimit)).status.ok());
+  }
+
+  RowTargets TargetsUnder(const Eigen::Vector3d& force_N) {
+    return TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, force_N)}).x_m);
+  }
+  fem::TimeBudget Work(double more) { return fitter_.BudgetOfWork(more); }
+
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  ModelState state_;
+};
+
+TEST_F(KeptFactor, TakesFewStepsFarFromItsState) {
+  const Eigen::Vector3d force_N = 1.02 * kForce_N;
+  const ForceFit& fit = fitter_.Fit(TargetsUnder(force_N), {}, &state_, Work(kNoLimit));
+  ASSERT_TRUE(fit.status.ok());
+  EXPECT_EQ(fit.iterations, 0);
+  EXPECT_LE(fit.chord_steps, 6);
+  EXPECT_LT((state_.lambda_f_N - force_N).norm(), 1e-6);
+}
+
+TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
+  const Eigen::Vector3d force_N = 1.1 * kForce_N;
+  const RowTargets targets = TargetsUnder(force_N);
+  int stopped = 0;
+  while (!fitter_.Fit(targets, {}, &state_, Work(2.0)).status.ok()) {
+    ASSERT_EQ(fitter_.fit().status.code(), StatusCode::kBudgetReached);
+    EXPECT_EQ(fitter_.fit().iterations, 0);
+    EXPECT_GT(fitter_.fit().error, FitConfig().frame_tolerance);
+    ASSERT_LT(++stopped, 10);
+  }
+  EXPECT_GE(stopped, 1);
+  EXPECT_LT((state_.lambda_f_N - force_N).norm(), 1e-6);
+}
+
+TEST_F(KeptFactor, ChangesBelowTheNoiseAreNotFollowed) {
+  const Eigen::Vector3d before_N = state_.lambda_f_N;
+  const double sigma_N = std::sqrt(fitter_.fit().covariance_N2.diagonal().minCoeff());
+  const RowTargets near = TargetsUnder(kForce_N + 0.1 * sigma_N * Eigen::Vector3d::UnitX());
+  fitter_.AcceptChangesWithin(0.5);
+  const ForceFit& fit = fitter_.Fit(near, {}, &state_, Work(kNoLimit));
+  EXPECT_TRUE(fit.status.ok());
+  EXPECT_EQ(fit.chord_steps, 0);
+  EXPECT_EQ(state_.lambda_f_N, before_N);
+  const RowTargets far = TargetsUnder(1.1 * kForce_N);
+  EXPECT_TRUE(fitter_.Fit(far, {}, &state_, Work(kNoLimit)).status.ok());
+  EXPECT_LT((state_.lambda_f_N - 1.1 * kForce_N).norm(), 0.1 * sigma_N + 1e-3);
+}
+
+TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
+  const RowTargets targets =
+      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)}).x_m);
+  fitter_.SetSites({SiteAt(kTip)});
+  ModelState state = StartState();
+  const int steps = fitter_.Fit(targets, {}, &state).iterations;
+  fitter_.LimitForceStep(0.1 * kForce_N.norm());
+  state = StartState();
+  const ForceFit& fit = fitter_.Fit(targets, {}, &state);
+  ASSERT_TRUE(fit.status.ok());
+  EXPECT_GT(fit.iterations, steps + 3);
+  EXPECT_LT((state.lambda_f_N - kForce_N).norm(), 1e-6);
 }
 
 TEST_F(GeneralRows, APriorHoldsTheForceBack) {

@@ -49,11 +49,56 @@ TEST(ForceFilter, NoiseIsAveragedToWhatItsCovarianceSays) {
 }
 
 TEST(ForceFilter, AForceThatIsToldWellFollowsAtOnce) {
+  constexpr double kSigma_N = 0.003;
   ForceFilter filter(2.0);
   for (int k = 0; k <= 30; ++k) {
-    filter.Update(k / 30.0, k / 30.0 * kForce_N, Noise(0.003));  // 0.9 N in a second
+    filter.Update(k / 30.0, k / 30.0 * kForce_N, Noise(kSigma_N));  // 0.9 N in a second
   }
-  EXPECT_LT((filter.force_N() - kForce_N).norm(), 1e-3);
+  EXPECT_LT((filter.force_N() - kForce_N).norm(), kSigma_N);
+}
+
+TEST(ForceFilter, AHeldForceIsAveragedMoreThanAChangingOne) {
+  constexpr double kSigma_N = 0.1;
+  constexpr double kRate_N_s = 2.0;
+  constexpr int kFrames = 60;
+  constexpr int kRuns = 50;
+  std::mt19937 random(3);
+  double held_N2 = 0.0;
+  double inside = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    ForceFilter filter(kRate_N_s);
+    for (int k = 0; k < kFrames; ++k) {
+      filter.Update(k / 30.0, kForce_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
+    }
+    const double off_N = filter.force_N().z() - kForce_N.z();
+    held_N2 += off_N * off_N / kRuns;
+    inside += std::abs(off_N) <= 1.96 * std::sqrt(filter.covariance_N2()(2, 2)) ? 1.0 / kRuns : 0.0;
+  }
+  // The fast walk alone would leave 0.7 of the noise over.
+  EXPECT_LT(std::sqrt(held_N2), 0.45 * kSigma_N);
+  EXPECT_GE(inside, 0.88);
+}
+
+TEST(ForceFilter, ARampIsFollowedWithinWhatItsCovarianceSays) {
+  constexpr double kSigma_N = 0.05;
+  constexpr int kRuns = 50;
+  const Eigen::Vector3d rise_N_s(0.0, 0.0, -1.0);
+  std::mt19937 random(4);
+  double inside = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    ForceFilter filter(2.0);
+    for (int k = 0; k < 30; ++k) {
+      filter.Update(k / 30.0, NormalNoise(kSigma_N, random), Noise(kSigma_N));
+    }
+    Eigen::Vector3d true_N = Eigen::Vector3d::Zero();
+    for (int k = 30; k < 45; ++k) {
+      true_N = (k - 30) / 30.0 * rise_N_s;
+      filter.Update(k / 30.0, true_N + NormalNoise(kSigma_N, random), Noise(kSigma_N));
+    }
+    const double off_N = filter.force_N().z() - true_N.z();
+    inside += std::abs(off_N) <= 1.96 * std::sqrt(filter.covariance_N2()(2, 2)) ? 1.0 / kRuns : 0.0;
+  }
+  EXPECT_GE(inside, 0.8);
 }
 
 TEST(ForceFilter, AJumpBeginsAnew) {

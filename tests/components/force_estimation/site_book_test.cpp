@@ -89,6 +89,24 @@ TEST_F(Book, AHiddenContactGivesWayToOneThatComesIntoView) {
   EXPECT_EQ(book_.sites()[0].name, "a");
 }
 
+TEST_F(Book, AForceGoesOnWhenItsContactGoesOutOfSightAndComesBack) {
+  book_.See({Contact("a", tip_), Contact("idle", middle_)}, x_m_);
+  for (int k = 0; k < 2; ++k) {
+    book_.Judge(0, true, false);
+    book_.Judge(1, false, true);
+  }
+  EXPECT_TRUE(book_.See({}, x_m_));
+  ASSERT_EQ(book_.sites().size(), 1u);
+  EXPECT_EQ(book_.sites()[0].name, "hidden_1");
+  EXPECT_TRUE(book_.sites()[0].hidden);
+  EXPECT_TRUE(book_.sites()[0].acts);
+  EXPECT_TRUE(book_.See({Contact("b", tip_ - Eigen::Vector3d(0.003, 0, 0))}, x_m_));
+  ASSERT_EQ(book_.sites().size(), 1u);
+  EXPECT_EQ(book_.sites()[0].name, "b");
+  EXPECT_FALSE(book_.sites()[0].hidden);
+  EXPECT_TRUE(book_.sites()[0].acts);
+}
+
 TEST_F(Book, AHiddenContactStaysUntilItIsQuietAndItsNameIsNotUsedAgain) {
   HiddenContact found;
   found.rest_position_m = middle_;

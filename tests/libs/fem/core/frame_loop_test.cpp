@@ -247,5 +247,54 @@ TEST(FrameLoop, WithoutAFactorToKeepTheFirstStepIsExact) {
   EXPECT_EQ(unasked.calls[0], 'E');
 }
 
+/// Of which each look at the residual takes 1.
+TimeBudget BudgetOfTrials(const Scalar& problem, double trials) {
+  return TimeBudget(trials, [&problem] { return static_cast<double>(problem.told_last.size()); });
+}
+
+/// Its chord steps halve the error, about.
+Scalar SlowSquareRootOfTwo() {
+  Scalar root = SquareRootOfTwo(1.5);
+  root.kept_slope = 5.6;
+  return root;
+}
+
+TEST(FrameLoop, SlowStepsWithAKeptFactorAreTakenWhereAnExactOneCostsMore) {
+  Scalar root = SlowSquareRootOfTwo();
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-3, .keep_factor = true, .exact_step_cost_s = 50.0},
+               BudgetOfTrials(root, std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_EQ(outcome.exact_steps, 0);
+  EXPECT_GT(outcome.chord_steps, 4);
+  EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-3);
+}
+
+TEST(FrameLoop, SlowStepsWithAKeptFactorGiveWayToACheapExactOne) {
+  Scalar root = SlowSquareRootOfTwo();
+  const FrameOutcome outcome =
+      RunFrame(root, {.relative_tolerance = 1e-3, .keep_factor = true, .exact_step_cost_s = 2.0},
+               BudgetOfTrials(root, std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(outcome.converged());
+  EXPECT_EQ(outcome.exact_steps, 1);
+}
+
+TEST(FrameLoop, WithoutRoomForAnExactStepTheKeptOnesEndWithTheBudget) {
+  Scalar root = SlowSquareRootOfTwo();
+  const FrameSettings settings{
+      .relative_tolerance = 1e-3, .keep_factor = true, .exact_step_cost_s = 10.0};
+  const FrameOutcome first = RunFrame(root, settings, BudgetOfTrials(root, 3.0));
+  EXPECT_EQ(first.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(first.exact_steps, 0);
+  EXPECT_EQ(first.chord_steps, 3);
+  EXPECT_GT(first.error, settings.relative_tolerance);
+  int frames = 1;
+  while (!RunFrame(root, settings, BudgetOfTrials(root, 3.0 * ++frames)).converged()) {
+    ASSERT_LT(frames, 10);
+  }
+  EXPECT_GT(frames, 1);
+  EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-3);
+}
+
 }  // namespace
 }  // namespace palpate::fem

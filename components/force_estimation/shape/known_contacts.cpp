@@ -1,19 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/estimate/known_contacts.hpp"
+#include "components/force_estimation/shape/known_contacts.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "libs/core/check.hpp"
 
-namespace palpate::command {
+namespace palpate::force_estimation {
 
 namespace {
-
-using force_estimation::ContactSite;
-using force_estimation::SeenContact;
 
 // A place that somebody has measured on the body.
 constexpr double kPlaceSigma_m = 5e-4;
@@ -86,4 +83,4 @@ std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
   return known;
 }
 
-}  // namespace palpate::command
+}  // namespace palpate::force_estimation

@@ -13,7 +13,7 @@
 #include "libs/geometry/closest_point.hpp"
 #include "libs/robot/robot_body.hpp"
 
-namespace palpate::command {
+namespace palpate::force_estimation {
 
 /// Places on the undeformed body where a force is known to act, as contacts that were seen: on the
 /// surface in its present shape.
@@ -24,9 +24,8 @@ class KnownContacts {
 
   /// The nearest surface point of each site, moved along with the surface. `nodes_m` [3n]: the
   /// model's nodes, robot frame; empty: the undeformed ones.
-  std::vector<force_estimation::SeenContact> At(
-      const std::vector<force_estimation::ContactSite>& sites,
-      const Eigen::VectorXd& nodes_m) const;
+  std::vector<SeenContact> At(const std::vector<ContactSite>& sites,
+                              const Eigen::VectorXd& nodes_m) const;
 
  private:
   const robot::RobotBody& body_;
@@ -35,12 +34,10 @@ class KnownContacts {
 
 /// The places where loads act at `t_s`: load_1, load_2, ... by their order in loads.csv. Loads of
 /// no force are left out.
-std::vector<force_estimation::ContactSite> SitesOfLoads(
-    const std::vector<experiment::KnownLoad>& loads, double t_s);
+std::vector<ContactSite> SitesOfLoads(const std::vector<experiment::KnownLoad>& loads, double t_s);
 
 /// `known`, and those of `seen` that are none of them, but farther from each than they reach.
-std::vector<force_estimation::SeenContact> KnownBeforeSeen(
-    std::vector<force_estimation::SeenContact> known,
-    const std::vector<force_estimation::SeenContact>& seen);
+std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
+                                         const std::vector<SeenContact>& seen);
 
-}  // namespace palpate::command
+}  // namespace palpate::force_estimation

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "components/force_estimation/shape/contact_report.hpp"
+#include "components/force_estimation/shape/hidden_contacts.hpp"
+#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/statistics.hpp"
+#include "tests/components/force_estimation/shape_scene.hpp"
+#include "tests/components/force_estimation/test_bodies.hpp"
+
+namespace palpate::force_estimation {
+namespace {
+
+/// The four-legged robot (tet10) before the bench's camera, pushed on the hub: the parts of force
+/// estimation from its shape that make a contact of what a frame shows.
+class Contacts : public testing::Test {
+ protected:
+  static constexpr double kSeenSigma_m = 2e-3;
+  static constexpr double kForce_N = 0.8;
+
+  Contacts()
+      : fit_(*scene_.model, Config(), shape_),
+        report_(shape_, 0.0),
+        hidden_(*scene_.model, shape_, fit_),
+        bias_(51, shape_),
+        cables_(4, {.kind = Kind::kDisplacement, .value = 0.0}),
+        free_(Solve(0.0)) {
+    fit_.StartAt(free_);
+    for (int k = 0; k < 6; ++k) {
+      const ShapeFrame frame = FrameOf(free_);
+      EXPECT_TRUE(fit_.Match(frame).ok());
+      bias_.Learn(fit_.matches(), free_.x_m, frame.T_robot_camera);
+    }
+    fit_.LearntAt(free_.x_m);
+    EXPECT_TRUE(bias_.Finish().ok());
+  }
+
+  fem::StaticState Solve(double force_N) {
+    fem::StaticState state = scene_.model->RestState();
+    const fem::SurfacePatch patch = scene_.model->Patch(place_m_, shape_.contact_radius_m);
+    const auto result =
+        scene_.model->Solve(cables_, {{patch.weights, -force_N * patch.normal}}, &state);
+    EXPECT_TRUE(result.status.ok()) << result.status.message();
+    pushed_at_m_ = patch.weights.Position(state.x_m);
+    return state;
+  }
+
+  ShapeFrame FrameOf(const fem::StaticState& state) {
+    ShapeFrame frame;
+    frame.t_s = (t_s_ += 0.033);
+    frame.T_robot_camera = BenchPose();
+    frame.cloud = Cast(scene_, state.x_m, frame.T_robot_camera);
+    AddDepthNoise(random_, &frame.cloud);
+    frame.cables = cables_;
+    return frame;
+  }
+
+  ShapeFrame SeenFrameOf(const fem::StaticState& state) {
+    ShapeFrame frame = FrameOf(state);
+    frame.contacts = {{.name = "finger",
+                       .position_m = pushed_at_m_,
+                       .covariance_m2 = std::pow(kSeenSigma_m, 2) * Eigen::Matrix3d::Identity(),
+                       .extent_m = Eigen::Vector3d::Zero(),
+                       .point_count = 50}};
+    return frame;
+  }
+
+  void Fit(const ShapeFrame& frame) {
+    fit_.See(frame);
+    const Status status = fit_.MatchAndFit(frame, bias_);
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+
+  const Eigen::Vector3d place_m_{0.0212, -0.0212, 0.103};
+  ShapeScene scene_{51};
+  ShapeConfig shape_;
+  ShapeFit fit_;
+  ContactReport report_;
+  HiddenContacts hidden_;
+  DepthBias bias_;
+  std::vector<robot::CableCommand> cables_;
+  double t_s_ = 0.0;
+  std::mt19937 random_{1};
+  Eigen::Vector3d pushed_at_m_ = Eigen::Vector3d::Zero();
+  fem::StaticState free_;
+};
+
+TEST_F(Contacts, AreReportedFromTheSecondFrameThatShowsThemOn) {
+  const fem::StaticState pushed = Solve(kForce_N);
+  Fit(SeenFrameOf(pushed));
+  report_.Judge(t_s_, &fit_);
+  EXPECT_TRUE(report_.Contacts(fit_).empty());
+  Fit(SeenFrameOf(pushed));
+  report_.Judge(t_s_, &fit_);
+  const std::vector<ContactForce> contacts = report_.Contacts(fit_);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].name, "finger");
+  EXPECT_NEAR(contacts[0].force_N.norm(), kForce_N, 2.0 * contacts[0].ci95_N);
+  EXPECT_LT(contacts[0].ci95_N, 0.3 * kForce_N);
+}
+
+TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
+  const fem::StaticState pushed = Solve(kForce_N);
+  for (int k = 0; k < 2; ++k) {
+    Fit(SeenFrameOf(pushed));
+    report_.Judge(t_s_, &fit_);
+  }
+  ASSERT_TRUE(fit_.located().empty());
+  const double seen_m = report_.Contacts(fit_).at(0).location_ci95_m;
+  const double radius = std::sqrt(ChiSquaredQuantile(0.95, 2));  // of two directions, in sigmas
+  EXPECT_GE(seen_m, 0.999 * radius * kSeenSigma_m);
+  ASSERT_TRUE(fit_.Locate(SeenFrameOf(pushed), bias_).ok());
+  ASSERT_EQ(fit_.located().size(), 1u);
+  const double fitted_m = report_.Contacts(fit_).at(0).location_ci95_m;
+  EXPECT_GT(fitted_m, 0.0);
+  EXPECT_LT(fitted_m, seen_m);
+}
+
+TEST_F(Contacts, ThatNobodySeesAreFoundAndAtRestNoneIs) {
+  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
+  const ShapeFrame rest = FrameOf(free_);
+  for (int k = 0; k < 3; ++k) {
+    Fit(rest);
+    ASSERT_TRUE(hidden_.Find(rest, bias_).ok());
+    EXPECT_TRUE(fit_.sites().empty());
+  }
+  const ShapeFrame frame = FrameOf(Solve(kForce_N));
+  Fit(frame);
+  ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  EXPECT_TRUE(fit_.sites()[0].hidden);
+  EXPECT_LT((fit_.sites()[0].centre.rest_m - place_m_).norm(), 0.02);
+  EXPECT_NEAR(fit_.ForceAt(0).norm(), kForce_N, 0.3 * kForce_N);
+}
+
+TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {
+  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
+  const ShapeFrame frame = SeenFrameOf(Solve(kForce_N));
+  for (int k = 0; k < 3; ++k) {
+    Fit(frame);
+    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+  }
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  EXPECT_FALSE(fit_.sites()[0].hidden);
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation
