@@ -49,7 +49,11 @@ double MedianSmallestForce_N(SensingChain& chain) {
 }  // namespace
 
 SensingSets::SensingSets(const SensingSize& size)
-    : size_(size), scene_(FourLeg(), test_support::BallScenario(), size.seed) {}
+    : size_(size),
+      scene_(FourLeg(),
+             size.converged_truth ? test_support::ConvergedBallScenario()
+                                  : test_support::BallScenario(),
+             size.seed) {}
 
 SensingChain& SensingSets::ChainOf(Eyes eyes, bool weights_given) {
   std::unique_ptr<SensingChain>& chain = chains_[{eyes, weights_given}];

@@ -25,6 +25,7 @@ inline constexpr std::array<int, 6> kTableComputed_mN = {230, 434, 634, 756, 873
 struct SensingSize {
   int contacts = 10;
   int untouched_frames = 300;
+  bool converged_truth = false;  ///< ConvergedBallScenario in place of BallScenario
   std::uint64_t seed = 1;
 };
 

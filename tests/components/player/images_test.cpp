@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -79,7 +81,8 @@ TEST_F(PlayedImages, RefusesRecordingsWithoutAny) {
             "recording 'c' has no images: nothing to play");
 }
 
-/// Answers each depth image as perception and estimator together do; leaves some unanswered once.
+/// Answers each frame as perception and estimator together do, once its cables, depth and colour
+/// have all come: topics are not in step with each other. Leaves some unanswered once.
 class FakeChain {
  public:
   FakeChain()
@@ -92,36 +95,63 @@ class FakeChain {
     node_.loop.Every(std::chrono::milliseconds(5), [] {});
     node_.loop.Attach(joint_states_, [this] {
       for (const auto& state : joint_states_.Take()) {
-        last_cables_ns_ = dds::StampNs(state.header.stamp);
+        cables_ns_ = dds::StampNs(state.header.stamp);
+        TryFrame();
       }
     });
     node_.loop.Attach(depths_, [this] {
-      for (const auto& image : depths_.Take()) depth_ = image.data._buffer[0];
+      for (const auto& image : depths_.Take()) {
+        depth_ns_ = dds::StampNs(image.header.stamp);
+        depth_ = image.data._buffer[0];
+        TryFrame();
+      }
     });
     node_.loop.Attach(colors_, [this] {
-      for (const auto& image : colors_.Take()) color_ns_ = dds::StampNs(image.header.stamp);
+      for (const auto& image : colors_.Take()) {
+        color_ns_ = dds::StampNs(image.header.stamp);
+        TryFrame();
+      }
     });
-    node_.loop.Attach(infos_, [this] { TakeInfos(); });
+    node_.loop.Attach(infos_, [this] {
+      for (const auto& info : infos_.Take()) {
+        waiting_ =
+            Frame{dds::StampNs(info.header.stamp), info.epoch, std::string(dds::Text(info.device))};
+        TryFrame();
+      }
+    });
   }
 
   dds::TestNode& node() { return node_; }
+  /// Epoch and first pixel of each frame; one that is sent again though it was answered (the answer
+  /// was slow) counts once.
   const std::vector<std::string>& frames() const { return frames_; }
   void IgnoreOnce(std::size_t frame) { ignored_ = frame; }
 
  private:
-  void TakeInfos() {
-    for (const auto& info : infos_.Take()) {
-      const std::int64_t stamp_ns = dds::StampNs(info.header.stamp);
-      // Topics are not in step with each other: what belongs to a frame may come a little later.
-      EXPECT_LE(last_cables_ns_, stamp_ns);
-      EXPECT_LE(color_ns_, stamp_ns);
-      frames_.push_back(std::to_string(info.epoch) + ":" + std::to_string(depth_));
-      if (frames_.size() == ignored_) continue;
-      dds::Message<idl::palpate_msgs::ForceArray> forces;
-      dds::SetHeader(forces->header, stamp_ns, "robot");
-      dds::SetText(forces->recording, dds::Text(info.device));
-      EXPECT_TRUE(forces_.Write(forces));
+  struct Frame {
+    std::int64_t stamp_ns = 0;
+    std::uint32_t epoch = 0;
+    std::string device;
+    bool operator==(const Frame&) const = default;
+  };
+
+  /// Takes the waiting frame if all of it is there.
+  void TryFrame() {
+    if (!waiting_) return;
+    const Frame frame = *waiting_;
+    for (const std::int64_t part_ns : {cables_ns_, depth_ns_, color_ns_}) {
+      if (part_ns != frame.stamp_ns) return;
     }
+    waiting_.reset();
+    if (answered_ != frame) {
+      frames_.push_back(std::to_string(frame.epoch) + ":" + std::to_string(depth_));
+      if (frames_.size() == ignored_) return;
+    }
+    answered_ = frame;
+    dds::Message<idl::palpate_msgs::ForceArray> forces;
+    dds::SetHeader(forces->header, frame.stamp_ns, "robot");
+    dds::SetText(forces->recording, frame.device);
+    EXPECT_TRUE(forces_.Write(forces));
   }
 
   dds::TestNode node_;
@@ -130,9 +160,11 @@ class FakeChain {
   dds::Reader<idl::sensor_msgs::Image> depths_;
   dds::Reader<idl::sensor_msgs::Image> colors_;
   dds::Reader<idl::palpate_msgs::FrameInfo> infos_;
-  std::vector<std::string> frames_;  ///< epoch and first pixel
-  std::int64_t last_cables_ns_ = -1, color_ns_ = -1;
-  int depth_ = -1;
+  std::vector<std::string> frames_;
+  std::int64_t cables_ns_ = -1, depth_ns_ = -1, color_ns_ = -1;  ///< of what came last
+  int depth_ = -1;                                               ///< first pixel
+  std::optional<Frame> waiting_;                                 ///< not all of it has come yet
+  std::optional<Frame> answered_;                                ///< the last one
   std::size_t ignored_ = 0;
 };
 

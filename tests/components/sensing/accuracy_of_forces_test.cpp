@@ -23,7 +23,7 @@ class Forces : public testing::TestWithParam<Eyes> {
   static constexpr int kLearningFrames = 12;
   static constexpr double kDegree = std::numbers::pi / 180.0;
 
-  Forces() : scene_{FourLeg(), QuickBallScenario(), 1}, chain_{FourLeg(), scene_, Settings(), 1} {
+  Forces() : scene_{FourLeg(), BallScenario(), 1}, chain_{FourLeg(), scene_, Settings(), 1} {
     chain_.Learn(kLearningFrames);
   }
 

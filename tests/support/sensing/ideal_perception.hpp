@@ -15,7 +15,7 @@
 
 namespace palpate::test_support {
 
-enum class TrueLabel : char { kElse, kRobot, kTool };
+enum class TrueLabel : char { kElse, kRobot };
 
 /// What perception would give if it knew the truth: for tests of what comes after it, and to
 /// measure it by. For cameras without faults in pose and lens.

@@ -80,8 +80,14 @@ std::vector<force_estimation::SeenContact> SensingChain::IdealContacts() {
 
 /// As palpate-perception and what converts between the processes do.
 force_estimation::ShapeFrame SensingChain::Perceive() {
+  const rgbd::RgbdFrame* images = &scene_.frame();
+  if (faults_.images) {
+    faulty_ = *images;
+    faults_.images(&faulty_);
+    images = &faulty_;
+  }
   const perception::Observation& seen =
-      perception_.Update(scene_.frame(), has_prediction_ ? &prediction_ : nullptr);
+      perception_.Update(*images, has_prediction_ ? &prediction_ : nullptr);
   force_estimation::ShapeFrame frame;
   frame.cloud = seen.frame.robot;
   frame.T_robot_camera = scene_.T_robot_camera();
@@ -103,6 +109,7 @@ const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   }
   frame_.t_s = 1e-9 * static_cast<double>(scene_.frame().stamp_ns);
   frame_.cables = scene_.Cables();
+  if (faults_.cables) faults_.cables(&frame_.cables);
   frame_.untouched = untouched;
   const force_estimation::ForceEstimate& estimate = estimator_.Update(frame_);
   if (force_estimation::PredictsShape(estimate)) {

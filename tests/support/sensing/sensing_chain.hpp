@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
@@ -35,6 +37,12 @@ struct ChainSettings {
   bool weights_given = false;
 };
 
+/// What goes wrong on the way to our own perception and to the estimator; empty: nothing.
+struct ChainFaults {
+  std::function<void(rgbd::RgbdFrame*)> images;
+  std::function<void(std::vector<robot::CableCommand>*)> cables;
+};
+
 /// From the camera's frames of a scene to forces: the robot file's model, which knows nothing of
 /// the scene's, behind ideal perception or our own, which is fed with the last predicted surface.
 class SensingChain {
@@ -48,6 +56,10 @@ class SensingChain {
 
   /// Takes a frame of the scene as it is. The estimate holds until the next call.
   const force_estimation::ForceEstimate& Take(bool untouched = false);
+
+  void SetFaults(ChainFaults faults) { faults_ = std::move(faults); }
+  /// What our own perception believes of the camera from now on, be it right or not.
+  void TellCamera(const rgbd::RgbdCamera& camera) { perception_.SetCamera(camera); }
 
   force_estimation::ShapeForceEstimator& estimator() { return estimator_; }
   /// What the estimator was given last.
@@ -70,6 +82,8 @@ class SensingChain {
   scenario::Random random_;
   std::map<std::string, Eigen::Vector3d> location_error_m_;  ///< of the tools that touch
   force_estimation::ShapeFrame frame_;
+  ChainFaults faults_;
+  rgbd::RgbdFrame faulty_;
 };
 
 }  // namespace palpate::test_support

@@ -38,6 +38,9 @@ robot::RobotDescription FourLeg() {
 scenario::Scenario BallScenario() {
   scenario::Scenario scenario =
       scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/pushes.yaml", app::LoadYaml);
+  scenario.body =
+      scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/sensing.yaml", app::LoadYaml)
+          .body;
   scenario.tools = {Ball("ball_8", 0.008, {0.15, 0.30, 0.80}),
                     Ball("ball_10", 0.010, {0.15, 0.65, 0.30}),
                     Ball("ball_12", 0.012, {0.80, 0.70, 0.20})};
@@ -50,11 +53,10 @@ scenario::Scenario BallScenario() {
   return scenario;
 }
 
-scenario::Scenario QuickBallScenario() {
+scenario::Scenario ConvergedBallScenario() {
   scenario::Scenario scenario = BallScenario();
-  scenario.body =
-      scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/sensing.yaml", app::LoadYaml)
-          .body;
+  scenario.body = {};
+  scenario.body.refine = 1;
   return scenario;
 }
 
@@ -102,7 +104,7 @@ const rgbd::RgbdFrame& SensingScene::TakeFrame() {
   view.t_s = static_cast<double>(frames_++) / scenario_.camera->rate_hz;
   view.nodes_m = state_.nodes_m;
   view.tools = state_.inputs.tools;
-  view.T_robot_camera = T_robot_camera();
+  view.T_robot_camera = T_robot_camera() * unknown_turn_;
   camera_.Take(view, &frame_);
   frame_.stamp_ns = std::llround(1e9 * view.t_s);
   return frame_;

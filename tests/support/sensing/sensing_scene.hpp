@@ -24,11 +24,13 @@ namespace palpate::test_support {
 /// config/robots/four_leg.yaml
 robot::RobotDescription FourLeg();
 
-/// Bench and camera of config/scenarios/pushes.yaml, with balls of 8, 10 and 12 mm radius and
-/// friction 0.3 (ball_8, ball_10, ball_12), each of its own colour, and a hand (hand).
+/// Bench and camera of config/scenarios/pushes.yaml with the body of config/scenarios/sensing.yaml,
+/// which moves as the converged one does; balls of 8, 10 and 12 mm radius and friction 0.3 (ball_8,
+/// ball_10, ball_12), each of its own colour, and a hand (hand).
 scenario::Scenario BallScenario();
-/// The same with the body of config/scenarios/sensing.yaml, which takes a fifth of the time.
-scenario::Scenario QuickBallScenario();
+/// The same with the converged body itself: the robot file's mesh cut in eight, its element and
+/// modulus. Takes some hundred times as long.
+scenario::Scenario ConvergedBallScenario();
 
 /// The truth of one instant.
 struct SceneState {
@@ -60,6 +62,9 @@ class SensingScene {
   /// robot is: for states that were kept.
   void Show(const SceneState& state) { state_ = state; }
 
+  /// The camera looks elsewhere from now on, turned about itself, and nobody is told.
+  void TurnCamera(const Eigen::Quaterniond& turn) { unknown_turn_ = turn; }
+
   /// The next of the frames that the camera takes of what is there, 1/rate_hz later each, with
   /// noise. Holds until the next call.
   const rgbd::RgbdFrame& TakeFrame();
@@ -86,6 +91,7 @@ class SensingScene {
   virtual_camera::VirtualCamera camera_;
   double t_s_ = 0.0;
   SceneState state_;
+  Eigen::Quaterniond unknown_turn_ = Eigen::Quaterniond::Identity();
   std::int64_t frames_ = 0;
   rgbd::RgbdFrame frame_;
 };

@@ -61,8 +61,12 @@ VirtualBench::VirtualBench(const TestFolder& folder, Settings settings)
   WriteFile(scenario_, ScenarioText(settings_.noise));
 }
 
-void VirtualBench::StartRobot() {
-  robot = std::make_unique<Process>("palpate-virtual-robot", SceneArguments(), Log("robot"),
+void VirtualBench::StartRobot(const std::vector<std::string>& more_arguments) {
+  std::vector<std::string> arguments = SceneArguments();
+  arguments.insert(arguments.end(), settings_.robot_arguments.begin(),
+                   settings_.robot_arguments.end());
+  arguments.insert(arguments.end(), more_arguments.begin(), more_arguments.end());
+  robot = std::make_unique<Process>("palpate-virtual-robot", arguments, Log("robot"),
                                     settings_.bench_wrapper);
 }
 

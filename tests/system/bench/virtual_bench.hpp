@@ -24,11 +24,12 @@ class VirtualBench {
     double loss = 0.0;                            ///< of the stream's packets
     std::string noise = "none";                   ///< of the depth image: none | stereo
     std::vector<std::string> bench_wrapper = {};  ///< in front of robot and camera
+    std::vector<std::string> robot_arguments = {};
   };
 
   VirtualBench(const TestFolder& folder, Settings settings);
 
-  void StartRobot();
+  void StartRobot(const std::vector<std::string>& more_arguments = {});
   void StartCamera();
   void StartCapture();
   void StartAll();

@@ -17,6 +17,7 @@
 #include "tests/libs/dds/test_participant.hpp"
 #include "tests/system/process.hpp"
 #include "tests/system/sample_data.hpp"
+#include "tests/system/small_camera.hpp"
 
 /// palpate-player, palpate-perception and palpate-force-estimation on recorded images against
 /// `palpate estimate`.
@@ -28,21 +29,10 @@ using std::chrono::seconds;
 constexpr auto kUntouched = "shape.untouched_frames=4";
 
 /// A ball that presses on the hub, in two recordings, seen by a small camera.
-constexpr auto kScenario = R"(name: pressed
+const std::string kScenario = R"(name: pressed
 body: {mesh_file: four_leg_coarse.msh, refine: 0, element: tet10}
-motion: {mode: quasi_static, time_step_s: 0.1}
-tools: [{name: ball, shape: sphere, radius_m: 0.010, color_rgb: [0.15, 0.30, 0.80]}]
-camera:
-  depth: {width_px: 424, height_px: 240, fx_px: 212, fy_px: 212, cx_px: 211.5, cy_px: 119.5,
-          unit_m: 0.0001, baseline_m: 0.05}
-  color: {width_px: 424, height_px: 240, fx_px: 212, fy_px: 212, cx_px: 211.5, cy_px: 119.5,
-          registered_to_depth: true}
-  eye_m: [0.343, -0.198, 0.275]
-  target_m: [0, 0, 0.065]
-  rate_hz: 10
-  noise: {sensor: stereo}
-rest_between_s: 0
-recordings:
+)" + kBallBeforeASmallCamera +
+                              R"(recordings:
   - name: a_press
     kind: free
     duration_s: 1
