@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-# palpate_ipopt: the interior-point solver Ipopt (Debian's coinor-libipopt-dev), to compare with.
-# Not defined where it is not installed: what needs it says so and is left out. Only libipopt itself
+# palpate_ipopt: the interior-point solver Ipopt (coinor-libipopt-dev). Only libipopt itself
 # is linked: pkg-config also lists its own BLAS and LAPACK, and programs of ours have one BLAS.
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
@@ -9,10 +8,11 @@ if(PKG_CONFIG_FOUND)
 endif()
 find_library(IPOPT_LIBRARY ipopt HINTS ${IPOPT_LIBRARY_DIRS})
 find_path(IPOPT_INCLUDE_DIR IpTNLP.hpp HINTS ${IPOPT_INCLUDE_DIRS} PATH_SUFFIXES coin coin-or)
-if(IPOPT_LIBRARY AND IPOPT_INCLUDE_DIR)
-  add_library(palpate_ipopt INTERFACE)
-  target_include_directories(palpate_ipopt SYSTEM INTERFACE ${IPOPT_INCLUDE_DIR})
-  # Ipopt 3.11's headers include <cstddef> only where they are told that it exists.
-  target_compile_definitions(palpate_ipopt INTERFACE HAVE_CSTDDEF)
-  target_link_libraries(palpate_ipopt INTERFACE ${IPOPT_LIBRARY})
+if(NOT IPOPT_LIBRARY OR NOT IPOPT_INCLUDE_DIR)
+  message(FATAL_ERROR "Ipopt is not installed: apt install coinor-libipopt-dev")
 endif()
+add_library(palpate_ipopt INTERFACE)
+target_include_directories(palpate_ipopt SYSTEM INTERFACE ${IPOPT_INCLUDE_DIR})
+# Ipopt 3.11's headers include <cstddef> only where they are told that it exists.
+target_compile_definitions(palpate_ipopt INTERFACE HAVE_CSTDDEF)
+target_link_libraries(palpate_ipopt INTERFACE ${IPOPT_LIBRARY})

@@ -53,7 +53,7 @@ ElasticBody::ElasticBody(const TetMesh& mesh, std::vector<Material> materials,
     : mesh_(mesh),
       rest_m_(mesh.nodes_m.reshaped()),
       materials_(std::move(materials)),
-      material_of_cell_(material_of_cell) {
+      material_of_cell_{material_of_cell} {
   PALPATE_CHECK(material_of_cell.size() == At(mesh.CellCount()), material_of_cell.size());
   Share(NaturalRowOrder(mesh.NodeCount()), nullptr, 1);
 }
@@ -95,6 +95,12 @@ void ElasticBody::MakeBlocks(const RowOrder& order) {
 void ElasticBody::SetYoungsModulus(int material, double youngs_modulus_Pa) {
   PALPATE_CHECK(youngs_modulus_Pa > 0.0, youngs_modulus_Pa);
   materials_.at(At(material)).youngs_modulus_Pa = youngs_modulus_Pa;
+  for (CellBlocks& law : laws_) law.SetModuli(materials_, material_of_cell_, factor_of_cell_);
+}
+
+void ElasticBody::SetPoissonsRatio(int material, double poissons_ratio) {
+  PALPATE_CHECK(poissons_ratio > -1.0 && poissons_ratio < 0.5, poissons_ratio);
+  materials_.at(At(material)).poissons_ratio = poissons_ratio;
   for (CellBlocks& law : laws_) law.SetModuli(materials_, material_of_cell_, factor_of_cell_);
 }
 

@@ -38,6 +38,8 @@ class ElasticBody {
 
   /// All cells of this material get another modulus; the pattern and the rest shape stay.
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
+  /// The same for Poisson's ratio, in (-1, 0.5), at fixed Young's modulus.
+  void SetPoissonsRatio(int material, double poissons_ratio);
   /// Each cell's moduli are its material's times `factor` [cells], all > 0: of damage or
   /// temperature. At first 1 everywhere.
   void SetCellFactors(const Eigen::VectorXd& factor);

@@ -9,6 +9,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::robot {
 
@@ -33,6 +34,99 @@ CalibratedModulus ReadModulus(const ConfigNode& node) {
   modulus.standard_error_Pa = ReadNumber(map.Require("standard_error_Pa"), kNonNegative);
   map.Finish();
   return modulus;
+}
+
+Eigen::Vector3d ReadErrors(const ConfigNode& node) {
+  if (node.kind != ConfigNode::Kind::kList || node.items.size() != 3) {
+    Refuse(node, "must be a list of three standard errors");
+  }
+  Eigen::Vector3d errors;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    errors[i] = ReadNumber(node.items[static_cast<size_t>(i)], kNonNegative);
+  }
+  return errors;
+}
+
+CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode& error_node) {
+  CalibratedPose pose;
+  pose.T_robot_camera = geometry::ReadPose(pose_node);
+  MapReader errors(error_node);
+  pose.rotation_error_rad = ReadErrors(errors.Require("rotation_rad"));
+  pose.translation_error_m = ReadErrors(errors.Require("translation_m"));
+  errors.Finish();
+  return pose;
+}
+
+CalibratedDrive ReadDrive(const ConfigNode& node) {
+  MapReader map(node);
+  CalibratedDrive drive;
+  drive.cable = ReadText(map.Require("cable"));
+  drive.drive.offset_m = ReadNumber(map.Require("offset_m"), {});
+  drive.standard_error.offset_m = ReadNumber(map.Require("offset_standard_error_m"), kNonNegative);
+  drive.drive.gain = ReadNumber(map.Require("gain"), {});
+  drive.standard_error.gain = ReadNumber(map.Require("gain_standard_error"), kNonNegative);
+  map.Finish();
+  return drive;
+}
+
+Undetermined ReadUndetermined(const ConfigNode& node) {
+  MapReader map(node);
+  Undetermined undetermined;
+  undetermined.name = ReadText(map.Require("name"));
+  undetermined.what_would_tell = ReadText(map.Require("what_would_tell"));
+  map.Finish();
+  return undetermined;
+}
+
+/// The items of an optional list.
+template <typename Item>
+std::vector<Item> ReadItems(MapReader* map, const char* key, Item (*read)(const ConfigNode&)) {
+  std::vector<Item> items;
+  const ConfigNode* list = map->Optional(key);
+  if (list == nullptr) return items;
+  if (list->kind != ConfigNode::Kind::kList) Refuse(*list, "must be a list");
+  for (const ConfigNode& node : list->items) items.push_back(read(node));
+  return items;
+}
+
+std::string FormatPoseAndErrors(const CalibratedPose& pose) {
+  return "T_robot_camera: " + geometry::FormatPose(pose.T_robot_camera) +
+         "\nT_robot_camera_standard_error: {rotation_rad: " +
+         geometry::FormatVector(pose.rotation_error_rad) +
+         ", translation_m: " + geometry::FormatVector(pose.translation_error_m) + "}\n";
+}
+
+std::string FormatDrives(const std::vector<CalibratedDrive>& drives) {
+  if (drives.empty()) return {};
+  std::string text = "drives:\n";
+  for (const CalibratedDrive& drive : drives) {
+    text += "  - {cable: " + Quoted(drive.cable) +
+            ", offset_m: " + FormatNumber(drive.drive.offset_m) +
+            ", offset_standard_error_m: " + FormatNumber(drive.standard_error.offset_m) +
+            ", gain: " + FormatNumber(drive.drive.gain) +
+            ", gain_standard_error: " + FormatNumber(drive.standard_error.gain) + "}\n";
+  }
+  return text;
+}
+
+std::string FormatUndetermined(const std::vector<Undetermined>& undetermined) {
+  if (undetermined.empty()) return {};
+  std::string text = "undetermined:\n";
+  for (const Undetermined& number : undetermined) {
+    text += "  - {name: " + Quoted(number.name) +
+            ", what_would_tell: " + Quoted(number.what_would_tell) + "}\n";
+  }
+  return text;
+}
+
+int CableIndex(const RobotModel& model, const std::string& cable) {
+  const std::vector<std::string> names = model.CableNames();
+  const auto found = std::find(names.begin(), names.end(), cable);
+  if (found == names.end()) {
+    throw InputError("the calibration holds the drive of cable '" + cable +
+                     "', which the robot file does not have" + DidYouMean(cable, names));
+  }
+  return static_cast<int>(found - names.begin());
 }
 
 int MaterialIndex(const RobotBody& body, const std::string& part) {
@@ -81,11 +175,15 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   calibration.date_utc = ReadText(map.Require("date_utc"));
   calibration.data = ReadText(map.Require("data"));
   calibration.data_hash = ReadText(map.Require("data_hash"));
-  const ConfigNode& moduli = map.Require("moduli");
-  if (moduli.kind != ConfigNode::Kind::kList || moduli.items.empty()) {
-    Refuse(moduli, "must be a list with at least one modulus");
+  calibration.moduli = ReadItems(&map, "moduli", ReadModulus);
+  if (const ConfigNode* pose = map.Optional("T_robot_camera")) {
+    calibration.pose = ReadCalibratedPose(*pose, map.Require("T_robot_camera_standard_error"));
   }
-  for (const ConfigNode& node : moduli.items) calibration.moduli.push_back(ReadModulus(node));
+  calibration.drives = ReadItems(&map, "drives", ReadDrive);
+  calibration.undetermined = ReadItems(&map, "undetermined", ReadUndetermined);
+  if (calibration.moduli.empty() && !calibration.pose && calibration.drives.empty()) {
+    Refuse(root, "must hold moduli, T_robot_camera or drives: what was calibrated");
+  }
   calibration.residual_rms_m = ReadNumber(map.Require("residual_rms_m"), kNonNegative);
   calibration.chi_squared = ReadNumber(map.Require("chi_squared"), kNonNegative);
   calibration.degrees_of_freedom = ReadInteger(map.Require("degrees_of_freedom"), 0, 1 << 30);
@@ -108,12 +206,15 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   text += "date_utc: " + Quoted(calibration.date_utc) + "\n";
   text += "data: " + Quoted(calibration.data) + "\n";
   text += "data_hash: " + Quoted(calibration.data_hash) + "\n";
-  text += "moduli:\n";
+  if (!calibration.moduli.empty()) text += "moduli:\n";
   for (const CalibratedModulus& modulus : calibration.moduli) {
     text += "  - {part: " + Quoted(modulus.part) +
             ", youngs_modulus_Pa: " + FormatNumber(modulus.youngs_modulus_Pa) +
             ", standard_error_Pa: " + FormatNumber(modulus.standard_error_Pa) + "}\n";
   }
+  if (calibration.pose) text += FormatPoseAndErrors(*calibration.pose);
+  text += FormatDrives(calibration.drives);
+  text += FormatUndetermined(calibration.undetermined);
   text += "residual_rms_m: " + FormatNumber(calibration.residual_rms_m) + "\n";
   text += "chi_squared: " + FormatNumber(calibration.chi_squared) + "\n";
   text += "degrees_of_freedom: " + std::to_string(calibration.degrees_of_freedom) + "\n";
@@ -138,6 +239,13 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
   std::vector<int> materials;  // all of them first, so that a refusal leaves the model as it was
   for (const CalibratedModulus& modulus : calibration.moduli) {
     materials.push_back(MaterialIndex(model->body(), modulus.part));
+  }
+  std::vector<int> cables;
+  for (const CalibratedDrive& drive : calibration.drives) {
+    cables.push_back(CableIndex(*model, drive.cable));
+  }
+  for (size_t k = 0; k < cables.size(); ++k) {
+    model->SetDrive(cables[k], calibration.drives[k].drive);
   }
   for (size_t k = 0; k < materials.size(); ++k) {
     model->SetYoungsModulus(materials[k], calibration.moduli[k].youngs_modulus_Pa);

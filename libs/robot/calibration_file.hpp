@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,27 @@ struct CalibratedModulus {
   std::string part;
   double youngs_modulus_Pa = 0.0;
   double standard_error_Pa = 0.0;
+};
+
+/// Where the camera stands.
+struct CalibratedPose {
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+  /// About and along the robot's axes.
+  Eigen::Vector3d rotation_error_rad = Eigen::Vector3d::Zero();
+  Eigen::Vector3d translation_error_m = Eigen::Vector3d::Zero();
+};
+
+/// How a cable's displacement is read (RobotModel::SetDrive).
+struct CalibratedDrive {
+  std::string cable;
+  DriveCalibration drive;
+  DriveCalibration standard_error;
+};
+
+/// A number that was asked for and that the data did not tell; it stayed where it was believed.
+struct Undetermined {
+  std::string name;
+  std::string what_would_tell;  ///< the recording that determines it
 };
 
 /// What `palpate calibrate` finds and `palpate estimate` and the processes use. A modulus is bound
@@ -35,7 +59,10 @@ struct CalibrationFile {
   std::string date_utc;  ///< "2026-01-31T12:00:00Z"
   std::string data;      ///< what it was fitted to, for people
   std::string data_hash;
-  std::vector<CalibratedModulus> moduli;
+  std::vector<CalibratedModulus> moduli;  ///< empty: those of the robot file hold
+  std::optional<CalibratedPose> pose;
+  std::vector<CalibratedDrive> drives;
+  std::vector<Undetermined> undetermined;
   double residual_rms_m = 0.0;
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
@@ -50,9 +77,10 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
 /// Throws RunError where it cannot be written.
 void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesystem::path& file);
 
-/// Gives the model the calibrated moduli. Throws InputError, naming both sides, where the
-/// calibration is another robot's, another mesh's, element's or material's, or names a region that
-/// the robot does not have.
+/// Gives the model the calibrated moduli and drives; where the camera stands is the caller's
+/// business. Throws InputError, naming both sides, where the
+/// calibration is another robot's, another mesh's, element's or material's, or names a region or a
+/// cable that the robot does not have.
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
 
 /// Largest relative standard error of the moduli; 0 without moduli.

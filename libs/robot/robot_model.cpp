@@ -44,7 +44,8 @@ RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
       linearisation_(elastic_body_, Constraints(), body_.fixed, solver),
       static_solver_(linearisation_, settings),
       cable_rest_length_m_(static_cast<Eigen::Index>(cables_.size())),
-      gravity_m_s2_(body_.gravity_m_s2) {
+      gravity_m_s2_(body_.gravity_m_s2),
+      drives_(cables_.size()) {
   for (int c = 0; c < CableCount(); ++c) cable_rest_length_m_[c] = cable(c).rest_length_m();
 }
 
@@ -73,6 +74,19 @@ fem::SurfacePatch RobotModel::Patch(const Eigen::Vector3d& position_m, double ra
 void RobotModel::SetYoungsModulus(int material, double youngs_modulus_Pa) {
   elastic_body_.SetYoungsModulus(material, youngs_modulus_Pa);
   body_.materials.at(static_cast<size_t>(material)).youngs_modulus_Pa = youngs_modulus_Pa;
+}
+
+void RobotModel::SetPoissonsRatio(int material, double poissons_ratio) {
+  elastic_body_.SetPoissonsRatio(material, poissons_ratio);
+  body_.materials.at(static_cast<size_t>(material)).poissons_ratio = poissons_ratio;
+}
+
+CableCommand RobotModel::CommandFor(int cable, std::optional<double> displacement_m,
+                                    std::optional<double> tension_N, CableInput preferred) const {
+  if (displacement_m) {
+    displacement_m = drives_.at(static_cast<size_t>(cable)).TakenIn_m(*displacement_m);
+  }
+  return ChooseCommand(displacement_m, tension_N, preferred);
 }
 
 void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {

@@ -35,6 +35,15 @@ enum class CableInput { kDisplacement, kTension };
 CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
                            CableInput preferred);
 
+/// How far a drive's reading of its displacement is off: it takes in (1 + gain) u + offset_m where
+/// it says u.
+struct DriveCalibration {
+  double offset_m = 0.0;
+  double gain = 0.0;
+
+  double TakenIn_m(double displacement_m) const { return (1.0 + gain) * displacement_m + offset_m; }
+};
+
 /// What one cable does in a state.
 struct CableState {
   double length_m = 0.0;
@@ -72,12 +81,22 @@ class RobotModel {
 
   /// Moduli of body (0) and regions (k + 1); see RobotBody::materials.
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
+  void SetPoissonsRatio(int material, double poissons_ratio);
   /// Friction of a cable in its eyelets (cable.hpp); at first the robot file's, sliding in. The
   /// static solver then takes more steps; what a load history does to the direction of sliding is
   /// the caller's business.
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
+  /// How a cable's measured displacements are read; at first as they are.
+  void SetDrive(int cable, const DriveCalibration& drive) {
+    drives_.at(static_cast<size_t>(cable)) = drive;
+  }
+  const std::vector<DriveCalibration>& drives() const { return drives_; }  ///< [cables]
+  /// The command for what was measured of a cable (ChooseCommand), read as its drive asks for.
+  CableCommand CommandFor(int cable, std::optional<double> displacement_m,
+                          std::optional<double> tension_N, CableInput preferred) const;
+
   /// Gravity in the robot frame; at first the robot file's.
   void SetGravity(const Eigen::Vector3d& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
   const Eigen::Vector3d& gravity_m_s2() const { return gravity_m_s2_; }
@@ -107,6 +126,7 @@ class RobotModel {
   fem::StaticSolver static_solver_;
   Eigen::VectorXd cable_rest_length_m_;
   Eigen::Vector3d gravity_m_s2_;
+  std::vector<DriveCalibration> drives_;  ///< [cables]
 };
 
 }  // namespace palpate::robot

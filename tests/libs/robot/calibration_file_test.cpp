@@ -163,7 +163,60 @@ TEST_F(CalibrationFileTest, RefusesAFileThatIsNoCalibration) {
   EXPECT_THAT(ReadRefusal("robot: x\n"), HasSubstr("mesh_hash"));
   std::string text = Altered("moduli:\n", "moduli: []\n#");
   for (size_t at = 0; (at = text.find("\n  - ", at)) != std::string::npos;) text[at + 1] = '#';
-  EXPECT_THAT(ReadRefusal(text), HasSubstr("at least one"));
+  EXPECT_THAT(ReadRefusal(text), HasSubstr("must hold moduli, T_robot_camera or drives"));
+}
+
+TEST_F(CalibrationFileTest, HoldsPoseAndDrivesAndWhatIsNotDetermined) {
+  CalibrationFile written = Example();
+  written.moduli.clear();
+  CalibratedPose pose;
+  pose.T_robot_camera = Eigen::Translation3d(-0.265, 0.264, 0.0128) *
+                        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  pose.rotation_error_rad = {1e-3, 2e-3, 3e-3};
+  pose.translation_error_m = {1e-4, 2e-4, 3e-4};
+  written.pose = pose;
+  written.drives = {{"pull", {7e-4, 0.05}, {1e-5, 0.01}}};
+  written.undetermined = {{"cable_offset:west", "a recording with: it \"pulled\""}};
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  EXPECT_TRUE(read.moduli.empty());
+  ASSERT_TRUE(read.pose);
+  EXPECT_TRUE(read.pose->T_robot_camera.isApprox(pose.T_robot_camera, 1e-15));
+  EXPECT_EQ(read.pose->rotation_error_rad, pose.rotation_error_rad);
+  EXPECT_EQ(read.pose->translation_error_m, pose.translation_error_m);
+  ASSERT_EQ(read.drives.size(), 1U);
+  EXPECT_EQ(read.drives[0].cable, "pull");
+  EXPECT_EQ(read.drives[0].drive.offset_m, 7e-4);
+  EXPECT_EQ(read.drives[0].drive.gain, 0.05);
+  EXPECT_EQ(read.drives[0].standard_error.offset_m, 1e-5);
+  EXPECT_EQ(read.drives[0].standard_error.gain, 0.01);
+  ASSERT_EQ(read.undetermined.size(), 1U);
+  EXPECT_EQ(read.undetermined[0].name, "cable_offset:west");
+  EXPECT_EQ(read.undetermined[0].what_would_tell, "a recording with: it \"pulled\"");
+}
+
+TEST_F(CalibrationFileTest, DrivesReadWhatIsMeasured) {
+  CalibrationFile calibration = Example();
+  calibration.moduli.clear();
+  const std::string cable = model_->CableNames().front();
+  calibration.drives = {{cable, {7e-4, 0.05}, {}}};
+  ApplyCalibration(calibration, model_.get());
+  const CableCommand command = model_->CommandFor(0, 0.01, {}, CableInput::kDisplacement);
+  EXPECT_EQ(command.kind, CableCommand::Kind::kDisplacement);
+  EXPECT_DOUBLE_EQ(command.value, 1.05 * 0.01 + 7e-4);
+  EXPECT_EQ(model_->CommandFor(0, {}, 2.0, CableInput::kDisplacement).value, 2.0);
+  calibration.drives[0].cable = cable + "x";
+  EXPECT_THAT(ApplyRefusal(calibration), HasSubstr(cable + "x"));
+}
+
+TEST_F(CalibrationFileTest, APoseNeedsItsErrors) {
+  CalibrationFile written = Example();
+  written.pose = CalibratedPose{};
+  WriteCalibrationFile(written, file_);
+  std::string text = ReadFile(file_);
+  const std::string key = "T_robot_camera_standard_error";
+  text.replace(text.find(key), key.size(), "# ");
+  EXPECT_THAT(ReadRefusal(text), HasSubstr(key));
 }
 
 TEST_F(CalibrationFileTest, RefusesAFileThatIsNotThere) {
