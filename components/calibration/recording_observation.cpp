@@ -5,8 +5,8 @@
 
 #include <optional>
 
+#include "components/calibration/recording_phase.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/text.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::calibration {
@@ -66,30 +66,6 @@ void ObserveReference(const experiment::Experiment& experiment,
   }
 }
 
-std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
-                                          const robot::RobotModel& model,
-                                          robot::CableInput preferred, double t_s) {
-  using Quantity = experiment::CableQuantity;
-  std::vector<robot::CableCommand> commands;
-  for (const std::string& cable : model.CableNames()) {
-    commands.push_back(robot::ChooseCommand(
-        experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
-        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
-  }
-  return commands;
-}
-
-robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
-  const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
-  constexpr double kFarthest_m = 0.02;
-  if (patch.distance_m > kFarthest_m) {
-    throw InputError(load.where, "the load lies " + FormatNumber(patch.distance_m) +
-                                     " m from the body's surface; at most " +
-                                     FormatNumber(kFarthest_m) + " m is allowed");
-  }
-  return {patch.weights, load.force_N};
-}
-
 }  // namespace
 
 StaticObservation ObserveRecording(const experiment::Experiment& experiment,
@@ -110,9 +86,7 @@ StaticObservation ObserveRecording(const experiment::Experiment& experiment,
                  &observation.position_m, &observation.variance_m2);
   if (recording.reference) ObserveReference(experiment, recording, T_robot, model, &observation);
   observation.cables = CablesAt(recording, model, preferred, middle_s);
-  for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, middle_s)) {
-    observation.loads.push_back(ToDeadLoad(load, model));
-  }
+  observation.loads = LoadsAt(recording, model, middle_s);
   observation.gravity_m_s2 = experiment::BaseRotation(recording).transpose() * model.gravity_m_s2();
   return observation;
 }

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/cloud/cloud_calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "components/calibration/cloud/cloud_matching.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+/// The search of one calibration, from round to round.
+class Search {
+ public:
+  Search(robot::RobotModel& model, const std::vector<CloudFrame>& frames,
+         const CloudSettings& settings)
+      : model_(model), frames_(frames), settings_(settings) {
+    for (const CloudFrame& frame : frames) {
+      skins_.emplace_back(model.body());
+      thin_.push_back(Thin(frame.cloud, settings.spacing_m));
+      thinner_.push_back(Thin(frame.cloud, settings.search_spacing_m));
+    }
+  }
+
+  CloudCalibration Run(const geometry::RigidTransform& start) {
+    result_.status = Prepare(start);
+    if (result_.status.ok()) result_.status = FindRigid(start);
+    if (result_.status.ok()) result_.status = FitTogether();
+    if (result_.status.ok()) result_.status = CheckResult(start);
+    return std::move(result_);
+  }
+
+ private:
+  Status Prepare(const geometry::RigidTransform& start);
+  Status TakeShapes();
+  Status FindRigid(const geometry::RigidTransform& start);
+  Status FitTogether();
+  void Match();
+  Status CheckResult(const geometry::RigidTransform& start);
+  FrameInputs InputsOf(int frame) const;
+
+  robot::RobotModel& model_;
+  const std::vector<CloudFrame>& frames_;
+  const CloudSettings& settings_;
+  std::vector<SkinInView> skins_;
+  std::vector<ThinCloud> thin_, thinner_;  ///< of the fit and of the search
+  JointSetup setup_;
+  std::vector<double> values_;  ///< of the unknowns, as found last
+  CloudCalibration result_;
+};
+
+Status Search::Prepare(const geometry::RigidTransform& start) {
+  std::vector<CalibrationFrame> frames;
+  for (const CloudFrame& frame : frames_) {
+    frames.push_back({.name = frame.name,
+                      .cables = frame.cables,
+                      .loads = frame.loads,
+                      .gravity_m_s2 = frame.gravity_m_s2});
+  }
+  if (Status status = MakeJointSetup(model_, std::move(frames), &start, settings_.request, &setup_);
+      !status.ok()) {
+    return status;
+  }
+  setup_.fit_pose = true;
+  setup_.marker_offset_sigma_m = 0.0;
+  for (const UnknownPtr& unknown : setup_.unknowns) values_.push_back(unknown->belief().mean);
+  return TakeShapes();
+}
+
+/// Inputs with the unknowns as found last. Those of cables read as they are applied; moduli are in
+/// the model already.
+FrameInputs Search::InputsOf(int frame) const {
+  const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
+  FrameInputs inputs{.cables = given.cables,
+                     .nominal_gravity_m_s2 = given.gravity_m_s2,
+                     .gravity_m_s2 = given.gravity_m_s2};
+  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
+    setup_.unknowns[u]->ApplyToFrame(values_[u], frame, &inputs);
+  }
+  return inputs;
+}
+
+Status Search::TakeShapes() {
+  const Eigen::Vector3d gravity_m_s2 = model_.gravity_m_s2();
+  for (std::size_t f = 0; f < skins_.size(); ++f) {
+    const FrameInputs inputs = InputsOf(static_cast<int>(f));
+    model_.SetGravity(inputs.gravity_m_s2);
+    fem::StaticState state = model_.RestState();
+    const fem::StaticResult solved = model_.Solve(inputs.cables, setup_.frames[f].loads, &state);
+    model_.SetGravity(gravity_m_s2);
+    if (!solved.status.ok()) {
+      return {solved.status.code(), frames_[f].name + ": " + solved.status.message()};
+    }
+    skins_[f].TakeShape(state.x_m);
+  }
+  return Status::Ok();
+}
+
+Status Search::FindRigid(const geometry::RigidTransform& start) {
+  const PoseFit fit = SearchPose(skins_, thinner_, start, settings_.search);
+  result_.rigid_T_robot_camera = fit.T_robot_camera;
+  result_.starts = fit.starts;
+  setup_.T_robot_camera = fit.T_robot_camera;
+  if (fit.skin_covered >= settings_.least_cover) return Status::Ok();
+  return {StatusCode::kNotConverged,
+          "no pose near the start explains the clouds (at best " + FormatNumber(fit.skin_covered) +
+              " of the skin that should be seen has points near it): the start is too far off, or "
+              "it is another robot"};
+}
+
+void Search::Match() {
+  result_.matches.resize(skins_.size());
+  for (std::size_t f = 0; f < skins_.size(); ++f) {
+    skins_[f].LookFrom(setup_.T_robot_camera);
+    setup_.frames[f].surface =
+        MatchCloud(skins_[f], thin_[f], setup_.T_robot_camera, settings_, &result_.matches[f]);
+  }
+}
+
+Status Search::FitTogether() {
+  JointSettings joint_settings;
+  joint_settings.solver.huber_threshold = settings_.huber_threshold;
+  // Finer than the noise by far; points are matched again after each fit anyway.
+  joint_settings.solver.step_tolerance = 1e-6;
+  const Eigen::Vector3d middle_m = thin_.front().points_m.rowwise().mean();
+  while (result_.rounds < settings_.max_rounds) {
+    Match();
+    ++result_.rounds;
+    result_.joint = CalibrateJointly(model_, setup_, joint_settings);
+    if (!result_.joint.status.ok()) return result_.joint.status;
+    const std::size_t others = result_.joint.values.size() - values_.size();
+    for (std::size_t u = 0; u < values_.size(); ++u) {
+      values_[u] = result_.joint.values[others + u].value;
+    }
+    const geometry::RigidTransform last = setup_.T_robot_camera;
+    setup_.T_robot_camera = result_.joint.T_robot_camera;
+    if (Status status = TakeShapes(); !status.ok()) return status;
+    const double turned_rad = last.rotation().angularDistance(setup_.T_robot_camera.rotation());
+    const double moved_m = (last * middle_m - setup_.T_robot_camera * middle_m).norm();
+    if (moved_m < settings_.moved_m && turned_rad < settings_.turned_rad) return Status::Ok();
+  }
+  return {StatusCode::kNotConverged, "the camera still moves after " +
+                                         std::to_string(result_.rounds) +
+                                         " rounds of matching and fitting"};
+}
+
+Status Search::CheckResult(const geometry::RigidTransform& start) {
+  Match();
+  const geometry::RigidTransform& found = setup_.T_robot_camera;
+  for (std::size_t f = 0; f < skins_.size(); ++f) {
+    CloudMatch& match = result_.matches[f];
+    match.skin_covered = ShareCovered(skins_[f], thin_[f], found, settings_.search.near_m);
+    if (match.skin_covered < settings_.least_cover || match.rms_m > settings_.most_rms_m) {
+      return {StatusCode::kInvalidInput,
+              frames_[f].name + ": " + FormatNumber(match.skin_covered) +
+                  " of the skin that should be seen has points near it, which lie " +
+                  FormatNumber(match.rms_m) + " m off it (RMS): another robot"};
+    }
+  }
+  if (!IsNear(found, start, thinner_, settings_.search)) {
+    return {StatusCode::kNotConverged,
+            "the clouds fit farther from the start than it may be off: another start is needed"};
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+CloudCalibration CalibrateFromClouds(robot::RobotModel& model,
+                                     const std::vector<CloudFrame>& frames,
+                                     const geometry::RigidTransform& T_robot_camera_start,
+                                     const CloudSettings& settings) {
+  CloudCalibration refused;
+  refused.status = CheckClouds(model, frames, settings);
+  if (!refused.status.ok()) return refused;
+  const std::vector<fem::Material> materials = model.body().materials;
+  CloudCalibration result = Search(model, frames, settings).Run(T_robot_camera_start);
+  if (result.status.ok()) return result;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    model.SetYoungsModulus(static_cast<int>(m), materials[m].youngs_modulus_Pa);
+    model.SetPoissonsRatio(static_cast<int>(m), materials[m].poissons_ratio);
+  }
+  return result;
+}
+
+}  // namespace palpate::calibration

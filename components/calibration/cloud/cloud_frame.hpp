@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libs/rgbd/sensed_cloud.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// A depth camera's cloud of the robot at rest under one setting of its cables, and what is known
+/// of that setting. Points that are not the robot (tools, base, table) are allowed.
+struct CloudFrame {
+  std::string name;                              ///< for messages
+  rgbd::SensedCloud cloud;                       ///< camera frame; colours are not looked at
+  std::vector<robot::CableCommand> cables = {};  ///< one for each cable; kNone: unknown tension
+  std::vector<robot::DeadLoad> loads = {};
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< robot frame
+};
+
+}  // namespace palpate::calibration

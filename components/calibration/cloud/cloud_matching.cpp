@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/cloud/cloud_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace palpate::calibration {
+
+namespace {
+
+struct Candidate {
+  Eigen::Index point;
+  SkinFoot foot;
+  double height_m;  ///< along the normal
+};
+
+/// Points whose line to their foot is farther off the normal than this lie beyond a ridge or an
+/// outline.
+constexpr double kMostAcross_m = 2e-3;
+
+/// Below, a point is left out.
+constexpr double kLeastTrust = 0.03;
+
+double AcrossOf_m(const Candidate& candidate) {
+  const double squared_m2 = candidate.foot.distance_m * candidate.foot.distance_m -
+                            candidate.height_m * candidate.height_m;
+  return std::sqrt(std::max(0.0, squared_m2));
+}
+
+/// 1 at 0, falling smoothly to 0 at 1 and beyond: the root of Tukey's biweight. Points do not come
+/// and go by leaps, which would keep the camera moving for ever.
+double Fading(double share) { return std::max(0.0, 1.0 - share * share); }
+
+std::vector<Candidate> CandidatesOf(const SkinInView& skin, const ThinCloud& cloud,
+                                    const geometry::RigidTransform& T_robot_camera,
+                                    double widest_m) {
+  std::vector<Candidate> candidates;
+  for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
+    const Eigen::Vector3d here_m = T_robot_camera * cloud.points_m.col(k);
+    const std::optional<SkinFoot> foot = skin.FootOf(here_m);
+    if (!foot || foot->distance_m > widest_m) continue;
+    const Candidate candidate{k, *foot, foot->normal.dot(here_m - foot->position_m)};
+    if (AcrossOf_m(candidate) < kMostAcross_m) candidates.push_back(candidate);
+  }
+  return candidates;
+}
+
+/// From the median distance, which is 0.6745 sigma of normal noise.
+double GateOf(const std::vector<Candidate>& candidates, const CloudSettings& settings) {
+  std::vector<double> off_m;
+  for (const Candidate& candidate : candidates) off_m.push_back(std::abs(candidate.height_m));
+  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
+  std::nth_element(off_m.begin(), middle, off_m.end());
+  return std::clamp(settings.gate_sigmas * *middle / 0.6745, settings.narrowest_gate_m,
+                    settings.widest_gate_m);
+}
+
+Status Invalid(const CloudFrame& frame, const std::string& what) {
+  return {StatusCode::kInvalidInput, frame.name + ": " + what};
+}
+
+Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
+                  const CloudSettings& settings) {
+  const rgbd::SensedCloud& cloud = frame.cloud;
+  if (cloud.sigma_m.size() != cloud.Count()) {
+    return Invalid(frame, std::to_string(cloud.sigma_m.size()) + " sigmas for " +
+                              std::to_string(cloud.Count()) + " points");
+  }
+  for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
+    const bool fine = cloud.points_m.col(k).allFinite() && cloud.points_m(2, k) > 0.0f &&
+                      std::isfinite(cloud.sigma_m[k]) && cloud.sigma_m[k] > 0.0f;
+    if (!fine) {
+      return Invalid(frame, "point " + std::to_string(k) +
+                                " of the cloud is not finite, not before the camera, or its sigma "
+                                "is not above 0");
+    }
+  }
+  if (static_cast<int>(frame.cables.size()) != model.CableCount()) {
+    return Invalid(frame, std::to_string(frame.cables.size()) + " cable inputs, the robot has " +
+                              std::to_string(model.CableCount()) + " cables");
+  }
+  if (cloud.Count() < settings.least_points) {
+    return {StatusCode::kNoRobotSeen, frame.name + ": " + std::to_string(cloud.Count()) +
+                                          " points, fewer than " +
+                                          std::to_string(settings.least_points)};
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+Status CheckClouds(const robot::RobotModel& model, const std::vector<CloudFrame>& frames,
+                   const CloudSettings& settings) {
+  if (frames.empty()) return {StatusCode::kInvalidInput, "no cloud was given"};
+  for (const CloudFrame& frame : frames) {
+    if (Status status = CheckCloud(model, frame, settings); !status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
+std::vector<SurfaceSighting> MatchCloud(const SkinInView& skin, const ThinCloud& cloud,
+                                        const geometry::RigidTransform& T_robot_camera,
+                                        const CloudSettings& settings, CloudMatch* match) {
+  *match = {.points = static_cast<int>(cloud.Count()), .outlier_share = 1.0};
+  const std::vector<Candidate> candidates =
+      CandidatesOf(skin, cloud, T_robot_camera, settings.widest_gate_m);
+  std::vector<SurfaceSighting> sightings;
+  if (candidates.empty()) return sightings;
+  const double gate_m = GateOf(candidates, settings);
+  double squares_m2 = 0.0;
+  for (const Candidate& candidate : candidates) {
+    const double trust = Fading(candidate.height_m / gate_m) *
+                         Fading(AcrossOf_m(candidate) / kMostAcross_m) * candidate.foot.openness;
+    if (trust < kLeastTrust) continue;
+    const Eigen::Vector3d point_m = cloud.points_m.col(candidate.point);
+    const Eigen::Vector3d normal_camera =
+        T_robot_camera.rotation().conjugate() * candidate.foot.normal;
+    const double depth_m =
+        std::abs(normal_camera.dot(point_m)) / point_m.z() * cloud.sigma_m[candidate.point];
+    const double facet_m = settings.facet_error_share * skin.FacetError_m(candidate.foot.triangle);
+    sightings.push_back({.position_m = point_m,
+                         .sigma_m = std::hypot(depth_m, facet_m) / trust,
+                         .point = skin.WeightsOf(candidate.foot),
+                         .normal = candidate.foot.normal});
+    squares_m2 += candidate.height_m * candidate.height_m;
+  }
+  match->matched = static_cast<int>(sightings.size());
+  match->outlier_share = 1.0 - static_cast<double>(match->matched) / match->points;
+  if (match->matched > 0) match->rms_m = std::sqrt(squares_m2 / match->matched);
+  return sightings;
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/cloud/pose_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "libs/geometry/rigid_registration.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Share of the distance across the normal in what is minimised while the kernel is wide: planes
+/// alone let flat legs slide along themselves.
+constexpr double kAcross = 0.2;
+/// Of the kernel's width, how far anything pulls.
+constexpr double kReach = 3.0;
+/// Once the kernel is this share of its first width, a pose that covers less of the skin than
+/// kHopeless is given up.
+constexpr double kHalfway = 0.4;
+constexpr double kHopeless = 0.45;
+constexpr Eigen::Index kReturnPulls = 250;
+
+double MedianOf(Eigen::VectorXf values) {
+  const auto middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  return static_cast<double>(*middle);
+}
+
+Eigen::Vector3d MeanOf(const std::vector<ThinCloud>& clouds) {
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  Eigen::Index count = 0;
+  for (const ThinCloud& cloud : clouds) {
+    sum_m += cloud.points_m.rowwise().sum();
+    count += cloud.Count();
+  }
+  return sum_m / static_cast<double>(std::max<Eigen::Index>(1, count));
+}
+
+/// Normal equations of a small turn about `centre_m` and a shift, robot frame.
+struct NormalEquations {
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+
+  /// A pull of `weight` along unit `direction` that would move a point at `arm_m` by `off_m`.
+  void Add(const Eigen::Vector3d& arm_m, const Eigen::Vector3d& direction, double off_m,
+           double weight) {
+    Vector6 row;
+    row << arm_m.cross(direction), direction;
+    matrix.noalias() += weight * row * row.transpose();
+    right.noalias() += weight * off_m * row;
+  }
+};
+
+/// What is pulled where: the width of the kernel and how much of the distance across the normal
+/// counts.
+struct Pull {
+  double width_m;
+  double across;
+
+  void Add(const Eigen::Vector3d& arm_m, const Eigen::Vector3d& normal,
+           const Eigen::Vector3d& off_m, double weight, NormalEquations* equations) const {
+    const double root = 1.0 / (1.0 + off_m.squaredNorm() / (width_m * width_m));
+    const double kernel = weight * root * root;
+    equations->Add(arm_m, normal, normal.dot(off_m), kernel);
+    for (int axis = 0; axis < 3; ++axis) {
+      equations->Add(arm_m, Eigen::Vector3d::Unit(axis), off_m[axis], across * kernel);
+    }
+  }
+};
+
+void AddPulls(const SkinInView& skin, const ThinCloud& cloud,
+              const geometry::RigidTransform& T_robot_camera, const Eigen::Vector3d& centre_m,
+              const Pull& pull, NormalEquations* equations) {
+  for (const auto& point : cloud.points_m.colwise()) {
+    const Eigen::Vector3d here_m = T_robot_camera * point;
+    const std::optional<SkinFoot> foot = skin.FootOf(here_m);
+    if (!foot || foot->distance_m > kReach * pull.width_m) continue;
+    pull.Add(here_m - centre_m, foot->normal, foot->position_m - here_m, 1.0, equations);
+  }
+}
+
+/// The nearest point; its distance squared.
+Eigen::Index Nearest(const Eigen::Matrix3Xd& points_m, const Eigen::Vector3d& place_m,
+                     double* distance_squared_m2) {
+  Eigen::Index nearest = 0;
+  *distance_squared_m2 = (points_m.colwise() - place_m).colwise().squaredNorm().minCoeff(&nearest);
+  return nearest;
+}
+
+/// The other way round: each place of the skin asks for the cloud point nearest to it. Points of
+/// other things pull only where they lie nearer than the robot's.
+void AddReturnPulls(const SkinInView& skin, const ThinCloud& cloud,
+                    const geometry::RigidTransform& T_robot_camera, const Eigen::Vector3d& centre_m,
+                    const Pull& pull, double weight, NormalEquations* equations) {
+  if (cloud.Count() == 0) return;
+  const Eigen::Matrix3Xd points_m = T_robot_camera.Apply(cloud.points_m);
+  const Eigen::Matrix3Xd& places_m = skin.seen_places_m();
+  const double reach_m = kReach * pull.width_m;
+  const Eigen::Index stride = 1 + places_m.cols() / kReturnPulls;
+  for (Eigen::Index k = 0; k < places_m.cols(); k += stride) {
+    double squared_m2 = 0.0;
+    const Eigen::Vector3d point_m = points_m.col(Nearest(points_m, places_m.col(k), &squared_m2));
+    if (squared_m2 > reach_m * reach_m) continue;
+    pull.Add(point_m - centre_m, skin.NormalAtSeenPlace(k), places_m.col(k) - point_m, weight,
+             equations);
+  }
+}
+
+/// One step; how far it moves points a typical arm away, m.
+double Step(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+            const Eigen::Vector3d& middle_camera_m, const Pull& pull, double return_weight,
+            geometry::RigidTransform* T_robot_camera) {
+  constexpr double kArm_m = 0.1;
+  const Eigen::Vector3d centre_m = *T_robot_camera * middle_camera_m;
+  NormalEquations equations;
+  for (std::size_t f = 0; f < skins.size(); ++f) {
+    skins[f].LookFrom(*T_robot_camera);
+    AddPulls(skins[f], clouds[f], *T_robot_camera, centre_m, pull, &equations);
+    AddReturnPulls(skins[f], clouds[f], *T_robot_camera, centre_m, pull, return_weight, &equations);
+  }
+  Vector6 ease;
+  ease << Eigen::Vector3d::Constant(kArm_m * kArm_m), Eigen::Vector3d::Ones();
+  equations.matrix.diagonal() += (1e-3 * equations.matrix(3, 3) + 1e-9) * ease;
+  const Vector6 step = equations.matrix.ldlt().solve(equations.right);
+  const Eigen::Vector3d turn_rad = step.head<3>();
+  const double angle_rad = turn_rad.norm();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  if (angle_rad > 0.0) turn = Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad);
+  const Eigen::Vector3d from_centre_m = T_robot_camera->translation_m() - centre_m;
+  *T_robot_camera = {turn * T_robot_camera->rotation(),
+                     centre_m + turn * from_centre_m + step.tail<3>()};
+  return step.tail<3>().norm() + kArm_m * angle_rad;
+}
+
+}  // namespace
+
+ThinCloud Thin(const rgbd::SensedCloud& cloud, double spacing_m) {
+  if (cloud.Count() == 0) return {};
+  const double cell = spacing_m / MedianOf(cloud.points_m.row(2));
+  struct Nearest {
+    Eigen::Index point;
+    double off;
+  };
+  std::map<std::pair<int, int>, Nearest> of_cell;
+  for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
+    const Eigen::Vector3d point_m = cloud.points_m.col(k).cast<double>();
+    const Eigen::Array2d place = point_m.head<2>().array() / (point_m.z() * cell);
+    const Eigen::Array2d corner = place.floor();
+    const double off = (place - corner - 0.5).matrix().squaredNorm();
+    const std::pair key(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
+    const auto [at, is_new] = of_cell.try_emplace(key, Nearest{k, off});
+    if (!is_new && off < at->second.off) at->second = {k, off};
+  }
+  ThinCloud thin;
+  thin.points_m.resize(3, static_cast<Eigen::Index>(of_cell.size()));
+  thin.sigma_m.resize(static_cast<Eigen::Index>(of_cell.size()));
+  Eigen::Index n = 0;
+  for (const auto& [key, nearest] : of_cell) {
+    thin.points_m.col(n) = cloud.points_m.col(nearest.point).cast<double>();
+    thin.sigma_m[n] = static_cast<double>(cloud.sigma_m[nearest.point]);
+    ++n;
+  }
+  return thin;
+}
+
+namespace {
+
+double MeanCovered(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+                   const geometry::RigidTransform& T_robot_camera, double near_m) {
+  double sum = 0.0;
+  for (std::size_t f = 0; f < skins.size(); ++f) {
+    skins[f].LookFrom(T_robot_camera);
+    sum += ShareCovered(skins[f], clouds[f], T_robot_camera, near_m);
+  }
+  return sum / static_cast<double>(skins.size());
+}
+
+PoseFit SearchFrom(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+                   const geometry::RigidTransform& start, const PoseSearchSettings& settings) {
+  PoseFit fit{.T_robot_camera = start};
+  const Eigen::Vector3d middle_m = MeanOf(clouds);
+  double width_m = settings.widest_m;
+  for (bool last = false; !last; width_m *= settings.shrink) {
+    last = width_m <= settings.narrowest_m;
+    width_m = std::max(width_m, settings.narrowest_m);
+    const Pull pull{.width_m = width_m, .across = kAcross * width_m / settings.widest_m};
+    const double return_weight = last ? 0.0 : 1.0;
+    for (int k = 0; k < settings.steps_each; ++k) {
+      const double moved_m =
+          Step(skins, clouds, middle_m, pull, return_weight, &fit.T_robot_camera);
+      if (moved_m < settings.at_rest_m) break;
+    }
+    if (width_m > kHalfway * settings.widest_m) continue;
+    fit.skin_covered = MeanCovered(skins, clouds, fit.T_robot_camera, settings.near_m);
+    if (fit.skin_covered < kHopeless) return fit;
+  }
+  fit.skin_covered = MeanCovered(skins, clouds, fit.T_robot_camera, settings.near_m);
+  return fit;
+}
+
+/// The start itself, then turned and shifted about the cloud's middle along the camera's axes.
+std::vector<geometry::RigidTransform> StartsAround(const geometry::RigidTransform& start,
+                                                   const Eigen::Vector3d& middle_camera_m,
+                                                   const PoseSearchSettings& settings) {
+  std::vector<geometry::RigidTransform> starts = {start};
+  for (const double sign : {1.0, -1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(sign * settings.around_rad, along));
+      const Eigen::Vector3d shift_m = middle_camera_m - turn * middle_camera_m;
+      starts.push_back(start * geometry::RigidTransform(turn, shift_m));
+      starts.push_back(start * geometry::RigidTransform(Eigen::Quaterniond::Identity(),
+                                                        sign * settings.around_m * along));
+    }
+  }
+  return starts;
+}
+
+}  // namespace
+
+PoseFit SearchPose(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+                   const geometry::RigidTransform& T_robot_camera_start,
+                   const PoseSearchSettings& settings) {
+  PoseFit best;
+  int searched = 0;
+  bool best_is_near = false;
+  for (const geometry::RigidTransform& start :
+       StartsAround(T_robot_camera_start, MeanOf(clouds), settings)) {
+    PoseFit fit = SearchFrom(skins, clouds, start, settings);
+    const bool near = IsNear(fit.T_robot_camera, T_robot_camera_start, clouds, settings);
+    const bool covers_more = near == best_is_near && fit.skin_covered > best.skin_covered;
+    if (searched == 0 || (near && !best_is_near) || covers_more) {
+      best = fit;
+      best_is_near = near;
+    }
+    best.starts = ++searched;
+    if (best_is_near && best.skin_covered >= settings.good_cover) break;
+  }
+  return best;
+}
+
+bool IsNear(const geometry::RigidTransform& T_robot_camera, const geometry::RigidTransform& start,
+            const std::vector<ThinCloud>& clouds, const PoseSearchSettings& settings) {
+  const Eigen::Vector3d middle_m = MeanOf(clouds);
+  const double moved_m = (T_robot_camera * middle_m - start * middle_m).norm();
+  const double turned_rad = T_robot_camera.rotation().angularDistance(start.rotation());
+  return moved_m <= settings.farthest_m && turned_rad <= settings.farthest_rad;
+}
+
+double ShareCovered(const SkinInView& skin, const ThinCloud& cloud,
+                    const geometry::RigidTransform& T_robot_camera, double near_m) {
+  constexpr Eigen::Index kStride = 17;
+  const Eigen::Matrix3Xd points_m = T_robot_camera.Apply(cloud.points_m);
+  const Eigen::Matrix3Xd& places_m = skin.seen_places_m();
+  int count = 0, covered = 0;
+  for (Eigen::Index k = 0; k < places_m.cols(); k += kStride, ++count) {
+    if (points_m.cols() == 0) continue;
+    double squared_m2 = 0.0;
+    Nearest(points_m, places_m.col(k), &squared_m2);
+    covered += squared_m2 <= near_m * near_m ? 1 : 0;
+  }
+  return count > 0 ? static_cast<double>(covered) / count : 0.0;
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "libs/fem/node_weights.hpp"
+#include "libs/geometry/closest_point.hpp"
+#include "libs/geometry/rigid_transform.hpp"
+#include "libs/rgbd/surface_view.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::calibration {
+
+/// Where a cloud point meets the skin.
+struct SkinFoot {
+  int triangle = -1;  ///< of the drawn skin
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();      ///< unit, outward, robot frame
+  double distance_m = 0.0;                               ///< >= 0
+  double openness = 0.0;  ///< to the camera: 0 where it is seen at a grazing angle, up to 1
+};
+
+/// The part of a robot's skin that a camera sees of it in one shape: what faces the camera and is
+/// not hidden behind other parts, by a z-buffer from the camera's centre. Which camera it is does
+/// not matter for that. The skin is the drawn one (four triangles for each face of tet10).
+class SkinInView {
+ public:
+  explicit SkinInView(const robot::RobotBody& body);
+
+  /// `x_m` [3n] nodes, robot frame.
+  void TakeShape(const Eigen::VectorXd& x_m);
+  /// From the camera's centre. Needs TakeShape before it.
+  void LookFrom(const geometry::RigidTransform& T_robot_camera);
+
+  /// Triangles of which something is seen.
+  int SeenCount() const { return static_cast<int>(seen_.size()); }
+  /// The nearest place of what is seen, for a point in the robot frame; none where nothing is seen,
+  /// or that place itself is hidden behind another part of the skin, or is seen at a grazing angle.
+  std::optional<SkinFoot> FootOf(const Eigen::Vector3d& point_robot_m) const;
+  fem::NodeWeights WeightsOf(const SkinFoot& foot) const;
+  /// How far the skin may lie off this triangle, as its neighbours turn away from it, m: the height
+  /// of an arc over its longest edge, edge * angle / 8.
+  double FacetError_m(int triangle) const { return facet_error_m_[triangle]; }
+  /// [3 x n] places in the middle of those pixels of the z-buffer that show the skin, robot frame.
+  const Eigen::Matrix3Xd& seen_places_m() const { return seen_places_m_; }
+  /// Unit, outward, robot frame.
+  Eigen::Vector3d NormalAtSeenPlace(Eigen::Index place) const {
+    return normals_.col(triangle_of_place_[static_cast<size_t>(place)]);
+  }
+
+ private:
+  bool Aim();
+  void CollectSeen();
+  bool IsHidden(const Eigen::Vector3d& place_robot_m) const;
+
+  std::vector<int> nodes_;             ///< [vertices] of the mesh, rising
+  geometry::TriangleSurface surface_;  ///< robot frame, of the vertices
+  Eigen::Matrix3Xd normals_;           ///< [3 x triangles]
+  Eigen::VectorXd facet_error_m_;      ///< [triangles]
+  Eigen::Vector3d eye_m_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< robot axes to those of the view
+  double focal_px_ = 1.0;
+  rgbd::SurfaceView view_;
+  Eigen::Matrix3Xd aimed_m_;  ///< [3 x vertices] view frame, x and y times the focal length
+  std::vector<int> seen_;     ///< triangles of `seen_index_`
+  std::unique_ptr<geometry::SurfaceIndex> seen_index_;
+  Eigen::Matrix3Xd seen_places_m_;
+  std::vector<int> triangle_of_place_;
+};
+
+}  // namespace palpate::calibration

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "components/calibration/marker_sighting.hpp"
+#include "libs/fem/node_weights.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// A point of the depth image, and the place of the model's skin that it shows.
+struct SurfaceSighting {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
+  double sigma_m = 0.0;                                  ///< along the normal, > 0
+  fem::NodeWeights point;                                ///< on the skin
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, of the skin there
+};
+
+/// What was seen of the robot at rest under one setting of its cables, and what is known of that
+/// setting. Measured values are where unknown inputs start from.
+struct CalibrationFrame {
+  std::string name;  ///< for messages
+  std::vector<MarkerSighting> markers = {};
+  std::vector<SurfaceSighting> surface = {};
+  std::vector<robot::CableCommand> cables = {};  ///< one for each cable
+  std::vector<robot::DeadLoad> loads = {};
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
+};
+
+}  // namespace palpate::calibration

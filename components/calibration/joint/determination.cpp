@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/determination.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <vector>
+
+namespace palpate::calibration {
+
+namespace {
+
+int CountOf(const JointProblem& problem) { return static_cast<int>(problem.variables().size()); }
+
+Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& chosen) {
+  const auto count = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd picked(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      picked(i, j) = matrix(chosen[static_cast<size_t>(i)], chosen[static_cast<size_t>(j)]);
+    }
+  }
+  return picked;
+}
+
+Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
+  return information.ldlt().solve(
+      Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+}
+
+}  // namespace
+
+bool IsOfPose(int variable, const JointProblem& problem) {
+  const int first = problem.pose_column();
+  return first >= 0 && variable >= first && variable < first + 6;
+}
+
+/// Variables are scaled by min(sigma, plausible), so that 1 is what was believed of each.
+std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
+                                    double share) {
+  std::vector<int> free;
+  for (int v = 0; v < CountOf(problem); ++v) {
+    if (!problem.IsHeld(v)) free.push_back(v);
+  }
+  const auto data = point.jacobian.topRows(problem.DataRows());
+  Eigen::MatrixXd information = Pick(data.transpose() * data, free);
+  information.diagonal().array() += 1.0;
+  const Eigen::VectorXd variance = InverseOf(information).diagonal();
+  std::optional<int> worst;
+  double worst_sigma = 0.0;
+  for (const bool pose : {false, true}) {
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      if (IsOfPose(free[k], problem) != pose) continue;
+      const double sigma = std::sqrt(variance[static_cast<Eigen::Index>(k)]);
+      if (sigma <= share || sigma <= worst_sigma) continue;
+      worst = free[k];
+      worst_sigma = sigma;
+    }
+    if (worst) break;
+  }
+  return worst;
+}
+
+WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
+                  double huber_threshold) {
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(point.residual.size());
+  for (const RobustBlock& block : problem.RobustBlocks()) {
+    const double norm = point.residual.segment(block.first_row, block.rows).norm();
+    weight.segment(block.first_row, block.rows).setConstant(HuberWeight(norm, huber_threshold));
+  }
+  WeightedFit fit;
+  fit.information = point.jacobian.transpose() * weight.asDiagonal() * point.jacobian;
+  const Eigen::Index rows = problem.DataRows();
+  fit.chi_squared = (weight.head(rows).array() * point.residual.head(rows).array().square()).sum();
+  return fit;
+}
+
+Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem) {
+  std::vector<int> uncertain;
+  for (int v = 0; v < CountOf(problem); ++v) {
+    const Belief& belief = problem.variables()[static_cast<size_t>(v)].belief;
+    if (!problem.IsHeld(v) || std::isfinite(belief.sigma)) uncertain.push_back(v);
+  }
+  const Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, uncertain));
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(CountOf(problem), CountOf(problem));
+  for (std::size_t i = 0; i < uncertain.size(); ++i) {
+    for (std::size_t j = 0; j < uncertain.size(); ++j) {
+      covariance(uncertain[i], uncertain[j]) =
+          inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  return covariance;
+}
+
+}  // namespace palpate::calibration

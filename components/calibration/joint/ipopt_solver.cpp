@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/ipopt_solver.hpp"
+
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::calibration {
+
+double HuberWeight(double norm, double threshold) {
+  return threshold > 0.0 && norm > threshold ? threshold / norm : 1.0;
+}
+
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+using VectorMap = Eigen::Map<const Eigen::VectorXd>;
+
+constexpr double kIpoptInfinity = 2e19;
+constexpr double kNoGradient = 1e-12;
+
+/// The problem in Ipopt's words. Values and derivatives are worked out together, once for each
+/// point that Ipopt asks about.
+class Nlp final : public Ipopt::TNLP {
+ public:
+  Nlp(LeastSquaresProblem& problem, const LeastSquaresSettings& settings)
+      : problem_(problem),
+        settings_(settings),
+        start_(problem.Start()),
+        bounds_(problem.Bounds()),
+        constraint_bounds_(problem.ConstraintBounds()),
+        blocks_(problem.RobustBlocks()),
+        has_bounds_(bounds_.array().isFinite().any() || constraint_bounds_.rows() > 0) {}
+
+  LeastSquaresSolution& solution() { return solution_; }
+  bool arrived() const { return arrived_; }
+
+  bool get_nlp_info(Index& n, Index& m, Index& nonzeros_jacobian, Index& nonzeros_hessian,
+                    IndexStyleEnum& style) override {
+    n = static_cast<Index>(start_.size());
+    m = static_cast<Index>(constraint_bounds_.rows());
+    nonzeros_jacobian = n * m;
+    nonzeros_hessian = n * (n + 1) / 2;
+    style = C_STYLE;
+    return true;
+  }
+
+  bool get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* lower_g,
+                       Number* upper_g) override {
+    Copy(bounds_, n, lower, upper);
+    Copy(constraint_bounds_, m, lower_g, upper_g);
+    return true;
+  }
+
+  bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
+    Eigen::Map<Eigen::VectorXd>(x, n) = start_;
+    return true;
+  }
+
+  bool eval_f(Index n, const Number* x, bool, Number& value) override {
+    if (!Visit(VectorMap(x, n))) return false;
+    value = objective_;
+    return true;
+  }
+
+  bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
+    if (!Visit(VectorMap(x, n))) return false;
+    Eigen::Map<Eigen::VectorXd>(gradient, n) =
+        point_.jacobian.transpose() * (weights_.array() * point_.residual.array()).matrix();
+    return true;
+  }
+
+  bool eval_g(Index n, const Number* x, bool, Index m, Number* values) override {
+    if (m == 0) return true;
+    if (!Visit(VectorMap(x, n))) return false;
+    Eigen::Map<Eigen::VectorXd>(values, m) = point_.constraint;
+    return true;
+  }
+
+  bool eval_jac_g(Index n, const Number* x, bool, Index m, Index, Index* rows, Index* columns,
+                  Number* values) override {
+    if (m == 0) return true;
+    if (values != nullptr && !Visit(VectorMap(x, n))) return false;
+    for (Index i = 0, k = 0; i < m; ++i) {
+      for (Index j = 0; j < n; ++j, ++k) {
+        if (values != nullptr) {
+          values[k] = point_.constraint_jacobian(i, j);
+        } else {
+          rows[k] = i;
+          columns[k] = j;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Of the residuals to first order; of the constraints nothing, which are nearly linear.
+  bool eval_h(Index n, const Number* x, bool, Number factor, Index, const Number*, bool, Index,
+              Index* rows, Index* columns, Number* values) override {
+    if (values != nullptr) {
+      if (!Visit(VectorMap(x, n))) return false;
+      hessian_ = point_.jacobian.transpose() * weights_.asDiagonal() * point_.jacobian;
+    }
+    for (Index i = 0, k = 0; i < n; ++i) {
+      for (Index j = 0; j <= i; ++j, ++k) {
+        if (values != nullptr) {
+          values[k] = factor * hessian_(i, j);
+        } else {
+          rows[k] = i;
+          columns[k] = j;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Gradients of sums of squares in sigmas have no size to compare with: it ends where the steps
+  /// do.
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective,
+                             Number infeasibility, Number, Number barrier, Number step, Number,
+                             Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    problem_.Accept();
+    solution_.iterations = static_cast<int>(iteration);
+    solution_.objectives.push_back(objective);
+    const double tolerance = settings_.step_tolerance;
+    arrived_ = iteration > 0 && step <= tolerance && infeasibility <= tolerance &&
+               (!has_bounds_ || barrier <= tolerance);
+    return !arrived_;
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
+                         const Number*, Index, const Number*, const Number*, Number,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    solution_.variables = VectorMap(x, n);
+    if (Visit(solution_.variables)) solution_.point = point_;
+  }
+
+ private:
+  static void Copy(const Eigen::MatrixX2d& bounds, Index n, Number* lower, Number* upper) {
+    for (Index i = 0; i < n; ++i) {
+      lower[i] = std::max(bounds(i, 0), -kIpoptInfinity);
+      upper[i] = std::min(bounds(i, 1), kIpoptInfinity);
+    }
+  }
+
+  bool Visit(const Eigen::VectorXd& x) {
+    if (x.size() == visited_.size() && (x.array() == visited_.array()).all()) return has_value_;
+    visited_ = x;
+    const Status status = problem_.Evaluate(x, &point_);
+    has_value_ = status.ok() && point_.residual.allFinite() && point_.jacobian.allFinite();
+    if (has_value_) {
+      Weigh();
+    } else {
+      solution_.failed_evaluation = status.message();
+    }
+    return has_value_;
+  }
+
+  void Weigh() {
+    weights_.setOnes(point_.residual.size());
+    objective_ = 0.5 * point_.residual.squaredNorm();
+    const double threshold = settings_.huber_threshold;
+    for (const RobustBlock& block : blocks_) {
+      const double norm = point_.residual.segment(block.first_row, block.rows).norm();
+      const double weight = HuberWeight(norm, threshold);
+      if (weight == 1.0) continue;
+      weights_.segment(block.first_row, block.rows).setConstant(weight);
+      objective_ += threshold * (norm - 0.5 * threshold) - 0.5 * norm * norm;
+    }
+  }
+
+  LeastSquaresProblem& problem_;
+  const LeastSquaresSettings& settings_;
+  const Eigen::VectorXd start_;
+  const Eigen::MatrixX2d bounds_;
+  const Eigen::MatrixX2d constraint_bounds_;
+  const std::vector<RobustBlock> blocks_;
+  const bool has_bounds_;
+  bool arrived_ = false;
+  Eigen::VectorXd visited_;
+  bool has_value_ = false;
+  LeastSquaresPoint point_;
+  Eigen::VectorXd weights_;
+  Eigen::MatrixXd hessian_;
+  double objective_ = 0.0;
+  LeastSquaresSolution solution_;
+};
+
+void SetOptions(const LeastSquaresSettings& settings, Ipopt::OptionsList* options) {
+  options->SetStringValue("sb", "yes");
+  options->SetIntegerValue("print_level", 0);
+  options->SetIntegerValue("max_iter", settings.max_iterations);
+  options->SetNumericValue("tol", kNoGradient);
+  options->SetNumericValue("acceptable_tol", kNoGradient);
+  // Variables come scaled, residuals in sigmas.
+  options->SetStringValue("nlp_scaling_method", "none");
+  options->SetStringValue("mu_strategy", "adaptive");
+  // Nothing outside the bounds: no cable pushes.
+  options->SetNumericValue("bound_relax_factor", 0.0);
+}
+
+}  // namespace
+
+LeastSquaresSolution SolveLeastSquares(LeastSquaresProblem& problem,
+                                       const LeastSquaresSettings& settings) {
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt =
+      new Ipopt::IpoptApplication(/*create_console_out=*/false);
+  SetOptions(settings, Ipopt::GetRawPtr(ipopt->Options()));
+  const Ipopt::ApplicationReturnStatus ready = ipopt->Initialize("");
+  PALPATE_CHECK(ready == Ipopt::Solve_Succeeded, static_cast<int>(ready));
+  const Ipopt::SmartPtr<Nlp> nlp = new Nlp(problem, settings);
+  const Ipopt::ApplicationReturnStatus ended = ipopt->OptimizeTNLP(Ipopt::GetRawPtr(nlp));
+  LeastSquaresSolution solution = std::move(nlp->solution());
+  const bool arrived = nlp->arrived() || ended == Ipopt::Solve_Succeeded;
+  if (arrived && solution.point.residual.size() > 0) {
+    solution.status = Status::Ok();
+  } else {
+    std::string reason = "Ipopt ended with code " + std::to_string(static_cast<int>(ended));
+    if (!solution.failed_evaluation.empty()) reason += "; " + solution.failed_evaluation;
+    solution.status = Status(StatusCode::kNotConverged, std::move(reason));
+  }
+  return solution;
+}
+
+}  // namespace palpate::calibration

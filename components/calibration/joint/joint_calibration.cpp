@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/joint_calibration.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "components/calibration/joint/determination.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+/// The model's moduli, Poisson's ratios and gravity, to put back.
+class KeptModel {
+ public:
+  explicit KeptModel(robot::RobotModel& model)
+      : model_(model), materials_(model.body().materials), gravity_m_s2_(model.gravity_m_s2()) {}
+
+  void Restore() const {
+    for (std::size_t m = 0; m < materials_.size(); ++m) {
+      model_.SetYoungsModulus(static_cast<int>(m), materials_[m].youngs_modulus_Pa);
+      model_.SetPoissonsRatio(static_cast<int>(m), materials_[m].poissons_ratio);
+    }
+    RestoreGravity();
+  }
+  void RestoreGravity() const { model_.SetGravity(gravity_m_s2_); }
+
+ private:
+  robot::RobotModel& model_;
+  std::vector<fem::Material> materials_;
+  Eigen::Vector3d gravity_m_s2_;
+};
+
+/// Holds what is not determined at this point; true where something new is held.
+Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& settings,
+                        JointProblem* problem, bool* held_more) {
+  *held_more = false;
+  for (;;) {
+    const std::optional<int> worst = MostUndetermined(point, *problem, settings.undetermined_share);
+    if (!worst) return Status::Ok();
+    const Variable& variable = problem->variables()[static_cast<size_t>(*worst)];
+    if (IsOfPose(*worst, *problem)) {
+      return {StatusCode::kUnobservable, "the data do not determine the camera's pose (" +
+                                             variable.name + "): it takes " +
+                                             variable.what_would_tell};
+    }
+    problem->Hold(*worst);
+    *held_more = true;
+  }
+}
+
+Status Solve(JointProblem* problem, const JointSettings& settings, LeastSquaresSolution* solution) {
+  LeastSquaresPoint start;
+  if (Status status = problem->Evaluate(problem->Start(), &start); !status.ok()) return status;
+  problem->Accept();
+  bool held_more = false;
+  if (Status status = HoldUndetermined(start, settings, problem, &held_more); !status.ok()) {
+    return status;
+  }
+  for (;;) {
+    *solution = SolveLeastSquares(*problem, settings.solver);
+    if (!solution->status.ok()) return solution->status;
+    Status status = HoldUndetermined(solution->point, settings, problem, &held_more);
+    if (!status.ok() || !held_more) return status;
+    // Once more from there, with what is held back at its mean.
+    Eigen::VectorXd from = solution->variables;
+    for (int v = 0; v < static_cast<int>(from.size()); ++v) {
+      if (problem->IsHeld(v)) from[v] = 0.0;
+    }
+    problem->StartAt(from);
+  }
+}
+
+void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solution,
+                  const Eigen::MatrixXd& covariance, JointCalibration* result) {
+  std::vector<int> reported;
+  for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
+    if (!IsOfPose(v, problem)) reported.push_back(v);
+  }
+  for (const int v : reported) {
+    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
+    const double value = problem.ValueOf(v, solution.variables);
+    double error = problem.Scale(v) * std::sqrt(covariance(v, v));
+    if (problem.IsHeld(v)) error = variable.belief.sigma;
+    const Unknown* unknown = variable.unknown;
+    if (unknown != nullptr) error *= std::abs(unknown->QuantityPerValue(value));
+    result->values.push_back(
+        {.name = variable.name,
+         .unit = variable.unit,
+         .value = unknown != nullptr ? unknown->Quantity(value) : value,
+         .standard_error = error,
+         .determined = !problem.IsHeld(v),
+         .what_would_tell = problem.IsHeld(v) ? variable.what_would_tell : std::string()});
+  }
+  const auto count = static_cast<Eigen::Index>(reported.size());
+  result->correlation.setZero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const int a = reported[static_cast<size_t>(i)];
+      const int b = reported[static_cast<size_t>(j)];
+      const double product = covariance(a, a) * covariance(b, b);
+      if (product > 0.0) result->correlation(i, j) = covariance(a, b) / std::sqrt(product);
+    }
+  }
+}
+
+void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
+              const JointSettings& settings, JointCalibration* result) {
+  const Eigen::Index rows = problem.DataRows();
+  result->objectives = solution.objectives;
+  result->iterations = solution.iterations;
+  result->residual_rms_of_frame_m = problem.residual_rms_m();
+  double squares_m2 = 0.0;
+  for (const double rms_m : result->residual_rms_of_frame_m) squares_m2 += rms_m * rms_m;
+  result->residual_rms_m =
+      std::sqrt(squares_m2 / static_cast<double>(result->residual_rms_of_frame_m.size()));
+  const WeightedFit fit = Weigh(problem, solution.point, settings.solver.huber_threshold);
+  result->chi_squared = fit.chi_squared;
+  int free = 0;
+  for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
+    free +=
+        problem.IsHeld(v) || std::isfinite(problem.variables()[static_cast<size_t>(v)].belief.sigma)
+            ? 0
+            : 1;
+  }
+  result->degrees_of_freedom = static_cast<int>(rows) - free;
+  const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));
+  const Eigen::MatrixXd covariance = widened * CovarianceOf(fit, problem);
+  result->T_robot_camera = problem.PoseAt(solution.variables);
+  if (problem.pose_column() >= 0) {
+    Eigen::Matrix<double, 6, 1> scale;
+    for (int i = 0; i < 6; ++i) scale[i] = problem.Scale(problem.pose_column() + i);
+    result->pose_covariance = scale.asDiagonal() *
+                              covariance.block<6, 6>(problem.pose_column(), problem.pose_column()) *
+                              scale.asDiagonal();
+  }
+  ReportValues(problem, solution, covariance, result);
+}
+
+}  // namespace
+
+JointCalibration CalibrateJointly(robot::RobotModel& model, const JointSetup& setup,
+                                  const JointSettings& settings) {
+  const KeptModel kept(model);
+  JointCalibration result;
+  JointProblem problem(model, setup);
+  LeastSquaresSolution solution;
+  result.status = Solve(&problem, settings, &solution);
+  if (!result.status.ok()) {
+    kept.Restore();
+    return result;
+  }
+  Conclude(problem, solution, settings, &result);
+  kept.RestoreGravity();
+  return result;
+}
+
+}  // namespace palpate::calibration

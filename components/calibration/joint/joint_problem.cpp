@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/joint_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+constexpr double kPlausibleTurn_rad = 0.1;
+constexpr double kPlausibleShift_m = 0.02;
+
+Eigen::Index At(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+}  // namespace
+
+JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
+    : model_(model),
+      setup_(setup),
+      sensitivity_(model),
+      accepted_(setup.frames.size(), model.RestState()),
+      states_(accepted_),
+      residual_rms_m_(setup.frames.size(), 0.0) {
+  AddVariables();
+  held_.assign(variables_.size(), false);
+  start_ = Eigen::VectorXd::Zero(At(variables_.size()));
+  for (const CalibrationFrame& frame : setup.frames) {
+    data_rows_ += At(3 * frame.markers.size() + frame.surface.size());
+  }
+}
+
+void JointProblem::AddVariables() {
+  if (setup_.fit_pose) AddPoseVariables();
+  if (setup_.depth_scale) {
+    depth_scale_column_ = static_cast<int>(variables_.size());
+    variables_.push_back(
+        {"depth_scale", "", *setup_.depth_scale, "a recording of the robot at several distances"});
+  }
+  if (setup_.marker_offset_sigma_m > 0.0) AddMarkerOffsets();
+  unknown_column_ = static_cast<int>(variables_.size());
+  for (const UnknownPtr& unknown : setup_.unknowns) {
+    variables_.push_back({unknown->name(), unknown->unit(), unknown->belief(),
+                          unknown->what_would_tell(), unknown.get()});
+  }
+}
+
+void JointProblem::AddPoseVariables() {
+  pose_column_ = static_cast<int>(variables_.size());
+  const char* axes[] = {"x", "y", "z"};
+  const std::string needed = "three or more markers that do not lie on one line";
+  for (const char* axis : axes) {
+    variables_.push_back(
+        {std::string("camera_rotation_") + axis, "rad", {.plausible = kPlausibleTurn_rad}, needed});
+  }
+  for (const char* axis : axes) {
+    variables_.push_back(
+        {std::string("camera_translation_") + axis, "m", {.plausible = kPlausibleShift_m}, needed});
+  }
+}
+
+void JointProblem::AddMarkerOffsets() {
+  marker_offset_column_ = static_cast<int>(variables_.size());
+  const double sigma_m = setup_.marker_offset_sigma_m;
+  for (const std::string& marker : model_.MarkerNames()) {
+    for (const char* axis : {"x", "y", "z"}) {
+      variables_.push_back({"marker_offset:" + marker + ":" + axis,
+                            "m",
+                            {.sigma = sigma_m, .plausible = sigma_m},
+                            "a recording in which the marker moves by more than its offset"});
+    }
+  }
+}
+
+double JointProblem::Scale(int variable) const {
+  const Belief& belief = variables_[static_cast<size_t>(variable)].belief;
+  return std::min(belief.plausible, belief.sigma);
+}
+
+double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) const {
+  return variables_[static_cast<size_t>(variable)].belief.mean +
+         Scale(variable) * variables[variable];
+}
+
+CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
+  PoseChange change = PoseChange::Zero();
+  if (pose_column_ >= 0) {
+    for (int i = 0; i < 6; ++i) change[i] = ValueOf(pose_column_ + i, variables);
+  }
+  const double depth_scale =
+      depth_scale_column_ >= 0 ? ValueOf(depth_scale_column_, variables) : 0.0;
+  return {setup_.T_robot_camera, change, depth_scale};
+}
+
+geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables) const {
+  return ViewAt(variables).T_robot_camera();
+}
+
+Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variables) const {
+  if (marker_offset_column_ < 0) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d offset_m;
+  for (int i = 0; i < 3; ++i) {
+    offset_m[i] = ValueOf(marker_offset_column_ + 3 * marker + i, variables);
+  }
+  return offset_m;
+}
+
+Eigen::VectorXd JointProblem::Start() const { return start_; }
+
+Eigen::MatrixX2d JointProblem::Bounds() const {
+  Eigen::MatrixX2d bounds(start_.size(), 2);
+  for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
+    const Belief& belief = variables_[static_cast<size_t>(v)].belief;
+    bounds(v, 0) = IsHeld(v) ? 0.0 : (belief.lower - belief.mean) / Scale(v);
+    bounds(v, 1) = IsHeld(v) ? 0.0 : (belief.upper - belief.mean) / Scale(v);
+  }
+  return bounds;
+}
+
+Eigen::MatrixX2d JointProblem::ConstraintBounds() const {
+  Eigen::MatrixX2d bounds(At(setup_.conditions.size()), 2);
+  for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
+    bounds.row(At(c)) << setup_.conditions[c]->lower(), setup_.conditions[c]->upper();
+  }
+  return bounds;
+}
+
+std::vector<RobustBlock> JointProblem::RobustBlocks() const {
+  std::vector<RobustBlock> blocks;
+  Eigen::Index row = 0;
+  for (const CalibrationFrame& frame : setup_.frames) {
+    for (std::size_t k = 0; k < frame.markers.size(); ++k, row += 3) blocks.push_back({row, 3});
+    for (std::size_t k = 0; k < frame.surface.size(); ++k, ++row) blocks.push_back({row, 1});
+  }
+  return blocks;
+}
+
+Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
+  const auto columns = At(variables_.size());
+  const auto beliefs = std::count_if(variables_.begin(), variables_.end(), [](const Variable& v) {
+    return std::isfinite(v.belief.sigma);
+  });
+  point->residual.setZero(data_rows_ + beliefs);
+  point->jacobian.setZero(data_rows_ + beliefs, columns);
+  point->constraint.setZero(At(setup_.conditions.size()));
+  point->constraint_jacobian.setZero(At(setup_.conditions.size()), columns);
+  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
+    setup_.unknowns[u]->ApplyToModel(ValueOf(unknown_column_ + static_cast<int>(u), variables),
+                                     &model_);
+  }
+  const CameraView view = ViewAt(variables);
+  Eigen::Index row = 0;
+  for (std::size_t f = 0; f < setup_.frames.size(); ++f) {
+    const CalibrationFrame& frame = setup_.frames[f];
+    const auto index = static_cast<int>(f);
+    if (Status status = Balance(index, InputsOf(index, variables), variables); !status.ok()) {
+      return {status.code(), frame.name + ": " + status.message()};
+    }
+    SeeMarkers(frame, view, variables, &row, point);
+    SeeSurface(frame, view, &row, point);
+    CheckConditions(index, point);
+  }
+  AddBeliefs(variables, point);
+  return Status::Ok();
+}
+
+FrameInputs JointProblem::InputsOf(int frame, const Eigen::VectorXd& variables) const {
+  const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
+  FrameInputs inputs{.cables = given.cables,
+                     .nominal_gravity_m_s2 = given.gravity_m_s2,
+                     .gravity_m_s2 = given.gravity_m_s2};
+  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
+    setup_.unknowns[u]->ApplyToFrame(ValueOf(unknown_column_ + static_cast<int>(u), variables),
+                                     frame, &inputs);
+  }
+  return inputs;
+}
+
+/// The frame's equilibrium, from the last accepted one, and how it depends on the variables.
+Status JointProblem::Balance(int frame, const FrameInputs& inputs,
+                             const Eigen::VectorXd& variables) {
+  const auto f = static_cast<size_t>(frame);
+  model_.SetGravity(inputs.mass_factor * inputs.gravity_m_s2);
+  states_[f] = accepted_[f];
+  const fem::StaticResult result = model_.Solve(inputs.cables, setup_.frames[f].loads, &states_[f]);
+  if (!result.status.ok()) return result.status;
+  parameters_.clear();
+  column_of_.clear();
+  factor_of_.clear();
+  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
+    const int column = unknown_column_ + static_cast<int>(u);
+    auto influence = setup_.unknowns[u]->InfluenceOn(ValueOf(column, variables), frame, inputs);
+    if (!influence) continue;
+    parameters_.push_back(std::move(influence->parameter));
+    column_of_.push_back(column);
+    factor_of_.push_back(influence->per_value * Scale(column));
+  }
+  return sensitivity_.Compute(inputs.cables, states_[f], parameters_);
+}
+
+void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
+                              const Eigen::VectorXd& variables, Eigen::Index* row,
+                              LeastSquaresPoint* point) {
+  const auto index = static_cast<size_t>(&frame - setup_.frames.data());
+  double squares_m2 = 0.0;
+  for (const MarkerSighting& sighting : frame.markers) {
+    const fem::NodeWeights& weights =
+        model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
+    const Eigen::Vector3d place_m =
+        weights.Position(states_[index].x_m) + OffsetOf(sighting.marker, variables);
+    const SightingRows<3> rows = view.Rows(sighting, place_m);
+    PutRows(rows, sensitivity_.PointMotion(weights), *row, point);
+    if (marker_offset_column_ >= 0) {
+      const int column = marker_offset_column_ + 3 * sighting.marker;
+      point->jacobian.block<3, 3>(*row, column) = Scale(column) * rows.per_point_m;
+    }
+    squares_m2 += (view.T_robot_camera() * sighting.position_m - place_m).squaredNorm();
+    *row += 3;
+  }
+  const double count = std::max<double>(1.0, static_cast<double>(frame.markers.size()));
+  residual_rms_m_[index] = std::sqrt(squares_m2 / count);
+}
+
+void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& view,
+                              Eigen::Index* row, LeastSquaresPoint* point) {
+  if (frame.surface.empty()) return;
+  const auto index = static_cast<size_t>(&frame - setup_.frames.data());
+  double squares_m2 = 0.0;
+  for (const SurfaceSighting& sighting : frame.surface) {
+    const SightingRows<1> rows = view.Rows(sighting, sighting.point.Position(states_[index].x_m));
+    PutRows(rows, sensitivity_.PointMotion(sighting.point), *row, point);
+    const double off_m = rows.residual[0] * sighting.sigma_m;
+    squares_m2 += off_m * off_m;
+    ++*row;
+  }
+  if (frame.markers.empty()) {
+    residual_rms_m_[index] = std::sqrt(squares_m2 / static_cast<double>(frame.surface.size()));
+  }
+}
+
+/// `motion_m` [3 x parameters_] of the body's point.
+template <int Rows>
+void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::Matrix3Xd& motion_m,
+                           Eigen::Index row, LeastSquaresPoint* point) const {
+  point->residual.segment<Rows>(row) = rows.residual;
+  if (pose_column_ >= 0) {
+    for (int i = 0; i < 6; ++i) {
+      point->jacobian.block<Rows, 1>(row, pose_column_ + i) =
+          Scale(pose_column_ + i) * rows.per_pose.col(i);
+    }
+  }
+  if (depth_scale_column_ >= 0) {
+    point->jacobian.block<Rows, 1>(row, depth_scale_column_) =
+        Scale(depth_scale_column_) * rows.per_depth_scale;
+  }
+  for (std::size_t p = 0; p < column_of_.size(); ++p) {
+    point->jacobian.block<Rows, 1>(row, column_of_[p]) +=
+        factor_of_[p] * (rows.per_point_m * motion_m.col(At(p)));
+  }
+}
+
+void JointProblem::CheckConditions(int frame, LeastSquaresPoint* point) const {
+  for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
+    const Condition& condition = *setup_.conditions[c];
+    if (condition.frame() != frame) continue;
+    point->constraint[At(c)] = condition.Value(model_, states_[static_cast<size_t>(frame)]);
+    const Eigen::RowVectorXd derivative = condition.Derivative(sensitivity_);
+    for (std::size_t p = 0; p < column_of_.size(); ++p) {
+      point->constraint_jacobian(At(c), column_of_[p]) += factor_of_[p] * derivative[At(p)];
+    }
+  }
+}
+
+void JointProblem::AddBeliefs(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const {
+  Eigen::Index row = data_rows_;
+  for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
+    const double sigma = variables_[static_cast<size_t>(v)].belief.sigma;
+    if (!std::isfinite(sigma)) continue;
+    point->residual[row] = Scale(v) * variables[v] / sigma;
+    point->jacobian(row, v) = Scale(v) / sigma;
+    ++row;
+  }
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/joint_request.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "components/calibration/joint/unknowns.hpp"
+#include "libs/core/text.hpp"
+#include "libs/geometry/rigid_registration.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+
+constexpr double kWrongRobotShare = 0.1;
+constexpr double kFirstTension_N = 0.5;
+
+/// The pose under which all frames' markers lie nearest to the model's.
+Status FindStart(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
+                 geometry::RigidTransform* T_robot_camera) {
+  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
+  std::vector<Eigen::Vector3d> seen, expected;
+  for (const CalibrationFrame& frame : frames) {
+    model.SetGravity(frame.gravity_m_s2);
+    fem::StaticState state = model.RestState();
+    const fem::StaticResult result = model.Solve(frame.cables, frame.loads, &state);
+    model.SetGravity(gravity_m_s2);
+    if (!result.status.ok()) {
+      return {result.status.code(), frame.name + ": " + result.status.message()};
+    }
+    for (const MarkerSighting& sighting : frame.markers) {
+      const auto& marker = model.body().markers.at(static_cast<size_t>(sighting.marker));
+      seen.push_back(sighting.position_m);
+      expected.push_back(marker.point.weights.Position(state.x_m));
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(seen.size());
+  Eigen::Matrix3Xd source_m(3, count), target_m(3, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    source_m.col(k) = seen[static_cast<size_t>(k)];
+    target_m.col(k) = expected[static_cast<size_t>(k)];
+  }
+  const geometry::Registration registration = geometry::RegisterRigid(source_m, target_m);
+  if (!registration.status.ok()) return registration.status;
+  *T_robot_camera = registration.T_target_source;
+  return Status::Ok();
+}
+
+/// An unknown tension for each cable of which nothing is known in a frame.
+void AddInputs(const robot::RobotModel& model, JointSetup* setup) {
+  for (std::size_t f = 0; f < setup->frames.size(); ++f) {
+    for (int c = 0; c < model.CableCount(); ++c) {
+      const auto cable = static_cast<size_t>(c);
+      robot::CableCommand& command = setup->frames[f].cables[cable];
+      if (command.kind != Kind::kNone) continue;
+      command = {Kind::kTension, kFirstTension_N};
+      setup->unknowns.push_back(CableInput(static_cast<int>(f), setup->frames[f].name, c,
+                                           model.body().cables[cable].name, Kind::kTension,
+                                           {.mean = kFirstTension_N,
+                                            .lower = 0.0,
+                                            .upper = model.body().cables[cable].max_tension_N,
+                                            .plausible = 1.0}));
+    }
+  }
+}
+
+void AddDrives(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const auto cable = static_cast<size_t>(c);
+    const std::string& name = model.body().cables[cable].name;
+    std::vector<double> measured;
+    bool driven = false;
+    for (const CalibrationFrame& frame : setup->frames) {
+      const bool by_displacement = frame.cables[cable].kind == Kind::kDisplacement;
+      driven = driven || by_displacement;
+      measured.push_back(by_displacement ? frame.cables[cable].value : 0.0);
+    }
+    if (!driven) continue;
+    if (request.drive_offsets) {
+      const double sigma_m = request.drive_offset_sigma_m;
+      setup->unknowns.push_back(CommandOffset(c, name, {.sigma = sigma_m, .plausible = sigma_m}));
+    }
+    if (request.drive_gains) {
+      const double sigma = request.drive_gain_sigma;
+      setup->unknowns.push_back(
+          CommandGain(c, name, std::move(measured), {.sigma = sigma, .plausible = sigma}));
+    }
+  }
+}
+
+void AddModuli(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
+  for (const int material : request.moduli) {
+    const auto index = static_cast<size_t>(material);
+    const std::string part = material == 0 ? "body" : model.body().region_names.at(index - 1);
+    const double sigma = request.modulus_relative_sigma;
+    setup->unknowns.push_back(LogYoungsModulus(material, part,
+                                               model.body().materials.at(index).youngs_modulus_Pa,
+                                               {.sigma = sigma, .plausible = sigma}));
+  }
+}
+
+/// RMS distance of all sightings from their frame's centre.
+double SpreadOf(const std::vector<CalibrationFrame>& frames) {
+  double squares_m2 = 0.0;
+  double count = 0.0;
+  for (const CalibrationFrame& frame : frames) {
+    Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+    for (const MarkerSighting& sighting : frame.markers) centre_m += sighting.position_m;
+    centre_m /= std::max<double>(1.0, static_cast<double>(frame.markers.size()));
+    for (const MarkerSighting& sighting : frame.markers) {
+      squares_m2 += (sighting.position_m - centre_m).squaredNorm();
+    }
+    count += static_cast<double>(frame.markers.size());
+  }
+  return std::sqrt(squares_m2 / std::max(1.0, count));
+}
+
+}  // namespace
+
+Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
+                      const geometry::RigidTransform* T_robot_camera, const JointRequest& request,
+                      JointSetup* setup) {
+  setup->frames = std::move(frames);
+  setup->fit_pose = request.pose;
+  setup->marker_offset_sigma_m = request.marker_offset_sigma_m;
+  AddInputs(model, setup);
+  if (T_robot_camera != nullptr) {
+    setup->T_robot_camera = *T_robot_camera;
+  } else if (Status status = FindStart(model, setup->frames, &setup->T_robot_camera);
+             !status.ok()) {
+    return status;
+  }
+  AddDrives(model, request, setup);
+  AddModuli(model, request, setup);
+  return Status::Ok();
+}
+
+JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
+                                 const geometry::RigidTransform* T_robot_camera,
+                                 const JointRequest& request) {
+  JointSetup setup;
+  JointCalibration result;
+  result.status = MakeJointSetup(model, std::move(frames), T_robot_camera, request, &setup);
+  if (!result.status.ok()) return result;
+  JointSettings settings;
+  settings.solver.huber_threshold = request.huber_threshold;
+  result = CalibrateJointly(model, setup, settings);
+  const double spread_m = SpreadOf(setup.frames);
+  if (result.status.ok() && result.residual_rms_m > kWrongRobotShare * spread_m) {
+    result.status = Status(StatusCode::kInvalidInput,
+                           "the markers lie " + FormatNumber(result.residual_rms_m) +
+                               " m from the model's (RMS), of " + FormatNumber(spread_m) +
+                               " m that they are apart: another robot, or other markers");
+  }
+  return result;
+}
+
+}  // namespace palpate::calibration

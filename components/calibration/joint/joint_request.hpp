@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "components/calibration/joint/joint_calibration.hpp"
+
+namespace palpate::calibration {
+
+/// What a joint calibration of recorded or live frames is to find, with what a data sheet says.
+struct JointRequest {
+  bool pose = true;
+  /// Where the displacement of each drive counts from.
+  bool drive_offsets = true;
+  double drive_offset_sigma_m = 2e-3;
+  bool drive_gains = false;
+  double drive_gain_sigma = 0.05;
+  std::vector<int> moduli;  ///< RobotBody::materials whose Young's modulus is looked for
+  double modulus_relative_sigma = 0.5;
+  double marker_offset_sigma_m = 0.0;
+  double huber_threshold = 4.0;  ///< sigmas; for markers that are mistaken for others
+};
+
+/// The problem for these frames: where no pose is given, the search starts from the rigid motion
+/// between the model's markers under the frames' cable inputs and those that were seen. Tensions of
+/// cables of which nothing was recorded are unknowns of their own. Not ok where the model has no
+/// equilibrium under a frame's inputs, or the markers tell no pose: too few, on one line, mirrored.
+Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
+                      const geometry::RigidTransform* T_robot_camera, const JointRequest& request,
+                      JointSetup* setup);
+
+/// CalibrateJointly, refusing what is not this robot: kInvalidInput where the markers lie off by
+/// more than a tenth of their spread.
+JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
+                                 const geometry::RigidTransform* T_robot_camera,
+                                 const JointRequest& request);
+
+}  // namespace palpate::calibration

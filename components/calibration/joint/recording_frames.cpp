@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/recording_frames.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "components/calibration/recording_phase.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/recording_inputs.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using experiment::TimeWindow;
+
+/// What averaging takes a static phase for: cables that moved less than this.
+constexpr double kStill_m = 1e-5;
+constexpr double kStill_N = 1e-3;
+
+bool CablesAreStill(const experiment::Recording& recording) {
+  if (!recording.actuation) return true;
+  for (const experiment::CableColumn& column : recording.actuation->columns) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const std::optional<double>& sample : column.samples) {
+      if (!sample) continue;
+      least = std::min(least, *sample);
+      most = std::max(most, *sample);
+    }
+    const bool by_tension = column.quantity == experiment::CableQuantity::kTension;
+    if (most - least > (by_tension ? kStill_N : kStill_m)) return false;
+  }
+  return true;
+}
+
+/// Windows to average over: a static phase is one, of a motion single moments.
+std::vector<TimeWindow> WindowsOf(const experiment::Recording& recording, int most_frames) {
+  if (recording.steady_window_s) return {*recording.steady_window_s};
+  const auto& frames = recording.markers->frames;
+  if (CablesAreStill(recording)) return {{frames.front().t_s, frames.back().t_s}};
+  std::vector<TimeWindow> moments;
+  const auto count = std::min(frames.size(), static_cast<std::size_t>(most_frames));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t_s = frames[count == 1 ? 0 : k * (frames.size() - 1) / (count - 1)].t_s;
+    moments.push_back({t_s, t_s});
+  }
+  return moments;
+}
+
+std::vector<MarkerSighting> Sightings(const experiment::Experiment& experiment,
+                                      const experiment::Recording& recording,
+                                      const robot::RobotModel& model, const TimeWindow& window,
+                                      double marker_bias_m) {
+  const std::vector<experiment::MarkerMean> means =
+      experiment::MeanOver(*recording.markers, window);
+  const Eigen::Vector3d sigma_m = experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero());
+  // Rounding of the file bounds what any mean can be known to.
+  constexpr double kFloor_m2 = 1e-14;
+  std::vector<MarkerSighting> sightings;
+  const std::vector<std::string> names = model.MarkerNames();
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const std::optional<std::size_t> column = recording.markers->IndexOf(names[m]);
+    if (!column || means[*column].count == 0) continue;
+    const experiment::MarkerMean& mean = means[*column];
+    const Eigen::Vector3d noise_m =
+        mean.count > 2 ? mean.deviation_m.cwiseMax(sigma_m).eval() : sigma_m;
+    const Eigen::Vector3d variance_m2 =
+        (noise_m.cwiseAbs2() / mean.count).array() + marker_bias_m * marker_bias_m + kFloor_m2;
+    sightings.push_back({.marker = static_cast<int>(m),
+                         .position_m = mean.mean_m,
+                         .covariance_m2 = variance_m2.asDiagonal()});
+  }
+  return sightings;
+}
+
+}  // namespace
+
+std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& experiment,
+                                                const experiment::Recording& recording,
+                                                const robot::RobotModel& model,
+                                                robot::CableInput preferred, double marker_bias_m,
+                                                int most_frames) {
+  experiment::RequireMarkers(recording);
+  experiment::CheckMarkers(recording, model.MarkerNames());
+  experiment::CheckCables(recording, model.CableNames());
+  const std::vector<TimeWindow> windows = WindowsOf(recording, most_frames);
+  std::vector<CalibrationFrame> frames;
+  for (const TimeWindow& window : windows) {
+    const double middle_s = 0.5 * (window.begin_s + window.end_s);
+    CalibrationFrame frame{
+        .name = windows.size() == 1 ? recording.name
+                                    : recording.name + " at " + FormatNumber(middle_s) + " s",
+        .markers = Sightings(experiment, recording, model, window, marker_bias_m),
+        .cables = CablesAt(recording, model, preferred, middle_s),
+        .loads = LoadsAt(recording, model, middle_s),
+        .gravity_m_s2 = experiment::BaseRotation(recording).transpose() * model.gravity_m_s2()};
+    if (!frame.markers.empty()) frames.push_back(std::move(frame));
+  }
+  if (frames.empty()) {
+    throw InputError(recording.folder.string() + ": no marker of the robot was seen");
+  }
+  return frames;
+}
+
+}  // namespace palpate::calibration

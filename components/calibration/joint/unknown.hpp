@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/parameter.hpp"
+
+namespace palpate::calibration {
+
+/// What is known of a number before the data are looked at.
+struct Belief {
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+  double mean = 0.0;          ///< where the search starts, and where it stays undetermined
+  double sigma = kUnbounded;  ///< of a data sheet or a measurement; infinite: nothing is known
+  double lower = -kUnbounded;
+  double upper = kUnbounded;
+  /// A change worth speaking of, > 0: scales the search. Data that leave the number more uncertain
+  /// than half of min(sigma, plausible) do not determine it.
+  double plausible = 1.0;
+};
+
+/// What acts on the model in a frame, as unknowns put it together.
+struct FrameInputs {
+  std::vector<robot::CableCommand> cables;
+  Eigen::Vector3d nominal_gravity_m_s2 = Eigen::Vector3d::Zero();  ///< of the frame
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();          ///< as unknowns turn it
+  double mass_factor = 1.0;  ///< a mass counts by its weight alone
+};
+
+/// How an equilibrium depends on an unknown: the parameter's derivative times `per_value`.
+struct Influence {
+  robot::ParameterPtr parameter;
+  double per_value = 1.0;
+};
+
+/// A number that calibration is to find, which the shape of the body depends on. The kinds there
+/// are: unknowns.hpp.
+class Unknown {
+ public:
+  /// `name`: e.g. "youngs_modulus:body"; `what_would_tell`: the recording that determines it.
+  Unknown(std::string name, std::string unit, Belief belief, std::string what_would_tell)
+      : name_(std::move(name)),
+        unit_(std::move(unit)),
+        belief_(belief),
+        what_would_tell_(std::move(what_would_tell)) {}
+  virtual ~Unknown() = default;
+
+  const std::string& name() const { return name_; }
+  const std::string& unit() const { return unit_; }  ///< of Quantity
+  const Belief& belief() const { return belief_; }
+  const std::string& what_would_tell() const { return what_would_tell_; }
+
+  virtual void ApplyToModel(double value, robot::RobotModel* model) const;
+  virtual void ApplyToFrame(double value, int frame, FrameInputs* inputs) const;
+  /// At a frame's inputs as they are with all unknowns applied; nothing where it has no part.
+  virtual std::optional<Influence> InfluenceOn(double value, int frame,
+                                               const FrameInputs& inputs) const = 0;
+
+  /// The value as people read it, and its derivative: for E the modulus where the value is its
+  /// logarithm.
+  virtual double Quantity(double value) const { return value; }
+  virtual double QuantityPerValue(double) const { return 1.0; }
+
+ private:
+  std::string name_;
+  std::string unit_;
+  Belief belief_;
+  std::string what_would_tell_;
+};
+
+using UnknownPtr = std::unique_ptr<const Unknown>;
+
+}  // namespace palpate::calibration

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/recording_phase.hpp"
+
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/recording_inputs.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
+  const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
+  constexpr double kFarthest_m = 0.02;
+  if (patch.distance_m > kFarthest_m) {
+    throw InputError(load.where, "the load lies " + FormatNumber(patch.distance_m) +
+                                     " m from the body's surface; at most " +
+                                     FormatNumber(kFarthest_m) + " m is allowed");
+  }
+  return {patch.weights, load.force_N};
+}
+
+}  // namespace
+
+std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
+                                          const robot::RobotModel& model,
+                                          robot::CableInput preferred, double t_s) {
+  using Quantity = experiment::CableQuantity;
+  std::vector<robot::CableCommand> commands;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const std::string& cable = model.body().cables[static_cast<size_t>(c)].name;
+    commands.push_back(model.CommandFor(
+        c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
+        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
+  }
+  return commands;
+}
+
+std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,
+                                     const robot::RobotModel& model, double t_s) {
+  std::vector<robot::DeadLoad> loads;
+  for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, t_s)) {
+    loads.push_back(ToDeadLoad(load, model));
+  }
+  return loads;
+}
+
+}  // namespace palpate::calibration

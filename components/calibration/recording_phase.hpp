@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "libs/experiment/recording.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// What the cables were commanded at this time of the recording, as the model's drives read it;
+/// kNone for a cable of which nothing was recorded.
+std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
+                                          const robot::RobotModel& model,
+                                          robot::CableInput preferred, double t_s);
+
+/// The known loads of that time. Throws InputError (file:line) where one lies off the body.
+std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,
+                                     const robot::RobotModel& model, double t_s);
+
+}  // namespace palpate::calibration

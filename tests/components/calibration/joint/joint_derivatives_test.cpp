@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/components/calibration/joint/joint_scene.hpp"
+
+namespace palpate::calibration {
+namespace {
+
+/// Everything that can be unknown, at once, with markers and surface points and both conditions.
+class JointDerivatives : public testing::Test {
+ protected:
+  JointDerivatives() : model_(Build(QuickFourLegs())) {
+    const auto pulled = Commands(Kind::kDisplacement, {0.012, 0.010, 0.011, 0.009});
+    const auto tight = Commands(Kind::kTension, {1.2, 0.7, 1.0, 0.5});
+    setup_.frames = {See(*model_, TableOnePose(), "pulled", pulled, {}, 1e-4),
+                     See(*model_, TableOnePose(), "tight", tight, {}, 1e-4)};
+    const fem::NodeWeights hub = model_->body().markers.front().point.weights;
+    setup_.frames[1].surface.push_back({.position_m = {0.01, -0.02, 0.4},
+                                        .sigma_m = 3e-4,
+                                        .point = hub,
+                                        .normal = Eigen::Vector3d(0.6, 0.0, 0.8)});
+    auto& unknowns = setup_.unknowns;
+    unknowns.push_back(CableInput(0, "pulled", 0, "north", Kind::kDisplacement,
+                                  {.mean = 0.012, .plausible = 1e-3}));
+    unknowns.push_back(CableInput(1, "tight", 2, "south", Kind::kTension, {.mean = 1.0}));
+    unknowns.push_back(CommandOffset(1, "west", {.plausible = 1e-3}));
+    unknowns.push_back(CommandGain(3, "east", {0.009, 0.0}, {.plausible = 0.1}));
+    unknowns.push_back(LogYoungsModulus(0, "body", 1e5, {.sigma = 0.3}));
+    unknowns.push_back(PoissonsRatioOf(0, "body", {.mean = 0.4, .sigma = 0.02, .plausible = 0.1}));
+    unknowns.push_back(MassFactor({.mean = 1.0, .sigma = 0.05, .plausible = 0.1}));
+    unknowns.push_back(GravityTilt("x", Eigen::Vector3d::UnitX(), {.plausible = 0.1}));
+    unknowns.push_back(GravityTilt("y", Eigen::Vector3d::UnitY(), {.plausible = 0.1}));
+    setup_.conditions.push_back(CableLengths(1, {1.0, 0.0, 1.0, 0.0}, 0.0, 0.0));
+    setup_.conditions.push_back(
+        StaysBeyondPlane(0, hub, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, 0.6, 0.8)));
+    setup_.T_robot_camera = TableOnePose();
+    setup_.depth_scale = Belief{.sigma = 0.005, .plausible = 0.01};
+    setup_.marker_offset_sigma_m = 5e-4;
+  }
+
+  std::unique_ptr<robot::RobotModel> model_;
+  JointSetup setup_;
+};
+
+TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
+  JointProblem problem(*model_, setup_);
+  const Eigen::Index count = problem.Start().size();
+  const Eigen::VectorXd at = 0.05 * Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
+  LeastSquaresPoint point, plus, minus;
+  ASSERT_TRUE(problem.Evaluate(at, &point).ok());
+  problem.Accept();
+  constexpr double kStep = 1e-3;
+  for (Eigen::Index v = 0; v < count; ++v) {
+    Eigen::VectorXd beside = at;
+    beside[v] += kStep;
+    ASSERT_TRUE(problem.Evaluate(beside, &plus).ok());
+    beside[v] -= 2.0 * kStep;
+    ASSERT_TRUE(problem.Evaluate(beside, &minus).ok());
+    const Eigen::VectorXd slope = (plus.residual - minus.residual) / (2.0 * kStep);
+    const double size = std::max(1.0, slope.norm());
+    const std::string& name = problem.variables()[static_cast<size_t>(v)].name;
+    EXPECT_LE((slope - point.jacobian.col(v)).norm(), 2e-6 * size) << name;
+    EXPECT_GT(slope.norm(), 1e-3) << name << " changes nothing";
+    const Eigen::VectorXd bend = (plus.constraint - minus.constraint) / (2.0 * kStep);
+    EXPECT_LE((bend - point.constraint_jacobian.col(v)).norm(), 1e-6 * std::max(1.0, bend.norm()))
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::calibration
