@@ -3,7 +3,7 @@
 
 #include "components/palpate/node/verbs.hpp"
 
-#include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/capture_verb.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"

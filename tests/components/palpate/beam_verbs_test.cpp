@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/demo_data.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/estimate/known_contacts.hpp"
+#include "components/force_estimation/shape/known_contacts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,10 @@
 namespace palpate::command {
 namespace {
 
+using force_estimation::KnownBeforeSeen;
+using force_estimation::KnownContacts;
 using force_estimation::SeenContact;
+using force_estimation::SitesOfLoads;
 using testing::SizeIs;
 
 SeenContact SeenAt(const std::string& name, const Eigen::Vector3d& position_m) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "components/palpate/calibrate_verb.hpp"
+#include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/child_process.hpp"
 #include "components/palpate/demo_data.hpp"
 #include "components/palpate/demo_picture.hpp"

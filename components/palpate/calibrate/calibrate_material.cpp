@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <fmt/core.h>
+
+#include "components/calibration/material_calibration.hpp"
+#include "components/calibration/recording_observation.hpp"
+#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibration_output.hpp"
+#include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/find_robot.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using calibration::MaterialCalibration;
+
+void PrintFit(const MaterialCalibration& fit,
+              const std::vector<calibration::StaticObservation>& observations) {
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    fmt::print("{}: markers off by {:.3f} mm RMS\n", observations[i].name,
+               1e3 * fit.residual_rms_of_observation_m[i]);
+  }
+  fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,
+             fit.degrees_of_freedom, fit.iterations);
+}
+
+}  // namespace
+
+robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
+                                         const experiment::Experiment& experiment,
+                                         const std::vector<int>& materials,
+                                         robot::RobotModel* model) {
+  const calibration::MaterialCalibrationSettings settings{.materials = materials};
+  const auto chosen = options.recordings.empty() ? RecordingsWithKnownLoads(experiment)
+                                                 : ChooseRecordings(experiment, options.recordings);
+  std::vector<calibration::StaticObservation> observations;
+  for (const experiment::Recording* recording : chosen) {
+    observations.push_back(calibration::ObserveRecording(experiment, *recording, *model,
+                                                         ParseCableInput(options.cable_input),
+                                                         options.marker_bias_m));
+  }
+  const MaterialCalibration fit = calibration::CalibrateMaterial(*model, observations, settings);
+  RequireFit(fit.status);
+  robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
+  for (const calibration::FittedModulus& modulus : fit.moduli) {
+    file.moduli.push_back({PartName(model->body(), modulus.material), modulus.youngs_modulus_Pa,
+                           modulus.standard_error_Pa});
+  }
+  TakeQuality(fit, &file);
+  if (!options.json) PrintFit(fit, observations);
+  return file;
+}
+
+}  // namespace palpate::command

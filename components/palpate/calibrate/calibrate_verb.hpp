@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libs/app/verbs.hpp"
+#include "libs/fem/sparse/solver_settings.hpp"
+
+namespace palpate::command {
+
+struct CalibrateOptions {
+  std::filesystem::path robot;
+  std::string what = "auto";   ///< material, camera, joint (both); auto: what the data lack
+  std::filesystem::path data;  ///< experiment or recording folder
+  std::vector<std::string> recordings;  ///< names; empty: all that serve
+  std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body
+  std::string cable_input = "displacement";
+  fem::SolverSettings solver;
+  double marker_bias_m = 0.0;          ///< constant error of each marker, one sigma
+  double drive_offset_sigma_m = 2e-3;  ///< how far a drive's zero may be off, one sigma
+  bool drive_gains = false;
+  std::filesystem::path out;
+  bool json = false;
+};
+
+/// `palpate calibrate`: finds where the camera stands and how the drives' displacements are to be
+/// read (markers in the camera's frame), Young's moduli (static phases with known loads or self
+/// weight), or both jointly, and writes the calibration file. Returns 0; throws InputError, and
+/// RunError where the data do not determine what was asked for.
+int Calibrate(const CalibrateOptions& options);
+
+app::Verb CalibrateVerb();
+
+}  // namespace palpate::command

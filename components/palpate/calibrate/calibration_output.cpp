@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/calibrate/calibration_output.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "components/palpate/choose_recordings.hpp"
+#include "libs/core/error.hpp"
+#include "libs/geometry/pose_text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+std::string UtcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+std::vector<double> ToList(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+}  // namespace
+
+robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
+                                       const std::vector<const experiment::Recording*>& recordings,
+                                       const std::filesystem::path& data) {
+  robot::CalibrationFile file = robot::DescribeForCalibration(model);
+  file.date_utc = UtcNow();
+  file.data = data.filename().empty() ? data.parent_path().filename() : data.filename();
+  for (const experiment::Recording* recording : recordings) {
+    file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
+  }
+  file.data_hash = HashRecordings(recordings);
+  return file;
+}
+
+void RequireFit(const Status& status) {
+  if (status.ok()) return;
+  throw RunError("the fit failed (" + std::string(ToString(status.code())) +
+                 "): " + status.message());
+}
+
+std::string PartName(const robot::RobotBody& body, int material) {
+  return material == 0 ? "body" : body.region_names[static_cast<std::size_t>(material) - 1];
+}
+
+void PrintCalibration(const robot::CalibrationFile& file) {
+  for (const robot::CalibratedModulus& modulus : file.moduli) {
+    fmt::print("E of {}: {:.2f} kPa, standard error {:.2f} kPa ({:.2g} %)\n", modulus.part,
+               1e-3 * modulus.youngs_modulus_Pa, 1e-3 * modulus.standard_error_Pa,
+               100.0 * modulus.standard_error_Pa / modulus.youngs_modulus_Pa);
+  }
+  if (file.pose) {
+    constexpr double kDegrees = 57.29577951308232;
+    fmt::print("T_robot_camera: {}\n", geometry::FormatPose(file.pose->T_robot_camera));
+    fmt::print("  standard error: {:.2f} mm, {:.3f} degrees\n",
+               1e3 * file.pose->translation_error_m.norm(),
+               kDegrees * file.pose->rotation_error_rad.norm());
+  }
+  for (const robot::CalibratedDrive& drive : file.drives) {
+    fmt::print(
+        "drive of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",
+        drive.cable, 1e3 * drive.drive.offset_m, 1e3 * drive.standard_error.offset_m,
+        100.0 * drive.drive.gain, 100.0 * drive.standard_error.gain);
+  }
+  for (const robot::Undetermined& number : file.undetermined) {
+    fmt::print("{} is not determined by these data, and stays as it was; it takes {}\n",
+               number.name, number.what_would_tell);
+  }
+}
+
+void PrintCalibrationJson(const robot::CalibrationFile& file) {
+  nlohmann::ordered_json moduli = nlohmann::ordered_json::array();
+  for (const robot::CalibratedModulus& modulus : file.moduli) {
+    moduli.push_back({{"part", modulus.part},
+                      {"youngs_modulus_Pa", modulus.youngs_modulus_Pa},
+                      {"standard_error_Pa", modulus.standard_error_Pa}});
+  }
+  nlohmann::ordered_json json = {{"robot", file.robot},
+                                 {"mesh_hash", file.mesh_hash},
+                                 {"element", file.element},
+                                 {"model", file.model},
+                                 {"data", file.data},
+                                 {"data_hash", file.data_hash},
+                                 {"moduli", moduli},
+                                 {"residual_rms_m", file.residual_rms_m},
+                                 {"chi_squared", file.chi_squared},
+                                 {"degrees_of_freedom", file.degrees_of_freedom}};
+  if (file.pose) {
+    const Eigen::Isometry3d& pose = file.pose->T_robot_camera;
+    const Eigen::Quaterniond rotation(pose.linear());
+    json["T_robot_camera"] = {
+        {"translation_m", ToList(pose.translation())},
+        {"rotation_xyzw", {rotation.x(), rotation.y(), rotation.z(), rotation.w()}},
+        {"rotation_standard_error_rad", ToList(file.pose->rotation_error_rad)},
+        {"translation_standard_error_m", ToList(file.pose->translation_error_m)}};
+  }
+  for (const robot::CalibratedDrive& drive : file.drives) {
+    json["drives"].push_back({{"cable", drive.cable},
+                              {"offset_m", drive.drive.offset_m},
+                              {"offset_standard_error_m", drive.standard_error.offset_m},
+                              {"gain", drive.drive.gain},
+                              {"gain_standard_error", drive.standard_error.gain}});
+  }
+  for (const robot::Undetermined& number : file.undetermined) {
+    json["undetermined"].push_back(
+        {{"name", number.name}, {"what_would_tell", number.what_would_tell}});
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// A calibration of this model from these recordings, made now; what was found is the caller's to
+/// fill in.
+robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
+                                       const std::vector<const experiment::Recording*>& recordings,
+                                       const std::filesystem::path& data);
+
+/// Name of a material (RobotBody::materials) in calibration files: "body", or its region's.
+std::string PartName(const robot::RobotBody& body, int material);
+
+/// Throws RunError with the reason where a fit failed.
+void RequireFit(const Status& status);
+
+/// How well a fit (calibration::MaterialCalibration, JointCalibration) came out.
+template <typename Fit>
+void TakeQuality(const Fit& fit, robot::CalibrationFile* file) {
+  file->residual_rms_m = fit.residual_rms_m;
+  file->chi_squared = fit.chi_squared;
+  file->degrees_of_freedom = fit.degrees_of_freedom;
+}
+
+/// Tells it on standard output, for people or as JSON.
+void PrintCalibration(const robot::CalibrationFile& calibration);
+void PrintCalibrationJson(const robot::CalibrationFile& calibration);
+
+}  // namespace palpate::command
