@@ -14,6 +14,8 @@ namespace {
 
 /// A quiet site has a force below this share of what makes it significant.
 constexpr double kQuietShare = 0.5;
+/// A force so many times what counts as significant needs half of the frames to be believed.
+constexpr double kBeyondDoubt = 2.0;
 /// Of the prior's variance: with more left the tangential force counts as not observed.
 constexpr double kToldShare = 0.5;
 /// Depth noise is correlated from frame to frame (0.3 of stereo cameras): so much less does
@@ -65,7 +67,10 @@ void ContactReport::Judge(double t_s, ShapeFit* fit) const {
     const double chance = hidden ? config_.hidden_significance : config_.significance;
     const double limit_N = NormalQuantile(1.0 - chance) * sigma_N;
     const double pressed_N = -normal.dot(fit->ForceAt(s));
-    fit->book().Judge(s, pressed_N > limit_N, pressed_N < kQuietShare * limit_N);
+    const auto evidence = pressed_N > kBeyondDoubt * limit_N ? SiteBook::Evidence::kBeyondDoubt
+                          : pressed_N > limit_N              ? SiteBook::Evidence::kSignificant
+                                                             : SiteBook::Evidence::kNone;
+    fit->book().Judge(s, evidence, pressed_N < kQuietShare * limit_N);
     fit->book().filter(s).Update(t_s, fit->ForceAt(s),
                                  kTemporalCorrelation * RandomCovariance(*fit, s));
   }

@@ -29,7 +29,7 @@ struct ShapeConfig {
   double force_rate_N_s = 2.0;
   double fit_tolerance = 3e-3;
   double fit_tolerance_sigmas = 0.0;
-  double frame_work = 16.0;
+  double frame_work = 24.0;
   double significance = 1e-5;
   double hidden_significance = 1e-6;
 

@@ -27,6 +27,9 @@ constexpr double kWorstMisfit = 30.0;
 constexpr int kMisfitsToRestart = 3;
 /// A fit that needs more frames than this follows something that is not the robot's shape.
 constexpr int kMostFramesOnBudget = 8;
+/// After a pause of so many frames' time, and no less than this, what touched before is forgotten.
+constexpr double kGapFrames = 5.0;
+constexpr double kLeastGap_s = 0.5;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -70,6 +73,7 @@ class ShapeForceEstimator::Impl {
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
   Status CheckMisfit(const ShapeFit::Attempt& before);
+  void ForgetAfterGap(double t_s);
   void Publish();
   void PublishState();
   void ReportFeatures();
@@ -82,9 +86,11 @@ class ShapeForceEstimator::Impl {
   HiddenContacts hidden_;
   ContactReport report_;
   fem::StaticState free_state_;
-  int misfits_ = 0;           ///< frames in a row
-  int frames_on_budget_ = 0;  ///< in a row
-  bool learning_ = false;     ///< untouched frames came since the bias was solved for
+  double last_t_s_ = kUnknown;
+  double period_s_ = std::numeric_limits<double>::infinity();  ///< between the last two frames
+  int misfits_ = 0;                                            ///< frames in a row
+  int frames_on_budget_ = 0;                                   ///< in a row
+  bool learning_ = false;  ///< untouched frames came since the bias was solved for
   std::vector<FeatureReport> features_;
   ForceEstimate estimate_;
   bool published_ = false;
@@ -92,6 +98,7 @@ class ShapeForceEstimator::Impl {
 
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
+  ForgetAfterGap(frame.t_s);
   return frame.untouched ? Learn(frame) : Estimate(frame);
 }
 
@@ -207,6 +214,20 @@ Status ShapeForceEstimator::Impl::CheckMisfit(const ShapeFit::Attempt& before) {
   return {StatusCode::kNoRobotSeen, "no forces explain the shape that is seen, " +
                                         std::to_string(std::lround(std::sqrt(misfit))) +
                                         " sigmas off: camera pose, intrinsics, or not the robot"};
+}
+
+/// Another recording, or a camera that was away: the robot was left to itself in between.
+void ShapeForceEstimator::Impl::ForgetAfterGap(double t_s) {
+  const double passed_s = t_s - last_t_s_;
+  last_t_s_ = t_s;
+  if (!std::isfinite(passed_s)) return;
+  if (passed_s < 0.0 || passed_s > std::max(kLeastGap_s, kGapFrames * period_s_)) {
+    hidden_.Forget();
+    fit_.book().Forget();
+    fit_.Stop();
+    return;
+  }
+  period_s_ = passed_s;
 }
 
 void ShapeForceEstimator::Impl::Publish() {

@@ -27,7 +27,7 @@ struct ShapeSite {
 
   ForceFilter filter;
   int frames = 0;              ///< in which it was followed
-  int significant_frames = 0;  ///< in a row, up to the last one
+  int significant_frames = 0;  ///< in a row, up to the last one; those beyond doubt count twice
   int quiet_frames = 0;        ///< in a row without a significant force
   bool acts = false;           ///< its force is reported
 };

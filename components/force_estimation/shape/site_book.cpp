@@ -169,10 +169,11 @@ void SiteBook::Place(const SkinPoint& centre, ShapeSite* site) const {
   site->patch = model_.Patch(centre.rest_m, site->radius_m);
 }
 
-void SiteBook::Judge(std::size_t index, bool significant, bool quiet) {
+void SiteBook::Judge(std::size_t index, Evidence evidence, bool quiet) {
   ShapeSite& site = sites_[index];
   ++site.frames;
-  site.significant_frames = significant ? site.significant_frames + 1 : 0;
+  site.significant_frames += evidence == Evidence::kBeyondDoubt ? 2 : 1;
+  if (evidence == Evidence::kNone) site.significant_frames = 0;
   site.quiet_frames = quiet ? site.quiet_frames + 1 : 0;
   const int wanted = site.hidden ? kFramesToAppearHidden : kFramesToAppear;
   if (site.significant_frames >= wanted) site.acts = true;

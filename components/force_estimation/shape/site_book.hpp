@@ -34,9 +34,12 @@ class SiteBook {
   void GoBack(const std::vector<ShapeSite>& sites) { sites_ = sites; }
   /// Moves a site along the undeformed surface. False where that is less than kSmallestMove_m.
   bool Move(std::size_t index, const Eigen::Vector3d& step_rest_m);
-  /// What a frame's fit has found out about a site's force.
-  void Judge(std::size_t index, bool significant, bool quiet);
+  /// What a frame's fit says of a site's force.
+  enum class Evidence { kNone, kSignificant, kBeyondDoubt };
+  /// Forces that are beyond doubt are believed after half of the frames.
+  void Judge(std::size_t index, Evidence evidence, bool quiet);
   ForceFilter& filter(std::size_t index) { return sites_[index].filter; }
+  void Forget() { sites_.clear(); }
   void ForgetHidden();
   /// Removes hidden sites that have been quiet for some frames. True where one was removed.
   bool ForgetQuiet();

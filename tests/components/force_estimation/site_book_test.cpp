@@ -21,8 +21,11 @@ class Book : public testing::Test {
             .extent_m = Eigen::Vector3d::Constant(0.01),
             .point_count = 30};
   }
+  using Evidence = SiteBook::Evidence;
+
   void JudgeAll(bool significant, bool quiet) {
-    for (size_t s = 0; s < book_.sites().size(); ++s) book_.Judge(s, significant, quiet);
+    const Evidence evidence = significant ? Evidence::kSignificant : Evidence::kNone;
+    for (size_t s = 0; s < book_.sites().size(); ++s) book_.Judge(s, evidence, quiet);
   }
 
   std::unique_ptr<robot::RobotModel> model_;
@@ -89,11 +92,19 @@ TEST_F(Book, AHiddenContactGivesWayToOneThatComesIntoView) {
   EXPECT_EQ(book_.sites()[0].name, "a");
 }
 
+TEST_F(Book, AForceBeyondDoubtIsBelievedAfterHalfTheFrames) {
+  book_.See({Contact("doubted", tip_), Contact("sure", middle_)}, x_m_);
+  book_.Judge(0, Evidence::kSignificant, false);
+  book_.Judge(1, Evidence::kBeyondDoubt, false);
+  EXPECT_FALSE(book_.sites()[0].acts);
+  EXPECT_TRUE(book_.sites()[1].acts);
+}
+
 TEST_F(Book, AForceGoesOnWhenItsContactGoesOutOfSightAndComesBack) {
   book_.See({Contact("a", tip_), Contact("idle", middle_)}, x_m_);
   for (int k = 0; k < 2; ++k) {
-    book_.Judge(0, true, false);
-    book_.Judge(1, false, true);
+    book_.Judge(0, Evidence::kSignificant, false);
+    book_.Judge(1, Evidence::kNone, true);
   }
   EXPECT_TRUE(book_.See({}, x_m_));
   ASSERT_EQ(book_.sites().size(), 1u);
