@@ -9,6 +9,7 @@
 #include "components/force_estimation/shape/contact_report.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
 #include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/shape/shape_force_estimator.hpp"
 #include "components/force_estimation/statistics.hpp"
 #include "tests/components/force_estimation/shape_scene.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
@@ -154,6 +155,22 @@ TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {
   }
   ASSERT_EQ(fit_.sites().size(), 1u);
   EXPECT_FALSE(fit_.sites()[0].hidden);
+}
+
+/// What a contact that went out of sight leaves behind goes on, but not into another recording.
+TEST_F(Contacts, FromBeforeAGapInTimeAreForgotten) {
+  ShapeForceEstimator estimator(*scene_.model, Config(), shape_);
+  for (int k = 0; k < 6; ++k) {
+    ShapeFrame frame = FrameOf(free_);
+    frame.untouched = true;
+    estimator.Update(frame);
+  }
+  const fem::StaticState pushed = Solve(kForce_N);
+  for (int k = 0; k < 3; ++k) estimator.Update(SeenFrameOf(pushed));
+  ASSERT_EQ(estimator.Update(SeenFrameOf(pushed)).contacts.size(), 1u);
+  EXPECT_EQ(estimator.Update(FrameOf(pushed)).contacts.size(), 1u);
+  t_s_ += 10.0;
+  EXPECT_TRUE(estimator.Update(FrameOf(pushed)).contacts.empty());
 }
 
 }  // namespace
