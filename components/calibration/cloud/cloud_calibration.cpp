@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "components/calibration/cloud/cloud_matching.hpp"
+#include "components/calibration/joint/kept_model.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::calibration {
@@ -43,7 +44,6 @@ class Search {
   Status FitTogether();
   void Match();
   Status CheckResult(const geometry::RigidTransform& start);
-  FrameInputs InputsOf(int frame) const;
 
   robot::RobotModel& model_;
   const std::vector<CloudFrame>& frames_;
@@ -51,7 +51,6 @@ class Search {
   std::vector<SkinInView> skins_;
   std::vector<ThinCloud> thin_, thinner_;  ///< of the fit and of the search
   JointSetup setup_;
-  std::vector<double> values_;  ///< of the unknowns, as found last
   CloudCalibration result_;
 };
 
@@ -69,33 +68,20 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   }
   setup_.fit_pose = true;
   setup_.marker_offset_sigma_m = 0.0;
-  for (const UnknownPtr& unknown : setup_.unknowns) values_.push_back(unknown->belief().mean);
   return TakeShapes();
 }
 
-/// Inputs with the unknowns as found last. Those of cables read as they are applied; moduli are in
-/// the model already.
-FrameInputs Search::InputsOf(int frame) const {
-  const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
-  FrameInputs inputs{.cables = given.cables,
-                     .nominal_gravity_m_s2 = given.gravity_m_s2,
-                     .gravity_m_s2 = given.gravity_m_s2};
-  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
-    setup_.unknowns[u]->ApplyToFrame(values_[u], frame, &inputs);
-  }
-  return inputs;
-}
-
+/// Equilibria under what is believed of the inputs.
 Status Search::TakeShapes() {
-  const Eigen::Vector3d gravity_m_s2 = model_.gravity_m_s2();
+  const KeptModel kept(model_);
   for (std::size_t f = 0; f < skins_.size(); ++f) {
-    const FrameInputs inputs = InputsOf(static_cast<int>(f));
-    model_.SetGravity(inputs.gravity_m_s2);
+    const CalibrationFrame& frame = setup_.frames[f];
+    model_.SetGravity(frame.gravity_m_s2);
     fem::StaticState state = model_.RestState();
-    const fem::StaticResult solved = model_.Solve(inputs.cables, setup_.frames[f].loads, &state);
-    model_.SetGravity(gravity_m_s2);
+    const fem::StaticResult solved = model_.Solve(frame.cables, frame.loads, &state);
+    kept.RestoreGravity();
     if (!solved.status.ok()) {
-      return {solved.status.code(), frames_[f].name + ": " + solved.status.message()};
+      return {solved.status.code(), frame.name + ": " + solved.status.message()};
     }
     skins_[f].TakeShape(state.x_m);
   }
@@ -134,13 +120,9 @@ Status Search::FitTogether() {
     ++result_.rounds;
     result_.joint = CalibrateJointly(model_, setup_, joint_settings);
     if (!result_.joint.status.ok()) return result_.joint.status;
-    const std::size_t others = result_.joint.values.size() - values_.size();
-    for (std::size_t u = 0; u < values_.size(); ++u) {
-      values_[u] = result_.joint.values[others + u].value;
-    }
+    for (std::size_t f = 0; f < skins_.size(); ++f) skins_[f].TakeShape(result_.joint.x_m[f]);
     const geometry::RigidTransform last = setup_.T_robot_camera;
     setup_.T_robot_camera = result_.joint.T_robot_camera;
-    if (Status status = TakeShapes(); !status.ok()) return status;
     const double turned_rad = last.rotation().angularDistance(setup_.T_robot_camera.rotation());
     const double moved_m = (last * middle_m - setup_.T_robot_camera * middle_m).norm();
     if (moved_m < settings_.moved_m && turned_rad < settings_.turned_rad) return Status::Ok();
@@ -179,13 +161,9 @@ CloudCalibration CalibrateFromClouds(robot::RobotModel& model,
   CloudCalibration refused;
   refused.status = CheckClouds(model, frames, settings);
   if (!refused.status.ok()) return refused;
-  const std::vector<fem::Material> materials = model.body().materials;
+  const KeptModel kept(model);
   CloudCalibration result = Search(model, frames, settings).Run(T_robot_camera_start);
-  if (result.status.ok()) return result;
-  for (std::size_t m = 0; m < materials.size(); ++m) {
-    model.SetYoungsModulus(static_cast<int>(m), materials[m].youngs_modulus_Pa);
-    model.SetPoissonsRatio(static_cast<int>(m), materials[m].poissons_ratio);
-  }
+  if (!result.status.ok()) kept.Restore();
   return result;
 }
 

@@ -11,31 +11,11 @@
 #include <utility>
 
 #include "components/calibration/joint/determination.hpp"
+#include "components/calibration/joint/kept_model.hpp"
 
 namespace palpate::calibration {
 
 namespace {
-
-/// The model's moduli, Poisson's ratios and gravity, to put back.
-class KeptModel {
- public:
-  explicit KeptModel(robot::RobotModel& model)
-      : model_(model), materials_(model.body().materials), gravity_m_s2_(model.gravity_m_s2()) {}
-
-  void Restore() const {
-    for (std::size_t m = 0; m < materials_.size(); ++m) {
-      model_.SetYoungsModulus(static_cast<int>(m), materials_[m].youngs_modulus_Pa);
-      model_.SetPoissonsRatio(static_cast<int>(m), materials_[m].poissons_ratio);
-    }
-    RestoreGravity();
-  }
-  void RestoreGravity() const { model_.SetGravity(gravity_m_s2_); }
-
- private:
-  robot::RobotModel& model_;
-  std::vector<fem::Material> materials_;
-  Eigen::Vector3d gravity_m_s2_;
-};
 
 /// Holds what is not determined at this point; true where something new is held.
 Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& settings,
@@ -133,6 +113,7 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));
   const Eigen::MatrixXd covariance = widened * CovarianceOf(fit, problem);
   result->T_robot_camera = problem.PoseAt(solution.variables);
+  for (const fem::StaticState& state : problem.states()) result->x_m.push_back(state.x_m);
   if (problem.pose_column() >= 0) {
     Eigen::Matrix<double, 6, 1> scale;
     for (int i = 0; i < 6; ++i) scale[i] = problem.Scale(problem.pose_column() + i);

@@ -42,6 +42,7 @@ struct JointCalibration {
   Eigen::MatrixXd correlation;
   double residual_rms_m = 0.0;  ///< of all frames
   std::vector<double> residual_rms_of_frame_m;
+  std::vector<Eigen::VectorXd> x_m;  ///< [frames] equilibria, nodes [3n]
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
   std::vector<double> objectives;  ///< of the start and after each iteration

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "components/calibration/joint/kept_model.hpp"
 #include "components/calibration/joint/unknowns.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/rigid_registration.hpp"
@@ -144,6 +145,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
 JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                                  const geometry::RigidTransform* T_robot_camera,
                                  const JointRequest& request) {
+  const KeptModel kept(model);
   JointSetup setup;
   JointCalibration result;
   result.status = MakeJointSetup(model, std::move(frames), T_robot_camera, request, &setup);
@@ -153,6 +155,7 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   result = CalibrateJointly(model, setup, settings);
   const double spread_m = SpreadOf(setup.frames);
   if (result.status.ok() && result.residual_rms_m > kWrongRobotShare * spread_m) {
+    kept.Restore();
     result.status = Status(StatusCode::kInvalidInput,
                            "the markers lie " + FormatNumber(result.residual_rms_m) +
                                " m from the model's (RMS), of " + FormatNumber(spread_m) +

@@ -32,7 +32,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
                       JointSetup* setup);
 
 /// CalibrateJointly, refusing what is not this robot: kInvalidInput where the markers lie off by
-/// more than a tenth of their spread.
+/// more than a tenth of their spread; the model is then as it was.
 JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                                  const geometry::RigidTransform* T_robot_camera,
                                  const JointRequest& request);

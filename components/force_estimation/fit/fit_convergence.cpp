@@ -52,16 +52,9 @@ double ForceFitter::CableError(const ModelState& state) const {
 
 /// Largest change of a force that the QP asks for, relative where forces are above 1 N.
 double ForceFitter::LargestChange(const ModelState& state) const {
-  if (accepted_sigmas_ > 0.0 && ChangeInSigmas(state) <= accepted_sigmas_) return 0.0;
   const double change = std::max((new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>(),
                                  (new_lambda_a_ - state.lambda_a_N).lpNorm<Eigen::Infinity>());
   return change / std::max(1.0, new_lambda_f_.lpNorm<Eigen::Infinity>());
-}
-
-/// Of the contact forces, by the information that rows and prior give about them.
-double ForceFitter::ChangeInSigmas(const ModelState& state) const {
-  const fem::QpVector change_N = new_lambda_f_ - state.lambda_f_N;
-  return std::sqrt(std::max(0.0, change_N.dot(Information(*frame_.targets) * change_N)));
 }
 
 /// Of the step that the QP asks for, where that is longer than a step may be.

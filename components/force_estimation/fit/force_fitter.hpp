@@ -82,9 +82,6 @@ class ForceFitter final : private fem::FrameProblem {
   /// pull either way: the fit then stands as long as the cable pushes no more than this; at first
   /// 0.
   void TolerateCablesThatPush(double most_N) { most_push_N_ = most_N; }
-  /// Forces that change by less than so many of their standard deviations in the next step have
-  /// converged, however small they are; at first 0.
-  void AcceptChangesWithin(double sigmas) { accepted_sigmas_ = sigmas; }
   /// No exact step changes a contact's force by more, which keeps Newton's steps where they
   /// converge; at first there is no limit.
   void LimitForceStep(double most_N) { longest_step_N_ = most_N; }
@@ -170,7 +167,6 @@ class ForceFitter final : private fem::FrameProblem {
   double BalanceError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
   double LargestChange(const ModelState& state) const;
-  double ChangeInSigmas(const ModelState& state) const;
   double StepShare(const ModelState& state) const;
   void UpdateWeight();
   void UpdateExternalForce(const Eigen::VectorXd& lambda_f_N);
@@ -191,7 +187,6 @@ class ForceFitter final : private fem::FrameProblem {
   bool tell_modulus_sensitivity_ = true;
   int most_restorations_ = 8;
   double most_push_N_ = 0.0;
-  double accepted_sigmas_ = 0.0;
   double longest_step_N_ = 0.0;  ///< 0: no limit
   double work_ = 0.0;
   bool counts_work_ = false;

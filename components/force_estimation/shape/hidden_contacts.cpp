@@ -106,12 +106,13 @@ Unexplained HiddenContacts::WithoutHidden() const {
 /// The fit with these hidden contacts, where it is better than the one before.
 bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
                          const DepthBias& bias, Status* status) {
-  const ShapeFit::Attempt before = fit_.Keep();
+  ShapeFit::Attempt before;
+  fit_.KeepIn(&before);
   fit_.ReplaceHidden(contacts);
   Status tried = fit_.MatchAndFit(frame, bias);
   if (tried.ok()) tried = fit_.Locate(frame, bias);
   if (tried.code() == StatusCode::kBudgetReached) {
-    before_ = before;
+    before_ = std::move(before);
     *status = tried;
     return false;
   }

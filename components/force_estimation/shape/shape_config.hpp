@@ -28,7 +28,6 @@ struct ShapeConfig {
   double force_relative_sigma = 0.015;
   double force_rate_N_s = 2.0;
   double fit_tolerance = 3e-3;
-  double fit_tolerance_sigmas = 0.0;
   double frame_work = 24.0;
   double significance = 1e-5;
   double hidden_significance = 1e-6;
@@ -73,9 +72,6 @@ struct ShapeConfig {
       "frame stands for itself");
     v("fit_tolerance", fit_tolerance, {.min = 1e-11, .max = 0.1},
       "As frame_tolerance, of the fits of one frame");
-    v("fit_tolerance_sigmas", fit_tolerance_sigmas, {.min = 0.0, .max = 1.0},
-      "Nor does a frame wait for forces that change by less than so many of their sigmas, which "
-      "saves steps and costs accuracy: what is left adds up over places and forces");
     v("frame_work", frame_work, {.min = 0.0},
       "Work on one frame, in substitutions (about 2 ms each; a factorisation counts 8): what can "
       "wait then waits for the next frames, and a fit ends with budget_reached after four times as "

@@ -56,7 +56,6 @@ ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeCo
   fitter_.TellModulusSensitivity(false);
   fitter_.LimitRestorations(kMostRestorations);
   fitter_.TolerateCablesThatPush(kMostPush_N);
-  fitter_.AcceptChangesWithin(shape.fit_tolerance_sigmas);
   fitter_.LimitForceStep(kLongestForceStep_N);
 }
 
@@ -223,6 +222,12 @@ bool ShapeFit::IsTimeToLocate() const {
 
 double ShapeFit::Misfit() const {
   return fitter_.fit().chi_squared / std::max(1, targets_.Count());
+}
+
+void ShapeFit::KeepIn(Attempt* attempt) const {
+  attempt->sites = book_.sites();
+  attempt->state = state_;
+  attempt->chi_squared = fitter_.fit().chi_squared;
 }
 
 void ShapeFit::GoBack(const Attempt& attempt) {

@@ -58,7 +58,8 @@ class ShapeFit {
     ModelState state;
     double chi_squared = 0.0;
   };
-  Attempt Keep() const { return {book_.sites(), state_, fitter_.fit().chi_squared}; }
+  /// Into memory that is kept.
+  void KeepIn(Attempt* attempt) const;
   void GoBack(const Attempt& attempt);
   /// Other hidden sites than there were, with forces to begin with.
   void ReplaceHidden(const std::vector<HiddenContact>& found);

@@ -72,7 +72,7 @@ class ShapeForceEstimator::Impl {
   Status Estimate(const ShapeFrame& frame);
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
-  Status CheckMisfit(const ShapeFit::Attempt& before);
+  Status CheckMisfit();
   void ForgetAfterGap(double t_s);
   void Publish();
   void PublishState();
@@ -86,6 +86,7 @@ class ShapeForceEstimator::Impl {
   HiddenContacts hidden_;
   ContactReport report_;
   fem::StaticState free_state_;
+  ShapeFit::Attempt before_;  ///< the frame
   double last_t_s_ = kUnknown;
   double period_s_ = std::numeric_limits<double>::infinity();  ///< between the last two frames
   int misfits_ = 0;                                            ///< frames in a row
@@ -186,27 +187,27 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
 }
 
 Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
-  const ShapeFit::Attempt before = fit_.Keep();
+  fit_.KeepIn(&before_);
   fit_.book().ForgetQuiet();
   fit_.See(frame);
   Status status = fit_.MatchAndFit(frame, bias_);
   if (status.ok() && fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
-  if (status.ok()) status = CheckMisfit(before);
+  if (status.ok()) status = CheckMisfit();
   if (status.ok()) report_.Judge(frame.t_s, &fit_);
   return status;
 }
 
 /// A shape that neither contacts nor noise explain is not the robot's, or not seen from where the
 /// camera is said to be: the model stays as it was before.
-Status ShapeForceEstimator::Impl::CheckMisfit(const ShapeFit::Attempt& before) {
+Status ShapeForceEstimator::Impl::CheckMisfit() {
   const double misfit = fit_.Misfit();
   if (misfit <= kWorstMisfit) {
     misfits_ = 0;
     return Status::Ok();
   }
-  fit_.GoBack(before);
+  fit_.GoBack(before_);
   if (++misfits_ % kMisfitsToRestart == 0) {
     hidden_.Forget();
     fit_.StartAt(free_state_);

@@ -157,20 +157,6 @@ TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
   EXPECT_LT((state_.lambda_f_N - force_N).norm(), 1e-6);
 }
 
-TEST_F(KeptFactor, ChangesBelowTheNoiseAreNotFollowed) {
-  const Eigen::Vector3d before_N = state_.lambda_f_N;
-  const double sigma_N = std::sqrt(fitter_.fit().covariance_N2.diagonal().minCoeff());
-  const RowTargets near = TargetsUnder(kForce_N + 0.1 * sigma_N * Eigen::Vector3d::UnitX());
-  fitter_.AcceptChangesWithin(0.5);
-  const ForceFit& fit = fitter_.Fit(near, {}, &state_, Work(kNoLimit));
-  EXPECT_TRUE(fit.status.ok());
-  EXPECT_EQ(fit.chord_steps, 0);
-  EXPECT_EQ(state_.lambda_f_N, before_N);
-  const RowTargets far = TargetsUnder(1.1 * kForce_N);
-  EXPECT_TRUE(fitter_.Fit(far, {}, &state_, Work(kNoLimit)).status.ok());
-  EXPECT_LT((state_.lambda_f_N - 1.1 * kForce_N).norm(), 0.1 * sigma_N + 1e-3);
-}
-
 TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
   const RowTargets targets =
       TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)}).x_m);

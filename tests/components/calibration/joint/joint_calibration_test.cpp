@@ -11,6 +11,7 @@
 #include <memory>
 #include <random>
 
+#include "components/calibration/joint/joint_request.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
 
 namespace palpate::calibration {
@@ -207,6 +208,19 @@ TEST_F(JointCalibrationOfOurRobot, AWindingDrumTiesTwoCables) {
   EXPECT_GT(std::abs(model_->cable(0).Displacement_m(state.x_m) +
                      model_->cable(2).Displacement_m(state.x_m) - sum_m),
             1e-5);
+}
+
+TEST_F(JointCalibrationOfOurRobot, AnotherRobotIsRefusedAndTheModelStaysAsItWas) {
+  JointSetup setup = Frames(2, 1e-4, nullptr);
+  for (CalibrationFrame& frame : setup.frames) {
+    for (std::size_t m = 0; m < 4; ++m) frame.markers[m].position_m *= 1.2;
+  }
+  const double before_Pa = model_->body().materials[0].youngs_modulus_Pa;
+  const geometry::RigidTransform start = TableOnePose();
+  const JointCalibration fit =
+      CalibrateFrames(*model_, setup.frames, &start, {.moduli = {0}, .huber_threshold = 0.0});
+  EXPECT_FALSE(fit.status.ok());
+  EXPECT_EQ(model_->body().materials[0].youngs_modulus_Pa, before_Pa);
 }
 
 }  // namespace
