@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <utility>
 
 #include "idl/message_traits.hpp"
@@ -23,7 +24,9 @@ class Samples {
     taken_ = dds_take(reader_, pointers_.data(), infos.data(), kMaxCount, kMaxCount);
     for (int i = 0; i < taken_; ++i) {
       const size_t index = static_cast<size_t>(i);
-      if (infos[index].valid_data) valid_[valid_count_++] = static_cast<T*>(pointers_[index]);
+      if (!infos[index].valid_data) continue;
+      sent_ns_[valid_count_] = infos[index].source_timestamp;
+      valid_[valid_count_++] = static_cast<T*>(pointers_[index]);
     }
   }
   Samples(const Samples&) = delete;
@@ -34,8 +37,10 @@ class Samples {
 
   class Iterator {
    public:
-    explicit Iterator(T* const* at) : at_(at) {}
-    const T& operator*() const { return **at_; }
+    Iterator(const Samples* samples, size_t at) : samples_(samples), at_(at) {}
+    const T& operator*() const { return *samples_->valid_[at_]; }
+    /// When the writer wrote it, on the wall clock of its host.
+    int64_t sent_ns() const { return samples_->sent_ns_[at_]; }
     Iterator& operator++() {
       ++at_;
       return *this;
@@ -43,15 +48,17 @@ class Samples {
     bool operator==(const Iterator&) const = default;
 
    private:
-    T* const* at_;
+    const Samples* samples_;
+    size_t at_;
   };
-  Iterator begin() const { return Iterator(valid_.data()); }
-  Iterator end() const { return Iterator(valid_.data() + valid_count_); }
+  Iterator begin() const { return Iterator(this, 0); }
+  Iterator end() const { return Iterator(this, valid_count_); }
 
  private:
   dds_entity_t reader_;
   std::array<void*, kMaxCount> pointers_{};
   std::array<T*, kMaxCount> valid_{};
+  std::array<int64_t, kMaxCount> sent_ns_{};  ///< of the valid ones
   size_t valid_count_ = 0;
   dds_return_t taken_ = 0;
 };

@@ -47,6 +47,10 @@ void WaitSet::Every(Clock::duration period, std::function<void()> on_time) {
   timers_.push_back({period, Clock::now() + period, std::move(on_time)});
 }
 
+Alarm& WaitSet::AddAlarm(std::function<void()> on_time) {
+  return *alarms_.emplace_back(std::make_unique<Alarm>(std::move(on_time)));
+}
+
 void WaitSet::Run() {
   DispatchUntil([] { return false; }, Clock::time_point::max());
 }
@@ -57,6 +61,7 @@ bool WaitSet::DispatchUntil(const std::function<bool()>& done, Clock::time_point
     if (Clock::now() >= deadline) return false;
     WaitForEvent(Earliest(deadline));
     CallTimers();
+    CallAlarms();
   }
   return false;
 }
@@ -89,8 +94,17 @@ void WaitSet::CallTimers() {
   }
 }
 
+void WaitSet::CallAlarms() {
+  for (const auto& alarm : alarms_) {
+    if (Clock::now() < alarm->when_) continue;
+    alarm->Clear();
+    alarm->on_time_();
+  }
+}
+
 WaitSet::Clock::time_point WaitSet::Earliest(Clock::time_point deadline) const {
   for (const Timer& timer : timers_) deadline = std::min(deadline, timer.next);
+  for (const auto& alarm : alarms_) deadline = std::min(deadline, alarm->when_);
   return deadline;
 }
 

@@ -15,6 +15,24 @@
 
 namespace palpate::dds {
 
+/// A call that is made once, at the time set last. Made by WaitSet::AddAlarm; to be set by the
+/// loop's thread.
+class Alarm {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit Alarm(std::function<void()> on_time) : on_time_(std::move(on_time)) {}
+
+  void Set(Time when) { when_ = when; }
+  void Clear() { when_ = Time::max(); }
+
+ private:
+  friend class WaitSet;
+
+  Time when_ = Time::max();
+  std::function<void()> on_time_;
+};
+
 /// The loop of a node: waits without turning for messages, timers and Wake(), and calls who asked.
 /// All calls come from the thread that is inside Run() or DispatchUntil(), one at a time.
 class WaitSet {
@@ -32,6 +50,10 @@ class WaitSet {
   void Attach(dds_entity_t reader, std::function<void()> on_data);
   /// Calls `on_time` every `period`, first after one period; missed turns are left out.
   void Every(Clock::duration period, std::function<void()> on_time);
+
+  /// For what is due at a time that changes: calls `on_time` once the time set in the alarm has
+  /// come. Stays valid as long as this.
+  Alarm& AddAlarm(std::function<void()> on_time);
 
   /// Calls `on_wake` after every Wake().
   void OnWake(std::function<void()> on_wake) { on_wake_ = std::move(on_wake); }
@@ -60,11 +82,13 @@ class WaitSet {
 
   void WaitForEvent(Clock::time_point deadline);
   void CallTimers();
+  void CallAlarms();
   Clock::time_point Earliest(Clock::time_point deadline) const;
 
   Entity guard_;
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<Timer> timers_;
+  std::vector<std::unique_ptr<Alarm>> alarms_;
   std::function<void()> on_wake_;
   Entity wait_set_;  // goes first: it refers to the conditions above
   std::atomic<bool> stopped_ = false;

@@ -16,8 +16,10 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr std::size_t kKeptFrames = 8;
-constexpr double kShareOfPeriod = 0.6;  // that a frame's packets are spread over
-constexpr std::int64_t kPieceTime_ns = 250'000;
+// Of its period, that a frame's packets are spread over: whoever waits for the last one waits so
+// long. A client that wants more room asks for a packet delay.
+constexpr double kShareOfPeriod = 0.25;
+constexpr std::int64_t kPieceTime_ns = 1'000'000;  // each piece wakes sender and client
 constexpr int kSendBuffer_B = 1 << 20;
 constexpr unsigned long kTimerSlack_ns = 1000;
 constexpr std::uint32_t kMostRefusals = 64;  // for one request

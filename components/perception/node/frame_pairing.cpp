@@ -44,6 +44,15 @@ std::optional<FrameSet> FramePairing::TakeOverdue(Time now) {
   return std::nullopt;
 }
 
+std::optional<FramePairing::Time> FramePairing::NextOverdue() const {
+  std::optional<Time> next;
+  for (const auto& [stamp_ns, set] : sets_) {
+    const Time overdue = set.since + wait_;
+    if (!next || overdue < *next) next = overdue;
+  }
+  return next;
+}
+
 FrameSet FramePairing::TakeOut(Sets::iterator set, Time now) {
   FrameSet taken = std::move(set->second);
   taken.taken = now;

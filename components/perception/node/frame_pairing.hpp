@@ -48,6 +48,9 @@ class FramePairing {
   /// waited long enough, if it has a depth image.
   std::optional<FrameSet> Take(const std::function<bool(const FrameSet&)>& whole, Time now);
 
+  /// When the next set has waited long enough; nullopt: none waits.
+  std::optional<Time> NextOverdue() const;
+
   /// A camera was opened: from now on frames may have any stamp, and those before its first one, or
   /// of another epoch, are none of its.
   void Restart(std::int64_t first_stamp_ns, std::uint32_t epoch);

@@ -51,6 +51,17 @@ TEST(FramePairing, TheNewestWholeSetWinsAndLatePartsFindNoPlace) {
   EXPECT_NE(pairing.At(40, kStart), nullptr);
 }
 
+TEST(FramePairing, TellsWhenTheNextSetHasWaitedLongEnough) {
+  FramePairing pairing(milliseconds(50));
+  EXPECT_FALSE(pairing.NextOverdue());
+  AddDepth(pairing, 20, kStart);
+  AddDepth(pairing, 10, kStart + milliseconds(5));  // the older stamp came later
+  ASSERT_TRUE(pairing.NextOverdue());
+  EXPECT_EQ(*pairing.NextOverdue(), kStart + milliseconds(50));
+  EXPECT_TRUE(pairing.Take(IsWhole, *pairing.NextOverdue()));
+  EXPECT_FALSE(pairing.NextOverdue());
+}
+
 TEST(FramePairing, ASetThatStaysIncompleteIsGivenUpAfterItsWait) {
   FramePairing pairing(milliseconds(50));
   pairing.At(5, kStart)->color.emplace();

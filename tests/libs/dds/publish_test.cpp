@@ -67,6 +67,32 @@ TEST(Publish, AMessageArrivesAsItWasSent) {
   EXPECT_EQ(writer.sent_count(), 1u);
 }
 
+TEST(Publish, EachMessageTellsWhenItWasSent) {
+  TestNode sender("sender"), receiver("receiver");
+  auto writer = sender.participant.CreateWriter(kForcesTopic, sender.Waker());
+  auto reader = receiver.participant.CreateReader(kForcesTopic);
+  ASSERT_TRUE(sender.WaitFor([&] { return writer.matched() == 1; }));
+  std::vector<int64_t> before_ns;
+  std::vector<int64_t> sent_ns;
+  receiver.loop.Attach(reader, [&] {
+    const auto samples = reader.Take();
+    for (auto sample = samples.begin(); sample != samples.end(); ++sample) {
+      EXPECT_EQ((*sample).counter, sent_ns.size());
+      sent_ns.push_back(sample.sent_ns());
+    }
+  });
+  for (uint64_t counter = 0; counter < 3; ++counter) {
+    before_ns.push_back(WallClockNs());
+    ASSERT_TRUE(writer.Write(Forces(counter)));
+  }
+  const int64_t after_ns = WallClockNs();
+  ASSERT_TRUE(receiver.WaitFor([&] { return sent_ns.size() == 3; }));
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_GE(sent_ns[i], before_ns[i]);
+    EXPECT_LE(sent_ns[i], i + 1 < 3 ? before_ns[i + 1] : after_ns);
+  }
+}
+
 TEST(Publish, ALateJoinerGetsTheBigLatchedMesh) {
   constexpr size_t kNodeCount = 100'000;  // 2.4 MB
   TestNode sender("sender");

@@ -39,6 +39,35 @@ TEST(WaitSet, CallsATimerOnceInEachPeriod) {
   EXPECT_GE(WaitSet::Clock::now() - start, milliseconds(20));
 }
 
+TEST(WaitSet, AnAlarmCallsOnceAtTheTimeSetLast) {
+  TestNode node("node");
+  int calls = 0;
+  Alarm& alarm = node.loop.AddAlarm([&] { ++calls; });
+  const auto start = WaitSet::Clock::now();
+  alarm.Set(start + std::chrono::hours(1));
+  alarm.Set(start + milliseconds(20));
+  EXPECT_TRUE(node.WaitFor([&] { return calls > 0; }));
+  EXPECT_GE(WaitSet::Clock::now() - start, milliseconds(20));
+  EXPECT_FALSE(
+      node.loop.DispatchUntil([&] { return calls > 1; }, WaitSet::Clock::now() + milliseconds(20)));
+}
+
+TEST(WaitSet, AnAlarmThatWasClearedDoesNotCallAndOneMaySetItselfAnew) {
+  TestNode node("node");
+  int cleared_calls = 0;
+  Alarm& cleared = node.loop.AddAlarm([&] { ++cleared_calls; });
+  int calls = 0;
+  Alarm* alarm = nullptr;
+  alarm = &node.loop.AddAlarm([&] {
+    if (++calls < 3) alarm->Set(WaitSet::Clock::now() + milliseconds(1));
+  });
+  cleared.Set(WaitSet::Clock::now());
+  cleared.Clear();
+  alarm->Set(WaitSet::Clock::now());
+  EXPECT_TRUE(node.WaitFor([&] { return calls == 3; }));
+  EXPECT_EQ(cleared_calls, 0);
+}
+
 TEST(WaitSet, WakeAsksTheConditionAnew) {
   TestNode node("node");
   std::atomic<bool> ready = false;
