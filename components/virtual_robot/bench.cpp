@@ -264,13 +264,14 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
   PlaceTools(inputs);
   viscosity_.Prepare(balance_s);
   task.load_N = now_.load_N + balance_s / h_s * (inputs.load_N - now_.load_N);
+  const Eigen::VectorXd tension_N = cables_.tension_N();
   if (IsTouched()) {
     task.start_m = state_.x_m + h_s * drift_m_s_;
+    solver_.FollowTools(task, state_, h_s / last_h_s_, &task.start_m);
   } else {
     task.scheme.Predict(state_, &task.start_m);
   }
   base_.Apply(&task.start_m);
-  const Eigen::VectorXd tension_N = cables_.tension_N();
   Status status = solver_.Solve(task, state_, &next_);
   if (status.code() == StatusCode::kInverted) {
     task.start_m = state_.x_m;
@@ -299,6 +300,7 @@ void Bench::Commit(double t_s, const BenchInputs& inputs, double h_s) {
     base_.Approach(base_.Wanted_rad(next_.x_m, solver_.residual_N()), CompliantBase::Share(h_s));
   }
   drift_m_s_ = (next_.x_m - state_.x_m) / h_s;
+  last_h_s_ = h_s;
   std::swap(state_, next_);
   now_ = inputs;
   time_s_ = t_s;

@@ -87,6 +87,7 @@ class Bench {
 
   bool started_ = false;
   int corrections_end_ = 0;  ///< of the present step
+  double last_h_s_ = 1.0;    ///< of the last step
   double begin_s_ = 0.0;
   double time_s_ = 0.0;
   MotionState state_;

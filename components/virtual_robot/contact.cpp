@@ -119,6 +119,26 @@ void Contact::AddStiffness(const ContactSurface& surface, fem::StiffnessMatrix& 
   }
 }
 
+double Contact::AddForcesOfTurn(const ContactSurface& surface, const Eigen::VectorXd& x_m,
+                                double share, Eigen::VectorXd& nodal) const {
+  if (!present_ || !was_present_) return 0.0;
+  const Eigen::Isometry3d way = T_robot_thing_ * T_robot_thing_before_.inverse();
+  double largest_m = 0.0;
+  for (const Touch& touch : touches_) {
+    const Eigen::Vector3d point_m = surface.Position_m(touch.face, touch.point, x_m);
+    const Eigen::Vector3d turn_m =
+        (way * point_m - point_m) - share * (point_m - last_way_.inverse() * point_m);
+    largest_m = std::max(largest_m, turn_m.norm());
+    const Eigen::Vector3d force_N = touch.stiffness_N_m * turn_m;
+    const auto nodes = surface.faces().col(touch.face);
+    const auto N = surface.Shape(touch.point);
+    for (Eigen::Index a = 0; a < nodes.size(); ++a) {
+      nodal.segment<3>(3 * nodes[a]) += N[a] * force_N;
+    }
+  }
+  return largest_m;
+}
+
 void Contact::Remember() {
   assembled_N_m_.clear();
   for (const Touch& touch : touches_) assembled_N_m_[Number(touch)] = touch.slope_N_m;
@@ -168,6 +188,8 @@ void Contact::Commit(const Eigen::VectorXd& x_m) {
   for (const Touch& touch : touches_) {
     stuck_m_.emplace(Number(touch), touch.stretch_m);
   }
+  last_way_ = was_present_ ? T_robot_thing_ * T_robot_thing_before_.inverse()
+                           : Eigen::Isometry3d::Identity();
   was_present_ = present_;
   T_robot_thing_before_ = T_robot_thing_;
   x_before_m_ = x_m;

@@ -64,6 +64,11 @@ class Contact {
   void AddForces(const ContactSurface& surface, Eigen::VectorXd& nodal) const;
   /// Adds -dforce/dx, but for how friction grows with pressure, which is not symmetric.
   void AddStiffness(const ContactSurface& surface, fem::StiffnessMatrix& stiffness) const;
+  /// Adds how the forces evaluated last, with the surface at `x_m`, change where the thing's way
+  /// since the last Commit is another than `share` times its way before that, as long as nothing
+  /// lets go or slips. Returns the largest difference of the ways, m.
+  double AddForcesOfTurn(const ContactSurface& surface, const Eigen::VectorXd& x_m, double share,
+                         Eigen::VectorXd& nodal) const;
   /// Notes what touches how, and tells how much of that has changed since, relative to the stiffer
   /// of the two: from 0 to 2.
   void Remember();
@@ -102,6 +107,7 @@ class Contact {
   bool frictionless_ = false;
   Eigen::Isometry3d T_robot_thing_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_robot_thing_before_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d last_way_ = Eigen::Isometry3d::Identity();  ///< up to the last Commit
   Eigen::VectorXd x_before_m_;
   std::unordered_map<int, Eigen::Vector3d> stuck_m_;  ///< by point number; frame of the thing
   std::vector<Touch> touches_;

@@ -29,11 +29,12 @@ double Tolerance_m(const TimeScheme& scheme) {
 }
 
 /// Whether a new factor is worth its price: with the present one it would take more than
-/// kMostChords further corrections, each smaller by the same factor.
-bool IsTooSlow(double size_m, double last_m, double tolerance_m) {
+/// kMostChords further corrections, each smaller by the same factor. Of the last one `share` was
+/// applied: what is left of it says nothing about the factor.
+bool IsTooSlow(double size_m, double last_m, double share, double tolerance_m) {
   constexpr double kMostChords = 7.0;
   if (size_m <= tolerance_m || !std::isfinite(last_m)) return false;
-  const double rate = size_m / last_m;
+  const double rate = std::abs(size_m - (1.0 - share) * last_m) / (share * last_m);
   return rate >= 1.0 || std::log(tolerance_m / size_m) < kMostChords * std::log(rate);
 }
 
@@ -217,26 +218,45 @@ bool StepSolver::Fits(const TimeScheme& scheme) const {
 }
 
 /// The balance where the last correction led to, which is cut short where it inverts an element, or
-/// where it ends too deep in a tool: the contacts may take half more than the work that the
-/// correction had in hand. Elastic forces may take more: near incompressibility a bending body
-/// passes through stretched states, and cutting them short costs ten times the corrections.
+/// where it ends too deep in a tool. Elastic forces may take more work than the correction had in
+/// hand: near incompressibility a bending body passes through stretched states, and cutting them
+/// short costs ten times the corrections.
 Status StepSolver::BalanceAlong(const StepTask& task, const MotionState& from, MotionState* to) {
   constexpr int kMostCuts = 10;
-  const double work_before = ContactWork();
-  double share = 1.0;
+  share_ = GoAsFarAsContactsLet(to);
   for (int cut = 0;; ++cut) {
     const Status status = Balance(task, from, to, false);
-    const bool inverted = status.code() == StatusCode::kInverted;
-    if (cut == kMostCuts || (!inverted && !status.ok())) return status;
-    double keep = 0.5;
-    if (!inverted) {
-      const double taken = work_before - ContactWork();
-      if (taken <= 1.5 * work_in_hand_) return status;
-      keep = std::clamp(work_in_hand_ / taken, 0.1, 0.8);
-    }
-    Move(-(1.0 - keep) * share, to);
-    share *= keep;
+    if (status.code() != StatusCode::kInverted || cut == kMostCuts) return status;
+    share_ *= 0.5;
+    Move(-share_, to);
   }
+}
+
+/// The contacts may take half more than the work that the correction had in hand. Where they would
+/// take more, it is cut to within a third of what they bear: they are cheap to ask, whereas a body
+/// that creeps up to a tool costs a correction for each step. Returns the share that is left.
+double StepSolver::GoAsFarAsContactsLet(MotionState* to) {
+  constexpr int kMostLooks = 16;
+  constexpr double kNearEnough = 0.75;
+  const double most = 1.5 * work_in_hand_;
+  const double work_before = ContactWork();
+  double share = 1.0;
+  double borne = 0.0;
+  double too_far = 1.0;
+  for (int look = 0; look < kMostLooks; ++look) {
+    for (Contact& contact : forces_.contacts) contact.Evaluate(forces_.surface, to->x_m);
+    const double taken = work_before - ContactWork();
+    if (taken <= most && look == 0) return share;
+    (taken <= most ? borne : too_far) = share;
+    if (borne >= kNearEnough * too_far) break;
+    const double next = borne > 0.0 ? 0.5 * (borne + too_far)
+                                    : too_far * std::clamp(work_in_hand_ / taken, 0.1, kNearEnough);
+    Move(next - share, to);
+    share = next;
+  }
+  const double last = borne > 0.0 ? borne : too_far;
+  Move(last - share, to);
+  return last;
 }
 
 /// Of the contacts' present forces along the last correction.
@@ -246,6 +266,27 @@ double StepSolver::ContactWork() const {
   for (const Contact& contact : forces_.contacts) contact.AddForces(forces_.surface, force_N);
   matrix_.Reduce(force_N, reduced_N);
   return reduced_N.dot(correction_.col(0));
+}
+
+void StepSolver::FollowTools(const StepTask& task, const MotionState& from, double share,
+                             Eigen::VectorXd* start_m) {
+  constexpr double kSmallestTurn_m = 1e-6;
+  constexpr double kLargestWay_m = 0.02;
+  if (task.scheme.dynamic || !Fits(task.scheme) || ContactsChanged()) return;
+  nodal_.setZero();
+  double largest_m = 0.0;
+  for (const Contact& contact : forces_.contacts) {
+    largest_m =
+        std::max(largest_m, contact.AddForcesOfTurn(forces_.surface, from.x_m, share, nodal_));
+  }
+  if (largest_m < kSmallestTurn_m) return;
+  const Eigen::VectorXd tension_N = forces_.cables.tension_N();
+  forces_.cables.Evaluate(*start_m);
+  if (Correct() && correction_.cwiseAbs().maxCoeff() <= kLargestWay_m) {
+    matrix_.AddExpanded(correction_.col(0), 1.0, *start_m);
+  } else {
+    forces_.cables.SetTensions(tension_N);
+  }
 }
 
 Status StepSolver::Solve(const StepTask& task, const MotionState& from, MotionState* to) {
@@ -272,7 +313,7 @@ Status StepSolver::Solve(const StepTask& task, const MotionState& from, MotionSt
     if (!(size_m <= kLargestCorrection_m)) {
       return {StatusCode::kNotConverged, "the corrections of a time step grow without end"};
     }
-    if (!refresh && IsTooSlow(size_m, last_m, tolerance_m)) {
+    if (!refresh && IsTooSlow(size_m, last_m, share_, tolerance_m)) {
       refresh = true;
       last_m = std::numeric_limits<double>::infinity();
       correction_.setZero();

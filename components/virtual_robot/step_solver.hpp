@@ -62,6 +62,13 @@ class StepSolver {
 
   StepSolver(const Forces& forces, const fem::FixedDirections& fixed, int threads);
 
+  /// Where tools that touch turn back, start or stop, the body goes with them, and not on as
+  /// before: adds to `start_m` what the factor says of that. `share`: length of the step over that
+  /// of the one before. Without inertia, and where the factor knows what touches; else it does
+  /// nothing.
+  void FollowTools(const StepTask& task, const MotionState& from, double share,
+                   Eigen::VectorXd* start_m);
+
   /// Finds `to` from `from`. On failure `to` and the tensions are not to be used.
   Status Solve(const StepTask& task, const MotionState& from, MotionState* to);
 
@@ -73,6 +80,7 @@ class StepSolver {
   /// Balance at positions x_1; `with_tangent`: its derivative too, factorised.
   Status Balance(const StepTask& task, const MotionState& from, MotionState* to, bool with_tangent);
   Status BalanceAlong(const StepTask& task, const MotionState& from, MotionState* to);
+  double GoAsFarAsContactsLet(MotionState* to);
   double ContactWork() const;
   void SetRates(const StepTask& task, const MotionState& from, MotionState* to) const;
   void Finish(const StepTask& task, const MotionState& from, MotionState* to);
@@ -99,6 +107,7 @@ class StepSolver {
   bool shifted_ = false;
   double energy_before_J_ = 0.0;
   double work_in_hand_ = 0.0;  ///< of what is left over, along the correction
+  double share_ = 1.0;         ///< of the last correction, that was applied
 
   Eigen::VectorXd nodal_;
   Eigen::VectorXd intermediate_m_;
