@@ -33,8 +33,12 @@ LiveListener::LiveListener(int domain_id, Truth truth)
   loop_.Attach(statuses_, [this] { TakeReports(); });
   loop_.Every(kPollPeriod, [] {});
   if (!with_truth_) return;
-  truth_.emplace(participant_.CreateReader(dds::kTrueForcesTopic));
-  loop_.Attach(*truth_, [this] { TakeTruth(); });
+  bench_.emplace(BenchReaders{participant_.CreateReader(dds::kTrueForcesTopic),
+                              participant_.CreateReader(dds::kFrameInfoTopic),
+                              participant_.CreateReader(dds::kPerceptionReportTopic)});
+  loop_.Attach(bench_->truth, [this] { TakeTruth(); });
+  loop_.Attach(bench_->pictures, [this] { TakePictures(); });
+  loop_.Attach(bench_->perceived, [this] { TakePerceived(); });
 }
 
 bool LiveListener::Listen(const std::function<bool()>& done, std::chrono::duration<double> limit,
@@ -49,15 +53,48 @@ void LiveListener::TakeForces() {
   TakeMeshStates();
   for (const idl::palpate_msgs::ForceArray& message : forces_.Take()) {
     const std::int64_t stamp_ns = dds::StampNs(message.header.stamp);
-    const std::optional<double> latency_s =
-        with_truth_ ? std::optional(Seconds(dds::WallClockNs() - stamp_ns)) : std::nullopt;
-    comparison_.AddEstimate(ToEstimate(message), latency_s);
+    const force_estimation::ForceEstimate estimate = ToEstimate(message);
+    std::optional<double> latency_s;
+    if (bench_) {
+      latency_s = Seconds(dds::WallClockNs() - stamp_ns);
+      if (HasResult(estimate.status)) PassEstimated(message, *latency_s);
+    }
+    comparison_.AddEstimate(estimate, latency_s);
   }
   comparison_.Advance(take_);
 }
 
+void LiveListener::PassEstimated(const idl::palpate_msgs::ForceArray& message, double heard_s) {
+  TakePictures();
+  TakePerceived();
+  const std::int64_t stamp_ns = dds::StampNs(message.header.stamp);
+  stages_.Pass(stamp_ns, Milestone::kEstimating, message.age_s - message.latency_s);
+  stages_.Pass(stamp_ns, Milestone::kEstimated, message.age_s);
+  stages_.Pass(stamp_ns, Milestone::kHeard, heard_s);
+  stages_.Finish(stamp_ns);
+}
+
+void LiveListener::TakePictures() {
+  const auto messages = bench_->pictures.Take();
+  for (auto message = messages.begin(); message != messages.end(); ++message) {
+    const idl::palpate_msgs::FrameInfo& info = *message;
+    const std::int64_t stamp_ns = dds::StampNs(info.header.stamp);
+    stages_.Pass(stamp_ns, Milestone::kReceived, Seconds(info.stamp_receive_ns - stamp_ns));
+    stages_.Pass(stamp_ns, Milestone::kPublished, Seconds(message.sent_ns() - stamp_ns));
+  }
+}
+
+void LiveListener::TakePerceived() {
+  for (const idl::palpate_msgs::PerceptionReport& message : bench_->perceived.Take()) {
+    const std::int64_t stamp_ns = dds::StampNs(message.header.stamp);
+    stages_.Pass(stamp_ns, Milestone::kPerceiving, message.age_s - message.latency_s);
+    stages_.Pass(stamp_ns, Milestone::kPerceived, message.age_s);
+  }
+}
+
 void LiveListener::TakeTruth() {
-  for (const idl::palpate_msgs::ForceArray& message : truth_->Take()) {
+  for (const idl::palpate_msgs::ForceArray& message : bench_->truth.Take()) {
+    stages_.AddState(dds::StampNs(message.header.stamp));
     comparison_.AddTruth(Seconds(dds::StampNs(message.header.stamp)), ToTruth(message));
   }
   comparison_.Advance(take_);

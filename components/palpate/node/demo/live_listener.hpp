@@ -9,14 +9,15 @@
 #include <string>
 
 #include "components/palpate/compare/live_comparison.hpp"
+#include "components/palpate/compare/stage_times.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/wait_set.hpp"
 
 namespace palpate::command {
 
 /// Listens to the whole system: /forces, the model's state, how the components fare, and, of the
-/// virtual bench, /truth/forces, with which it compares the estimates. Nothing that it hears goes
-/// back to those who estimate.
+/// virtual bench, /truth/forces, with which it compares the estimates, and what tells where a
+/// frame's time goes. Nothing that it hears goes back to those who estimate.
 class LiveListener {
  public:
   enum class Truth { kKnown, kNone };
@@ -36,12 +37,24 @@ class LiveListener {
   std::string Troubles() const;
 
   const LiveComparison& comparison() const { return comparison_; }
+  /// Of the virtual bench; of recordings, whose stamps are of another day, nothing.
+  const StageTimes& stages() const { return stages_; }
 
  private:
+  /// What only the virtual bench is asked for.
+  struct BenchReaders {
+    dds::Reader<idl::palpate_msgs::ForceArray> truth;
+    dds::Reader<idl::palpate_msgs::FrameInfo> pictures;
+    dds::Reader<idl::palpate_msgs::PerceptionReport> perceived;
+  };
+
   void TakeForces();
   void TakeTruth();
   void TakeMeshStates();
   void TakeReports();
+  void TakePictures();
+  void TakePerceived();
+  void PassEstimated(const idl::palpate_msgs::ForceArray& message, double heard_s);
 
   bool with_truth_;
   dds::Participant participant_;
@@ -49,9 +62,10 @@ class LiveListener {
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
-  std::optional<dds::Reader<idl::palpate_msgs::ForceArray>> truth_;
+  std::optional<BenchReaders> bench_;
   std::map<std::string, std::string> reports_;  ///< by component; empty: it is well
   LiveComparison comparison_;
+  StageTimes stages_;
   LiveComparison::TakeFrame take_;
 };
 

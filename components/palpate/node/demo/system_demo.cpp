@@ -23,6 +23,7 @@
 #include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
 #include "libs/scenario/scenario.hpp"
 
 namespace palpate::command {
@@ -61,6 +62,7 @@ class DemoRun {
 
   SystemProcesses& processes() { return processes_; }
   const LiveComparison& comparison() const { return listener_.comparison(); }
+  const StageTimes& stages() const { return listener_.stages(); }
 
   // Until all of these have told how they fare. Throws RunError where they do not, false where the
   // user does not want to wait.
@@ -165,7 +167,11 @@ int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool wi
                place.folder.string());
     return app::kExitFailed;
   }
-  fmt::print("{}", comparison.ToText());
+  fmt::print("{}{}", comparison.ToText(), run->stages().ToText());
+  if (run->stages().frames() > 0) {
+    WriteFile(place.folder / "latency.csv", run->stages().ToCsv());
+    fmt::print("  {:<18} {}\n", "each frame", (place.folder / "latency.csv").string());
+  }
   WriteDemoResults(place.folder, robot, "Forces on a soft robot, felt by sight", comparison);
   const bool worked = with_truth ? comparison.summary().found() > 0 : comparison.results() > 0;
   if (worked) return app::kExitDone;

@@ -37,7 +37,11 @@ void SystemProcesses::StartVirtualCamera(const std::filesystem::path& robot,
 
 void SystemProcesses::StartVirtualRobot(const std::filesystem::path& robot,
                                         const std::filesystem::path& scenario) {
-  Start("palpate-virtual-robot", BenchArguments(robot, scenario));
+  std::vector<std::string> arguments = BenchArguments(robot, scenario);
+  // The whole system shares the cores: a second thread of the solver would wait, turning, for one
+  // that others have pushed off its core.
+  arguments.insert(arguments.end(), {"--set", "threads=1"});
+  Start("palpate-virtual-robot", arguments);
 }
 
 void SystemProcesses::StartPlayer(const std::filesystem::path& data) {

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace palpate::command {
+
+/// Places that a frame passes on its way from the exposure to whoever listens to forces.
+enum class Milestone {
+  kReceived,    ///< capture has its last packet
+  kPublished,   ///< capture has written its images
+  kPerceiving,  ///< perception has all its parts
+  kPerceived,   ///< perception has written clouds and contacts
+  kEstimating,  ///< the estimator has all its parts
+  kEstimated,   ///< the estimator has written the forces
+  kHeard,       ///< the listener has them
+};
+
+/// Where the time goes between exposure and force, from what the processes' messages say. Bounded:
+/// frames that never arrive are forgotten.
+class StageTimes {
+ public:
+  static constexpr std::size_t kStages = 7;
+
+  /// The bench has published the state of this stamp, from which the camera takes a picture.
+  void AddState(std::int64_t stamp_ns) { AddStamp(stamp_ns, &states_ns_); }
+  /// `after_exposure_s`: from the frame's stamp to the milestone. The first word on one counts.
+  void Pass(std::int64_t stamp_ns, Milestone milestone, double after_exposure_s);
+  /// The frame has its forces: if all is known of it, it counts.
+  void Finish(std::int64_t stamp_ns);
+
+  std::size_t frames() const { return ages_s_.size(); }  ///< of which all is known
+  /// [kStages] s, of the stage that ends with the milestone; NaN without frames.
+  double Median_s(Milestone milestone) const;
+
+  /// A row for each frame: t_s (since the first), then the time of each stage and the sum, ms.
+  std::string ToCsv() const;
+  /// How many frames each process had, and how long each stage takes: median, p99, and the mean
+  /// over the slowest hundredth of the frames. Lines, each ended; empty without frames.
+  std::string ToText() const;
+
+ private:
+  using Ages = std::array<double, kStages>;  ///< s after the exposure; NaN: not known
+  using Stamps = std::vector<std::int64_t>;
+
+  static void AddStamp(std::int64_t stamp_ns, Stamps* stamps);
+  std::vector<double> Stage_s(std::size_t stage, const std::vector<Ages>& frames) const;
+  std::vector<Ages> Slowest() const;
+  std::string CountsText() const;
+
+  static constexpr std::size_t kMostOpen = 64;
+
+  std::map<std::int64_t, Ages> open_;  ///< by stamp
+  Stamps stamps_ns_;                   ///< of the frames of which all is known
+  std::vector<Ages> ages_s_;           ///< of the same frames
+  Stamps states_ns_;
+  Stamps pictures_ns_;
+  Stamps perceived_ns_;
+  Stamps estimated_ns_;
+};
+
+}  // namespace palpate::command
