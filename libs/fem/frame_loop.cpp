@@ -15,6 +15,10 @@ constexpr double kShortestStep = 1.0 / 64.0;
 constexpr double kChordGuard = 0.3;
 /// The same where no exact step is possible any more.
 constexpr double kLastChordGuard = 0.7;
+/// By which the first step with a kept factor, and one that was cut, may raise the error.
+constexpr double kMostRise = 6.0;
+/// Cut steps with one factor.
+constexpr int kMostCutSteps = 2;
 /// Exact steps in which the error may stay above the smallest one before.
 constexpr int kPatience = 4;
 
@@ -34,48 +38,100 @@ Status TakeExactStep(FrameProblem& problem, const TimeBudget& budget, FrameOutco
   return status;
 }
 
-/// One chord step, and others as long as they would lead within the tolerance if they gained what
-/// the last one did; where no exact step can follow, as long as they gain anything to speak of.
-void TakeChordSteps(FrameProblem& problem, double tolerance, const TimeBudget& budget,
+/// Chord steps with one factor, each judged by what it gains.
+class ChordSteps {
+ public:
+  /// `exact_step_s`: what an exact step would cost. Where the settings say so beforehand, chord
+  /// steps go on as long as they are cheaper.
+  ChordSteps(FrameProblem& problem, const FrameSettings& settings, const TimeBudget& budget,
+             double exact_step_s, FrameOutcome* outcome)
+      : problem_(problem),
+        settings_(settings),
+        budget_(budget),
+        exact_step_s_{exact_step_s},
+        cost_known_{settings.exact_step_cost_s > 0.0},
+        outcome_(outcome) {}
+
+  bool Converged() const { return outcome_->error <= settings_.relative_tolerance; }
+  bool NoExactStepCanFollow() const { return budget_.Over(exact_step_s_); }
+  bool cost_known() const { return cost_known_; }
+  bool was_cut() const { return was_cut_; }
+
+  /// False where the step failed, or its error is above `guard` times the last one (and above
+  /// `enough`): the state stays. A step that was cut says little, so it may raise the error.
+  bool Take(double guard, double enough, bool last) {
+    const double begin_s = cost_known_ ? budget_.Elapsed_s() : 0.0;
+    if (!problem_.Try(1.0, last).ok()) return false;
+    was_cut_ = cost_known_ && problem_.StepWasCut() && cut_steps_++ < kMostCutSteps;
+    ratio_ = problem_.TrialError() / outcome_->error;
+    const bool gains = ratio_ <= (was_cut_ ? kMostRise : guard);
+    if (!gains && !(problem_.TrialError() <= enough)) return false;
+    problem_.AcceptTrial();
+    ++outcome_->chord_steps;
+    outcome_->error = problem_.TrialError();
+    if (cost_known_) step_s_ = budget_.Elapsed_s() - begin_s;
+    return true;
+  }
+  double ratio() const { return ratio_; }  ///< of the errors after and before the last step
+
+  /// Whether as many more as are needed, gaining what the last one did, cost less than an exact
+  /// step.
+  bool AreWorthIt() const {
+    return ratio_ < 1.0 &&
+           step_s_ * std::log(settings_.relative_tolerance / outcome_->error) / std::log(ratio_) <
+               exact_step_s_;
+  }
+
+ private:
+  FrameProblem& problem_;
+  const FrameSettings& settings_;
+  const TimeBudget& budget_;
+  double exact_step_s_;
+  bool cost_known_;
+  FrameOutcome* outcome_;
+  int cut_steps_ = 0;
+  bool was_cut_ = false;
+  double ratio_ = 0.0;
+  double step_s_ = 0.0;
+};
+
+/// One chord step after an exact one, and others as long as they would lead within the tolerance if
+/// they gained what the last one did, or are cheaper than an exact step of a known cost; where no
+/// exact step can follow, as long as they gain anything to speak of.
+void TakeChordSteps(FrameProblem& problem, const FrameSettings& settings, const TimeBudget& budget,
                     double exact_step_s, FrameOutcome* outcome) {
-  double expected = 0.0;
-  while (outcome->error > tolerance && !budget.Over()) {
-    const bool no_exact_step = budget.Over(exact_step_s);
-    if (expected > tolerance && !no_exact_step) return;
-    if (!problem.PrepareChordStep().ok() || !problem.Try(1.0, budget.Over()).ok()) return;
-    const double ratio = problem.TrialError() / outcome->error;
-    if (!(ratio < (no_exact_step ? kLastChordGuard : kChordGuard))) return;
-    problem.AcceptTrial();
-    ++outcome->chord_steps;
-    outcome->error = problem.TrialError();
-    expected = ratio * outcome->error;
+  ChordSteps steps(problem, settings, budget, exact_step_s, outcome);
+  bool go_on = true;
+  while (!steps.Converged() && !budget.Over()) {
+    const bool no_exact_step = steps.NoExactStepCanFollow();
+    if (!go_on && !no_exact_step) return;
+    const double guard = steps.cost_known() || no_exact_step ? kLastChordGuard : kChordGuard;
+    if (!problem.PrepareChordStep().ok() || !steps.Take(guard, 0.0, budget.Over())) return;
+    go_on = steps.cost_known() ? steps.was_cut() || steps.AreWorthIt()
+                               : steps.ratio() * outcome->error <= settings.relative_tolerance;
   }
 }
 
 /// Chord steps with the factor of an earlier frame. True where they led within the tolerance, or
-/// where the budget allows no other step.
+/// where the budget allows no other step. The first may raise the error, as Newton's may: bodies
+/// that bend pass through stretched states, whatever the factor.
 bool EndsWithKeptFactor(FrameProblem& problem, const FrameSettings& settings,
                         const TimeBudget& budget, FrameOutcome* outcome) {
   if (!problem.PrepareKeptStep().ok()) return false;
   outcome->error = problem.StartError();
-  while (outcome->error > settings.relative_tolerance) {
-    const bool no_exact_step =
-        settings.exact_step_cost_s > 0.0 && budget.Over(settings.exact_step_cost_s);
-    const double begin_s = budget.Elapsed_s();
-    const double wanted = std::max(settings.relative_tolerance, kLastChordGuard * outcome->error);
-    if (budget.Over() || !problem.Try(1.0, false).ok() || !(problem.TrialError() <= wanted)) {
+  ChordSteps steps(problem, settings, budget, settings.exact_step_cost_s, outcome);
+  bool first = steps.cost_known();
+  while (!steps.Converged()) {
+    const bool no_exact_step = steps.cost_known() && steps.NoExactStepCanFollow();
+    const double guard = first ? kMostRise : kLastChordGuard;
+    if (budget.Over() || !steps.Take(guard, settings.relative_tolerance, false)) {
       outcome->status = Status(StatusCode::kBudgetReached, "time used up");
       return no_exact_step;
     }
-    const double ratio = problem.TrialError() / outcome->error;
-    problem.AcceptTrial();
-    ++outcome->chord_steps;
-    outcome->error = problem.TrialError();
-    const double left_s = (budget.Elapsed_s() - begin_s) *
-                          std::log(settings.relative_tolerance / outcome->error) / std::log(ratio);
-    const double exact_s = settings.exact_step_cost_s;
-    const bool worth_it = exact_s > 0.0 ? left_s < exact_s : ratio < kChordGuard;
-    if (outcome->error > settings.relative_tolerance && !worth_it && !no_exact_step) return false;
+    const bool go_on = steps.cost_known() ? first || steps.was_cut() || steps.AreWorthIt()
+                                          : steps.ratio() < kChordGuard;
+    if (!steps.Converged() && !go_on && !no_exact_step) return false;
+    first = false;
   }
   outcome->status = Status::Ok();
   return true;
@@ -96,7 +152,7 @@ FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
     outcome.status = TakeExactStep(problem, budget, &outcome);
     if (!outcome.status.ok()) return outcome;
     const double exact_step_s = std::max(settings.exact_step_cost_s, budget.Elapsed_s() - begin_s);
-    TakeChordSteps(problem, settings.relative_tolerance, budget, exact_step_s, &outcome);
+    TakeChordSteps(problem, settings, budget, exact_step_s, &outcome);
     if (outcome.error <= settings.relative_tolerance) return outcome;
     steps_without_gain = outcome.error < smallest_error ? 0 : steps_without_gain + 1;
     if (steps_without_gain == kPatience) {

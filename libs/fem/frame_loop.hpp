@@ -15,7 +15,7 @@ struct FrameSettings {
   /// Begin with the factor of an earlier frame, and go on with it as long as each step brings the
   /// error below 0.3 of what it was.
   bool keep_factor = false;
-  /// What an exact step costs, on the budget's clock; 0: as much as the last one did.
+  /// What an exact step costs, on the budget's clock; 0: not known before one was made.
   double exact_step_cost_s = 0.0;
 };
 
@@ -53,6 +53,8 @@ class FrameProblem {
   virtual Status Try(double length, bool last) = 0;
   /// Error where the last successful Try led, relative, comparable with a tolerance.
   virtual double TrialError() const = 0;
+  /// Whether the last Try went less far than the step leads, on purpose: its error tells little.
+  virtual bool StepWasCut() const { return false; }
   /// The state becomes what the last successful Try evaluated.
   virtual void AcceptTrial() = 0;
 };
@@ -62,9 +64,11 @@ class FrameProblem {
 /// error is within the tolerance, or the steps or the time are used up. An exact step is not begun
 /// where one as long as the last would overrun the budget; one is always made. Diverged: no step,
 /// an error that is no number, or one that has not fallen for several exact steps. Newton's first
-/// step may raise it: bending bodies pass through stretched states. Where a kept factor gives a
-/// step and the budget has no room for an exact one of a known cost, chord steps alone go on as
-/// long as each gains.
+/// step may raise it: bending bodies pass through stretched states. Where the cost of an exact step
+/// is known beforehand, chord steps go on as long as they are expected to reach the tolerance for
+/// less, and the first with a kept factor, which is no worse than Newton's, may raise the error,
+/// too. Where a kept factor gives a step and the budget has no room for an exact one of a known
+/// cost, chord steps alone go on as long as each gains.
 FrameOutcome RunFrame(FrameProblem& problem, const FrameSettings& settings,
                       const TimeBudget& budget);
 

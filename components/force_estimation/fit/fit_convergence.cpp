@@ -12,9 +12,6 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-/// A secant that goes farther has met another bend, or rounding.
-constexpr double kMostAcceleration = 2.0;
-
 }  // namespace
 
 /// At the state that the linearisation and the QP were updated at last.
@@ -63,28 +60,19 @@ double ForceFitter::StepShare(const ModelState& state) const {
   return longest_step_N_ > 0.0 && change_N > longest_step_N_ ? longest_step_N_ / change_N : 1.0;
 }
 
-/// What the last step left over says how wrong the factor is along it: the trial goes on by what a
-/// secant makes of the two (Anderson, J. ACM 12 (1965) 547, with one step of memory).
+/// The trial goes on by what the last steps with this factor tell of its error.
 void ForceFitter::Accelerate() {
   const ModelState& state = *frame_.state;
-  step_.valid = true;
-  step_.from.x_m = state.x_m;
-  step_.from.lambda_a_N = state.lambda_a_N;
-  step_.from.lambda_f_N = state.lambda_f_N;
   step_.x_m = trial_.x_m - state.x_m;
   step_.lambda_a_N = trial_.lambda_a_N - state.lambda_a_N;
   step_.lambda_f_N = trial_.lambda_f_N - state.lambda_f_N;
-  const Step& before = step_before_;
-  if (!before.valid || before.lambda_f_N.size() != step_.lambda_f_N.size()) return;
-  const double change_m2 = (step_.x_m - before.x_m).squaredNorm();
-  if (!(change_m2 > 0.0)) return;
-  const double share = -step_.x_m.dot(step_.x_m - before.x_m) / change_m2;
-  if (!(std::abs(share) <= kMostAcceleration)) return;
-  trial_.x_m += share * (state.x_m - before.from.x_m + step_.x_m - before.x_m);
-  trial_.lambda_a_N +=
-      share * (state.lambda_a_N - before.from.lambda_a_N + step_.lambda_a_N - before.lambda_a_N);
-  trial_.lambda_f_N +=
-      share * (state.lambda_f_N - before.from.lambda_f_N + step_.lambda_f_N - before.lambda_f_N);
+  from_.x_m = state.x_m;
+  from_.lambda_a_N = state.lambda_a_N;
+  from_.lambda_f_N = state.lambda_f_N;
+  if (!secants_.Improve(from_, step_, &correction_)) return;
+  trial_.x_m += correction_.x_m;
+  trial_.lambda_a_N += correction_.lambda_a_N;
+  trial_.lambda_f_N += correction_.lambda_f_N;
 }
 
 }  // namespace palpate::force_estimation

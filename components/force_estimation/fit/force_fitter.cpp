@@ -82,6 +82,14 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
   prior_information_ = fem::QpMatrix::Zero(forces, forces);
+  if (forces != from_.lambda_f_N.size() || from_.x_m.size() == 0) {
+    for (FitVariables* variables : {&from_, &step_, &correction_}) {
+      variables->x_m = weight_N_;
+      variables->lambda_a_N = new_lambda_a_;
+      variables->lambda_f_N = new_lambda_f_;
+    }
+    secants_.SetUp(weight_N_.size(), model_.CableCount(), forces);
+  }
   directions_.AskForEverything(sites_);
   last_good_.valid = false;
   columns_current_ = false;
@@ -106,30 +114,39 @@ const ForceFit& ForceFitter::Fit(const RowTargets& targets,
   return fit_;
 }
 
-/// Newton's steps; where they diverge, one step along equilibria, from which they try again.
+/// Newton's steps, as cheap as they may be. Where they diverge, exact ones from where they began:
+/// steps with another state's factor may lead where no tangent leads back. Where these diverge,
+/// too, one step along equilibria, from which they try again.
 Status ForceFitter::FitWithRestorations() {
-  Status status = RunLoop();
+  Status status = RunLoop(/*careful=*/false);
+  if (Diverged(status) && fit_.chord_steps > 0) {
+    *frame_.state = start_;
+    status = RunLoop(/*careful=*/true);
+  }
   if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
   while (Diverged(status) && fit_.restorations < most_restorations_) {
     *frame_.state = start_;
     ++fit_.restorations;
     if (Status restored = Restore(); !restored.ok()) return restored;
     start_ = *frame_.state;
-    status = RunLoop();
+    status = RunLoop(/*careful=*/true);
   }
   return status;
 }
 
-Status ForceFitter::RunLoop() {
-  const fem::FrameOutcome outcome =
-      fem::RunFrame(*this,
-                    {.relative_tolerance = config_.frame_tolerance,
-                     .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations),
-                     .keep_factor = keep_factor_,
-                     .exact_step_cost_s = counts_work_ ? kFactorWork + kColumnsWork : 0.0},
-                    *frame_.budget);
+Status ForceFitter::RunLoop(bool careful) {
+  const bool keep_factor = keep_factor_ && !careful && wasted_work_ < kFactorWork + kColumnsWork;
+  const fem::FrameOutcome outcome = fem::RunFrame(
+      *this,
+      {.relative_tolerance = config_.frame_tolerance,
+       .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations),
+       .keep_factor = keep_factor,
+       .exact_step_cost_s = counts_work_ && !careful ? kFactorWork + kColumnsWork : 0.0},
+      *frame_.budget);
   fit_.iterations += outcome.exact_steps;
   fit_.chord_steps += outcome.chord_steps;
+  // Beyond the one that every frame needs; once they would have paid a factor, a new one is made.
+  if (outcome.exact_steps == 0) wasted_work_ += std::max(0, outcome.chord_steps - 1);
   fit_.error = outcome.error;
   frame_.state->balanced = outcome.converged();
   return outcome.status;
@@ -146,7 +163,7 @@ Status ForceFitter::PrepareExactStep() {
 
 /// With the factor of an earlier frame: what it was told of the state is new, W is not.
 Status ForceFitter::PrepareKeptStep() {
-  step_.valid = step_before_.valid = false;
+  secants_.BeginFit();
   if (!factor_known_) return {};
   const ModelState& state = *frame_.state;
   if (!IsEvaluated(state)) {
@@ -189,7 +206,9 @@ Status ForceFitter::SolveInObservableDirections(const ModelState& state) {
 
 Status ForceFitter::Try(double length, bool last) {
   const ModelState& state = *frame_.state;
-  length *= StepShare(state);
+  const double share = StepShare(state);
+  step_was_cut_ = share < 1.0;
+  length *= share;
   trial_.x_m = state.x_m;
   compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.x_m);
   trial_.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
@@ -216,8 +235,6 @@ Status ForceFitter::Try(double length, bool last) {
 }
 
 void ForceFitter::AcceptTrial() {
-  std::swap(step_before_, step_);
-  step_.valid = false;
   frame_.state->x_m.swap(trial_.x_m);
   frame_.state->lambda_a_N.swap(trial_.lambda_a_N);
   frame_.state->lambda_f_N.swap(trial_.lambda_f_N);
@@ -267,7 +284,9 @@ Status ForceFitter::StepToEquilibrium(double fraction) {
 
 Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   UpdateExternalForce(state.lambda_f_N);
-  factor_known_ = step_.valid = step_before_.valid = false;
+  factor_known_ = false;
+  wasted_work_ = 0.0;
+  secants_.Forget();
   Status status =
       model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_, allow_shift);
   if (!status.ok()) return status;

@@ -9,6 +9,7 @@
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/fit/cable_elimination.hpp"
 #include "components/force_estimation/fit/fitted_directions.hpp"
+#include "components/force_estimation/fit/secant_memory.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/frame_loop.hpp"
 #include "libs/fem/static_solver.hpp"
@@ -94,6 +95,8 @@ class ForceFitter final : private fem::FrameProblem {
   }
   /// What others do for the same frame.
   void AddWork(double work) { work_ += work; }
+  /// In place of Config::frame_tolerance, for the fits from now on.
+  void SetTolerance(double relative) { config_.frame_tolerance = relative; }
   /// Static solves that a fit may try where Newton's steps diverge; at first 8.
   void LimitRestorations(int most) { most_restorations_ = most; }
   /// Whether fits tell modulus_sensitivity_N, which costs a substitution each; at first they do.
@@ -151,10 +154,11 @@ class ForceFitter final : private fem::FrameProblem {
   double StartError() const override { return start_error_; }
   Status Try(double length, bool last) override;
   double TrialError() const override { return trial_error_; }
+  bool StepWasCut() const override { return step_was_cut_; }
   void AcceptTrial() override;
   void Accelerate();
 
-  Status RunLoop();
+  Status RunLoop(bool careful);
   Status FitWithRestorations();
   Status Restore();
   Status StepToEquilibrium(double fraction);
@@ -190,6 +194,8 @@ class ForceFitter final : private fem::FrameProblem {
   double longest_step_N_ = 0.0;  ///< 0: no limit
   double work_ = 0.0;
   bool counts_work_ = false;
+  /// Steps that a new factor would have spared, since the last one was made.
+  double wasted_work_ = 0.0;
   bool factor_known_ = false;     ///< the linearisation has a factor that may be kept
   bool columns_current_ = false;  ///< the compliance has the columns of the present sites
   double start_error_ = 0.0;
@@ -197,15 +203,11 @@ class ForceFitter final : private fem::FrameProblem {
   ForceFit fit_;
   Frame frame_;
   ModelState start_, trial_, last_good_;
-  /// A state and the step from it.
-  struct Step {
-    bool valid = false;
-    ModelState from;
-    Eigen::VectorXd x_m, lambda_a_N, lambda_f_N;
-  };
-  Step step_, step_before_;  ///< with the present factor
-  ModelState evaluated_;     ///< where linearisation and compliance have the residual of
+  SecantMemory secants_;  ///< with the present factor
+  FitVariables from_, step_, correction_;
+  ModelState evaluated_;  ///< where linearisation and compliance have the residual of
   double trial_error_ = 0.0;
+  bool step_was_cut_ = false;
   double linearised_error_ = 0.0;     ///< of the state at which the tangent was taken
   Eigen::VectorXd weight_N_;          ///< [3n] gravity
   Eigen::VectorXd external_force_N_;  ///< [3n]

@@ -22,14 +22,16 @@ constexpr double kToldShare = 0.5;
 /// averaging over many frames help.
 constexpr double kTemporalCorrelation = 1.86;
 
-/// With the place, where that is not known.
-Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
-  if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
+Eigen::Matrix3d CovarianceOf(const ShapeFit& fit, std::size_t site) {
   const auto row = static_cast<Eigen::Index>(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
-Eigen::Matrix3d CovarianceOf(const ShapeFit& fit, std::size_t site) {
+/// With the place, where that is not known.
+Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
+  const ShapeSite& followed = fit.sites()[site];
+  if (followed.hidden) return CovarianceOf(fit, site) + followed.place_force_covariance_N2;
+  if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
   const auto row = static_cast<Eigen::Index>(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
@@ -54,17 +56,19 @@ Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix
 
 }  // namespace
 
-ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma)
-    : config_(config), force_relative_sigma_(force_relative_sigma) {}
+ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma,
+                             int search_places)
+    : config_(config), force_relative_sigma_(force_relative_sigma), search_places_(search_places) {}
 
-/// One-sided: contacts push.
+/// One-sided: contacts push. Whether there is a force is asked at its place: without a force there
+/// would be no place to be unsure of. A place that was searched is the best of many.
 void ContactReport::Judge(double t_s, ShapeFit* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
     const Eigen::Vector3d normal = fit->NormalAt(s);
     const bool hidden = fit->sites()[s].hidden;
-    const Eigen::Matrix3d covariance = hidden ? WholeCovariance(*fit, s) : CovarianceOf(*fit, s);
-    const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance * normal)));
-    const double chance = hidden ? config_.hidden_significance : config_.significance;
+    const double sigma_N = std::sqrt(std::max(0.0, normal.dot(CovarianceOf(*fit, s) * normal)));
+    const double chance =
+        hidden ? config_.hidden_significance / search_places_ : config_.significance;
     const double limit_N = NormalQuantile(1.0 - chance) * sigma_N;
     const double pressed_N = -normal.dot(fit->ForceAt(s));
     const auto evidence = pressed_N > kBeyondDoubt * limit_N ? SiteBook::Evidence::kBeyondDoubt
@@ -103,7 +107,7 @@ Status ContactReport::StatusOf(const ShapeFit& fit, std::size_t site) const {
 ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
                                       double inflation) const {
   const ShapeSite& followed = fit.sites()[site];
-  const bool located = site < fit.located().size();
+  const bool located = !followed.hidden && site < fit.located().size();
   ContactForce contact;
   contact.name = followed.name;
   contact.status = StatusOf(fit, site);
@@ -119,7 +123,9 @@ ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
   const double seen_m2 = followed.seen_sigma_m * followed.seen_sigma_m;  // in both directions
   const double place_variance =
       located ? inflation * fit.located()[site].location_covariance_m2.trace() : 2.0 * seen_m2;
-  contact.location_ci95_m = std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * place_variance);
+  contact.location_ci95_m = followed.hidden
+                                ? followed.place_ci95_m
+                                : std::sqrt(0.5 * ChiSquaredQuantile(0.95, 2) * place_variance);
   return contact;
 }
 

@@ -12,8 +12,9 @@ namespace palpate::force_estimation {
 /// What a fit says about its contacts: which act, with what force, how surely.
 class ContactReport {
  public:
-  /// `force_relative_sigma`: error that all forces share.
-  ContactReport(const ShapeConfig& config, double force_relative_sigma);
+  /// `force_relative_sigma`: error that all forces share. `search_places`: that a hidden contact
+  /// may have been found at.
+  ContactReport(const ShapeConfig& config, double force_relative_sigma, int search_places);
 
   /// Counts the frames in which each contact's force shows, and averages the forces.
   void Judge(double t_s, ShapeFit* fit) const;
@@ -26,6 +27,7 @@ class ContactReport {
 
   ShapeConfig config_;
   double force_relative_sigma_;
+  double search_places_;
 };
 
 /// Rows of the fit less the force components that were fitted.

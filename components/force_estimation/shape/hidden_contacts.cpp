@@ -13,9 +13,10 @@ namespace {
 constexpr int kMostAtOnce = 2;
 /// Around a contact that is seen nothing is searched: what is left over there is its own doing.
 constexpr double kTakenRadius_m = 0.03;
-constexpr int kFindAgainRounds = 2;
-/// Frames of its life in which a hidden contact is looked for again.
+constexpr int kFollowRounds = 2;
+/// Frames of its life in which a hidden contact is placed each time, and then each few frames.
 constexpr int kYoungFrames = 5;
+constexpr int kFramesBetweenPlaces = 5;
 constexpr int kFramesBetweenSearches = 3;
 /// After attempts that came to nothing, which cost many solves, the pauses double up to this.
 constexpr int kLongestPause = 24;
@@ -25,36 +26,83 @@ constexpr double kSamePlace_m = 6e-3;
 /// Another place must fit by so much better.
 constexpr double kBetter = 0.95;
 constexpr double kSearchWork = 1.0;
+/// Of a substitution, for each row that responses are solved for.
+constexpr double kRowWork = 0.1;
+/// What was known of a place before counts for less with each time that it is passed on, and a
+/// contact may slide meanwhile.
+constexpr double kFading = 4.0;
+constexpr double kSlide_m = 1e-3;
+/// Of the model's motion, one sigma.
+constexpr double kModelError = 0.015;
+
+PlacePrior PriorOf(const ShapeSite& site) {
+  const Eigen::Matrix3d slide_m2 = kSlide_m * kSlide_m * Eigen::Matrix3d::Identity();
+  return {.mean_m = site.centre.rest_m,
+          .information_m2 = (kFading * site.place_covariance_m2 + slide_m2).inverse()};
+}
+
+/// The model errs by a share of the motion that changes little from a feature to the next: one
+/// column for each axis along which it may change.
+Eigen::MatrixXd ModelErrors_m(const ShapeFit& fit, const Eigen::VectorXd& motion_m) {
+  const auto& features = fit.targets().features();
+  Eigen::MatrixXd along(motion_m.size(), 3);
+  for (Eigen::Index r = 0; r < along.rows(); ++r) {
+    along.row(r) = fit.features()
+                       .point(features[static_cast<std::size_t>(r)])
+                       .Position(fit.state().x_m)
+                       .transpose();
+  }
+  along.rowwise() -= along.colwise().mean().eval();
+  const double size_m = std::sqrt(along.rowwise().squaredNorm().mean());
+  return kModelError / size_m * motion_m.asDiagonal() * along;
+}
 
 }  // namespace
 
 HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit)
-    : config_(config), fit_(fit), search_(model, config), pause_(kFramesBetweenSearches) {}
+    : config_(config),
+      fit_(fit),
+      search_(model, config),
+      pause_(kFramesBetweenSearches),
+      average_(static_cast<int>(model.body().feature_points.size())),
+      responses_(static_cast<Eigen::Index>(model.body().feature_points.size()),
+                 3 * search_.CandidateCount()),
+      responds_(model.body().feature_points.size(), false) {}
 
 Status HiddenContacts::Prepare(const std::vector<robot::CableCommand>& cables) {
+  linearisations_ = -1;
   return search_.Prepare(fit_.state().x_m, cables, fit_.state().lambda_a_N);
 }
 
 Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
-  Status status = Status::Ok();
   if (before_) return Decide(frame, bias);
-  if (!search_.prepared() || fit_.IsWorkUsedUp()) return status;
-  const auto& sites = fit_.sites();
-  const auto hidden =
-      std::find_if(sites.begin(), sites.end(), [](const ShapeSite& site) { return site.hidden; });
-  bool found_any = hidden != sites.end() && hidden->frames < kYoungFrames;
-  if (hidden == sites.end() && !fit_.book().full() && IsTimeToSearch()) {
-    fit_.AddWork(kSearchWork);
-    const std::vector<HiddenContact> found = search_.Find(
-        LeftOver(), kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
-    if (found.empty()) return status;
-    found_any = Try(found, frame, bias, &status);
-    pause_ = found_any ? kFramesBetweenSearches : std::min(2 * pause_, kLongestPause);
+  Status status = Status::Ok();
+  if (!search_.prepared()) return status;
+  if (HiddenSites().empty()) {
+    if (fit_.IsWorkUsedUp() || fit_.book().full() || !IsTimeToSearch()) return status;
+    status = Search(frame, bias);
   }
-  for (int round = 0; found_any && status.ok() && round < kFindAgainRounds; ++round) {
-    if (fit_.IsWorkUsedUp()) break;
-    if (!FindAgain(frame, bias, &status)) break;
+  for (int round = 0; round < kFollowRounds && status.ok() && !HiddenSites().empty(); ++round) {
+    if (before_ || (round > 0 && fit_.IsWorkUsedUp())) break;
+    const int linearisations = fit_.linearisations();
+    status = Follow(frame, bias);
+    if (linearisations == fit_.linearisations()) break;
   }
+  return status;
+}
+
+Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
+  fit_.AddWork(kSearchWork);
+  Unexplained data = LeftOver();
+  if (!Respond(frame.cables).ok()) return Status::Ok();
+  data.responses = responses_(fit_.targets().features(), Eigen::all);
+  data.left_m = data.residual_m;
+  const std::vector<HiddenContact> found =
+      search_.Find(data, kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
+  if (found.empty()) return Status::Ok();
+  Status status = Status::Ok();
+  const bool found_any = Try(found, frame, bias, &status);
+  pause_ = found_any ? kFramesBetweenSearches : std::min(2 * pause_, kLongestPause);
   return status;
 }
 
@@ -68,13 +116,106 @@ bool HiddenContacts::IsTimeToSearch() {
   return true;
 }
 
-/// True where another place was better.
-bool HiddenContacts::FindAgain(const ShapeFrame& frame, const DepthBias& bias, Status* status) {
+Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
+  Remember();
+  if (!IsTimeToFollow()) return Status::Ok();
   fit_.AddWork(kSearchWork);
-  const std::vector<HiddenContact> found = search_.Find(
-      WithoutHidden(), kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
-  if (found.empty() || AreWhereTheyWere(found)) return false;
-  return Try(found, frame, bias, status);
+  if (!Respond(frame.cables).ok()) return Status::Ok();
+  const Unexplained data = OfHidden();
+  const std::vector<HiddenContact> found =
+      search_.Follow(data, priors_, SeenPlaces(), kTakenRadius_m);
+  if (found.empty()) return Status::Ok();
+  const Status status = MoveTo(found, frame, bias);
+  const bool much_left = fit_.fitter().fit().chi_squared >= kMuchLeft * fit_.targets().Count();
+  if (!status.ok() || !much_left || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
+  return FindOthers(data, frame, bias);
+}
+
+/// What is left over may be another contact, or all of them are elsewhere.
+Status HiddenContacts::FindOthers(const Unexplained& data, const ShapeFrame& frame,
+                                  const DepthBias& bias) {
+  const std::vector<HiddenContact> found =
+      search_.Find(data, kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
+  Status status = Status::Ok();
+  if (found.empty() || AreWhereTheyWere(found)) return status;
+  const bool better = Try(found, frame, bias, &status);
+  pause_ = better ? kFramesBetweenSearches : std::min(2 * pause_, kLongestPause);
+  return status;
+}
+
+Status HiddenContacts::MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
+                              const DepthBias& bias) {
+  const std::vector<std::size_t> hidden = HiddenSites();
+  bool moved = false;
+  bool far = false;
+  ShapeFit::Attempt before;
+  fit_.KeepIn(&before);
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    const Eigen::Vector3d was_m = fit_.sites()[hidden[k]].centre.rest_m;
+    far = far || (found[k].rest_position_m - was_m).norm() > kSamePlace_m;
+    moved = fit_.book().Follow(hidden[k], found[k]) || moved;
+  }
+  if (!moved) return Status::Ok();
+  const Status status = fit_.FitAtNewPlaces(frame, bias);
+  const bool worse = !status.ok() || fit_.fitter().fit().chi_squared > before.chi_squared;
+  if (!far || !worse) return status;
+  fit_.GoBack(before);
+  return fit_.MatchAndFit(frame, bias);
+}
+
+bool HiddenContacts::IsTimeToFollow() const {
+  const std::vector<std::size_t> hidden = HiddenSites();
+  return average_.frames() == 1 || std::any_of(hidden.begin(), hidden.end(), [&](std::size_t s) {
+           const int frames = fit_.sites()[s].frames;
+           return frames < kYoungFrames || frames % kFramesBetweenPlaces == 0;
+         });
+}
+
+/// What the hidden contacts do, by the fit's own responses, joins the average.
+void HiddenContacts::Remember() {
+  const std::vector<std::size_t> hidden = HiddenSites();
+  Eigen::VectorXd motion_m = fit_.fitter().fit().residual_m;
+  for (const std::size_t s : hidden) {
+    motion_m +=
+        fit_.fitter().Response().middleCols<3>(static_cast<Eigen::Index>(3 * s)) * fit_.ForceAt(s);
+  }
+  if (averaged_about_ != fit_.linearisations() || priors_.size() != hidden.size()) {
+    average_.Forget();
+    averaged_about_ = fit_.linearisations();
+  }
+  average_.Add(fit_.targets(), motion_m);
+  if (average_.frames() > 1) return;
+  priors_.clear();
+  for (const std::size_t s : hidden) {
+    const ShapeSite& site = fit_.sites()[s];
+    priors_.push_back(are_new_ ? PlacePrior{.mean_m = site.centre.rest_m} : PriorOf(site));
+  }
+  are_new_ = false;
+}
+
+/// Responses of the features of this frame about the present shape.
+Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
+  if (linearisations_ != fit_.linearisations()) {
+    std::fill(responds_.begin(), responds_.end(), false);
+    linearisations_ = fit_.linearisations();
+  }
+  std::vector<robot::EffectorRow> rows;
+  std::vector<int> features;
+  for (std::size_t r = 0; r < fit_.targets().features().size(); ++r) {
+    const int feature = fit_.targets().features()[r];
+    if (responds_[static_cast<std::size_t>(feature)]) continue;
+    rows.push_back(fit_.targets().rows()[r]);
+    features.push_back(feature);
+  }
+  if (rows.empty()) return Status::Ok();
+  fit_.AddWork(kRowWork * static_cast<double>(rows.size()));
+  Eigen::MatrixXd responses;
+  const ModelState& state = fit_.state();
+  Status status = search_.RespondAbout(rows, state.x_m, cables, state.lambda_a_N, &responses);
+  if (!status.ok()) return status;
+  responses_(features, Eigen::all) = responses;
+  for (const int feature : features) responds_[static_cast<std::size_t>(feature)] = true;
+  return status;
 }
 
 Unexplained HiddenContacts::LeftOver() const {
@@ -84,22 +225,28 @@ Unexplained HiddenContacts::LeftOver() const {
           .known = fit_.fitter().Response()};
 }
 
-/// What the known contacts leave over where the hidden ones are taken out, to first order.
-Unexplained HiddenContacts::WithoutHidden() const {
-  Unexplained data = LeftOver();
-  data.left_m = data.residual_m;
-  const Eigen::MatrixXd response = data.known;
-  Eigen::Index seen = 0;
-  for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
-    const ShapeSite& site = fit_.sites()[s];
-    if (site.hidden) {
-      data.residual_m += search_.ResponseAt(data.rows, site.centre.rest_m) * fit_.ForceAt(s);
-    } else {
-      data.known.middleCols<3>(3 * seen++) =
-          response.middleCols<3>(static_cast<Eigen::Index>(3 * s));
-    }
+/// What the hidden contacts do, on average, to be explained by places about the present shape.
+Unexplained HiddenContacts::OfHidden() const {
+  Unexplained data{.rows = fit_.targets().rows(),
+                   .residual_m = average_.motion_m(),
+                   .weight = average_.weight(),
+                   .known = Eigen::MatrixXd(fit_.targets().Count(), 0)};
+  data.left_m = fit_.fitter().fit().residual_m;
+  data.responses = responses_(fit_.targets().features(), Eigen::all);
+  data.errors_m = ModelErrors_m(fit_, data.residual_m);
+  // Places in between have responses that are interpolated: so has, here, the present one.
+  for (const std::size_t s : HiddenSites()) {
+    const auto at = static_cast<Eigen::Index>(3 * s);
+    data.residual_m += (search_.ResponseAt(data.responses, fit_.sites()[s].centre.rest_m) -
+                        fit_.fitter().Response().middleCols<3>(at)) *
+                       fit_.ForceAt(s);
   }
-  data.known.conservativeResize(Eigen::NoChange, 3 * seen);
+  for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
+    if (fit_.sites()[s].hidden) continue;
+    data.known.conservativeResize(Eigen::NoChange, data.known.cols() + 3);
+    data.known.rightCols<3>() =
+        fit_.fitter().Response().middleCols<3>(static_cast<Eigen::Index>(3 * s));
+  }
   return data;
 }
 
@@ -109,8 +256,10 @@ bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const Shape
   ShapeFit::Attempt before;
   fit_.KeepIn(&before);
   fit_.ReplaceHidden(contacts);
-  Status tried = fit_.MatchAndFit(frame, bias);
-  if (tried.ok()) tried = fit_.Locate(frame, bias);
+  average_.Forget();
+  priors_.clear();
+  are_new_ = true;
+  const Status tried = fit_.MatchAndFit(frame, bias);
   if (tried.code() == StatusCode::kBudgetReached) {
     before_ = std::move(before);
     *status = tried;
@@ -133,20 +282,27 @@ Status HiddenContacts::Decide(const ShapeFrame& frame, const DepthBias& bias) {
 
 void HiddenContacts::Forget() {
   before_.reset();
+  average_.Forget();
+  priors_.clear();
   fit_.book().ForgetHidden();
 }
 
 bool HiddenContacts::AreWhereTheyWere(const std::vector<HiddenContact>& found) const {
-  const auto& sites = fit_.sites();
-  const auto hidden =
-      std::count_if(sites.begin(), sites.end(), [](const ShapeSite& site) { return site.hidden; });
-  return hidden == static_cast<std::ptrdiff_t>(found.size()) &&
+  const std::vector<std::size_t> hidden = HiddenSites();
+  return hidden.size() == found.size() &&
          std::all_of(found.begin(), found.end(), [&](const HiddenContact& contact) {
-           return std::any_of(sites.begin(), sites.end(), [&](const ShapeSite& site) {
-             return site.hidden &&
-                    (site.centre.rest_m - contact.rest_position_m).norm() < kSamePlace_m;
+           return std::any_of(hidden.begin(), hidden.end(), [&](std::size_t s) {
+             return (fit_.sites()[s].centre.rest_m - contact.rest_position_m).norm() < kSamePlace_m;
            });
          });
+}
+
+std::vector<std::size_t> HiddenContacts::HiddenSites() const {
+  std::vector<std::size_t> hidden;
+  for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
+    if (fit_.sites()[s].hidden) hidden.push_back(s);
+  }
+  return hidden;
 }
 
 std::vector<Eigen::Vector3d> HiddenContacts::SeenPlaces() const {

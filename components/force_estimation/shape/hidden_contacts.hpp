@@ -7,19 +7,23 @@
 #include <vector>
 
 #include "components/force_estimation/shape/hidden_search.hpp"
+#include "components/force_estimation/shape/shape_average.hpp"
 #include "components/force_estimation/shape/shape_fit.hpp"
 
 namespace palpate::force_estimation {
 
-/// Contacts that nobody sees, found where the fit leaves more than noise over, and found again
-/// about the shape that they make, because the search is of first order only. Whatever does not
-/// lead to a better fit is taken back.
+/// Contacts that nobody sees, found where the fit leaves more than noise over. Whatever does not
+/// lead to a better fit is taken back. Those that were found are followed: their places come from
+/// responses about the present shape, from all frames in which they hold still, and from what was
+/// known before.
 class HiddenContacts {
  public:
   /// All must outlive this.
   HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit);
 
   bool prepared() const { return search_.prepared(); }
+  /// Patches that the search tries.
+  int CandidateCount() const { return search_.CandidateCount(); }
   /// About the fit's state, which must be one without contact.
   Status Prepare(const std::vector<robot::CableCommand>& cables);
 
@@ -31,14 +35,22 @@ class HiddenContacts {
   void Forget();
 
  private:
-  bool FindAgain(const ShapeFrame& frame, const DepthBias& bias, Status* status);
+  Status Search(const ShapeFrame& frame, const DepthBias& bias);
+  Status Follow(const ShapeFrame& frame, const DepthBias& bias);
+  Status FindOthers(const Unexplained& data, const ShapeFrame& frame, const DepthBias& bias);
+  Status MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
+                const DepthBias& bias);
   bool IsTimeToSearch();
+  bool IsTimeToFollow() const;
+  void Remember();
   Unexplained LeftOver() const;
-  Unexplained WithoutHidden() const;
+  Unexplained OfHidden() const;
+  Status Respond(const std::vector<robot::CableCommand>& cables);
   Status Decide(const ShapeFrame& frame, const DepthBias& bias);
   bool Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
            const DepthBias& bias, Status* status);
   bool AreWhereTheyWere(const std::vector<HiddenContact>& found) const;
+  std::vector<std::size_t> HiddenSites() const;
   std::vector<Eigen::Vector3d> SeenPlaces() const;
 
   ShapeConfig config_;
@@ -46,6 +58,13 @@ class HiddenContacts {
   HiddenSearch search_;
   int frames_since_search_ = 0;
   int pause_;  ///< between searches, frames
+  ShapeAverage average_;
+  int averaged_about_ = -1;         ///< linearisation
+  std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average began
+  bool are_new_ = false;            ///< the hidden sites: nothing was known before
+  int linearisations_ = -1;         ///< that the responses belong to
+  Eigen::MatrixXd responses_;       ///< [features x 3 candidates]
+  std::vector<bool> responds_;      ///< [features]
   /// What there was before the hidden contacts that are still being tried.
   std::optional<ShapeFit::Attempt> before_;
 };

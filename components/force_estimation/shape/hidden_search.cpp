@@ -34,6 +34,7 @@ constexpr int kUnknowns = 5;
 constexpr double kOffPlaces = 2.0;
 constexpr int kNeighbours = 6;
 constexpr int kPairRounds = 3;
+constexpr int kFollowRounds = 2;
 /// A candidate that moves the rows less than this part of the most moving one is not seen at all.
 constexpr double kUnseen = 1e-6;
 
@@ -60,13 +61,15 @@ Tests MakeTests(const HiddenProblem& problem, const SearchPlaces& places,
   return tests;
 }
 
-/// Weights that allow for what the first order leaves out, and the interpolation.
+/// Weights that allow for what the first order leaves out, and the interpolation between candidates
+/// of what is far from the state.
 Eigen::VectorXd FirstOrderWeights(const Unexplained& data) {
   const Eigen::VectorXd& left_m = data.left_m.size() > 0 ? data.left_m : data.residual_m;
+  const double interpolation = data.responses.size() > 0 ? 0.0 : kInterpolationError;
   const Eigen::ArrayXd squared_m2 = left_m.array().square();
   const Eigen::ArrayXd error_m2 =
       0.5 * kFirstOrderError * kFirstOrderError * (squared_m2 + squared_m2.mean()) +
-      kInterpolationError * kInterpolationError * data.residual_m.array().square().mean();
+      interpolation * interpolation * data.residual_m.array().square().mean();
   return data.weight.array() / (1.0 + data.weight.array() * error_m2);
 }
 
@@ -104,6 +107,7 @@ struct HiddenSearch::Parts {
   HiddenProblem Without(const HiddenProblem& problem, const PlacePosterior& contact) const;
   std::vector<PlacePosterior> FindPair(const HiddenProblem& problem,
                                        const std::vector<bool>& usable, int known) const;
+  PlaceFit FitAt(const HiddenProblem& problem, int place) const;
   void Report(const Unexplained& data, const std::vector<PlacePosterior>& contacts);
 
   robot::RobotModel& model;
@@ -123,7 +127,11 @@ HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
   PALPATE_CHECK(data.known.rows() == m || data.known.cols() == 0, data.known.rows(), m);
   PALPATE_CHECK(data.left_m.size() == m || data.left_m.size() == 0, data.left_m.size(), m);
   const Eigen::VectorXd scale = weight.cwiseSqrt();
-  HiddenProblem problem(scale.cwiseProduct(data.residual_m), responses.Observe(data.rows, scale));
+  Eigen::MatrixXd response = data.responses.size() > 0
+                                 ? Eigen::MatrixXd(scale.asDiagonal() * data.responses)
+                                 : responses.Observe(data.rows, scale);
+  HiddenProblem problem(scale.cwiseProduct(data.residual_m), std::move(response));
+  if (data.errors_m.cols() > 0) problem.Absorb(scale.asDiagonal() * data.errors_m);
   problem.Ignore(scale.asDiagonal() * data.known);
   return problem;
 }
@@ -177,6 +185,11 @@ HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
   return without;
 }
 
+/// Without friction.
+PlaceFit HiddenSearch::Parts::FitAt(const HiddenProblem& problem, int place) const {
+  return problem.Fit(problem.Place(places.interpolation(place)), normals.col(place), 0.0);
+}
+
 /// Starts from the best pair of candidates, and places each in turn while the other is free.
 std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
                                                           const std::vector<bool>& usable,
@@ -186,10 +199,7 @@ std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& p
   std::vector<PlacePosterior> pair(2);
   pair[0].place = places.PlaceOfCandidate(first);
   pair[1].place = places.PlaceOfCandidate(second);
-  for (PlacePosterior& contact : pair) {
-    const Eigen::MatrixX3d columns = problem.Place(places.interpolation(contact.place));
-    contact.fit = problem.Fit(columns, normals.col(contact.place), 0.0);
-  }
+  for (PlacePosterior& contact : pair) contact.fit = FitAt(problem, contact.place);
   for (int round = 0; round < kPairRounds; ++round) {
     for (size_t k = 0; k < 2; ++k) {
       pair[k] = Locate(Without(problem, pair[1 - k]), places, normals, usable,
@@ -213,13 +223,14 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
     }
     const Eigen::MatrixX3d columns = rest.Place(places.interpolation(contact.place));
     found.push_back(
-        {.rest_position_m = places.positions_m().col(contact.place),
+        {.rest_position_m = contact.mean_m,
          .normal = normals.col(contact.place),
          .force_N = contact.fit.force_N,
          .tangential_N = contact.fit.tangential_N,
          .chi_squared_gain = rest.Fit(columns, normals.col(contact.place), kFriction).gain,
          .location_covariance_m2 = contact.covariance_m2,
-         .location_ci95_m = contact.ci95_m});
+         .location_ci95_m = contact.ci95_m,
+         .force_covariance_N2 = contact.force_covariance_N2});
   }
 }
 
@@ -241,6 +252,16 @@ Status HiddenSearch::Prepare(const Eigen::VectorXd& x_m,
   return status;
 }
 
+Status HiddenSearch::RespondAbout(const std::vector<robot::EffectorRow>& rows,
+                                  const Eigen::VectorXd& x_m,
+                                  const std::vector<robot::CableCommand>& commands,
+                                  const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* responses) {
+  Parts& parts = *parts_;
+  parts.normals = parts.places.Normals(x_m);
+  return ObserveAbout(parts.model, parts.places.patches(), rows, x_m, commands, lambda_a_N,
+                      responses);
+}
+
 bool HiddenSearch::prepared() const { return parts_->prepared; }
 
 int HiddenSearch::CandidateCount() const { return parts_->places.CandidateCount(); }
@@ -254,6 +275,12 @@ Eigen::MatrixX3d HiddenSearch::ResponseAt(const std::vector<robot::EffectorRow>&
   const HiddenProblem problem(Eigen::VectorXd::Zero(m),
                               parts.responses.Observe(rows, Eigen::VectorXd::Ones(m)));
   return problem.Place(parts.places.interpolation(parts.places.Nearest(rest_position_m)));
+}
+
+Eigen::MatrixX3d HiddenSearch::ResponseAt(const Eigen::MatrixXd& responses,
+                                          const Eigen::Vector3d& rest_position_m) const {
+  const HiddenProblem problem(Eigen::VectorXd::Zero(responses.rows()), responses);
+  return problem.Place(parts_->places.InterpolationAt(rest_position_m));
 }
 
 double HiddenSearch::SigmaOfForce_N(const Unexplained& data,
@@ -291,6 +318,36 @@ const std::vector<HiddenContact>& HiddenSearch::Find(const Unexplained& data, in
   if (most == 2 && parts.Stands(parts.Without(problem, single), usable, significance)) {
     const std::vector<PlacePosterior> pair = parts.FindPair(problem, usable, known);
     if (!pair.empty()) contacts = pair;
+  }
+  parts.Report(data, contacts);
+  return parts.found;
+}
+
+const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
+                                                       const std::vector<PlacePrior>& before,
+                                                       const std::vector<Eigen::Vector3d>& taken,
+                                                       double taken_radius_m) {
+  PALPATE_CHECK(before.size() == 1 || before.size() == 2, before.size());
+  Parts& parts = *parts_;
+  parts.found.clear();
+  const std::vector<bool> usable = parts.Usable(taken, taken_radius_m);
+  const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
+  const auto known = static_cast<int>(data.known.cols());
+  const int unknowns = known + static_cast<int>(before.size()) * kUnknowns;
+  std::vector<PlacePosterior> contacts(before.size());
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    contacts[k].place = parts.places.Nearest(before[k].mean_m);
+    contacts[k].fit = parts.FitAt(problem, contacts[k].place);
+  }
+  const int rounds = contacts.size() == 1 ? 1 : kFollowRounds;
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t k = 0; k < contacts.size(); ++k) {
+      const HiddenProblem rest =
+          contacts.size() == 1 ? problem : parts.Without(problem, contacts[1 - k]);
+      contacts[k] = Locate(rest, parts.places, parts.normals, usable,
+                           {.friction = kFriction, .unknowns = unknowns, .prior = before[k]});
+      if (contacts[k].place < 0) return parts.found;
+    }
   }
   parts.Report(data, contacts);
   return parts.found;

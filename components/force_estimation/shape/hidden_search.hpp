@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "components/force_estimation/shape/place_posterior.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/surface_features.hpp"
 #include "libs/core/status.hpp"
@@ -27,6 +28,10 @@ struct Unexplained {
   /// to first order (their ResponseAt times force added), to be found anew; empty: all of it. The
   /// first order errs by a part of this.
   Eigen::VectorXd left_m = {};
+  /// [m x q] Errors that the rows may have together, each to a standard normal factor.
+  Eigen::MatrixXd errors_m = {};
+  /// [m x 3 candidates] of the rows, as RespondAbout tells them; empty: those that were prepared.
+  Eigen::MatrixXd responses = {};
 };
 
 /// Where the residual says that something pushes.
@@ -40,6 +45,8 @@ struct HiddenContact {
   double chi_squared_gain = 0.0;
   Eigen::Matrix3d location_covariance_m2 = Eigen::Matrix3d::Zero();
   double location_ci95_m = 0.0;  ///< radius that holds the place with 95 %
+  /// Of the force, because the place is not known.
+  Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
 };
 
 /// Finds contacts that nobody saw from the deformation alone: responses to forces on candidate
@@ -77,9 +84,26 @@ class HiddenSearch {
                                          const std::vector<Eigen::Vector3d>& taken,
                                          double taken_radius_m);
 
+  /// Where contacts that were found before are now: as many as there are in `before`, in the same
+  /// order, each refitted along with the others. Empty: where one of them does not push any more.
+  const std::vector<HiddenContact>& Follow(const Unexplained& data,
+                                           const std::vector<PlacePrior>& before,
+                                           const std::vector<Eigen::Vector3d>& taken,
+                                           double taken_radius_m);
+
+  /// [rows x 3 candidates] Responses of these rows about another shape than that of Prepare, with
+  /// the factor that the model has there; contacts push along its normals from now on. Costs a
+  /// substitution for each row.
+  Status RespondAbout(const std::vector<robot::EffectorRow>& rows, const Eigen::VectorXd& x_m,
+                      const std::vector<robot::CableCommand>& commands,
+                      const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* responses);
+
   /// [rows x 3] What unit forces along x, y and z at a place of the undeformed body do to the rows,
   /// m/N, to first order about the prepared state.
   Eigen::MatrixX3d ResponseAt(const std::vector<robot::EffectorRow>& rows,
+                              const Eigen::Vector3d& rest_position_m) const;
+  /// The same made of responses of candidates as RespondAbout tells them.
+  Eigen::MatrixX3d ResponseAt(const Eigen::MatrixXd& responses,
                               const Eigen::Vector3d& rest_position_m) const;
   /// Sigma of the normal force of a contact at this place of the undeformed body, fitted along with
   /// the known ones to rows of these weights (the residual does not matter), N.

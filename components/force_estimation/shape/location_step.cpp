@@ -11,6 +11,8 @@ namespace {
 
 /// Half the distance over which a patch is moved to see what that does.
 constexpr double kProbe_m = 1.5e-3;
+/// Contacts that nobody sees stay where the search has them, which knows all places.
+constexpr double kHeld_m = 1e-5;
 
 void AddForce(const fem::NodeWeights& weights, const Eigen::Vector3d& force_N,
               Eigen::Ref<Eigen::VectorXd> nodal_force_N) {
@@ -46,7 +48,8 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
   for (Eigen::Index s = 0; s < k; ++s) {
     const ShapeSite& site = sites[static_cast<size_t>(s)];
     AddForces(site, state.lambda_f_N.segment<3>(3 * s), 2 * s);
-    const double weight = 1.0 / (site.seen_sigma_m * site.seen_sigma_m);
+    const double sigma_m = site.hidden ? kHeld_m : site.seen_sigma_m;
+    const double weight = 1.0 / (sigma_m * sigma_m);
     const Eigen::Vector2d offset =
         Tangents(site.patch.normal).transpose() * (site.seen_rest_m - site.centre.rest_m);
     information.diagonal().segment<2>(3 * k + 2 * s).array() += weight;

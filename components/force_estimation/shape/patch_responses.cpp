@@ -123,4 +123,42 @@ Eigen::MatrixXd PatchResponses::Observe(const std::vector<robot::EffectorRow>& r
   return observed.cast<double>();
 }
 
+Status ObserveAbout(robot::RobotModel& model, const std::vector<fem::SurfacePatch>& patches,
+                    const std::vector<robot::EffectorRow>& rows, const Eigen::VectorXd& x_m,
+                    const std::vector<robot::CableCommand>& commands,
+                    const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* observed) {
+  fem::Linearisation& linearisation = model.linearisation();
+  const fem::StiffnessMatrix& matrix = linearisation.matrix();
+  TautCables cables;
+  Status status = cables.Solve(model, x_m, commands, lambda_a_N);
+  if (!status.ok()) return status;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd columns(linearisation.Size(), count);
+  Eigen::VectorXd nodal(x_m.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const robot::EffectorRow& row = rows[static_cast<size_t>(i)];
+    nodal.setZero();
+    for (size_t k = 0; k < row.nodes.size(); ++k) {
+      nodal.segment<3>(3 * row.nodes[k]) += row.coefficients[k];
+    }
+    matrix.Reduce(nodal, columns.col(i));
+  }
+  linearisation.Solve(columns);
+  cables.Hold(columns);
+  observed->setZero(count, static_cast<Eigen::Index>(3 * patches.size()));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (size_t p = 0; p < patches.size(); ++p) {
+      const fem::NodeWeights& weights = patches[p].weights;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (size_t k = 0; k < weights.nodes.size(); ++k) {
+        const int free = matrix.FreeIndex(weights.nodes[k]);
+        if (free >= 0) sum += weights.weights[k] * columns.col(i).segment<3>(3 * free);
+      }
+      observed->row(i).segment<3>(static_cast<Eigen::Index>(3 * p)) = sum.transpose();
+    }
+  }
+  if (!observed->allFinite()) return {StatusCode::kInvalidInput, "a response is not finite"};
+  return Status::Ok();
+}
+
 }  // namespace palpate::force_estimation

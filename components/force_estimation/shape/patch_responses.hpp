@@ -42,4 +42,12 @@ class PatchResponses {
   std::vector<int> free_index_;  ///< [nodes]
 };
 
+/// The same [rows x 3 patches] of these rows alone, about another `x_m` with the factor that
+/// `model` has there: as K is symmetric, a substitution for each row serves all patches. Fails as
+/// Solve.
+Status ObserveAbout(robot::RobotModel& model, const std::vector<fem::SurfacePatch>& patches,
+                    const std::vector<robot::EffectorRow>& rows, const Eigen::VectorXd& x_m,
+                    const std::vector<robot::CableCommand>& commands,
+                    const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* observed);
+
 }  // namespace palpate::force_estimation

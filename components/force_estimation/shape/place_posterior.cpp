@@ -21,22 +21,34 @@ constexpr size_t kNearest = 4;
 /// strides.
 constexpr size_t kFirstLook = 250;
 constexpr double kSecondLook = 2.0;
+/// Of a place far from what was known before: minus twice the log of the chance that that is wrong.
+constexpr double kMostUnlikely = 12.0;
+/// What is left of model and depth bias is alike in neighbouring rows: so many of them tell as much
+/// as one.
+constexpr double kRowsAlike = 6.0;
+/// Sigma of the force of a contact of which nothing else is known.
+constexpr double kUsualForce_N = 1.0;
+/// Places so near to the best one are averaged.
+constexpr double kSameContact_m = 0.03;
 
 struct Look {
   int place = -1;
   double share = 1.0;  ///< of the surface, in places
   PlaceFit fit;
+  double unlikely = 0.0;  ///< of the place, before: minus twice the log of its prior
+
+  double evidence() const { return fit.evidence - unlikely; }
 };
 
 class Locator {
  public:
   Locator(const HiddenProblem& problem, const SearchPlaces& places, const Eigen::Matrix3Xd& normals,
-          const std::vector<bool>& usable, double friction)
+          const std::vector<bool>& usable, const LocateSettings& settings)
       : problem_(problem),
         places_(places),
         normals_(normals),
         usable_(usable),
-        friction_(friction) {}
+        settings_(settings) {}
 
   std::vector<Look> LookAround() const {
     const std::vector<int> plausible = PlausiblePlaces();
@@ -61,16 +73,23 @@ class Locator {
 
   static const Look& Best(const std::vector<Look>& looks) {
     return *std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
-      return a.fit.evidence < b.fit.evidence;
+      return a.evidence() < b.evidence();
     });
   }
 
  private:
   Look LookAt(int place) const {
-    return {.place = place,
-            .share = 1.0,
-            .fit = problem_.Fit(problem_.Place(places_.interpolation(place)), normals_.col(place),
-                                friction_)};
+    Look look{.place = place, .share = 1.0, .fit = {}, .unlikely = Unlikely(place)};
+    look.fit = problem_.Fit(problem_.Place(places_.interpolation(place)), normals_.col(place),
+                            settings_.friction);
+    look.unlikely += std::pow(look.fit.force_N / kUsualForce_N, 2);
+    return look;
+  }
+
+  /// Squared distance from what was known before, in its sigmas; what was known may be wrong.
+  double Unlikely(int place) const {
+    const Eigen::Vector3d off_m = places_.positions_m().col(place) - settings_.prior.mean_m;
+    return std::min(kMostUnlikely, off_m.dot(settings_.prior.information_m2 * off_m));
   }
 
   std::vector<int> PlausiblePlaces() const {
@@ -78,9 +97,7 @@ class Locator {
     for (int c = 0; c < places_.CandidateCount(); ++c) {
       const int place = places_.PlaceOfCandidate(c);
       const bool usable = usable_[static_cast<size_t>(place)];
-      evidence.push_back(
-          usable ? problem_.Fit(problem_.Candidate(c), normals_.col(place), friction_).evidence
-                 : 0.0);
+      evidence.push_back(usable ? LookAt(place).evidence() : 0.0);
     }
     const double best = *std::max_element(evidence.begin(), evidence.end());
     const double least = best - std::max(kPlausibleFall, kPlausiblePart * best);
@@ -100,7 +117,7 @@ class Locator {
   const SearchPlaces& places_;
   const Eigen::Matrix3Xd& normals_;
   const std::vector<bool>& usable_;
-  double friction_;
+  const LocateSettings& settings_;
 };
 
 /// Radius around `centre_m` that holds 95 % of the shares.
@@ -119,12 +136,38 @@ double Radius95_m(const std::vector<Look>& looks, const std::vector<double>& pro
   return by_distance.back().first;
 }
 
+/// Means and covariances of the place and of the force that belongs to it.
+void Summarise(const std::vector<Look>& looks, const std::vector<double>& probability,
+               const SearchPlaces& places, const Eigen::Matrix3Xd& normals,
+               PlacePosterior* posterior) {
+  const Eigen::Vector3d best_m = places.positions_m().col(posterior->place);
+  const auto force_N = [&](const Look& look) -> Eigen::Vector3d {
+    return look.fit.tangential_N - look.fit.force_N * normals.col(look.place);
+  };
+  double same = 0.0;
+  Eigen::Vector3d mean_N = Eigen::Vector3d::Zero();
+  for (size_t k = 0; k < looks.size(); ++k) {
+    const Eigen::Vector3d place_m = places.positions_m().col(looks[k].place);
+    mean_N += probability[k] * force_N(looks[k]);
+    if ((place_m - best_m).norm() > kSameContact_m) continue;
+    same += probability[k];
+    posterior->mean_m += probability[k] * place_m;
+  }
+  posterior->mean_m /= same;
+  for (size_t k = 0; k < looks.size(); ++k) {
+    const Eigen::Vector3d off_m = places.positions_m().col(looks[k].place) - posterior->mean_m;
+    const Eigen::Vector3d off_N = force_N(looks[k]) - mean_N;
+    posterior->covariance_m2 += probability[k] * off_m * off_m.transpose();
+    posterior->force_covariance_N2 += probability[k] * off_N * off_N.transpose();
+  }
+}
+
 }  // namespace
 
 PlacePosterior Locate(const HiddenProblem& problem, const SearchPlaces& places,
                       const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable,
                       const LocateSettings& settings) {
-  const Locator locator(problem, places, normals, usable, settings.friction);
+  const Locator locator(problem, places, normals, usable, settings);
   const std::vector<Look> looks = locator.LookAround();
   if (looks.empty()) return {};
   const Look& best = Locator::Best(looks);
@@ -132,26 +175,24 @@ PlacePosterior Locate(const HiddenProblem& problem, const SearchPlaces& places,
   const double freedom =
       std::max(1.0, static_cast<double>(problem.residual().size()) - settings.unknowns);
   const double left = problem.residual().squaredNorm() - best.fit.gain;
-  const double noise_scale = std::max(1.0, left / freedom);
+  const double noise_scale = kRowsAlike * std::max(1.0, left / freedom);
   std::vector<double> probability;
   for (const Look& look : looks) {
     const bool pushes = look.fit.force_N > 0.0;
     const double fall = look.fit.evidence - best.fit.evidence;
-    probability.push_back(pushes ? look.share * std::exp(0.5 * fall / noise_scale) : 0.0);
+    const double before = best.unlikely - look.unlikely;
+    probability.push_back(pushes ? look.share * std::exp(0.5 * (fall / noise_scale + before))
+                                 : 0.0);
   }
   const double sum = std::accumulate(probability.begin(), probability.end(), 0.0);
   for (double& share : probability) share /= sum;
 
   PlacePosterior posterior{.place = best.place, .fit = best.fit};
-  const Eigen::Vector3d best_m = places.positions_m().col(best.place);
-  for (size_t k = 0; k < looks.size(); ++k) {
-    const Eigen::Vector3d off_m = places.positions_m().col(looks[k].place) - best_m;
-    posterior.covariance_m2 += probability[k] * off_m * off_m.transpose();
-  }
+  Summarise(looks, probability, places, normals, &posterior);
   const double between_m2 = places.spacing_m() * places.spacing_m() / 12.0;
   posterior.covariance_m2 += between_m2 * Eigen::Matrix3d::Identity();
-  posterior.ci95_m =
-      std::max(Radius95_m(looks, probability, places.positions_m(), best_m), places.spacing_m());
+  posterior.ci95_m = std::max(
+      Radius95_m(looks, probability, places.positions_m(), posterior.mean_m), places.spacing_m());
   return posterior;
 }
 

@@ -15,14 +15,25 @@ namespace palpate::force_estimation {
 struct PlacePosterior {
   int place = -1;  ///< the best; -1: no place where a push would help
   PlaceFit fit;    ///< there
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the best
-  double ci95_m = 0.0;  ///< radius around the best that holds 95 %
+  /// Over the places around the best one, as far as a contact there would be taken for the same.
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the mean, of all places
+  double ci95_m = 0.0;  ///< radius around the mean that holds 95 %
+  /// Of the force, because the place is not known: each place has its own.
+  Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
+};
+
+/// What was known of a place before, as a normal distribution in space.
+struct PlacePrior {
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information_m2 = Eigen::Matrix3d::Zero();  ///< 1/m^2; zero: nothing
 };
 
 /// What Locate goes by.
 struct LocateSettings {
   double friction = 0.0;  ///< sigma of the tangential over the normal force
   int unknowns = 3;       ///< fitted of the residual: left over from m are its degrees of freedom
+  PlacePrior prior = {};
 };
 
 /// The probability of each place is proportional to its area and to exp(evidence / 2), all over the

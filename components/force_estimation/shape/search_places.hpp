@@ -42,6 +42,8 @@ class SearchPlaces {
   const Interpolation& interpolation(int place) const {
     return interpolation_[static_cast<size_t>(place)];
   }
+  /// The same for any position on the surface at rest.
+  Interpolation InterpolationAt(const Eigen::Vector3d& position_m) const;
   double spacing_m() const { return spacing_m_; }  ///< root of the area that a place stands for
   int Nearest(const Eigen::Vector3d& rest_position_m) const;
 
@@ -51,8 +53,6 @@ class SearchPlaces {
  private:
   void SpreadOver(const robot::RobotModel& model, double clearance_m, int count);
   void ChooseCandidates(const robot::RobotModel& model, double patch_radius_m, int count);
-  Interpolation InterpolationAt(const Eigen::Vector3d& position_m) const;
-
   Eigen::Matrix3Xi surface_triangles_;
   Eigen::Matrix3Xd positions_m_;
   std::vector<int> triangles_;    ///< [places] of the surface

@@ -14,6 +14,8 @@ namespace {
 constexpr int kFewestFeatures = 6;
 /// A frame is matched again where the fit has moved a feature by more.
 constexpr double kMatchAgain_m = 5e-4;
+/// How much coarser than to the end features are fitted that may have to be matched again.
+constexpr double kRough = 10.0;
 /// Places are looked for again in the same frame after a step longer than this.
 constexpr double kLocateAgain_m = 1e-3;
 constexpr double kLongestStep_m = 6e-3;
@@ -34,6 +36,10 @@ constexpr double kFitWorkShare = 4.0;
 /// friction.
 constexpr double kFrictionSigma = 0.5;
 constexpr double kSmallestPriorForce_N = 0.2;
+/// Where a contact is not seen a tangential force looks like one at another place: what friction
+/// usually is (that of the search).
+constexpr double kHiddenFriction = 0.3;
+constexpr double kSmallestHiddenForce_N = 0.05;
 /// Of the force prior along the normal: none to speak of.
 constexpr double kNormalPriorSigma_N = 100.0;
 
@@ -92,20 +98,21 @@ void ShapeFit::UseSites() {
   std::vector<FitSite> fit_sites;
   Eigen::VectorXd forces_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * sites.size()));
   std::vector<std::string> names;
-  bool changed = std::exchange(places_moved_, false) || sites.size() != fitted_names_.size();
+  bool others = sites.size() != fitted_names_.size();
   for (std::size_t s = 0; s < sites.size(); ++s) {
     fit_sites.push_back({.patch = sites[s].patch});
     names.push_back(sites[s].name);
     const auto old = std::find(fitted_names_.begin(), fitted_names_.end(), sites[s].name);
     const auto index = old - fitted_names_.begin();
-    changed = changed || index != static_cast<std::ptrdiff_t>(s);
+    others = others || index != static_cast<std::ptrdiff_t>(s);
     if (old != fitted_names_.end() && 3 * index + 3 <= state_.lambda_f_N.size()) {
       forces_N.segment<3>(static_cast<Eigen::Index>(3 * s)) =
           state_.lambda_f_N.segment<3>(3 * index);
     }
   }
-  if (!changed && state_.lambda_f_N.size() == forces_N.size()) return;
-  located_.clear();
+  const bool moved = std::exchange(places_moved_, false);
+  if (others) located_.clear();
+  if (!others && !moved && state_.lambda_f_N.size() == forces_N.size()) return;
   fitted_names_ = std::move(names);
   fitter_.SetSites(fit_sites);
   state_.lambda_f_N = std::move(forces_N);
@@ -130,8 +137,10 @@ void ShapeFit::SetForcePrior() {
 
 double ShapeFit::TangentialSigma_N(std::size_t site) const {
   const double pressed_N = std::abs(NormalAt(site).dot(ForceAt(site)));
-  return std::max(
-      1e-3, kFrictionSigma * shape_.largest_friction * std::max(pressed_N, kSmallestPriorForce_N));
+  const bool hidden = sites()[site].hidden;
+  const double least_N = hidden ? kSmallestHiddenForce_N : kSmallestPriorForce_N;
+  const double friction = hidden ? kHiddenFriction : kFrictionSigma * shape_.largest_friction;
+  return std::max(1e-3, friction * std::max(pressed_N, least_N));
 }
 
 Eigen::Vector3d ShapeFit::NormalAt(std::size_t site) const {
@@ -163,15 +172,34 @@ Status ShapeFit::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
     targets_.Build(*matches_, bias, frame.T_robot_camera, state_.x_m, learnt_x_m_, sites());
     targets_.WeighAt(state_.x_m);
     fitter_.SetRows(targets_.rows());
-    const Eigen::VectorXd before_m = state_.x_m;
-    if (status = Fit(frame); !status.ok()) return status;
-    double moved_m = 0.0;
-    for (const robot::EffectorRow& row : targets_.rows()) {
-      moved_m = std::max(moved_m, std::abs(row.Value(state_.x_m) - row.Value(before_m)));
+    matched_x_m_ = state_.x_m;
+    const bool last = round + 1 == shape_.matching_rounds;
+    if (!last) {
+      if (status = FitRoughly(frame); !status.ok()) return status;
+      if (LargestMotion_m(matched_x_m_) >= kMatchAgain_m) continue;
     }
-    if (moved_m < kMatchAgain_m) break;
+    return Fit(frame);
   }
   return status;
+}
+
+double ShapeFit::LargestMotion_m(const Eigen::VectorXd& from_x_m) const {
+  double moved_m = 0.0;
+  for (const robot::EffectorRow& row : targets_.rows()) {
+    moved_m = std::max(moved_m, std::abs(row.Value(state_.x_m) - row.Value(from_x_m)));
+  }
+  return moved_m;
+}
+
+/// As far as tells whether the features must be matched anew.
+Status ShapeFit::FitRoughly(const ShapeFrame& frame) {
+  fitter_.SetTolerance(kRough * shape_.fit_tolerance);
+  SetForcePrior();
+  const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_, fit_budget_);
+  fitter_.SetTolerance(shape_.fit_tolerance);
+  iterations_ += fit.iterations;
+  linearisations_ += fit.iterations;
+  return fit.status;
 }
 
 /// With robust weights that go with the residual: one more fit where they have changed much.
@@ -180,12 +208,24 @@ Status ShapeFit::Fit(const ShapeFrame& frame) {
     SetForcePrior();
     const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_, fit_budget_);
     iterations_ += fit.iterations;
+    linearisations_ += fit.iterations;
     if (!fit.status.ok()) return fit.status;
     if (!targets_.Reweight(fit.residual_m) || k == kReweightings) return Status::Ok();
   }
 }
 
+Status ShapeFit::FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias) {
+  places_moved_ = true;
+  UseSites();
+  return MatchAndFit(frame, bias);
+}
+
 Status ShapeFit::Locate(const ShapeFrame& frame, const DepthBias& bias) {
+  const auto hidden = [](const ShapeSite& site) { return site.hidden; };
+  if (std::all_of(sites().begin(), sites().end(), hidden)) {  // the search follows these
+    located_.clear();
+    return Status::Ok();
+  }
   if (!IsTimeToLocate() && located_.size() == sites().size()) return Status::Ok();
   for (int round = 0; round < kLocationRounds; ++round) {
     if (!location_.Compute(sites(), targets_.targets(), state_, &located_).ok()) {
@@ -233,20 +273,22 @@ void ShapeFit::KeepIn(Attempt* attempt) const {
 void ShapeFit::GoBack(const Attempt& attempt) {
   book_.GoBack(attempt.sites);
   places_moved_ = true;
+  located_.clear();
   UseSites();
   state_ = attempt.state;
 }
 
+/// Their forces begin at zero, from where the steps stay near equilibria; with those that were
+/// found, in a shape that does not have them yet, they do not.
 void ShapeFit::ReplaceHidden(const std::vector<HiddenContact>& found) {
   book_.ReplaceHidden(found);
   places_moved_ = true;
+  located_.clear();
   UseSites();
-  std::size_t next = 0;
-  for (std::size_t s = 0; s < sites().size() && next < found.size(); ++s) {
-    if (!sites()[s].hidden) continue;
-    state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * s)) =
-        found[next].tangential_N - found[next].force_N * found[next].normal;
-    ++next;
+  for (std::size_t s = 0; s < sites().size(); ++s) {
+    if (sites()[s].hidden) {
+      state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * s)).setZero();
+    }
   }
 }
 

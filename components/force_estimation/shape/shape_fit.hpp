@@ -61,7 +61,7 @@ class ShapeFit {
   /// Into memory that is kept.
   void KeepIn(Attempt* attempt) const;
   void GoBack(const Attempt& attempt);
-  /// Other hidden sites than there were, with forces to begin with.
+  /// Other hidden sites than there were, without forces to begin with.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
 
   /// The shape to which the bias belongs: nodes [3n].
@@ -79,6 +79,10 @@ class ShapeFit {
   const std::vector<LocatedForce>& located() const { return located_; }
   /// Mean square of residual over expected error, of the last fit; 1 where it fits.
   double Misfit() const;
+  /// Of the model, since it was made.
+  int linearisations() const { return linearisations_; }
+  /// Takes places that the book has changed, and fits about them.
+  Status FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias);
   int TakeIterations() { return std::exchange(iterations_, 0); }
 
   Eigen::Vector3d ForceAt(std::size_t site) const {
@@ -92,7 +96,10 @@ class ShapeFit {
  private:
   void UseSites();
   void SetForcePrior();
+  Status FitRoughly(const ShapeFrame& frame);
   Status Fit(const ShapeFrame& frame);
+  /// Of the features since the nodes were there.
+  double LargestMotion_m(const Eigen::VectorXd& from_x_m) const;
   bool IsTimeToLocate() const;
   /// The longest step that was made, m.
   double MoveSites();
@@ -107,12 +114,14 @@ class ShapeFit {
   fem::TimeBudget budget_;      ///< for what can wait
   fem::TimeBudget fit_budget_;  ///< for what was begun
   ModelState state_;
+  Eigen::VectorXd matched_x_m_;            ///< [3n] where the features were matched last
   Eigen::VectorXd learnt_x_m_;             ///< [3n]; empty: the first shape that was started at
   std::vector<std::string> fitted_names_;  ///< of the sites that the fitter has
   bool places_moved_ = false;              ///< since the fitter took them
   const std::vector<FeatureMatch>* matches_ = nullptr;
   std::vector<LocatedForce> located_;
   int iterations_ = 0;
+  int linearisations_ = 0;
 };
 
 }  // namespace palpate::force_estimation

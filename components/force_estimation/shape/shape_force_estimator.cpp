@@ -43,7 +43,8 @@ class ShapeForceEstimator::Impl {
         bias_(static_cast<int>(model.body().feature_points.size()), shape),
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
-        report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma)),
+        report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma),
+                hidden_.CandidateCount()),
         free_state_(model.RestState()) {
     estimate_.cables.resize(static_cast<std::size_t>(model.CableCount()));
     estimate_.x_m = free_state_.x_m;

@@ -25,6 +25,12 @@ struct ShapeSite {
   Eigen::Vector3d seen_rest_m = Eigen::Vector3d::Zero();
   double seen_sigma_m = 0.0;
 
+  /// Of hidden ones: the place's covariance and the radius that holds it with 95 %, and what not
+  /// knowing it does to the force.
+  Eigen::Matrix3d place_covariance_m2 = Eigen::Matrix3d::Zero();
+  double place_ci95_m = 0.0;
+  Eigen::Matrix3d place_force_covariance_N2 = Eigen::Matrix3d::Zero();
+
   ForceFilter filter;
   int frames = 0;              ///< in which it was followed
   int significant_frames = 0;  ///< in a row, up to the last one; those beyond doubt count twice

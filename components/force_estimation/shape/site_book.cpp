@@ -16,6 +16,10 @@ namespace {
 constexpr std::size_t kMostSites = fem::kMaxQpVariables / 3;
 constexpr double kSmallestSeenSigma_m = 1e-3;
 constexpr double kHiddenSigma_m = 0.05;
+/// Of a contact that went out of sight: it may slide.
+constexpr double kSmallestLostSigma_m = 4e-3;
+/// Radius that holds 95 % in two directions.
+constexpr double kSigmas95InPlane = 2.448;
 /// Share of a contact's seen extent that is its patch: the rest is the rim of the object.
 constexpr double kPatchShareOfExtent = 0.3;
 constexpr double kLargestRadius_m = 0.015;
@@ -39,6 +43,14 @@ double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vect
   const double mean = 0.5 * along.trace();
   const double spread = std::sqrt(std::max(0.0, mean * mean - along.determinant()));
   return std::sqrt(std::max(0.0, mean + spread));
+}
+
+/// What the search knows of it.
+void TakePlace(const HiddenContact& found, ShapeSite* site) {
+  site->seen_rest_m = site->centre.rest_m;
+  site->place_covariance_m2 = found.location_covariance_m2;
+  site->place_ci95_m = found.location_ci95_m;
+  site->place_force_covariance_N2 = found.force_covariance_N2;
 }
 
 }  // namespace
@@ -84,6 +96,9 @@ bool SiteBook::LoseSight(const std::vector<SeenContact>& contacts) {
     if (site.hidden || seen) continue;
     changed = site.hidden = true;
     site.name = site.acts && site.quiet_frames == 0 ? HiddenName() : std::string();
+    const double known_m = std::max(kSmallestLostSigma_m, site.seen_sigma_m);
+    site.place_covariance_m2 = known_m * known_m * Eigen::Matrix3d::Identity();
+    site.place_ci95_m = kSigmas95InPlane * known_m;
     site.seen_sigma_m = kHiddenSigma_m;
   }
   std::erase_if(sites_, [](const ShapeSite& site) { return site.name.empty(); });
@@ -139,7 +154,7 @@ void SiteBook::ReplaceHidden(const std::vector<HiddenContact>& found) {
     }
     ShapeSite site = old[k];
     Place(map_.NearestAtRest(found[k].rest_position_m), &site);
-    site.seen_rest_m = site.centre.rest_m;
+    TakePlace(found[k], &site);
     sites_.push_back(std::move(site));
   }
 }
@@ -151,9 +166,18 @@ void SiteBook::AddHidden(const HiddenContact& found) {
   site.filter = ForceFilter(config_.force_rate_N_s);
   site.radius_m = config_.contact_radius_m;
   Place(map_.NearestAtRest(found.rest_position_m), &site);
-  site.seen_rest_m = site.centre.rest_m;
   site.seen_sigma_m = kHiddenSigma_m;
+  TakePlace(found, &site);
   sites_.push_back(std::move(site));
+}
+
+bool SiteBook::Follow(std::size_t index, const HiddenContact& found) {
+  ShapeSite& site = sites_[index];
+  const SkinPoint moved = map_.NearestAtRest(found.rest_position_m);
+  const bool far = (moved.rest_m - site.centre.rest_m).norm() >= kSmallestMove_m;
+  if (far) Place(moved, &site);
+  TakePlace(found, &site);
+  return far;
 }
 
 bool SiteBook::Move(std::size_t index, const Eigen::Vector3d& step_rest_m) {

@@ -30,6 +30,8 @@ class SiteBook {
 
   /// The hidden sites become these, by the names that there are as far as they go.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
+  /// A hidden site is where the search says. False where that is less than kSmallestMove_m away.
+  bool Follow(std::size_t index, const HiddenContact& found);
   /// The sites become what they were.
   void GoBack(const std::vector<ShapeSite>& sites) { sites_ = sites; }
   /// Moves a site along the undeformed surface. False where that is less than kSmallestMove_m.

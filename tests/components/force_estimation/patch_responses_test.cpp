@@ -69,6 +69,28 @@ TEST(PatchResponses, AreTheDerivativesOfEquilibriaWithCablesHeld) {
   }
 }
 
+TEST(PatchResponses, ASubstitutionForEachRowTellsTheSameAsOneForEachForce) {
+  const auto model = Build(FourLegRobot());
+  const std::vector<robot::CableCommand> cables = {
+      {Kind::kDisplacement, 0.008}, {Kind::kTension, 1.0}, {Kind::kDisplacement, -0.02}, {}};
+  const fem::StaticState state = SolveTruth(*model, cables, {});
+  std::vector<fem::SurfacePatch> patches;
+  for (const Eigen::Vector3d& about :
+       {Eigen::Vector3d(0, 0, 0.125), Eigen::Vector3d(0.06, 0, 0.085)}) {
+    patches.push_back(model->Patch(about, 0.006));
+  }
+  PatchResponses responses;
+  ASSERT_TRUE(SolveAbout(*model, cables, state, patches, &responses).ok());
+  const std::vector<robot::EffectorRow> rows = MarkerRows(*model);
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  const Eigen::MatrixXd wanted = responses.Observe(rows, Eigen::VectorXd::Ones(count));
+  Eigen::MatrixXd observed;
+  ASSERT_TRUE(
+      ObserveAbout(*model, patches, rows, state.x_m, cables, state.multipliers_N, &observed).ok());
+  ASSERT_EQ(observed.cols(), wanted.cols());
+  EXPECT_LT((observed - wanted).norm(), 1e-5 * wanted.norm());
+}
+
 TEST(PatchResponses, BetweenCandidatesAreInterpolated) {
   const auto model = Build(FourLegRobot());
   const std::vector<robot::CableCommand> cables(4);

@@ -27,8 +27,8 @@ class Contacts : public testing::Test {
 
   Contacts()
       : fit_(*scene_.model, Config(), shape_),
-        report_(shape_, 0.0),
         hidden_(*scene_.model, shape_, fit_),
+        report_(shape_, 0.0, hidden_.CandidateCount()),
         bias_(51, shape_),
         cables_(4, {.kind = Kind::kDisplacement, .value = 0.0}),
         free_(Solve(0.0)) {
@@ -42,9 +42,11 @@ class Contacts : public testing::Test {
     EXPECT_TRUE(bias_.Finish().ok());
   }
 
-  fem::StaticState Solve(double force_N) {
+  fem::StaticState Solve(double force_N) { return SolveAt(place_m_, force_N); }
+
+  fem::StaticState SolveAt(const Eigen::Vector3d& place_m, double force_N) {
     fem::StaticState state = scene_.model->RestState();
-    const fem::SurfacePatch patch = scene_.model->Patch(place_m_, shape_.contact_radius_m);
+    const fem::SurfacePatch patch = scene_.model->Patch(place_m, shape_.contact_radius_m);
     const auto result =
         scene_.model->Solve(cables_, {{patch.weights, -force_N * patch.normal}}, &state);
     EXPECT_TRUE(result.status.ok()) << result.status.message();
@@ -82,8 +84,8 @@ class Contacts : public testing::Test {
   ShapeScene scene_{51};
   ShapeConfig shape_;
   ShapeFit fit_;
-  ContactReport report_;
   HiddenContacts hidden_;
+  ContactReport report_;
   DepthBias bias_;
   std::vector<robot::CableCommand> cables_;
   double t_s_ = 0.0;
@@ -144,6 +146,44 @@ TEST_F(Contacts, ThatNobodySeesAreFoundAndAtRestNoneIs) {
   EXPECT_TRUE(fit_.sites()[0].hidden);
   EXPECT_LT((fit_.sites()[0].centre.rest_m - place_m_).norm(), 0.02);
   EXPECT_NEAR(fit_.ForceAt(0).norm(), kForce_N, 0.3 * kForce_N);
+}
+
+/// Low on a leg: where along it, and so how large the force is, is not well known, but that there
+/// is one is.
+TEST_F(Contacts, ThatNobodySeesAreReportedWhereverTheyMayBe) {
+  constexpr double kOnLeg_N = 0.1;
+  const Eigen::Vector3d on_leg_m(-0.082, -0.002, 0.054);
+  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
+  const fem::StaticState pushed = SolveAt(on_leg_m, kOnLeg_N);
+  for (int k = 0; k < 6; ++k) {
+    const ShapeFrame frame = FrameOf(pushed);
+    Fit(frame);
+    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+    ASSERT_TRUE(fit_.Locate(frame, bias_).ok());
+    report_.Judge(t_s_, &fit_);
+  }
+  const std::vector<ContactForce> contacts = report_.Contacts(fit_);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].force_N.norm(), kOnLeg_N, contacts[0].ci95_N);
+}
+
+/// All frames in which a contact holds still tell its place, not the last one alone.
+TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
+  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
+  const fem::StaticState pushed = Solve(kForce_N);
+  double first_m = 0.0;
+  for (int k = 0; k < 7; ++k) {
+    const ShapeFrame frame = FrameOf(pushed);
+    Fit(frame);
+    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+    report_.Judge(t_s_, &fit_);
+    ASSERT_EQ(fit_.sites().size(), 1u);
+    if (k == 0) first_m = fit_.sites()[0].place_ci95_m;
+  }
+  const ShapeSite& site = fit_.sites()[0];
+  EXPECT_LT(site.place_ci95_m, first_m);
+  EXPECT_LE((site.centre.rest_m - place_m_).norm(), site.place_ci95_m);
+  EXPECT_LT((site.centre.rest_m - place_m_).norm(), 0.01);
 }
 
 TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {

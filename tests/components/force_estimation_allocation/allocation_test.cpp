@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/force_estimation/fit/force_fitter.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/heap_counter.hpp"
@@ -76,6 +77,46 @@ TEST(ForceEstimationAllocation, FramesWithoutTimeTakeNoMemory) {
     EXPECT_EQ(test_support::HeapRequestCount() - before, 0U) << "frame " << i;
   }
   EXPECT_EQ(late, 6);
+}
+
+RowTargets TargetsOf(const MarkerFrame& frame) {
+  RowTargets targets;
+  targets.rows = static_cast<int>(3 * frame.markers.size());
+  targets.value_m.resize(targets.rows);
+  targets.weight = Eigen::VectorXd::Constant(targets.rows, 1e8);
+  for (size_t m = 0; m < frame.markers.size(); ++m) {
+    targets.value_m.segment<3>(static_cast<Eigen::Index>(3 * m)) = frame.markers[m].position_m;
+  }
+  return targets;
+}
+
+TEST(ForceEstimationAllocation, StepsWithAKeptFactorAndSecantsTakeNoMemory) {
+  if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
+  const auto model = Build(FourLegRobot());
+  const std::vector<MarkerFrame> frames = Motion(*model);
+  std::vector<RowTargets> targets;
+  for (const MarkerFrame& frame : frames) targets.push_back(TargetsOf(frame));
+  Config config;
+  config.frame_tolerance = 1e-7;
+  ForceFitter fitter(*model, config);
+  fitter.KeepFactor(true);
+  fitter.SetSites({{.patch = model->Patch({0.0, 0.0, 0.125}, 0.008)}});
+  fem::StaticState rest = model->RestState();
+  ASSERT_TRUE(model->Solve(frames[0].cables, {}, &rest).status.ok());
+  fitter.ForgetFactor();
+  ModelState state{true, true, rest.x_m, rest.multipliers_N, Eigen::VectorXd::Zero(3)};
+  ASSERT_TRUE(fitter.Fit(targets[0], frames[0].cables, &state).status.ok());
+  int secant_steps = 0;
+  for (size_t i = 1; i < frames.size(); ++i) {
+    const fem::TimeBudget budget = fitter.BudgetOfWork(1e6);
+    const size_t before = test_support::HeapRequestCount();
+    const ForceFit& fit = fitter.Fit(targets[i], frames[i].cables, &state, budget);
+    const size_t after = test_support::HeapRequestCount();
+    EXPECT_TRUE(fit.status.ok()) << i;
+    EXPECT_EQ(after - before, 0U) << "frame " << i;
+    secant_steps += std::max(0, fit.chord_steps - 1);
+  }
+  EXPECT_GT(secant_steps, 10);
 }
 
 }  // namespace

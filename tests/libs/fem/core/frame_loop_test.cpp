@@ -39,6 +39,7 @@ class Scalar final : public FrameProblem {
     step_ = -f_(x) / tangent_;
     return Status::Ok();
   }
+  bool StepWasCut() const override { return cut; }
   double StartError() const override { return std::abs(f_(x)); }
   Status Try(double length, bool last) override {
     told_last.push_back(last);
@@ -58,6 +59,7 @@ class Scalar final : public FrameProblem {
   std::vector<double> lengths;  ///< of the steps that inverted nothing
   std::vector<bool> told_last;
   bool exact_fails = false;
+  bool cut = false;
   double kept_slope = 0.0;  ///< of an earlier frame; 0: there is none
   double inverted_above = std::numeric_limits<double>::infinity();
 
@@ -294,6 +296,49 @@ TEST(FrameLoop, WithoutRoomForAnExactStepTheKeptOnesEndWithTheBudget) {
   }
   EXPECT_GT(frames, 1);
   EXPECT_NEAR(root.x, std::sqrt(2.0), 1e-3);
+}
+
+/// A residual that is the same within each range of x: f(x) of the last entry whose x is above.
+Scalar Stairs(const std::vector<std::pair<double, double>>& stairs) {
+  Scalar scalar(
+      1.0,
+      [stairs](double x) {
+        for (const auto& [from, value] : stairs) {
+          if (x > from) return value;
+        }
+        return 0.0;
+      },
+      [](double) { return 1.0; });
+  scalar.kept_slope = 1.0;
+  return scalar;
+}
+
+FrameOutcome RunWithKeptFactor(Scalar& problem, double exact_step_cost) {
+  return RunFrame(
+      problem,
+      {.relative_tolerance = 1e-3, .keep_factor = true, .exact_step_cost_s = exact_step_cost},
+      BudgetOfTrials(problem, std::numeric_limits<double>::infinity()));
+}
+
+TEST(FrameLoop, TheFirstStepWithAKeptFactorMayRaiseTheErrorWhereAnExactOneIsDear) {
+  const std::vector<std::pair<double, double>> rising = {{0.95, 0.1}, {0.7, 0.4}, {0.48, 0.04}};
+  Scalar dear = Stairs(rising);
+  EXPECT_EQ(RunWithKeptFactor(dear, 50.0).exact_steps, 0);
+  EXPECT_EQ(dear.calls, "K");
+  Scalar unknown = Stairs(rising);
+  EXPECT_GT(RunWithKeptFactor(unknown, 0.0).exact_steps, 0);
+  Scalar far_up = Stairs({{0.95, 0.1}, {0.7, 0.9}, {-0.1, 0.04}});
+  EXPECT_GT(RunWithKeptFactor(far_up, 50.0).exact_steps, 0);
+}
+
+TEST(FrameLoop, AStepThatWasCutIsNotJudgedByItsError) {
+  const std::vector<std::pair<double, double>> slow = {
+      {0.95, 0.1}, {0.85, 0.2}, {0.6, 0.25}, {0.42, 0.05}};
+  Scalar cut = Stairs(slow);
+  cut.cut = true;
+  EXPECT_EQ(RunWithKeptFactor(cut, 50.0).exact_steps, 0);
+  Scalar whole = Stairs(slow);
+  EXPECT_GT(RunWithKeptFactor(whole, 50.0).exact_steps, 0);
 }
 
 }  // namespace

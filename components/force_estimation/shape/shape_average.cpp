@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/shape_average.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// Frames that count at most: what is older is faded out.
+constexpr int kMostFrames = 20;
+/// Depth noise is correlated from frame to frame (0.3 of stereo cameras): a mean over n frames has
+/// so much more than 1 / n of the variance.
+constexpr double kTemporalCorrelation = 1.86;
+/// Mean square of a frame over its noise from which on something has moved.
+constexpr double kMoved = 2.5;
+
+double ShareLeft(int frames) { return std::min(1.0, kTemporalCorrelation / frames); }
+
+}  // namespace
+
+ShapeAverage::ShapeAverage(int feature_count)
+    : mean_m_(Eigen::VectorXd::Zero(feature_count)),
+      count_(static_cast<std::size_t>(feature_count), 0) {}
+
+void ShapeAverage::Forget() {
+  frames_ = 0;
+  std::fill(count_.begin(), count_.end(), 0);
+}
+
+bool ShapeAverage::Fits(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) const {
+  double sum = 0.0;
+  int known = 0;
+  for (std::size_t r = 0; r < targets.features().size(); ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    const int feature = targets.features()[r];
+    const int count = count_[static_cast<std::size_t>(feature)];
+    if (count == 0) continue;
+    const double sigma_m = targets.noise_m()[row] * std::sqrt(1.0 + ShareLeft(count));
+    sum += std::pow((motion_m[row] - mean_m_[feature]) / sigma_m, 2);
+    ++known;
+  }
+  return sum <= kMoved * known;
+}
+
+void ShapeAverage::Add(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) {
+  if (!Fits(targets, motion_m)) Forget();
+  ++frames_;
+  motion_m_.resize(motion_m.size());
+  weight_.resize(motion_m.size());
+  for (std::size_t r = 0; r < targets.features().size(); ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    const int feature = targets.features()[r];
+    int& count = count_[static_cast<std::size_t>(feature)];
+    count = std::min(count + 1, kMostFrames);
+    mean_m_[feature] += (motion_m[row] - mean_m_[feature]) / count;
+    motion_m_[row] = mean_m_[feature];
+    const double whole_m2 = std::pow(targets.sigma_m()[row], 2);
+    const double noise_m2 = std::pow(targets.noise_m()[row], 2);
+    const double share = targets.targets().weight[row] * whole_m2;
+    weight_[row] = share / (whole_m2 - (1.0 - ShareLeft(count)) * noise_m2);
+  }
+}
+
+}  // namespace palpate::force_estimation
