@@ -3,8 +3,6 @@
 
 #include "libs/robot/calibration_file.hpp"
 
-#include <algorithm>
-
 #include "libs/core/config_reader.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -14,17 +12,6 @@
 namespace palpate::robot {
 
 namespace {
-
-std::string ElementName(fem::ElementType element) {
-  return element == fem::ElementType::kTet4 ? "tet4" : "tet10";
-}
-
-void RequireSame(const char* what, const std::string& calibrated, const std::string& present) {
-  if (calibrated == present) return;
-  throw InputError(std::string("the calibration is for ") + what + " '" + calibrated +
-                   "', the robot file gives '" + present +
-                   "': calibrate again with this robot file");
-}
 
 CalibratedModulus ReadModulus(const ConfigNode& node) {
   MapReader map(node);
@@ -36,25 +23,30 @@ CalibratedModulus ReadModulus(const ConfigNode& node) {
   return modulus;
 }
 
-Eigen::Vector3d ReadErrors(const ConfigNode& node) {
-  if (node.kind != ConfigNode::Kind::kList || node.items.size() != 3) {
-    Refuse(node, "must be a list of three standard errors");
-  }
-  Eigen::Vector3d errors;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    errors[i] = ReadNumber(node.items[static_cast<size_t>(i)], kNonNegative);
-  }
-  return errors;
+CalibratedPoissonsRatio ReadPoissonsRatio(const ConfigNode& node) {
+  MapReader map(node);
+  CalibratedPoissonsRatio poissons;
+  poissons.part = ReadText(map.Require("part"));
+  poissons.poissons_ratio =
+      ReadNumber(map.Require("poissons_ratio"), {.min = -1.0, .max = 0.5, .max_open = true});
+  poissons.standard_error = ReadNumber(map.Require("standard_error"), kNonNegative);
+  map.Finish();
+  return poissons;
 }
 
 CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode& error_node) {
   CalibratedPose pose;
   pose.T_robot_camera = geometry::ReadPose(pose_node);
   MapReader errors(error_node);
-  pose.rotation_error_rad = ReadErrors(errors.Require("rotation_rad"));
-  pose.translation_error_m = ReadErrors(errors.Require("translation_m"));
+  pose.rotation_error_rad = ReadVector3(errors.Require("rotation_rad"), kNonNegative);
+  pose.translation_error_m = ReadVector3(errors.Require("translation_m"), kNonNegative);
   errors.Finish();
   return pose;
+}
+
+CalibratedGravity ReadGravity(const ConfigNode& gravity, const ConfigNode& error) {
+  return {.gravity_m_s2 = ReadVector3(gravity),
+          .standard_error_m_s2 = ReadVector3(error, kNonNegative)};
 }
 
 CalibratedDrive ReadDrive(const ConfigNode& node) {
@@ -89,6 +81,28 @@ std::vector<Item> ReadItems(MapReader* map, const char* key, Item (*read)(const 
   return items;
 }
 
+std::string FormatMaterials(const CalibrationFile& calibration) {
+  std::string text = calibration.moduli.empty() ? "" : "moduli:\n";
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    text += "  - {part: " + Quoted(modulus.part) +
+            ", youngs_modulus_Pa: " + FormatNumber(modulus.youngs_modulus_Pa) +
+            ", standard_error_Pa: " + FormatNumber(modulus.standard_error_Pa) + "}\n";
+  }
+  if (!calibration.poissons_ratios.empty()) text += "poissons_ratios:\n";
+  for (const CalibratedPoissonsRatio& poissons : calibration.poissons_ratios) {
+    text += "  - {part: " + Quoted(poissons.part) +
+            ", poissons_ratio: " + FormatNumber(poissons.poissons_ratio) +
+            ", standard_error: " + FormatNumber(poissons.standard_error) + "}\n";
+  }
+  return text;
+}
+
+std::string FormatGravity(const CalibratedGravity& gravity) {
+  return "gravity_m_s2: " + geometry::FormatVector(gravity.gravity_m_s2) +
+         "\ngravity_standard_error_m_s2: " + geometry::FormatVector(gravity.standard_error_m_s2) +
+         "\n";
+}
+
 std::string FormatPoseAndErrors(const CalibratedPose& pose) {
   return "T_robot_camera: " + geometry::FormatPose(pose.T_robot_camera) +
          "\nT_robot_camera_standard_error: {rotation_rad: " +
@@ -119,43 +133,7 @@ std::string FormatUndetermined(const std::vector<Undetermined>& undetermined) {
   return text;
 }
 
-int CableIndex(const RobotModel& model, const std::string& cable) {
-  const std::vector<std::string> names = model.CableNames();
-  const auto found = std::find(names.begin(), names.end(), cable);
-  if (found == names.end()) {
-    throw InputError("the calibration holds the drive of cable '" + cable +
-                     "', which the robot file does not have" + DidYouMean(cable, names));
-  }
-  return static_cast<int>(found - names.begin());
-}
-
-int MaterialIndex(const RobotBody& body, const std::string& part) {
-  if (part == "body") return 0;
-  const auto& names = body.region_names;
-  const auto found = std::find(names.begin(), names.end(), part);
-  if (found == names.end()) {
-    throw InputError("the calibration holds a modulus of region '" + part +
-                     "', which the robot file does not have" + DidYouMean(part, names));
-  }
-  return static_cast<int>(found - names.begin()) + 1;
-}
-
 }  // namespace
-
-CalibrationFile DescribeForCalibration(const RobotModel& model) {
-  const RobotBody& body = model.body();
-  CalibrationFile calibration;
-  calibration.robot = body.name;
-  calibration.mesh_hash = body.mesh_hash;
-  calibration.element = ElementName(body.mesh.element_type());
-  const fem::Material& material = body.materials.front();
-  calibration.model = fem::ToString(material.model);
-  calibration.poissons_ratio = material.poissons_ratio;
-  calibration.volumetric = fem::ToString(material.volumetric);
-  calibration.c20_over_c10 = material.c20_over_c10;
-  calibration.c30_over_c10 = material.c30_over_c10;
-  return calibration;
-}
 
 CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const ConfigLoader& load) {
   const ConfigNode root = load(file);
@@ -176,13 +154,20 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   calibration.data = ReadText(map.Require("data"));
   calibration.data_hash = ReadText(map.Require("data_hash"));
   calibration.moduli = ReadItems(&map, "moduli", ReadModulus);
+  calibration.poissons_ratios = ReadItems(&map, "poissons_ratios", ReadPoissonsRatio);
+  if (const ConfigNode* gravity = map.Optional("gravity_m_s2")) {
+    calibration.gravity = ReadGravity(*gravity, map.Require("gravity_standard_error_m_s2"));
+  }
   if (const ConfigNode* pose = map.Optional("T_robot_camera")) {
     calibration.pose = ReadCalibratedPose(*pose, map.Require("T_robot_camera_standard_error"));
   }
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
   calibration.undetermined = ReadItems(&map, "undetermined", ReadUndetermined);
-  if (calibration.moduli.empty() && !calibration.pose && calibration.drives.empty()) {
-    Refuse(root, "must hold moduli, T_robot_camera or drives: what was calibrated");
+  if (calibration.moduli.empty() && calibration.poissons_ratios.empty() && !calibration.gravity &&
+      !calibration.pose && calibration.drives.empty()) {
+    Refuse(root,
+           "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera or drives: what was "
+           "calibrated");
   }
   calibration.residual_rms_m = ReadNumber(map.Require("residual_rms_m"), kNonNegative);
   calibration.chi_squared = ReadNumber(map.Require("chi_squared"), kNonNegative);
@@ -206,12 +191,8 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   text += "date_utc: " + Quoted(calibration.date_utc) + "\n";
   text += "data: " + Quoted(calibration.data) + "\n";
   text += "data_hash: " + Quoted(calibration.data_hash) + "\n";
-  if (!calibration.moduli.empty()) text += "moduli:\n";
-  for (const CalibratedModulus& modulus : calibration.moduli) {
-    text += "  - {part: " + Quoted(modulus.part) +
-            ", youngs_modulus_Pa: " + FormatNumber(modulus.youngs_modulus_Pa) +
-            ", standard_error_Pa: " + FormatNumber(modulus.standard_error_Pa) + "}\n";
-  }
+  text += FormatMaterials(calibration);
+  if (calibration.gravity) text += FormatGravity(*calibration.gravity);
   if (calibration.pose) text += FormatPoseAndErrors(*calibration.pose);
   text += FormatDrives(calibration.drives);
   text += FormatUndetermined(calibration.undetermined);
@@ -219,45 +200,6 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   text += "chi_squared: " + FormatNumber(calibration.chi_squared) + "\n";
   text += "degrees_of_freedom: " + std::to_string(calibration.degrees_of_freedom) + "\n";
   WriteFile(file, text);
-}
-
-void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
-  const CalibrationFile present = DescribeForCalibration(*model);
-  RequireSame("robot", calibration.robot, present.robot);
-  RequireSame("element", calibration.element, present.element);
-  RequireSame("mesh", calibration.mesh_hash, present.mesh_hash);
-  RequireSame("material", calibration.model, present.model);
-  RequireSame("Poisson's ratio", FormatNumber(calibration.poissons_ratio),
-              FormatNumber(present.poissons_ratio));
-  if (!calibration.volumetric.empty()) {
-    RequireSame("volumetric treatment", calibration.volumetric, present.volumetric);
-  }
-  RequireSame("c20_over_c10", FormatNumber(calibration.c20_over_c10),
-              FormatNumber(present.c20_over_c10));
-  RequireSame("c30_over_c10", FormatNumber(calibration.c30_over_c10),
-              FormatNumber(present.c30_over_c10));
-  std::vector<int> materials;  // all of them first, so that a refusal leaves the model as it was
-  for (const CalibratedModulus& modulus : calibration.moduli) {
-    materials.push_back(MaterialIndex(model->body(), modulus.part));
-  }
-  std::vector<int> cables;
-  for (const CalibratedDrive& drive : calibration.drives) {
-    cables.push_back(CableIndex(*model, drive.cable));
-  }
-  for (size_t k = 0; k < cables.size(); ++k) {
-    model->SetDrive(cables[k], calibration.drives[k].drive);
-  }
-  for (size_t k = 0; k < materials.size(); ++k) {
-    model->SetYoungsModulus(materials[k], calibration.moduli[k].youngs_modulus_Pa);
-  }
-}
-
-double RelativeModulusError(const CalibrationFile& calibration) {
-  double largest = 0.0;
-  for (const CalibratedModulus& modulus : calibration.moduli) {
-    largest = std::max(largest, modulus.standard_error_Pa / modulus.youngs_modulus_Pa);
-  }
-  return largest;
 }
 
 }  // namespace palpate::robot

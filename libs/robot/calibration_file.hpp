@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/status.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::robot {
@@ -30,6 +31,19 @@ struct CalibratedPose {
   Eigen::Vector3d translation_error_m = Eigen::Vector3d::Zero();
 };
 
+/// Poisson's ratio found from data. `part` as of a modulus.
+struct CalibratedPoissonsRatio {
+  std::string part;
+  double poissons_ratio = 0.0;
+  double standard_error = 0.0;
+};
+
+/// Gravity in the robot's frame as it acts on the masses of the robot file.
+struct CalibratedGravity {
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d standard_error_m_s2 = Eigen::Vector3d::Zero();
+};
+
 /// How a cable's displacement is read (RobotModel::SetDrive).
 struct CalibratedDrive {
   std::string cable;
@@ -47,11 +61,11 @@ struct Undetermined {
 /// to the mesh and element it was found with: coarse linear meshes are too stiff, and the fit makes
 /// up for it.
 struct CalibrationFile {
-  std::string robot;      ///< name in the robot file
-  std::string mesh_hash;  ///< RobotBody::mesh_hash: mesh and element
-  std::string element;    ///< "tet4" | "tet10"
-  std::string model;      ///< material model
-  double poissons_ratio = 0.0;
+  std::string robot;            ///< name in the robot file
+  std::string mesh_hash;        ///< RobotBody::mesh_hash: mesh and element
+  std::string element;          ///< "tet4" | "tet10"
+  std::string model;            ///< material model
+  double poissons_ratio = 0.0;  ///< of the robot file
   /// "pointwise" | "mean_dilatation"; empty: not said, and not compared
   std::string volumetric;
   double c20_over_c10 = 0.0;  ///< of the Yeoh material, as c30_over_c10
@@ -60,6 +74,8 @@ struct CalibrationFile {
   std::string data;      ///< what it was fitted to, for people
   std::string data_hash;
   std::vector<CalibratedModulus> moduli;  ///< empty: those of the robot file hold
+  std::vector<CalibratedPoissonsRatio> poissons_ratios;
+  std::optional<CalibratedGravity> gravity;
   std::optional<CalibratedPose> pose;
   std::vector<CalibratedDrive> drives;
   std::vector<Undetermined> undetermined;
@@ -77,10 +93,15 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
 /// Throws RunError where it cannot be written.
 void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesystem::path& file);
 
-/// Gives the model the calibrated moduli and drives; where the camera stands is the caller's
-/// business. Throws InputError, naming both sides, where the
-/// calibration is another robot's, another mesh's, element's or material's, or names a region or a
-/// cable that the robot does not have.
+/// kInvalidInput, naming both sides, where the calibration is another robot's, another mesh's,
+/// element's or material's than `present` (DescribeForCalibration) says.
+Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile& present);
+
+/// The same, and where it names a region or a cable that the robot does not have.
+Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model);
+
+/// Gives the model the calibrated moduli, Poisson's ratios, gravity and drives; where the camera
+/// stands is the caller's business. Throws InputError where CheckCalibration is not ok.
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
 
 /// Largest relative standard error of the moduli; 0 without moduli.

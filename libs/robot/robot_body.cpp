@@ -101,6 +101,7 @@ Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
 
 void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
   body->materials.push_back(robot.material);
+  body->nominal_poissons_ratio = robot.material.poissons_ratio;
   body->material_of_cell.assign(static_cast<size_t>(body->mesh.CellCount()), 0);
   for (const RegionSettings& region : robot.regions) {
     const int index = static_cast<int>(body->materials.size());

@@ -40,7 +40,9 @@ struct RobotBody {
   /// "fnv1a-<16 hex digits>". A calibrated modulus holds for one mesh and element only.
   std::string mesh_hash;
 
-  std::vector<fem::Material> materials;   ///< 0: the body's; k + 1: of region k
+  std::vector<fem::Material> materials;  ///< 0: the body's; k + 1: of region k
+  /// Of the body in the robot file: calibrations name it, whatever they make of `materials`.
+  double nominal_poissons_ratio = 0.0;
   std::vector<int> material_of_cell;      ///< [cells] index into materials
   std::vector<std::string> region_names;  ///< in the order of the robot file
 

@@ -163,7 +163,7 @@ TEST_F(CalibrationFileTest, RefusesAFileThatIsNoCalibration) {
   EXPECT_THAT(ReadRefusal("robot: x\n"), HasSubstr("mesh_hash"));
   std::string text = Altered("moduli:\n", "moduli: []\n#");
   for (size_t at = 0; (at = text.find("\n  - ", at)) != std::string::npos;) text[at + 1] = '#';
-  EXPECT_THAT(ReadRefusal(text), HasSubstr("must hold moduli, T_robot_camera or drives"));
+  EXPECT_THAT(ReadRefusal(text), HasSubstr("must hold moduli, poissons_ratios, gravity_m_s2"));
 }
 
 TEST_F(CalibrationFileTest, HoldsPoseAndDrivesAndWhatIsNotDetermined) {
@@ -193,6 +193,32 @@ TEST_F(CalibrationFileTest, HoldsPoseAndDrivesAndWhatIsNotDetermined) {
   ASSERT_EQ(read.undetermined.size(), 1U);
   EXPECT_EQ(read.undetermined[0].name, "cable_offset:west");
   EXPECT_EQ(read.undetermined[0].what_would_tell, "a recording with: it \"pulled\"");
+}
+
+TEST_F(CalibrationFileTest, HoldsAndGivesGravityAndPoissonsRatios) {
+  CalibrationFile written = Example();
+  written.moduli.clear();
+  written.poissons_ratios = {{"body", 0.41, 0.02}};
+  written.gravity = CalibratedGravity{{0.3, -0.2, -9.7}, {0.1, 0.2, 0.01}};
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  ASSERT_EQ(read.poissons_ratios.size(), 1U);
+  EXPECT_EQ(read.poissons_ratios[0].standard_error, 0.02);
+  ASSERT_TRUE(read.gravity);
+  EXPECT_EQ(read.gravity->standard_error_m_s2, written.gravity->standard_error_m_s2);
+  ApplyCalibration(read, model_.get());
+  EXPECT_EQ(model_->body().materials[0].poissons_ratio, 0.41);
+  EXPECT_EQ(model_->gravity_m_s2(), written.gravity->gravity_m_s2);
+
+  written.poissons_ratios[0].part = "nowhere";
+  written.gravity->gravity_m_s2.setZero();
+  EXPECT_THAT(ApplyRefusal(written), HasSubstr("nowhere"));
+  EXPECT_EQ(model_->gravity_m_s2(), read.gravity->gravity_m_s2);
+
+  std::string text = ReadFile(file_);
+  const std::string key = "gravity_standard_error_m_s2";
+  text.replace(text.find(key), key.size(), "# ");
+  EXPECT_THAT(ReadRefusal(text), HasSubstr(key));
 }
 
 TEST_F(CalibrationFileTest, DrivesReadWhatIsMeasured) {

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/robot/calibration_file.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+std::string ElementName(fem::ElementType element) {
+  return element == fem::ElementType::kTet4 ? "tet4" : "tet10";
+}
+
+Status Foreign(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+
+/// Nothing where there is none of this name.
+std::optional<int> IndexOf(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<int>(found - names.begin());
+}
+
+/// Into RobotBody::materials.
+std::optional<int> MaterialIndex(const RobotBody& body, const std::string& part) {
+  if (part == "body") return 0;
+  const std::optional<int> region = IndexOf(body.region_names, part);
+  return region ? std::optional<int>(*region + 1) : std::nullopt;
+}
+
+}  // namespace
+
+CalibrationFile DescribeForCalibration(const RobotModel& model) {
+  const RobotBody& body = model.body();
+  CalibrationFile calibration;
+  calibration.robot = body.name;
+  calibration.mesh_hash = body.mesh_hash;
+  calibration.element = ElementName(body.mesh.element_type());
+  const fem::Material& material = body.materials.front();
+  calibration.model = fem::ToString(material.model);
+  calibration.poissons_ratio = body.nominal_poissons_ratio;
+  calibration.volumetric = fem::ToString(material.volumetric);
+  calibration.c20_over_c10 = material.c20_over_c10;
+  calibration.c30_over_c10 = material.c30_over_c10;
+  return calibration;
+}
+
+Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile& present) {
+  struct Pair {
+    const char* what;
+    std::string calibrated, present;
+  };
+  std::vector<Pair> pairs = {
+      {"robot", calibration.robot, present.robot},
+      {"element", calibration.element, present.element},
+      {"mesh", calibration.mesh_hash, present.mesh_hash},
+      {"material", calibration.model, present.model},
+      {"Poisson's ratio", FormatNumber(calibration.poissons_ratio),
+       FormatNumber(present.poissons_ratio)},
+      {"c20_over_c10", FormatNumber(calibration.c20_over_c10), FormatNumber(present.c20_over_c10)},
+      {"c30_over_c10", FormatNumber(calibration.c30_over_c10), FormatNumber(present.c30_over_c10)}};
+  if (!calibration.volumetric.empty()) {
+    pairs.push_back({"volumetric treatment", calibration.volumetric, present.volumetric});
+  }
+  for (const Pair& pair : pairs) {
+    if (pair.calibrated == pair.present) continue;
+    return Foreign(std::string("the calibration is for ") + pair.what + " '" + pair.calibrated +
+                   "', the robot file gives '" + pair.present +
+                   "': calibrate again with this robot file");
+  }
+  return Status::Ok();
+}
+
+Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model) {
+  if (Status status = CheckCalibrated(calibration, DescribeForCalibration(model)); !status.ok()) {
+    return status;
+  }
+  const RobotBody& body = model.body();
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    if (MaterialIndex(body, modulus.part)) continue;
+    return Foreign("the calibration holds a modulus of region '" + modulus.part +
+                   "', which the robot file does not have" +
+                   DidYouMean(modulus.part, body.region_names));
+  }
+  for (const CalibratedPoissonsRatio& poissons : calibration.poissons_ratios) {
+    if (MaterialIndex(body, poissons.part)) continue;
+    return Foreign("the calibration holds Poisson's ratio of region '" + poissons.part +
+                   "', which the robot file does not have" +
+                   DidYouMean(poissons.part, body.region_names));
+  }
+  const std::vector<std::string> cables = model.CableNames();
+  for (const CalibratedDrive& drive : calibration.drives) {
+    if (IndexOf(cables, drive.cable)) continue;
+    return Foreign("the calibration holds the drive of cable '" + drive.cable +
+                   "', which the robot file does not have" + DidYouMean(drive.cable, cables));
+  }
+  return Status::Ok();
+}
+
+void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
+  const Status status = CheckCalibration(calibration, *model);
+  if (!status.ok()) throw InputError(status.message());
+  const std::vector<std::string> cables = model->CableNames();
+  for (const CalibratedDrive& drive : calibration.drives) {
+    model->SetDrive(IndexOf(cables, drive.cable).value(), drive.drive);
+  }
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    model->SetYoungsModulus(MaterialIndex(model->body(), modulus.part).value(),
+                            modulus.youngs_modulus_Pa);
+  }
+  for (const CalibratedPoissonsRatio& poissons : calibration.poissons_ratios) {
+    model->SetPoissonsRatio(MaterialIndex(model->body(), poissons.part).value(),
+                            poissons.poissons_ratio);
+  }
+  if (calibration.gravity) model->SetGravity(calibration.gravity->gravity_m_s2);
+}
+
+double RelativeModulusError(const CalibrationFile& calibration) {
+  double largest = 0.0;
+  for (const CalibratedModulus& modulus : calibration.moduli) {
+    largest = std::max(largest, modulus.standard_error_Pa / modulus.youngs_modulus_Pa);
+  }
+  return largest;
+}
+
+}  // namespace palpate::robot
