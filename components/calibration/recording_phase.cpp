@@ -3,6 +3,10 @@
 
 #include "components/calibration/recording_phase.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <optional>
+
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/recording_inputs.hpp"
@@ -10,6 +14,10 @@
 namespace palpate::calibration {
 
 namespace {
+
+/// Cables that moved less than this are still.
+constexpr double kStill_m = 1e-5;
+constexpr double kStill_N = 1e-3;
 
 robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
   const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
@@ -23,6 +31,22 @@ robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::Robot
 }
 
 }  // namespace
+
+bool CablesAreStill(const experiment::Recording& recording) {
+  if (!recording.actuation) return true;
+  for (const experiment::CableColumn& column : recording.actuation->columns) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const std::optional<double>& sample : column.samples) {
+      if (!sample) continue;
+      least = std::min(least, *sample);
+      most = std::max(most, *sample);
+    }
+    const bool by_tension = column.quantity == experiment::CableQuantity::kTension;
+    if (most - least > (by_tension ? kStill_N : kStill_m)) return false;
+  }
+  return true;
+}
 
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
                                           const robot::RobotModel& model,

@@ -10,6 +10,9 @@
 
 namespace palpate::calibration {
 
+/// Whether no cable moved, by more than drives and sensors tremble, in the whole recording.
+bool CablesAreStill(const experiment::Recording& recording);
+
 /// What the cables were commanded at this time of the recording, as the model's drives read it;
 /// kNone for a cable of which nothing was recorded.
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,

@@ -11,6 +11,7 @@
 #include "components/calibration/cloud/cloud_matching.hpp"
 #include "components/calibration/joint/kept_model.hpp"
 #include "libs/core/text.hpp"
+#include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::calibration {
 
@@ -41,6 +42,7 @@ class Search {
   Status Prepare(const geometry::RigidTransform& start);
   Status TakeShapes();
   Status FindRigid(const geometry::RigidTransform& start);
+  bool IsSettled(const geometry::RigidTransform& last, const Eigen::Vector3d& middle_m) const;
   Status FitTogether();
   void Match();
   Status CheckResult(const geometry::RigidTransform& start);
@@ -68,6 +70,12 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   }
   setup_.fit_pose = true;
   setup_.marker_offset_sigma_m = 0.0;
+  if (settings_.depth_bias_sigma > 0.0) {
+    const double sigma = settings_.depth_bias_sigma;
+    setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma},
+                                        .estimated = false,
+                                        .order = settings_.depth_bias_order};
+  }
   return TakeShapes();
 }
 
@@ -109,12 +117,30 @@ void Search::Match() {
   }
 }
 
+/// Whether the last round moved the camera, by what it does to the cloud's middle (camera frame),
+/// no more than asked for, or by less than a share of its standard error: other points that lie as
+/// near are matched in each round.
+bool Search::IsSettled(const geometry::RigidTransform& last,
+                       const Eigen::Vector3d& middle_m) const {
+  constexpr double kShareOfError = 0.1;
+  const geometry::RigidTransform& now = setup_.T_robot_camera;
+  const double turned_rad = last.rotation().angularDistance(now.rotation());
+  const double moved_m = (last * middle_m - now * middle_m).norm();
+  Eigen::Matrix<double, 3, 6> motion;
+  motion << -geometry::CrossMatrix(now * middle_m - now.translation_m()),
+      Eigen::Matrix3d::Identity();
+  const auto& covariance = result_.joint.pose_covariance;
+  const double turn_error_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  const double error_m = std::sqrt((motion * covariance * motion.transpose()).trace());
+  return moved_m < std::max(settings_.moved_m, kShareOfError * error_m) &&
+         turned_rad < std::max(settings_.turned_rad, kShareOfError * turn_error_rad);
+}
+
 Status Search::FitTogether() {
   JointSettings joint_settings;
   joint_settings.solver.huber_threshold = settings_.huber_threshold;
   // Finer than the noise by far; points are matched again after each fit anyway.
   joint_settings.solver.step_tolerance = 1e-6;
-  const Eigen::Vector3d middle_m = thin_.front().points_m.rowwise().mean();
   while (result_.rounds < settings_.max_rounds) {
     Match();
     ++result_.rounds;
@@ -123,9 +149,7 @@ Status Search::FitTogether() {
     for (std::size_t f = 0; f < skins_.size(); ++f) skins_[f].TakeShape(result_.joint.x_m[f]);
     const geometry::RigidTransform last = setup_.T_robot_camera;
     setup_.T_robot_camera = result_.joint.T_robot_camera;
-    const double turned_rad = last.rotation().angularDistance(setup_.T_robot_camera.rotation());
-    const double moved_m = (last * middle_m - setup_.T_robot_camera * middle_m).norm();
-    if (moved_m < settings_.moved_m && turned_rad < settings_.turned_rad) return Status::Ok();
+    if (IsSettled(last, thin_.front().points_m.rowwise().mean())) return Status::Ok();
   }
   return {StatusCode::kNotConverged, "the camera still moves after " +
                                          std::to_string(result_.rounds) +

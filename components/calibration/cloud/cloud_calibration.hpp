@@ -17,6 +17,10 @@ struct CloudSettings {
   /// of markers and whether the pose is fitted has no meaning here.
   JointRequest request;
   double huber_threshold = 2.0;  ///< sigmas; in place of the request's
+  /// Smooth error of the depth image, one sigma as a share of z (DepthBiasBelief): counts in the
+  /// standard errors; 0: it has none.
+  double depth_bias_sigma = 0.003;
+  int depth_bias_order = 2;
   PoseSearchSettings search;
   /// Distance of neighbouring points that are used, m: of the search, and of the joint fit. Depth
   /// noise is alike in neighbouring pixels; points some pixels apart count as independent.
@@ -30,7 +34,8 @@ struct CloudSettings {
   double gate_sigmas = 5.0;
   double narrowest_gate_m = 0.002;
   double widest_gate_m = 0.015;
-  /// Points are matched again until that moves the first cloud's middle, and turns it, less.
+  /// Points are matched again until that moves the first cloud's middle, and turns it, less than
+  /// this or than a tenth of the standard error.
   double moved_m = 2e-5;
   double turned_rad = 8.7e-5;
   int max_rounds = 25;

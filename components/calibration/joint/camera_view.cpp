@@ -40,21 +40,20 @@ geometry::RigidTransform Changed(const geometry::RigidTransform& T, const PoseCh
 }
 
 CameraView::CameraView(const geometry::RigidTransform& T_robot_camera_start,
-                       const PoseChange& change, double depth_scale)
+                       const PoseChange& change)
     : T_(Changed(T_robot_camera_start, change)),
       R_(T_.rotation().toRotationMatrix()),
-      turn_per_change_(LeftJacobian(change.head<3>())),
-      depth_scale_(depth_scale) {}
+      turn_per_change_(LeftJacobian(change.head<3>())) {}
 
 /// In the camera frame, in which the covariance is known: r = L^-1 (p - R' (x - t)).
-SightingRows<3> CameraView::Rows(const MarkerSighting& sighting,
-                                 const Eigen::Vector3d& point_m) const {
+SightingRows<3> CameraView::Rows(const MarkerSighting& sighting, const Eigen::Vector3d& point_m,
+                                 double depth_scale) const {
   const Eigen::LLT<Eigen::Matrix3d> covariance(sighting.covariance_m2);
   const auto L = covariance.matrixL();
   const Eigen::Vector3d from_camera_m = point_m - T_.translation_m();
   SightingRows<3> rows;
   rows.residual =
-      L.solve((1.0 + depth_scale_) * sighting.position_m - R_.transpose() * from_camera_m);
+      L.solve((1.0 + depth_scale) * sighting.position_m - R_.transpose() * from_camera_m);
   rows.per_point_m = -L.solve(Eigen::Matrix3d(R_.transpose()));
   rows.per_pose.leftCols<3>() = rows.per_point_m * Cross(from_camera_m) * turn_per_change_;
   rows.per_pose.rightCols<3>() = -rows.per_point_m;
@@ -62,10 +61,10 @@ SightingRows<3> CameraView::Rows(const MarkerSighting& sighting,
   return rows;
 }
 
-SightingRows<1> CameraView::Rows(const SurfaceSighting& sighting,
-                                 const Eigen::Vector3d& point_m) const {
+SightingRows<1> CameraView::Rows(const SurfaceSighting& sighting, const Eigen::Vector3d& point_m,
+                                 double depth_scale) const {
   const Eigen::Vector3d turned_m = R_ * sighting.position_m;
-  const Eigen::Vector3d scaled_m = (1.0 + depth_scale_) * turned_m;
+  const Eigen::Vector3d scaled_m = (1.0 + depth_scale) * turned_m;
   const Eigen::RowVector3d along = sighting.normal.transpose() / sighting.sigma_m;
   SightingRows<1> rows;
   rows.residual << along.dot(scaled_m + T_.translation_m() - point_m);

@@ -29,22 +29,22 @@ struct SightingRows {
 /// How a camera shows points of the body, for a pose that is yet to be found.
 class CameraView {
  public:
-  /// Measured points p are (1 + depth_scale) p.
-  CameraView(const geometry::RigidTransform& T_robot_camera_start, const PoseChange& change,
-             double depth_scale);
+  CameraView(const geometry::RigidTransform& T_robot_camera_start, const PoseChange& change);
 
   const geometry::RigidTransform& T_robot_camera() const { return T_; }
 
-  /// `point_m`: where the model has the marker, robot frame.
-  SightingRows<3> Rows(const MarkerSighting& sighting, const Eigen::Vector3d& point_m) const;
+  /// `point_m`: where the model has the marker, robot frame. What is measured at p is at
+  /// (1 + depth_scale) p.
+  SightingRows<3> Rows(const MarkerSighting& sighting, const Eigen::Vector3d& point_m,
+                       double depth_scale) const;
   /// Distance to the skin along its normal.
-  SightingRows<1> Rows(const SurfaceSighting& sighting, const Eigen::Vector3d& point_m) const;
+  SightingRows<1> Rows(const SurfaceSighting& sighting, const Eigen::Vector3d& point_m,
+                       double depth_scale) const;
 
  private:
   geometry::RigidTransform T_;
   Eigen::Matrix3d R_;
   Eigen::Matrix3d turn_per_change_;  ///< rotation of the robot frame's axes per rotation vector
-  double depth_scale_;
 };
 
 }  // namespace palpate::calibration

@@ -13,15 +13,19 @@ namespace {
 
 int CountOf(const JointProblem& problem) { return static_cast<int>(problem.variables().size()); }
 
-Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& chosen) {
-  const auto count = static_cast<Eigen::Index>(chosen.size());
-  Eigen::MatrixXd picked(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      picked(i, j) = matrix(chosen[static_cast<size_t>(i)], chosen[static_cast<size_t>(j)]);
+Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& rows,
+                     const std::vector<int>& columns) {
+  Eigen::MatrixXd picked(std::ssize(rows), std::ssize(columns));
+  for (Eigen::Index i = 0; i < picked.rows(); ++i) {
+    for (Eigen::Index j = 0; j < picked.cols(); ++j) {
+      picked(i, j) = matrix(rows[static_cast<size_t>(i)], columns[static_cast<size_t>(j)]);
     }
   }
   return picked;
+}
+
+Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& chosen) {
+  return Pick(matrix, chosen, chosen);
 }
 
 Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
@@ -77,12 +81,23 @@ WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
 }
 
 Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem) {
-  std::vector<int> uncertain;
+  std::vector<int> uncertain, considered;
+  Eigen::VectorXd believed = Eigen::VectorXd::Zero(CountOf(problem));  // of those considered
   for (int v = 0; v < CountOf(problem); ++v) {
-    const Belief& belief = problem.variables()[static_cast<size_t>(v)].belief;
-    if (!problem.IsHeld(v) || std::isfinite(belief.sigma)) uncertain.push_back(v);
+    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
+    const bool known = problem.IsHeld(v) && !std::isfinite(variable.belief.sigma);
+    if (variable.considered) {
+      believed[std::ssize(considered)] = variable.belief.sigma / problem.Scale(v);
+      considered.push_back(v);
+    } else if (!known) {
+      uncertain.push_back(v);
+    }
   }
-  const Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, uncertain));
+  Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, uncertain));
+  // What is considered shifts the estimates by so much for each of its sigmas (Schmidt 1966).
+  const Eigen::MatrixXd shift = inverse * Pick(fit.information, uncertain, considered) *
+                                believed.head(std::ssize(considered)).asDiagonal();
+  inverse += shift * shift.transpose();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(CountOf(problem), CountOf(problem));
   for (std::size_t i = 0; i < uncertain.size(); ++i) {
     for (std::size_t j = 0; j < uncertain.size(); ++j) {

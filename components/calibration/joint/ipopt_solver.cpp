@@ -7,6 +7,7 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "libs/core/check.hpp"
@@ -25,6 +26,12 @@ using VectorMap = Eigen::Map<const Eigen::VectorXd>;
 
 constexpr double kIpoptInfinity = 2e19;
 constexpr double kNoGradient = 1e-12;
+/// Of half of chi-squared: what gains less moves nothing by a hundredth of its standard error. Of
+/// data without noise, of which little is left over, the share of that. So many iterations with no
+/// more end the search.
+constexpr double kNoGain = 1e-5;
+constexpr double kNoGainShare = 1e-6;
+constexpr int kPatience = 3;
 
 /// The problem in Ipopt's words. Values and derivatives are worked out together, once for each
 /// point that Ipopt asks about.
@@ -123,7 +130,8 @@ class Nlp final : public Ipopt::TNLP {
   }
 
   /// Gradients of sums of squares in sigmas have no size to compare with: it ends where the steps
-  /// do.
+  /// do, or where steps gain nothing: at a bend of the objective, as where a cable becomes slack,
+  /// they never end.
   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective,
                              Number infeasibility, Number, Number barrier, Number step, Number,
                              Number, Number, Index, const Ipopt::IpoptData*,
@@ -132,7 +140,12 @@ class Nlp final : public Ipopt::TNLP {
     solution_.iterations = static_cast<int>(iteration);
     solution_.objectives.push_back(objective);
     const double tolerance = settings_.step_tolerance;
-    arrived_ = iteration > 0 && step <= tolerance && infeasibility <= tolerance &&
+    const bool gained =
+        last_objective_ - objective > std::min(kNoGain, kNoGainShare * std::abs(objective));
+    idle_iterations_ = gained ? 0 : idle_iterations_ + 1;
+    last_objective_ = objective;
+    const bool ended = step <= tolerance || idle_iterations_ >= kPatience;
+    arrived_ = iteration > 0 && ended && infeasibility <= tolerance &&
                (!has_bounds_ || barrier <= tolerance);
     return !arrived_;
   }
@@ -186,6 +199,8 @@ class Nlp final : public Ipopt::TNLP {
   const std::vector<RobustBlock> blocks_;
   const bool has_bounds_;
   bool arrived_ = false;
+  double last_objective_ = std::numeric_limits<double>::infinity();
+  int idle_iterations_ = 0;
   Eigen::VectorXd visited_;
   bool has_value_ = false;
   LeastSquaresPoint point_;

@@ -61,7 +61,8 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
                   const Eigen::MatrixXd& covariance, JointCalibration* result) {
   std::vector<int> reported;
   for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
-    if (!IsOfPose(v, problem)) reported.push_back(v);
+    const bool considered = problem.variables()[static_cast<size_t>(v)].considered;
+    if (!IsOfPose(v, problem) && !considered) reported.push_back(v);
   }
   for (const int v : reported) {
     const Variable& variable = problem.variables()[static_cast<size_t>(v)];
@@ -95,6 +96,10 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   const Eigen::Index rows = problem.DataRows();
   result->objectives = solution.objectives;
   result->iterations = solution.iterations;
+  const std::vector<double>& accepted_m = problem.residual_rms_after_m();
+  const auto last_solve = std::min(accepted_m.size(), solution.objectives.size());
+  result->residual_rms_after_m.assign(accepted_m.end() - static_cast<std::ptrdiff_t>(last_solve),
+                                      accepted_m.end());
   result->residual_rms_of_frame_m = problem.residual_rms_m();
   double squares_m2 = 0.0;
   for (const double rms_m : result->residual_rms_of_frame_m) squares_m2 += rms_m * rms_m;

@@ -46,6 +46,8 @@ struct JointCalibration {
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
   std::vector<double> objectives;  ///< of the start and after each iteration
+  /// Of all frames, at the start and after each iteration: the paper's Fig. 6.
+  std::vector<double> residual_rms_after_m;
   int iterations = 0;
 };
 

@@ -24,11 +24,15 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
     : model_(model),
       setup_(setup),
       sensitivity_(model),
-      accepted_(setup.frames.size(), model.RestState()),
+      accepted_(setup.states.empty()
+                    ? std::vector<fem::StaticState>(setup.frames.size(), model.RestState())
+                    : setup.states),
       states_(accepted_),
+      accepted_solved_(setup.frames.size()),
+      solved_(setup.frames.size()),
       residual_rms_m_(setup.frames.size(), 0.0) {
   AddVariables();
-  held_.assign(variables_.size(), false);
+  for (const Variable& variable : variables_) held_.push_back(variable.considered);
   start_ = Eigen::VectorXd::Zero(At(variables_.size()));
   for (const CalibrationFrame& frame : setup.frames) {
     data_rows_ += At(3 * frame.markers.size() + frame.surface.size());
@@ -37,10 +41,13 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
 
 void JointProblem::AddVariables() {
   if (setup_.fit_pose) AddPoseVariables();
-  if (setup_.depth_scale) {
-    depth_scale_column_ = static_cast<int>(variables_.size());
-    variables_.push_back(
-        {"depth_scale", "", *setup_.depth_scale, "a recording of the robot at several distances"});
+  if (setup_.depth_bias) {
+    depth_bias_column_ = static_cast<int>(variables_.size());
+    for (const std::string& name : NamesOf(*setup_.depth_bias)) {
+      variables_.push_back({name, "", setup_.depth_bias->coefficient,
+                            "recordings of the robot at several distances, all over the picture",
+                            nullptr, !setup_.depth_bias->estimated});
+    }
   }
   if (setup_.marker_offset_sigma_m > 0.0) AddMarkerOffsets();
   unknown_column_ = static_cast<int>(variables_.size());
@@ -72,7 +79,9 @@ void JointProblem::AddMarkerOffsets() {
       variables_.push_back({"marker_offset:" + marker + ":" + axis,
                             "m",
                             {.sigma = sigma_m, .plausible = sigma_m},
-                            "a recording in which the marker moves by more than its offset"});
+                            "a recording in which the marker moves by more than its offset",
+                            nullptr,
+                            !setup_.estimate_marker_offsets});
     }
   }
 }
@@ -92,9 +101,21 @@ CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
   if (pose_column_ >= 0) {
     for (int i = 0; i < 6; ++i) change[i] = ValueOf(pose_column_ + i, variables);
   }
-  const double depth_scale =
-      depth_scale_column_ >= 0 ? ValueOf(depth_scale_column_, variables) : 0.0;
-  return {setup_.T_robot_camera, change, depth_scale};
+  return {setup_.T_robot_camera, change};
+}
+
+/// Empty where the depth counts as right.
+Eigen::VectorXd JointProblem::DepthBasisAt(const Eigen::Vector3d& p_camera_m) const {
+  return setup_.depth_bias ? DepthBiasBasis(*setup_.depth_bias, p_camera_m) : Eigen::VectorXd();
+}
+
+double JointProblem::DepthScaleAt(const Eigen::VectorXd& basis,
+                                  const Eigen::VectorXd& variables) const {
+  double scale = 0.0;
+  for (Eigen::Index k = 0; k < basis.size(); ++k) {
+    scale += basis[k] * ValueOf(depth_bias_column_ + static_cast<int>(k), variables);
+  }
+  return scale;
 }
 
 geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables) const {
@@ -111,6 +132,15 @@ Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variab
 }
 
 Eigen::VectorXd JointProblem::Start() const { return start_; }
+
+void JointProblem::Accept() {
+  accepted_ = states_;
+  accepted_solved_ = solved_;
+  double squares_m2 = 0.0;
+  for (const double rms_m : residual_rms_m_) squares_m2 += rms_m * rms_m;
+  residual_rms_after_m_.push_back(
+      std::sqrt(squares_m2 / static_cast<double>(residual_rms_m_.size())));
+}
 
 Eigen::MatrixX2d JointProblem::Bounds() const {
   Eigen::MatrixX2d bounds(start_.size(), 2);
@@ -162,7 +192,7 @@ Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoin
       return {status.code(), frame.name + ": " + status.message()};
     }
     SeeMarkers(frame, view, variables, &row, point);
-    SeeSurface(frame, view, &row, point);
+    SeeSurface(frame, view, variables, &row, point);
     CheckConditions(index, point);
   }
   AddBeliefs(variables, point);
@@ -187,6 +217,11 @@ Status JointProblem::Balance(int frame, const FrameInputs& inputs,
   const auto f = static_cast<size_t>(frame);
   model_.SetGravity(inputs.mass_factor * inputs.gravity_m_s2);
   states_[f] = accepted_[f];
+  const SolvedState::Move move = accepted_solved_[f].MoveTo(variables, &states_[f].x_m);
+  if (move == SolvedState::Move::kTiny && !HasCondition(frame)) {
+    solved_[f] = accepted_solved_[f];
+    return Status::Ok();
+  }
   const fem::StaticResult result = model_.Solve(inputs.cables, setup_.frames[f].loads, &states_[f]);
   if (!result.status.ok()) return result.status;
   parameters_.clear();
@@ -200,7 +235,15 @@ Status JointProblem::Balance(int frame, const FrameInputs& inputs,
     column_of_.push_back(column);
     factor_of_.push_back(influence->per_value * Scale(column));
   }
-  return sensitivity_.Compute(inputs.cables, states_[f], parameters_);
+  Status status =
+      sensitivity_.Compute(inputs.cables, states_[f], parameters_, robot::Factor::kPresent);
+  if (status.ok()) solved_[f].Keep(states_[f].x_m, variables, column_of_, factor_of_, sensitivity_);
+  return status;
+}
+
+bool JointProblem::HasCondition(int frame) const {
+  return std::any_of(setup_.conditions.begin(), setup_.conditions.end(),
+                     [&](const ConditionPtr& condition) { return condition->frame() == frame; });
 }
 
 void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
@@ -213,8 +256,9 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
         model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
     const Eigen::Vector3d place_m =
         weights.Position(states_[index].x_m) + OffsetOf(sighting.marker, variables);
-    const SightingRows<3> rows = view.Rows(sighting, place_m);
-    PutRows(rows, sensitivity_.PointMotion(weights), *row, point);
+    const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
+    const SightingRows<3> rows = view.Rows(sighting, place_m, DepthScaleAt(basis, variables));
+    PutRows(rows, basis, {solved_[index], weights}, *row, point);
     if (marker_offset_column_ >= 0) {
       const int column = marker_offset_column_ + 3 * sighting.marker;
       point->jacobian.block<3, 3>(*row, column) = Scale(column) * rows.per_point_m;
@@ -227,13 +271,16 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
 }
 
 void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& view,
-                              Eigen::Index* row, LeastSquaresPoint* point) {
+                              const Eigen::VectorXd& variables, Eigen::Index* row,
+                              LeastSquaresPoint* point) {
   if (frame.surface.empty()) return;
   const auto index = static_cast<size_t>(&frame - setup_.frames.data());
   double squares_m2 = 0.0;
   for (const SurfaceSighting& sighting : frame.surface) {
-    const SightingRows<1> rows = view.Rows(sighting, sighting.point.Position(states_[index].x_m));
-    PutRows(rows, sensitivity_.PointMotion(sighting.point), *row, point);
+    const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
+    const SightingRows<1> rows = view.Rows(sighting, sighting.point.Position(states_[index].x_m),
+                                           DepthScaleAt(basis, variables));
+    PutRows(rows, basis, {solved_[index], sighting.point}, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
     squares_m2 += off_m * off_m;
     ++*row;
@@ -243,10 +290,10 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   }
 }
 
-/// `motion_m` [3 x parameters_] of the body's point.
 template <int Rows>
-void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::Matrix3Xd& motion_m,
-                           Eigen::Index row, LeastSquaresPoint* point) const {
+void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd& depth_basis,
+                           const PlaceOfState& place, Eigen::Index row,
+                           LeastSquaresPoint* point) const {
   point->residual.segment<Rows>(row) = rows.residual;
   if (pose_column_ >= 0) {
     for (int i = 0; i < 6; ++i) {
@@ -254,13 +301,15 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::Matrix3X
           Scale(pose_column_ + i) * rows.per_pose.col(i);
     }
   }
-  if (depth_scale_column_ >= 0) {
-    point->jacobian.block<Rows, 1>(row, depth_scale_column_) =
-        Scale(depth_scale_column_) * rows.per_depth_scale;
+  for (Eigen::Index k = 0; k < depth_basis.size(); ++k) {
+    const int column = depth_bias_column_ + static_cast<int>(k);
+    point->jacobian.block<Rows, 1>(row, column) =
+        Scale(column) * depth_basis[k] * rows.per_depth_scale;
   }
-  for (std::size_t p = 0; p < column_of_.size(); ++p) {
-    point->jacobian.block<Rows, 1>(row, column_of_[p]) +=
-        factor_of_[p] * (rows.per_point_m * motion_m.col(At(p)));
+  const Eigen::Matrix3Xd motion_m = place.solved.PointMotion(place.point);
+  const std::vector<Eigen::Index>& columns = place.solved.column();
+  for (std::size_t p = 0; p < columns.size(); ++p) {
+    point->jacobian.block<Rows, 1>(row, columns[p]) += rows.per_point_m * motion_m.col(At(p));
   }
 }
 

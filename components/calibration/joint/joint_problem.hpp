@@ -11,7 +11,9 @@
 #include "components/calibration/joint/calibration_frame.hpp"
 #include "components/calibration/joint/camera_view.hpp"
 #include "components/calibration/joint/condition.hpp"
+#include "components/calibration/joint/depth_bias_map.hpp"
 #include "components/calibration/joint/least_squares_problem.hpp"
+#include "components/calibration/joint/solved_state.hpp"
 #include "components/calibration/joint/unknown.hpp"
 #include "libs/fem/static_solver.hpp"
 #include "libs/geometry/rigid_transform.hpp"
@@ -25,12 +27,14 @@ struct JointSetup {
   std::vector<CalibrationFrame> frames;
   std::vector<UnknownPtr> unknowns;
   std::vector<ConditionPtr> conditions;
+  std::vector<fem::StaticState> states;     ///< [frames] to start from; empty: from rest
   geometry::RigidTransform T_robot_camera;  ///< to start from, or known
   bool fit_pose = true;
-  std::optional<Belief> depth_scale;  ///< share of the distance by which it reads too short
+  std::optional<DepthBiasBelief> depth_bias;  ///< nothing: the depth is right
   /// How far a marker may lie from its place in the robot file, m, each axis (one sigma); 0: it
-  /// lies there.
+  /// lies there. Where it is not estimated it counts in the errors of all that is.
   double marker_offset_sigma_m = 0.0;
+  bool estimate_marker_offsets = true;
 };
 
 /// One column of the problem.
@@ -40,6 +44,7 @@ struct Variable {
   Belief belief;
   std::string what_would_tell;
   const Unknown* unknown = nullptr;  ///< of the pose and other parts of the view: none
+  bool considered = false;           ///< held at its mean, for its part in the errors of the others
 };
 
 /// Camera pose, cable inputs, material and more from what was seen of the body in several frames
@@ -67,29 +72,39 @@ class JointProblem final : public LeastSquaresProblem {
   const std::vector<fem::StaticState>& states() const { return states_; }
   /// m, [frames] of the last point: RMS distance over its markers, or points along the normal.
   const std::vector<double>& residual_rms_m() const { return residual_rms_m_; }
+  /// m, of all frames, at each point that was accepted.
+  const std::vector<double>& residual_rms_after_m() const { return residual_rms_after_m_; }
 
   Eigen::VectorXd Start() const override;
   Eigen::MatrixX2d Bounds() const override;
   Eigen::MatrixX2d ConstraintBounds() const override;
   std::vector<RobustBlock> RobustBlocks() const override;
   Status Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) override;
-  void Accept() override { accepted_ = states_; }
+  void Accept() override;
 
  private:
   void AddVariables();
   void AddPoseVariables();
   void AddMarkerOffsets();
   CameraView ViewAt(const Eigen::VectorXd& variables) const;
+  Eigen::VectorXd DepthBasisAt(const Eigen::Vector3d& p_camera_m) const;
+  double DepthScaleAt(const Eigen::VectorXd& basis, const Eigen::VectorXd& variables) const;
   Eigen::Vector3d OffsetOf(int marker, const Eigen::VectorXd& variables) const;
   FrameInputs InputsOf(int frame, const Eigen::VectorXd& variables) const;
   Status Balance(int frame, const FrameInputs& inputs, const Eigen::VectorXd& variables);
   void SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
                   const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
-  void SeeSurface(const CalibrationFrame& frame, const CameraView& view, Eigen::Index* row,
-                  LeastSquaresPoint* point);
+  void SeeSurface(const CalibrationFrame& frame, const CameraView& view,
+                  const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
+  /// A point of the body in a frame.
+  struct PlaceOfState {
+    const SolvedState& solved;
+    const fem::NodeWeights& point;
+  };
   template <int Rows>
-  void PutRows(const SightingRows<Rows>& rows, const Eigen::Matrix3Xd& motion_m, Eigen::Index row,
-               LeastSquaresPoint* point) const;
+  void PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd& depth_basis,
+               const PlaceOfState& place, Eigen::Index row, LeastSquaresPoint* point) const;
+  bool HasCondition(int frame) const;
   void CheckConditions(int frame, LeastSquaresPoint* point) const;
   void AddBeliefs(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const;
 
@@ -100,15 +115,17 @@ class JointProblem final : public LeastSquaresProblem {
   std::vector<bool> held_;
   Eigen::VectorXd start_;
   int pose_column_ = -1;
-  int depth_scale_column_ = -1;
+  int depth_bias_column_ = -1;
   int marker_offset_column_ = -1;
   int unknown_column_ = 0;  ///< of the first unknown
   Eigen::Index data_rows_ = 0;
   std::vector<fem::StaticState> accepted_, states_;
-  std::vector<robot::ParameterPtr> parameters_;  ///< of this frame
-  std::vector<Eigen::Index> column_of_;          ///< [parameters_]
-  std::vector<double> factor_of_;                ///< [parameters_] per unit of the variable
+  std::vector<SolvedState> accepted_solved_, solved_;  ///< [frames]
+  std::vector<robot::ParameterPtr> parameters_;        ///< of this frame
+  std::vector<Eigen::Index> column_of_;                ///< [parameters_]
+  std::vector<double> factor_of_;                      ///< [parameters_] per unit of the variable
   std::vector<double> residual_rms_m_;
+  std::vector<double> residual_rms_after_m_;
 };
 
 }  // namespace palpate::calibration

@@ -21,13 +21,14 @@ using Kind = robot::CableCommand::Kind;
 
 constexpr double kWrongRobotShare = 0.1;
 constexpr double kFirstTension_N = 0.5;
+constexpr double kLeastPoissonsRatio = 0.0;
+constexpr double kMostPoissonsRatio = 0.4999;
 
-/// The pose under which all frames' markers lie nearest to the model's.
-Status FindStart(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
-                 geometry::RigidTransform* T_robot_camera) {
+/// The pose under which all frames' markers lie nearest to the model's, and the frames' equilibria.
+Status FindStart(robot::RobotModel& model, JointSetup* setup) {
   const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
   std::vector<Eigen::Vector3d> seen, expected;
-  for (const CalibrationFrame& frame : frames) {
+  for (const CalibrationFrame& frame : setup->frames) {
     model.SetGravity(frame.gravity_m_s2);
     fem::StaticState state = model.RestState();
     const fem::StaticResult result = model.Solve(frame.cables, frame.loads, &state);
@@ -40,6 +41,7 @@ Status FindStart(robot::RobotModel& model, const std::vector<CalibrationFrame>& 
       seen.push_back(sighting.position_m);
       expected.push_back(marker.point.weights.Position(state.x_m));
     }
+    setup->states.push_back(std::move(state));
   }
   const auto count = static_cast<Eigen::Index>(seen.size());
   Eigen::Matrix3Xd source_m(3, count), target_m(3, count);
@@ -49,7 +51,7 @@ Status FindStart(robot::RobotModel& model, const std::vector<CalibrationFrame>& 
   }
   const geometry::Registration registration = geometry::RegisterRigid(source_m, target_m);
   if (!registration.status.ok()) return registration.status;
-  *T_robot_camera = registration.T_target_source;
+  setup->T_robot_camera = registration.T_target_source;
   return Status::Ok();
 }
 
@@ -106,6 +108,39 @@ void AddModuli(const robot::RobotModel& model, const JointRequest& request, Join
   }
 }
 
+void AddPoissonsRatios(const robot::RobotModel& model, const JointRequest& request,
+                       JointSetup* setup) {
+  const double sigma = request.poissons_ratio_sigma;
+  if (sigma <= 0.0) return;
+  for (const int material : request.moduli) {
+    const auto index = static_cast<size_t>(material);
+    const std::string part = material == 0 ? "body" : model.body().region_names.at(index - 1);
+    setup->unknowns.push_back(
+        PoissonsRatioOf(material, part,
+                        {.mean = model.body().materials.at(index).poissons_ratio,
+                         .sigma = sigma,
+                         .lower = kLeastPoissonsRatio,
+                         .upper = kMostPoissonsRatio,
+                         .plausible = sigma}));
+  }
+}
+
+/// Turns of gravity, and a factor on it.
+void AddWeight(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
+  const double tilt_sigma = std::tan(request.gravity_tilt_sigma_rad);
+  if (tilt_sigma > 0.0) {
+    for (const TiltAxis& axis : TiltAxes(model.gravity_m_s2())) {
+      setup->unknowns.push_back(
+          GravityTilt(axis.name, axis.direction, {.sigma = tilt_sigma, .plausible = tilt_sigma}));
+    }
+  }
+  const double mass_sigma = request.mass_relative_sigma;
+  if (mass_sigma > 0.0) {
+    setup->unknowns.push_back(
+        MassFactor({.mean = 1.0, .sigma = mass_sigma, .lower = 0.0, .plausible = mass_sigma}));
+  }
+}
+
 /// RMS distance of all sightings from their frame's centre.
 double SpreadOf(const std::vector<CalibrationFrame>& frames) {
   double squares_m2 = 0.0;
@@ -129,16 +164,19 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
                       JointSetup* setup) {
   setup->frames = std::move(frames);
   setup->fit_pose = request.pose;
-  setup->marker_offset_sigma_m = request.marker_offset_sigma_m;
+  setup->estimate_marker_offsets = request.marker_offset_sigma_m > 0.0;
+  setup->marker_offset_sigma_m = setup->estimate_marker_offsets ? request.marker_offset_sigma_m
+                                                                : request.marker_placement_sigma_m;
   AddInputs(model, setup);
   if (T_robot_camera != nullptr) {
     setup->T_robot_camera = *T_robot_camera;
-  } else if (Status status = FindStart(model, setup->frames, &setup->T_robot_camera);
-             !status.ok()) {
+  } else if (Status status = FindStart(model, setup); !status.ok()) {
     return status;
   }
   AddDrives(model, request, setup);
   AddModuli(model, request, setup);
+  AddPoissonsRatios(model, request, setup);
+  AddWeight(model, request, setup);
   return Status::Ok();
 }
 

@@ -19,7 +19,16 @@ struct JointRequest {
   double drive_gain_sigma = 0.05;
   std::vector<int> moduli;  ///< RobotBody::materials whose Young's modulus is looked for
   double modulus_relative_sigma = 0.5;
+  /// Poisson's ratio of the same materials, gravity's direction and the body's weight are looked
+  /// for where how far they may be off (one sigma) is not 0.
+  double poissons_ratio_sigma = 0.0;
+  double gravity_tilt_sigma_rad = 0.0;  ///< about each of two axes across gravity
+  double mass_relative_sigma = 0.0;
+  /// How far a marker may sit from its place in the robot file: looked for where it is not 0; else
+  /// it counts in the standard errors as `marker_placement_sigma_m`, of what mesh and embedding
+  /// leave.
   double marker_offset_sigma_m = 0.0;
+  double marker_placement_sigma_m = 1e-4;
   double huber_threshold = 4.0;  ///< sigmas; for markers that are mistaken for others
 };
 

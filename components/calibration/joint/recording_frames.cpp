@@ -4,7 +4,6 @@
 #include "components/calibration/joint/recording_frames.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -18,26 +17,6 @@ namespace palpate::calibration {
 namespace {
 
 using experiment::TimeWindow;
-
-/// What averaging takes a static phase for: cables that moved less than this.
-constexpr double kStill_m = 1e-5;
-constexpr double kStill_N = 1e-3;
-
-bool CablesAreStill(const experiment::Recording& recording) {
-  if (!recording.actuation) return true;
-  for (const experiment::CableColumn& column : recording.actuation->columns) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const std::optional<double>& sample : column.samples) {
-      if (!sample) continue;
-      least = std::min(least, *sample);
-      most = std::max(most, *sample);
-    }
-    const bool by_tension = column.quantity == experiment::CableQuantity::kTension;
-    if (most - least > (by_tension ? kStill_N : kStill_m)) return false;
-  }
-  return true;
-}
 
 /// Windows to average over: a static phase is one, of a motion single moments.
 std::vector<TimeWindow> WindowsOf(const experiment::Recording& recording, int most_frames) {
@@ -79,6 +58,25 @@ std::vector<MarkerSighting> Sightings(const experiment::Experiment& experiment,
   return sightings;
 }
 
+/// The reference window as a frame of its own.
+CalibrationFrame ReferenceFrame(const experiment::Experiment& experiment,
+                                const experiment::Recording& recording,
+                                const robot::RobotModel& model, robot::CableInput preferred) {
+  const experiment::Reference& reference = *recording.reference;
+  CalibrationFrame frame{
+      .name = recording.name + " (reference)",
+      .markers = Sightings(experiment, recording, model, reference.window_s, 0.0)};
+  if (reference.shape == experiment::ReferenceShape::kUndeformed) {
+    const auto cables = static_cast<std::size_t>(model.CableCount());
+    frame.cables.assign(cables, {robot::CableCommand::Kind::kTension, 0.0});
+    return frame;
+  }
+  const double middle_s = 0.5 * (reference.window_s.begin_s + reference.window_s.end_s);
+  frame.cables = CablesAt(recording, model, preferred, middle_s);
+  frame.gravity_m_s2 = experiment::BaseRotation(recording).transpose() * model.gravity_m_s2();
+  return frame;
+}
+
 }  // namespace
 
 std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& experiment,
@@ -104,6 +102,27 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
   }
   if (frames.empty()) {
     throw InputError(recording.folder.string() + ": no marker of the robot was seen");
+  }
+  return frames;
+}
+
+std::vector<CalibrationFrame> RobotFramesOfRecording(const experiment::Experiment& experiment,
+                                                     const experiment::Recording& recording,
+                                                     const robot::RobotModel& model,
+                                                     robot::CableInput preferred,
+                                                     double marker_bias_m, int most_frames) {
+  const Eigen::Isometry3d T_robot = experiment::RequireRobotFromMarkers(experiment, recording);
+  std::vector<CalibrationFrame> frames =
+      FramesOfRecording(experiment, recording, model, preferred, marker_bias_m, most_frames);
+  if (recording.reference) {
+    frames.push_back(ReferenceFrame(experiment, recording, model, preferred));
+  }
+  for (CalibrationFrame& frame : frames) {
+    for (MarkerSighting& sighting : frame.markers) {
+      sighting.position_m = T_robot * sighting.position_m;
+      sighting.covariance_m2 =
+          T_robot.linear() * sighting.covariance_m2 * T_robot.linear().transpose();
+    }
   }
   return frames;
 }

@@ -23,4 +23,13 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
                                                 robot::CableInput preferred, double marker_bias_m,
                                                 int most_frames = 6);
 
+/// The same in the robot's frame, of a recording of which it is known where the camera stood. Its
+/// reference window is a frame of its own, of the undeformed body without weight, or of the body at
+/// rest without loads; `marker_bias_m`, an error between the two, counts in the others alone.
+std::vector<CalibrationFrame> RobotFramesOfRecording(const experiment::Experiment& experiment,
+                                                     const experiment::Recording& recording,
+                                                     const robot::RobotModel& model,
+                                                     robot::CableInput preferred,
+                                                     double marker_bias_m, int most_frames = 6);
+
 }  // namespace palpate::calibration

@@ -219,4 +219,17 @@ UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis
   return std::make_unique<TiltUnknown>(axis_name, axis, belief);
 }
 
+std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
+  const Eigen::Vector3d down = gravity_m_s2.normalized();
+  Eigen::Index along = 0;
+  down.cwiseAbs().maxCoeff(&along);
+  std::array<TiltAxis, 2> axes;
+  for (Eigen::Index i = 0, k = 0; i < 3; ++i) {
+    if (i == along) continue;
+    axes[static_cast<std::size_t>(k++)] = {
+        std::string(1, "xyz"[i]), (Eigen::Vector3d::Unit(i) - down[i] * down).normalized()};
+  }
+  return axes;
+}
+
 }  // namespace palpate::calibration

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,14 @@ UnknownPtr MassFactor(const Belief& belief);
 /// across gravity); its size grows by half the square of it.
 UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis,
                        const Belief& belief);
+
+struct TiltAxis {
+  std::string name;  ///< of the robot axis that it lies nearest to
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+};
+
+/// Two directions to turn gravity about: the robot's axes that it lies least along, as far as they
+/// are across it.
+std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2);
 
 }  // namespace palpate::calibration

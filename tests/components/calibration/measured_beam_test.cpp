@@ -3,70 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-
 #include "components/calibration/material_calibration.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
-#include "libs/app/yaml.hpp"
-#include "libs/experiment/capture_edit.hpp"
-#include "libs/experiment/captured_markers.hpp"
-#include "libs/geometry/rigid_registration.hpp"
-#include "libs/robot/robot_body.hpp"
+#include "tests/components/calibration/measured_beam.hpp"
 
 namespace palpate::calibration {
 namespace {
 
-constexpr double kMarkerBias_m = 1e-3;  // what the hand-held start is good to
-
-/// Dubied et al., RA-L 2022 (measured data; not part of the project).
-std::filesystem::path BeamFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return std::filesystem::path(folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data") /
-         "silicone_beam";
-}
-
-/// Tip markers at the end of a recording, in the robot frame: registered by where all six markers
-/// were while the tip was held level by hand.
-std::vector<experiment::MarkerMean> SettledTip(const std::string& file, double released_s) {
-  experiment::CapturedMarkers captured = experiment::ReadCapturedCsv(BeamFolder() / file);
-  experiment::Rotate(experiment::ParseAxes("z,-y,x"), captured);
-  experiment::KeepMarkers({"Tip-1", "Tip-2", "Tip-3", "Base-1", "Base-2", "Base-3"}, captured);
-  Eigen::Matrix3Xd nominal_m(3, 6);
-  nominal_m << 0.0, 0.0, 0.0, -0.094, -0.094, -0.094,  //
-      0.015, -0.006, 0.036, -0.01, 0.04, 0.04,         //
-      0.036, 0.024, 0.006, -0.001, 0.0275, 0.0;
-  const auto held = experiment::MeanOver(captured.tracks, {0.0, 0.5 * released_s});
-  Eigen::Matrix3Xd held_m(3, 6);
-  for (size_t m = 0; m < 6; ++m) held_m.col(static_cast<Eigen::Index>(m)) = held[m].mean_m;
-  const geometry::Registration registration = geometry::RegisterRigid(held_m, nominal_m);
-  EXPECT_TRUE(registration.status.ok());
-  EXPECT_LT(registration.rms_m, 3e-3);
-  const double end_s = captured.tracks.frames.back().t_s;
-  auto settled = experiment::MeanOver(captured.tracks, {end_s - 0.5, end_s});
-  settled.resize(3);
-  for (experiment::MarkerMean& mean : settled) {
-    const Eigen::Matrix3Xd point_m = mean.mean_m;
-    mean.mean_m = registration.T_target_source.Apply(point_m);
-  }
-  return settled;
-}
-
-std::unique_ptr<robot::RobotModel> Beam() {
-  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(robot::ReadRobotFile(
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/beam.yaml", app::LoadYaml)));
-}
-
 MaterialCalibration CalibrateBySelfWeight(robot::RobotModel& model) {
-  const auto tip = SettledTip("gravity_a.csv", 0.72);
+  const auto tip = TipOf("gravity_a.csv", 0.72).settled;
   StaticObservation observation;
   observation.name = "gravity_a";
   observation.position_m.resize(9);
   for (size_t m = 0; m < 3; ++m) {
     observation.position_m.segment<3>(static_cast<Eigen::Index>(3 * m)) = tip[m].mean_m;
   }
-  observation.variance_m2.setConstant(9, kMarkerBias_m * kMarkerBias_m);
+  observation.variance_m2.setConstant(9, kHandHeld_m * kHandHeld_m);
   observation.gravity_m_s2 = model.gravity_m_s2();
   return CalibrateMaterial(model, {observation}, {});
 }
@@ -89,11 +41,11 @@ TEST(MeasuredBeam, HungWeightLiesInItsInterval) {
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   force_estimation::Config config;
   config.contacts = {"weight: 0, 0.015, 0.03, 0.005 along 0, 0, -1"};
-  config.marker_bias_m = kMarkerBias_m;
+  config.marker_bias_m = kHandHeld_m;
   force_estimation::MarkerForceEstimator estimator(
       *model, config, fit.moduli[0].standard_error_Pa / fit.moduli[0].youngs_modulus_Pa);
   force_estimation::MarkerFrame frame;
-  for (const experiment::MarkerMean& mean : SettledTip("load52g_a.csv", 0.45)) {
+  for (const experiment::MarkerMean& mean : TipOf("load52g_a.csv", 0.45).settled) {
     frame.markers.push_back(
         {.valid = true, .position_m = mean.mean_m, .sigma_m = Eigen::Vector3d::Constant(1e-5)});
   }

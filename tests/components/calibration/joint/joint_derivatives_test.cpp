@@ -38,7 +38,7 @@ class JointDerivatives : public testing::Test {
     setup_.conditions.push_back(
         StaysBeyondPlane(0, hub, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, 0.6, 0.8)));
     setup_.T_robot_camera = TableOnePose();
-    setup_.depth_scale = Belief{.sigma = 0.005, .plausible = 0.01};
+    setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = 0.005, .plausible = 0.01}};
     setup_.marker_offset_sigma_m = 5e-4;
   }
 
@@ -68,6 +68,22 @@ TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
     const Eigen::VectorXd bend = (plus.constraint - minus.constraint) / (2.0 * kStep);
     EXPECT_LE((bend - point.constraint_jacobian.col(v)).norm(), 1e-6 * std::max(1.0, bend.norm()))
         << name;
+  }
+}
+
+/// A line search would else look at steps that change nothing, again and again.
+TEST_F(JointDerivatives, HoldForChangesBelowTheStaticSolversTolerance) {
+  JointProblem problem(*model_, setup_);
+  const Eigen::VectorXd at = problem.Start();
+  LeastSquaresPoint point, beside;
+  ASSERT_TRUE(problem.Evaluate(at, &point).ok());
+  problem.Accept();
+  constexpr double kStep = 1e-8;
+  for (Eigen::Index v = 0; v < at.size(); ++v) {
+    ASSERT_TRUE(problem.Evaluate(at + kStep * Eigen::VectorXd::Unit(at.size(), v), &beside).ok());
+    const Eigen::VectorXd slope = (beside.residual - point.residual) / kStep;
+    EXPECT_LE((slope - point.jacobian.col(v)).norm(), 0.02 * std::max(1.0, slope.norm()))
+        << problem.variables()[static_cast<size_t>(v)].name;
   }
 }
 

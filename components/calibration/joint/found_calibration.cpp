@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/found_calibration.hpp"
+
+#include <algorithm>
+
+#include "components/calibration/joint/unknowns.hpp"
+
+namespace palpate::calibration {
+
+const FittedValue* FindValue(const JointCalibration& fit, const std::string& name) {
+  const auto found = std::find_if(fit.values.begin(), fit.values.end(),
+                                  [&](const FittedValue& value) { return value.name == name; });
+  return found == fit.values.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> PartNames(const robot::RobotBody& body) {
+  std::vector<std::string> names = {"body"};
+  names.insert(names.end(), body.region_names.begin(), body.region_names.end());
+  return names;
+}
+
+namespace {
+
+void TakePose(const JointCalibration& fit, robot::CalibrationFile* file) {
+  robot::CalibratedPose pose;
+  pose.T_robot_camera =
+      Eigen::Translation3d(fit.T_robot_camera.translation_m()) * fit.T_robot_camera.rotation();
+  const Eigen::Matrix<double, 6, 1> errors = fit.pose_covariance.diagonal().cwiseSqrt();
+  pose.rotation_error_rad = errors.head<3>();
+  pose.translation_error_m = errors.tail<3>();
+  file->pose = pose;
+}
+
+void TakeDrives(const JointCalibration& fit, const robot::RobotModel& model,
+                robot::CalibrationFile* file) {
+  for (const std::string& cable : model.CableNames()) {
+    const FittedValue* offset = FindValue(fit, "cable_offset:" + cable);
+    const FittedValue* gain = FindValue(fit, "cable_gain:" + cable);
+    const bool has_offset = offset != nullptr && offset->determined;
+    const bool has_gain = gain != nullptr && gain->determined;
+    if (!has_offset && !has_gain) continue;
+    robot::CalibratedDrive drive{.cable = cable, .drive = {}, .standard_error = {}};
+    if (has_offset) {
+      drive.drive.offset_m = offset->value;
+      drive.standard_error.offset_m = offset->standard_error;
+    }
+    if (has_gain) {
+      drive.drive.gain = gain->value;
+      drive.standard_error.gain = gain->standard_error;
+    }
+    file->drives.push_back(drive);
+  }
+}
+
+void TakeMaterials(const JointCalibration& fit, const std::vector<std::string>& parts,
+                   robot::CalibrationFile* file) {
+  for (const std::string& part : parts) {
+    const FittedValue* modulus = FindValue(fit, "youngs_modulus:" + part);
+    if (modulus != nullptr && modulus->determined) {
+      file->moduli.push_back({part, modulus->value, modulus->standard_error});
+    }
+    const FittedValue* poissons = FindValue(fit, "poissons_ratio:" + part);
+    if (poissons != nullptr && poissons->determined) {
+      file->poissons_ratios.push_back({part, poissons->value, poissons->standard_error});
+    }
+  }
+}
+
+/// Its direction and the weight of the body, as one vector.
+void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s2,
+                 robot::CalibrationFile* file) {
+  Eigen::Vector3d turned_m_s2 = nominal_m_s2;
+  Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+  for (const TiltAxis& axis : TiltAxes(nominal_m_s2)) {
+    const FittedValue* tilt = FindValue(fit, "gravity_tilt:" + axis.name);
+    if (tilt == nullptr || !tilt->determined) continue;
+    const Eigen::Vector3d per_tilt_m_s2 = axis.direction.cross(nominal_m_s2);
+    turned_m_s2 += tilt->value * per_tilt_m_s2;
+    variance += (tilt->standard_error * per_tilt_m_s2).cwiseAbs2();
+  }
+  const FittedValue* mass = FindValue(fit, "mass_factor");
+  const bool has_mass = mass != nullptr && mass->determined;
+  if (has_mass) variance += (mass->standard_error * turned_m_s2).cwiseAbs2();
+  if (variance.isZero()) return;
+  file->gravity =
+      robot::CalibratedGravity{(has_mass ? mass->value : 1.0) * turned_m_s2, variance.cwiseSqrt()};
+}
+
+}  // namespace
+
+void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
+             robot::CalibrationFile* file) {
+  if (!fit.pose_covariance.isZero()) TakePose(fit, file);
+  TakeDrives(fit, model, file);
+  TakeMaterials(fit, PartNames(model.body()), file);
+  TakeGravity(fit, model.gravity_m_s2(), file);
+  for (const FittedValue& value : fit.values) {
+    if (!value.determined) file->undetermined.push_back({value.name, value.what_would_tell});
+  }
+  file->residual_rms_m = fit.residual_rms_m;
+  file->chi_squared = fit.chi_squared;
+  file->degrees_of_freedom = fit.degrees_of_freedom;
+}
+
+}  // namespace palpate::calibration

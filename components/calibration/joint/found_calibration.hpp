@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/calibration/joint/joint_calibration.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// The number of this name that a calibration looked for; nullptr: it did not.
+const FittedValue* FindValue(const JointCalibration& fit, const std::string& name);
+
+/// Names of the materials (RobotBody::materials) in calibration files: "body", then the regions'.
+std::vector<std::string> PartNames(const robot::RobotBody& body);
+
+/// Puts into the file what a joint calibration that succeeded found: the pose, drives, materials
+/// and gravity that its data determine, the names of what they do not, and how well it fits. Marker
+/// offsets are no part of a calibration file. `model`'s gravity is the nominal one.
+void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
+             robot::CalibrationFile* file);
+
+}  // namespace palpate::calibration
