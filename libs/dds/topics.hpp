@@ -9,6 +9,9 @@
 #include "diagnostic_msgs/msg/DiagnosticArray.hpp"
 #include "geometry_msgs/msg/WrenchStamped.hpp"
 #include "palpate_msgs/msg/BenchState.hpp"
+#include "palpate_msgs/msg/Calibration.hpp"
+#include "palpate_msgs/msg/CalibrationRequest.hpp"
+#include "palpate_msgs/msg/CalibrationStatus.hpp"
 #include "palpate_msgs/msg/CameraSetup.hpp"
 #include "palpate_msgs/msg/ComponentStatus.hpp"
 #include "palpate_msgs/msg/ContactArray.hpp"
@@ -58,6 +61,12 @@ inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kWrenchTopic{"/forces/
 inline constexpr Topic<idl::palpate_msgs::MeshState> kMeshStateTopic{"/robot/mesh_state"};
 inline constexpr Topic<idl::palpate_msgs::Mesh> kMeshTopic{"/robot/mesh"};
 inline constexpr Topic<idl::palpate_msgs::ModelGap> kModelGapTopic{"/model_gap"};
+/// What the last calibration found; stays there for late joiners.
+inline constexpr Topic<idl::palpate_msgs::Calibration> kCalibrationTopic{"/calibration"};
+inline constexpr Topic<idl::palpate_msgs::CalibrationRequest> kCalibrationRequestTopic{
+    "/calibration/request"};
+inline constexpr Topic<idl::palpate_msgs::CalibrationStatus> kCalibrationStatusTopic{
+    "/calibration/status"};
 /// The virtual bench's own; no estimator may read them.
 inline constexpr Topic<idl::palpate_msgs::ForceArray> kTrueForcesTopic{"/truth/forces"};
 inline constexpr Topic<idl::palpate_msgs::Mesh> kTrueMeshTopic{"/truth/mesh"};

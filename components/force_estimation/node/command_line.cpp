@@ -27,12 +27,8 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
 
 /// Gives the model what was calibrated, and source=shape the camera's pose where the settings have
 /// none; returns the moduli's relative standard error.
-double Calibrate(const std::filesystem::path& file, robot::RobotModel* model, NodeConfig* config) {
-  if (file.empty()) {
-    app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
-    return 0.0;
-  }
-  const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
+double Calibrate(const robot::CalibrationFile& calibration, robot::RobotModel* model,
+                 NodeConfig* config) {
   robot::ApplyCalibration(calibration, model);
   if (calibration.pose && config->source == "shape" && config->camera_pose.empty()) {
     config->camera_pose = geometry::FormatPose(calibration.pose->T_robot_camera);
@@ -76,10 +72,18 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
   }
   auto model = LoadRobot(command.robot, {command.config.solver, command.config.threads});
   NodeConfig config = command.config;
-  const double modulus_error = Calibrate(command.calibration, model.get(), &config);
-  return std::make_unique<ForceEstimationNode>(
+  std::optional<robot::CalibrationFile> calibration;
+  if (command.calibration.empty()) {
+    app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
+  } else {
+    calibration = robot::ReadCalibrationFile(command.calibration, app::LoadYaml);
+  }
+  const double modulus_error = calibration ? Calibrate(*calibration, model.get(), &config) : 0.0;
+  auto node = std::make_unique<ForceEstimationNode>(
       config, std::move(model), modulus_error, command.options.domain_id,
       dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log);
+  if (calibration) node->SetCalibrationInUse(*calibration);
+  return node;
 }
 
 }  // namespace palpate::force_estimation

@@ -8,6 +8,7 @@
 
 #include "components/force_estimation/node/frame_input.hpp"
 #include "components/force_estimation/node/node_config.hpp"
+#include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -20,6 +21,12 @@ class FrameEstimator {
 };
 
 using FrameEstimatorMaker = std::function<std::unique_ptr<FrameEstimator>(robot::RobotModel&)>;
+
+/// What changes the model between two frames.
+struct NewCalibration {
+  robot::CalibrationFile calibration;  ///< CheckCalibration is ok
+  FrameEstimatorMaker maker;           ///< of estimators from now on; empty: as before
+};
 
 /// Where the frames come from, by the settings: "markers" or "shape".
 bool IsFromShape(const NodeConfig& config);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,11 +30,15 @@ struct SeenShape {
   Status looked;  ///< what perception says about the frame
 };
 
+struct NewCalibration;  // frame_estimator.hpp
+
 /// A frame on its way to the estimator.
 struct FrameInput {
   FrameHead head;
   bool new_sequence = false;  ///< what was learnt from earlier frames is void
   std::variant<MarkerFrame, SeenShape> frame;
+  /// Holds from this frame on; nullptr: as before.
+  std::shared_ptr<const NewCalibration> calibration = nullptr;
 
   std::vector<robot::CableCommand>& cables() {
     if (auto* shape = std::get_if<SeenShape>(&frame)) return shape->frame.cables;

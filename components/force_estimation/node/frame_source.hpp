@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,6 +29,9 @@ class FrameSource {
  public:
   explicit FrameSource(FrameEvents events) : events_(std::move(events)) {}
   virtual ~FrameSource() = default;
+
+  /// The depth camera stands there from now on.
+  virtual void SetCameraPose(const Eigen::Isometry3d&) {}
 
   virtual std::string name() const = 0;  ///< of what comes, for a person: "markers"
   virtual uint64_t dropped() const = 0;  ///< frames that were lost or overtaken on the way here

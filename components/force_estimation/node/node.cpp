@@ -3,6 +3,7 @@
 
 #include "components/force_estimation/node/node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,7 +22,7 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kCablePeriod = std::chrono::milliseconds(20);
+constexpr double kLongestWait_s = 1e6;
 constexpr size_t kMostPending = 1024;
 
 robot::CableInput PreferredInput(const NodeConfig& config) {
@@ -29,7 +30,8 @@ robot::CableInput PreferredInput(const NodeConfig& config) {
                                               : robot::CableInput::kTension;
 }
 
-Eigen::Isometry3d CameraPose(const NodeConfig& config) {
+std::optional<Eigen::Isometry3d> CameraPose(const NodeConfig& config) {
+  if (config.camera_pose.empty() && config.follow_calibration) return std::nullopt;
   if (config.camera_pose.empty()) {
     throw InputError("camera_pose is required for source=shape: where is the camera?");
   }
@@ -52,23 +54,29 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       participant_(dds::ParticipantOf(config.dds, "palpate_force_estimation", domain_id),
                    std::move(table)),
       loop_(participant_),
+      cables_overdue_(loop_.AddAlarm([this] { MatchWithCables(); })),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
       worker_(std::move(model),
-              maker ? std::move(maker) : EstimatorMakerOf(config, youngs_modulus_relative_sigma),
+              maker ? maker : EstimatorMakerOf(config, youngs_modulus_relative_sigma),
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
       outputs_(participant_, worker_.model().body(), IsFromShape(config)),
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
+      calibration_(participant_, worker_.model()),
       source_(MakeSource()) {
   last_status_ = {StatusCode::kNotRun, "no " + source_->name() + " on /perception/" +
                                            (IsFromShape(config) ? "robot_cloud" : "markers") +
                                            " yet"};
-  cables_.SetDrives(worker_.model().drives());
+  maker_is_given_ = static_cast<bool>(maker);
+  drives_ = worker_.model().drives();
+  cables_.SetDrives(drives_);
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
+  if (config_.follow_calibration) {
+    loop_.Attach(calibration_.reader(), [this] { TakeCalibration(); });
+  }
   loop_.OnWake([this] { PublishResults(); });
-  loop_.Every(kCablePeriod, [this] { MatchWithCables(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
 }
 
@@ -107,10 +115,44 @@ void ForceEstimationNode::TakeJointStates() {
   MatchWithCables();
 }
 
+void ForceEstimationNode::TakeCalibration() {
+  for (const CalibrationInput::Verdict& verdict : calibration_.Take()) {
+    if (verdict.status.ok()) {
+      Adopt(verdict.calibration);
+    } else {
+      ++counts_.refused;
+      log_.Write(Severity::kWarning, "/calibration refused: " + verdict.status.message());
+    }
+  }
+}
+
+/// From the next frame on. Frames that wait were seen, and their cables would be read, by the old
+/// one.
+void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
+  for (; !pending_.empty(); pending_.pop_front()) {
+    PassOnWhatBegins(pending_.front());
+    Refuse(pending_.front().head, {StatusCode::kStale, "a new calibration came after the frame"});
+  }
+  for (const robot::CalibratedDrive& drive : calibration.drives) {
+    const auto cable = std::find(cable_names_.begin(), cable_names_.end(), drive.cable);
+    drives_.at(static_cast<size_t>(cable - cable_names_.begin())) = drive.drive;
+  }
+  cables_.SetDrives(drives_);
+  if (calibration.pose) source_->SetCameraPose(calibration.pose->T_robot_camera);
+  const bool keep_maker = maker_is_given_ || calibration.moduli.empty();
+  calibration_pending_ = std::make_shared<NewCalibration>(
+      calibration, keep_maker ? FrameEstimatorMaker()
+                              : EstimatorMakerOf(config_, RelativeModulusError(calibration)));
+  sequence_pending_ = true;
+  log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
+                                  calibration.data + ") from the next frame on");
+}
+
 void ForceEstimationNode::Accept(FrameInput input) {
   const Status status = FrameGate::CheckAge(input.head, dds::WallClockNs(), config_.max_age_s);
   if (!status.ok()) return Refuse(input.head, status);
   input.new_sequence = std::exchange(sequence_pending_, false);
+  input.calibration = std::exchange(calibration_pending_, nullptr);
   if (pending_.size() == kMostPending) {
     pending_.pop_front();
     ++counts_.dropped;
@@ -129,23 +171,36 @@ void ForceEstimationNode::Refuse(const FrameHead& head, const Status& status) {
 }
 
 void ForceEstimationNode::MatchWithCables() {
+  cables_overdue_.Clear();
   while (!pending_.empty()) {
     Status status = Status::Ok();
-    if (!FindCables(pending_.front(), &status)) return;
+    if (!FindCables(pending_.front(), &status)) {
+      return cables_overdue_.Set(CablesOverdue(pending_.front()));
+    }
     FrameInput input = std::move(pending_.front());
     pending_.pop_front();
     if (status.ok()) {
       worker_.Push(std::move(input));
     } else {
-      if (input.new_sequence) PassOnNewSequence();
+      PassOnWhatBegins(input);
       Refuse(input.head, status);
     }
   }
 }
 
-/// The frame that began a sequence was refused: the next one begins it.
-void ForceEstimationNode::PassOnNewSequence() {
-  (pending_.empty() ? sequence_pending_ : pending_.front().new_sequence) = true;
+/// Where a frame that began a sequence was refused the next one begins it.
+void ForceEstimationNode::PassOnWhatBegins(const FrameInput& refused) {
+  if (!refused.new_sequence) return;
+  const bool last = pending_.empty();
+  (last ? sequence_pending_ : pending_.front().new_sequence) = true;
+  auto& calibration = last ? calibration_pending_ : pending_.front().calibration;
+  if (!calibration) calibration = refused.calibration;
+}
+
+ForceEstimationNode::Clock::time_point ForceEstimationNode::CablesOverdue(
+    const FrameInput& input) const {
+  const std::chrono::duration<double> wait(std::min(config_.cable_wait_s, kLongestWait_s));
+  return input.head.taken + std::chrono::duration_cast<Clock::duration>(wait);
 }
 
 /// False: they may still come.
@@ -154,7 +209,7 @@ bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
     input.cables() = std::move(*commands);
     return true;
   }
-  if (SecondsSince(input.head.taken) < config_.cable_wait_s) return false;
+  if (Clock::now() < CablesOverdue(input)) return false;
   *status = cables_.LastBefore(input.head.stamp_ns, config_.max_cable_age_s, &input.cables());
   return true;
 }

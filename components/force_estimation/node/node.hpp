@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/force_estimation/node/cable_history.hpp"
+#include "components/force_estimation/node/calibration_input.hpp"
 #include "components/force_estimation/node/frame_source.hpp"
 #include "components/force_estimation/node/node_config.hpp"
 #include "components/force_estimation/node/outputs.hpp"
@@ -30,6 +31,11 @@ class ForceEstimationNode {
                       double youngs_modulus_relative_sigma, int domain_id, dds::TopicTable table,
                       dds::NodeLog::ProcessLog process_log, FrameEstimatorMaker maker = {});
 
+  /// What was given at the start: older ones on /calibration are stale. Before Run.
+  void SetCalibrationInUse(const robot::CalibrationFile& calibration) {
+    calibration_.SetInUse(calibration);
+  }
+
   /// Works until Stop().
   void Run() { loop_.Run(); }
   /// From any thread.
@@ -39,11 +45,14 @@ class ForceEstimationNode {
   using Clock = dds::WaitSet::Clock;
 
   void TakeJointStates();
+  void TakeCalibration();
+  void Adopt(const robot::CalibrationFile& calibration);
   std::unique_ptr<FrameSource> MakeSource();
   void Accept(FrameInput input);
   void Refuse(const FrameHead& head, const Status& status);
   void MatchWithCables();
-  void PassOnNewSequence();
+  void PassOnWhatBegins(const FrameInput& refused);
+  Clock::time_point CablesOverdue(const FrameInput& input) const;
   bool FindCables(FrameInput& input, Status* status) const;
   void PublishResults();
   void ReportHealth();
@@ -53,15 +62,20 @@ class ForceEstimationNode {
   NodeConfig config_;
   dds::Participant participant_;
   dds::WaitSet loop_;
+  dds::Alarm& cables_overdue_;  ///< of the first frame that waits for them
   dds::NodeLog log_;
   dds::HealthReporter health_;
   Worker worker_;
   std::vector<std::string> cable_names_;
+  std::vector<robot::DriveCalibration> drives_;
   CableHistory cables_;
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;
+  CalibrationInput calibration_;
   std::deque<FrameInput> pending_;  ///< wait for the cable inputs of their time
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
+  std::shared_ptr<const NewCalibration> calibration_pending_;  ///< for that frame
+  bool maker_is_given_;
   dds::HealthCounts counts_;
   Status last_status_;
   Clock::time_point last_frame_;

@@ -16,6 +16,7 @@ struct NodeConfig : Config {
   ShapeConfig shape;
   std::string source = "auto";
   std::string camera_pose;
+  bool follow_calibration = true;
   std::string cable_input = "displacement";
   double max_age_s = 0.0;
   double cable_wait_s = 0.5;
@@ -31,7 +32,10 @@ struct NodeConfig : Config {
       "What forces are estimated from; auto: the shape where camera_pose is given, else markers");
     v("camera_pose", camera_pose,
       "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
-      "w]}\"; needed for the shape");
+      "w]}\"; needed for the shape, unless /calibration is to say it");
+    v("follow_calibration", follow_calibration,
+      "Takes what comes on /calibration: pose, drives and moduli, from the next frame on, which "
+      "begins a sequence; false: what is given at the start stays");
     v("cable_input", cable_input, {"displacement", "tension"},
       "Which input of a cable is imposed where both are known");
     v("max_age_s", max_age_s, {.min = 0.0},

@@ -27,7 +27,7 @@ Status CheckFrame(const idl::std_msgs::Header& header) {
 }  // namespace
 
 ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-                         const Eigen::Isometry3d& T_robot_camera, FrameEvents events)
+                         const std::optional<Eigen::Isometry3d>& T_robot_camera, FrameEvents events)
     : FrameSource(std::move(events)),
       T_robot_camera_(T_robot_camera),
       clouds_(participant.CreateReader(dds::kRobotCloudTopic)),
@@ -36,6 +36,13 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(clouds_, [this] { TakeClouds(); });
   loop.Attach(reports_, [this] { TakeReports(); });
   loop.Attach(contacts_, [this] { TakeContacts(); });
+}
+
+/// Parts of frames that are not whole yet were seen from the old place.
+void ShapeSource::SetCameraPose(const Eigen::Isometry3d& T_robot_camera) {
+  T_robot_camera_ = T_robot_camera;
+  dropped_ += pending_.size();
+  pending_.clear();
 }
 
 /// nullptr for the parts of a frame that was passed on already.
@@ -87,7 +94,8 @@ void ShapeSource::TakeContacts() {
     }
     Status status = CheckFrame(message.header);
     if (status.ok()) {
-      status = FromContactArray(message, T_robot_camera_, &parts->contacts.emplace());
+      status = FromContactArray(message, T_robot_camera_.value_or(Eigen::Isometry3d::Identity()),
+                                &parts->contacts.emplace());
     }
     if (!status.ok()) {
       parts->contacts.emplace();
@@ -117,12 +125,21 @@ void ShapeSource::Accept(Parts parts) {
   last_head_ = {parts.stamp_ns, report.frame_counter, report.origin.device,
                 dds::WaitSet::Clock::now()};
   if (!parts.status.ok()) return events().refused(last_head_, parts.status);
-  SeenShape seen{{}, report.looked};
-  seen.frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
-  seen.frame.cloud = std::move(*parts.cloud);
-  seen.frame.T_robot_camera = T_robot_camera_;
-  seen.frame.contacts = std::move(*parts.contacts);
-  events().accepted({last_head_, false, std::move(seen)});
+  if (!T_robot_camera_) {
+    return events().refused(
+        last_head_, {StatusCode::kNoCalibration,
+                     "where the camera stands is not known: no camera_pose is set, and nothing has "
+                     "come on /calibration"});
+  }
+  FrameInput input;
+  input.head = last_head_;
+  auto& [frame, looked] = input.frame.emplace<SeenShape>();
+  looked = report.looked;
+  frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
+  frame.cloud = std::move(*parts.cloud);
+  frame.T_robot_camera = *T_robot_camera_;
+  frame.contacts = std::move(*parts.contacts);
+  events().accepted(std::move(input));
 }
 
 /// Another camera, or one that was started again from the beginning, has nothing to do with what

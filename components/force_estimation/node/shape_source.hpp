@@ -17,8 +17,11 @@ namespace palpate::force_estimation {
 /// Frames from /perception/robot_cloud, /perception/report and /perception/contacts of one stamp.
 class ShapeSource : public FrameSource {
  public:
+  /// `T_robot_camera`: nullopt: not known yet, frames are refused until it is set.
   ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-              const Eigen::Isometry3d& T_robot_camera, FrameEvents events);
+              const std::optional<Eigen::Isometry3d>& T_robot_camera, FrameEvents events);
+
+  void SetCameraPose(const Eigen::Isometry3d& T_robot_camera) override;
 
   std::string name() const override { return "clouds"; }
   uint64_t dropped() const override { return dropped_; }
@@ -60,7 +63,7 @@ class ShapeSource : public FrameSource {
   /// More than all readers hold at once: what came whole is never pushed out by what lost a part.
   static constexpr size_t kMostPending = 32;
 
-  Eigen::Isometry3d T_robot_camera_;
+  std::optional<Eigen::Isometry3d> T_robot_camera_;
   dds::Reader<idl::sensor_msgs::PointCloud2> clouds_;
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Reader<idl::palpate_msgs::ContactArray> contacts_;

@@ -35,10 +35,16 @@ void Worker::Push(FrameInput input) {
 
 void Worker::Run() {
   while (std::optional<FrameInput> input = frames_.Pop()) {
+    if (input->calibration) Adopt(*input->calibration);
     if (input->new_sequence) estimator_ = maker_(*model_);
     results_.Push(estimator_->Update(*input), false);
     on_result_();
   }
+}
+
+void Worker::Adopt(const NewCalibration& found) {
+  robot::ApplyCalibration(found.calibration, model_.get());
+  if (found.maker) maker_ = found.maker;
 }
 
 }  // namespace palpate::force_estimation

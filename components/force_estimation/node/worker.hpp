@@ -29,6 +29,7 @@ class Worker {
 
  private:
   void Run();
+  void Adopt(const NewCalibration& found);
 
   std::unique_ptr<robot::RobotModel> model_;
   FrameEstimatorMaker maker_;

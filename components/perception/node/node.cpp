@@ -3,6 +3,7 @@
 
 #include "components/perception/node/node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,7 +15,6 @@ namespace palpate::perception {
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr auto kPairingPeriod = std::chrono::milliseconds(10);
 
 dds::WaitSet::Clock::duration Seconds(double seconds) {
   return std::chrono::duration_cast<dds::WaitSet::Clock::duration>(
@@ -45,10 +45,11 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
                                FramePerceptionMaker maker, int domain_id, dds::TopicTable table,
                                dds::NodeLog::ProcessLog process_log)
     : config_{config},
-      T_robot_camera_{std::move(T_robot_camera)},
+      pose_{std::move(T_robot_camera)},
       participant_{dds::ParticipantOf(config.dds, "palpate_perception", domain_id),
                    std::move(table)},
       loop_{participant_},
+      overdue_{loop_.AddAlarm([this] { Advance(); })},
       log_{participant_, std::move(process_log)},
       health_{participant_, "perception", Clock::now()},
       setups_{participant_.CreateReader(dds::kCameraSetupTopic)},
@@ -59,14 +60,14 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       infos_{participant_.CreateReader(dds::kFrameInfoTopic)},
       meshes_{participant_.CreateReader(dds::kMeshTopic)},
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
+      calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
       outputs_{participant_},
       pairing_{Seconds(config.pairing_wait_s)},
       worker_{config, std::move(maker), [this] { loop_.Wake(); }} {
   AttachReaders();
   loop_.OnWake([this] { PublishResults(); });
-  loop_.Every(kPairingPeriod, [this] { Advance(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
-  if (T_robot_camera_) return;
+  if (pose_.T_robot_camera()) return;
   log_.Write(Severity::kWarning, "no camera_pose: frames are segmented without the model's help");
 }
 
@@ -79,6 +80,8 @@ void PerceptionNode::AttachReaders() {
   loop_.Attach(infos_, [this] { TakeFacts(); });
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
+  if (!config_.follow_calibration) return;
+  loop_.Attach(calibrations_, [this] { TakeCalibration(); });
 }
 
 /// Comes before the frames that are taken with it: who takes frames asks for it first.
@@ -143,6 +146,24 @@ void PerceptionNode::TakeMesh() {
     const Status status = predictions_.SetMesh(message);
     if (!status.ok()) log_.Write(Severity::kWarning, "/robot/mesh: " + status.message());
   }
+  AdoptCalibration();
+}
+
+void PerceptionNode::TakeCalibration() {
+  for (const auto& message : calibrations_.Take()) {
+    const Status status = pose_.Take(message);
+    if (status.ok()) continue;
+    ++counts_.refused;
+    log_.Write(Severity::kWarning, "/calibration refused: " + status.message());
+  }
+  AdoptCalibration();
+}
+
+void PerceptionNode::AdoptCalibration() {
+  const Status status = pose_.Adopt(predictions_.mesh_hash());
+  if (status.ok()) return;
+  ++counts_.refused;
+  log_.Write(Severity::kWarning, "/calibration refused: " + status.message());
 }
 
 void PerceptionNode::TakeMeshStates() {
@@ -191,18 +212,32 @@ void PerceptionNode::Advance() {
     if (next_) ++counts_.dropped;
     next_ = std::move(set);
   }
-  if (!next_ || worker_.busy() || MustAwaitPrediction()) return;
-  Work(*std::exchange(next_, std::nullopt));
+  if (next_ && !worker_.busy() && !MustAwaitPrediction()) {
+    Work(*std::exchange(next_, std::nullopt));
+  }
+  SetAlarm();
+}
+
+void PerceptionNode::SetAlarm() {
+  overdue_.Clear();
+  const auto set = pairing_.NextOverdue();
+  if (set) overdue_.Set(*set);
+  if (!next_ || worker_.busy()) return;
+  overdue_.Set(set ? std::min(*set, PredictionOverdue()) : PredictionOverdue());
+}
+
+PerceptionNode::Clock::time_point PerceptionNode::PredictionOverdue() const {
+  return published_at_ + Seconds(config_.await_prediction_s);
 }
 
 bool PerceptionNode::MustAwaitPrediction() const {
-  if (config_.await_prediction_s == 0.0 || !T_robot_camera_ || !outputs_.last_stamp_ns() ||
+  if (config_.await_prediction_s == 0.0 || !pose_.T_robot_camera() || !outputs_.last_stamp_ns() ||
       BeginsSequence(*next_)) {
     return false;
   }
   const bool is_there =
       predictions_.has_mesh() && predictions_.IsAnswered(*outputs_.last_stamp_ns());
-  return !is_there && SecondsSince(published_at_) < config_.await_prediction_s;
+  return !is_there && Clock::now() < PredictionOverdue();
 }
 
 /// Frames of another device, or of one that was started again from the beginning, have nothing to
@@ -260,11 +295,12 @@ PerceptionJob PerceptionNode::MakeJob(FrameSet& set, const rgbd::RgbdCamera& cam
   last_device_ = camera_.device();
   last_epoch_ = job.outcome.epoch;
   last_stamp_ns_ = set.stamp_ns;
-  if (!T_robot_camera_) return job;
+  const std::optional<Eigen::Isometry3d>& T_robot_camera = pose_.T_robot_camera();
+  if (!T_robot_camera) return job;
   job.prediction =
       config_.await_prediction_s > 0.0
-          ? predictions_.Last(*T_robot_camera_)
-          : predictions_.Before(set.stamp_ns, config_.max_prediction_age_s, *T_robot_camera_);
+          ? predictions_.Last(*T_robot_camera)
+          : predictions_.Before(set.stamp_ns, config_.max_prediction_age_s, *T_robot_camera);
   if (job.prediction) job.outcome.prediction_stamp_ns = job.prediction->stamp_ns;
   return job;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "components/perception/node/camera_inputs.hpp"
+#include "components/perception/node/camera_pose.hpp"
 #include "components/perception/node/frame_pairing.hpp"
 #include "components/perception/node/node_config.hpp"
 #include "components/perception/node/outputs.hpp"
@@ -44,13 +45,17 @@ class PerceptionNode {
   void TakeColor();
   void TakeFacts();
   void TakeMesh();
+  void TakeCalibration();
+  void AdoptCalibration();
   void TakeMeshStates();
   template <typename Message>
   FrameSet* PartOf(const Message& message);
   void Advance();
+  void SetAlarm();
   bool IsWhole(const FrameSet& set) const;
   Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) const;
   bool BeginsSequence(const FrameSet& set) const;
+  Clock::time_point PredictionOverdue() const;
   bool MustAwaitPrediction() const;
   void Work(FrameSet set);
   PerceptionJob HeadOf(const FrameSet& set) const;
@@ -61,9 +66,10 @@ class PerceptionNode {
   Status CurrentStatus() const;
 
   NodeConfig config_;
-  std::optional<Eigen::Isometry3d> T_robot_camera_;
+  CameraPose pose_;
   dds::Participant participant_;
   dds::WaitSet loop_;
+  dds::Alarm& overdue_;  ///< the next part or prediction that is waited for no longer
   dds::NodeLog log_;
   dds::HealthReporter health_;
   dds::Reader<idl::palpate_msgs::CameraSetup> setups_;
@@ -74,6 +80,7 @@ class PerceptionNode {
   dds::Reader<idl::palpate_msgs::FrameInfo> infos_;
   dds::Reader<idl::palpate_msgs::Mesh> meshes_;
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
+  dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
   Outputs outputs_;
   CameraInputs camera_;
   FramePairing pairing_;

@@ -13,6 +13,7 @@ namespace palpate::perception {
 /// Settings of the process: those of Perception, and those of its inputs and its DDS side.
 struct NodeConfig : Config {
   std::string camera_pose;
+  bool follow_calibration = true;
   double pairing_wait_s = 0.1;
   double max_prediction_age_s = 1.0;
   double await_prediction_s = 0.0;
@@ -25,6 +26,9 @@ struct NodeConfig : Config {
     v("camera_pose", camera_pose,
       "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
       "w]}\"; empty: unknown, then no predicted surface is used");
+    v("follow_calibration", follow_calibration,
+      "Takes the camera's pose that comes on /calibration, where it is of the robot on "
+      "/robot/mesh");
     v("pairing_wait_s", pairing_wait_s, {.min = 0.0, .max = 10.0},
       "How long a depth image waits for the rest of its frame set and for its camera's set-up");
     v("max_prediction_age_s", max_prediction_age_s, {.min = 0.0},

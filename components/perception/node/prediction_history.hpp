@@ -31,6 +31,7 @@ class PredictionHistory {
   Status Add(const idl::palpate_msgs::MeshState& message);
   void Clear();
 
+  const std::string& mesh_hash() const { return mesh_hash_; }  ///< empty: none has come
   bool has_mesh() const { return !mesh_hash_.empty(); }
   /// Whether the model's answer to the frame of this stamp has come.
   bool IsAnswered(std::int64_t stamp_ns) const;

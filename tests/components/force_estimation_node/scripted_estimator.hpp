@@ -18,6 +18,7 @@ class Script {
   struct Call {
     int estimator = 0;  ///< which one, from 1
     SeenShape seen;
+    double youngs_modulus_Pa = 0.0;  ///< of the model's body
   };
 
   /// Update does not return while it is held.
@@ -45,7 +46,7 @@ class Script {
     FrameResult Update(FrameInput& input) override {
       std::unique_lock lock(script_.mutex_);
       const auto& seen = std::get<SeenShape>(input.frame);
-      script_.calls_.push_back({number_, seen});
+      script_.calls_.push_back({number_, seen, model_.body().materials.front().youngs_modulus_Pa});
       script_.changed_.wait(lock, [this] { return !script_.hold_; });
       FrameResult result{input.head, {}, {}, true, Status::Ok()};
       result.estimate.status = Status::Ok();

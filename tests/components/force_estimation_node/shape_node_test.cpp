@@ -300,9 +300,10 @@ TEST_F(ShapeNodeTest, RefusesAContactThatIsNoNumberAndRecoversWithTheNextFrame) 
   EXPECT_EQ(Ask({.stamp_ns = 20}).status, "ok");
 }
 
-TEST(ShapeNode, NeedsACameraPose) {
+TEST(ShapeNode, NeedsACameraPoseWhereNoCalibrationMaySayIt) {
   NodeConfig config;
   config.source = "shape";
+  config.follow_calibration = false;
   Script script;
   EXPECT_THROW(
       ForceEstimationNode(config, NodeTestRobot(), 0.0, static_cast<int>(dds::TestDomain()),

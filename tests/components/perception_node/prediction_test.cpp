@@ -63,6 +63,15 @@ TEST_F(PredictionTest, IsAwaitedWhereItIsToBeThatOfTheFrameBefore) {
   EXPECT_EQ(LastPredictionZ_m(), 0.25 - 0.5);
 }
 
+TEST_F(PredictionTest, ThatDoesNotComeIsAwaitedNoLongerThanItIsWorth) {
+  NodeConfig config = TestConfig();
+  config.await_prediction_s = 1.0;
+  StartWith(config);
+  Ask(1 * kSecond_ns);
+  // No state of the model follows, nor anything else that would wake the node.
+  EXPECT_EQ(Ask(1 * kSecond_ns + 100).prediction_ns, 0);
+}
+
 TEST_F(PredictionTest, IsKeptInTheNextRecordingOfADevice) {
   NodeConfig config = TestConfig();
   config.await_prediction_s = 600.0;

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// What is known of each of the robot's cables at one time.
+struct CableReading {
+  struct Inputs {
+    std::optional<double> displacement_m;  ///< as the drive says it
+    std::optional<double> tension_N;
+  };
+  std::int64_t stamp_ns = 0;
+  std::vector<Inputs> cables;  ///< in the order of the robot's cables
+};
+
+/// When cables count as at rest.
+struct RestSettings {
+  double still_s = 1.0;   ///< for so long they moved by less than the following
+  double still_m = 5e-5;  ///< of a displacement
+  double still_N = 0.05;  ///< of a tension
+};
+
+/// Tells when the robot's cables rest. Stamps may go back (a recording that is played anew): what
+/// was before is then forgotten.
+class CableWatch {
+ public:
+  enum class State {
+    kNotYet,   ///< readings do not reach that time yet
+    kMoving,   ///< or they are too few, or with gaps longer than half of still_s
+    kResting,  ///< over still_s before that time
+  };
+
+  CableWatch(std::size_t cable_count, robot::CableInput preferred, const RestSettings& settings)
+      : cable_count_(cable_count), preferred_(preferred), settings_(settings) {}
+
+  void Add(CableReading reading);
+
+  /// A robot without cables always rests.
+  State At(std::int64_t stamp_ns) const;
+  /// Means over still_s before a time at which they rest, one for each cable; kNone where neither
+  /// displacement nor tension is known.
+  std::vector<robot::CableCommand> MeanAt(std::int64_t stamp_ns) const;
+  bool IsEmpty() const { return readings_.empty(); }
+
+ private:
+  std::int64_t Begin(std::int64_t stamp_ns) const;
+  robot::CableCommand CommandOf(const CableReading& reading, std::size_t cable) const;
+  bool IsStill(std::size_t cable, std::size_t first, std::size_t last) const;
+
+  static constexpr std::size_t kCapacity = 20000;
+
+  std::size_t cable_count_;
+  robot::CableInput preferred_;
+  RestSettings settings_;
+  std::deque<CableReading> readings_;  ///< rising stamps
+};
+
+}  // namespace palpate::calibration

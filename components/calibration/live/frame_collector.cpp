@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/live/frame_collector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "libs/core/text.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+using State = CableWatch::State;
+
+std::int64_t StampOf(const std::variant<SeenCloud, SeenMarkers>& seen) {
+  return std::visit([](const auto& one) { return one.stamp_ns; }, seen);
+}
+
+}  // namespace
+
+FrameCollector::FrameCollector(const robot::RobotModel& model, const CollectorSettings& settings)
+    : cable_names_(model.CableNames()),
+      gravity_m_s2_(model.gravity_m_s2()),
+      settings_(settings),
+      watch_(cable_names_.size(), settings.cable_input, settings.rest) {}
+
+void FrameCollector::Begin(int count) {
+  wanted_ = count;
+  waiting_.clear();
+  group_.clear();
+  settings_taken_.clear();
+  clouds_.clear();
+  markers_.clear();
+  waits_for_ = "nothing of the robot has been seen yet";
+}
+
+void FrameCollector::Add(CableReading reading) {
+  watch_.Add(std::move(reading));
+  Advance();
+}
+
+void FrameCollector::Add(Seen seen) {
+  if (wanted_ == 0 || IsComplete()) return;
+  if (waiting_.size() == kMostWaiting) waiting_.pop_front();
+  waiting_.push_back(std::move(seen));
+  Advance();
+}
+
+void FrameCollector::Advance() {
+  while (!waiting_.empty() && !IsComplete()) {
+    const State state = watch_.At(StampOf(waiting_.front()));
+    if (state == State::kNotYet) {
+      waits_for_ = watch_.IsEmpty() ? "no cable inputs on /robot/joint_states yet"
+                                    : "the cable inputs of that time have not come yet";
+      return;
+    }
+    Seen seen = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (state == State::kResting) {
+      Look(std::move(seen));
+    } else {
+      group_.clear();
+      waits_for_ = "the cables must rest for " + FormatNumber(settings_.rest.still_s) + " s";
+    }
+  }
+}
+
+/// At something that was seen while the cables rested.
+void FrameCollector::Look(Seen seen) {
+  Setting setting{StampOf(seen), watch_.MeanAt(StampOf(seen))};
+  if (!IsNew(setting)) {
+    group_.clear();
+    waits_for_ = cable_names_.empty()
+                     ? "one frame is taken in " + FormatNumber(settings_.rest.still_s) + " s"
+                     : "this setting was taken: set a cable otherwise by " +
+                           FormatNumber(settings_.new_setting_m) + " m or " +
+                           FormatNumber(settings_.new_setting_N) + " N";
+    return;
+  }
+  std::visit([&](auto&& one) { Take(std::move(one), std::move(setting)); }, std::move(seen));
+}
+
+bool FrameCollector::IsNew(const Setting& setting) const {
+  return std::all_of(settings_taken_.begin(), settings_taken_.end(), [&](const Setting& taken) {
+    if (cable_names_.empty()) {
+      return std::abs(1e-9 * static_cast<double>(setting.stamp_ns - taken.stamp_ns)) >=
+             settings_.rest.still_s;
+    }
+    for (std::size_t c = 0; c < cable_names_.size(); ++c) {
+      const robot::CableCommand& now = setting.cables[c];
+      const double change = std::abs(now.value - taken.cables[c].value);
+      const double enough =
+          now.kind == Kind::kTension ? settings_.new_setting_N : settings_.new_setting_m;
+      if (now.kind != taken.cables[c].kind || change >= enough) return true;
+    }
+    return false;
+  });
+}
+
+void FrameCollector::Take(SeenCloud seen, Setting setting) {
+  clouds_.push_back({.name = NextName(),
+                     .cloud = std::move(seen.cloud),
+                     .cables = setting.cables,
+                     .gravity_m_s2 = gravity_m_s2_});
+  settings_taken_.push_back(std::move(setting));
+  waits_for_.clear();
+}
+
+void FrameCollector::Take(SeenMarkers seen, Setting setting) {
+  group_.push_back(std::move(seen));
+  if (static_cast<int>(group_.size()) < settings_.marker_pictures) {
+    waits_for_ = "the mean over " + std::to_string(settings_.marker_pictures) +
+                 " pictures of the markers is being taken";
+    return;
+  }
+  CalibrationFrame frame{.name = NextName(),
+                         .markers = MeanOfGroup(),
+                         .cables = setting.cables,
+                         .gravity_m_s2 = gravity_m_s2_};
+  group_.clear();
+  if (frame.markers.empty()) {
+    waits_for_ = "no marker of the robot is seen";
+    return;
+  }
+  markers_.push_back(std::move(frame));
+  settings_taken_.push_back(std::move(setting));
+  waits_for_.clear();
+}
+
+/// Of each marker the mean over the pictures that show it. What they vary by counts as the noise of
+/// one picture where it is more than that picture said.
+std::vector<MarkerSighting> FrameCollector::MeanOfGroup() const {
+  std::map<int, std::vector<const MarkerSighting*>> sightings;
+  for (const SeenMarkers& seen : group_) {
+    for (const MarkerSighting& sighting : seen.markers) {
+      sightings[sighting.marker].push_back(&sighting);
+    }
+  }
+  std::vector<MarkerSighting> means;
+  for (const auto& [marker, seen] : sightings) {
+    const auto count = static_cast<double>(seen.size());
+    MarkerSighting mean{.marker = marker};
+    for (const MarkerSighting* one : seen) {
+      mean.position_m += one->position_m / count;
+      mean.covariance_m2 += one->covariance_m2 / count;
+    }
+    Eigen::Vector3d squares_m2 = Eigen::Vector3d::Zero();
+    for (const MarkerSighting* one : seen) {
+      squares_m2 += (one->position_m - mean.position_m).cwiseAbs2();
+    }
+    if (seen.size() > 2) {
+      const Eigen::Vector3d said_m2 = mean.covariance_m2.diagonal();
+      const Eigen::Vector3d varies_m2 = squares_m2 / (count - 1.0);
+      mean.covariance_m2.diagonal() += (varies_m2 - said_m2).cwiseMax(0.0);
+    }
+    mean.covariance_m2 /= count;
+    mean.covariance_m2.diagonal().array() += settings_.marker_bias_m * settings_.marker_bias_m;
+    means.push_back(mean);
+  }
+  return means;
+}
+
+std::string FrameCollector::NextName() const { return "frame " + std::to_string(taken() + 1); }
+
+}  // namespace palpate::calibration

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/live/live_calibration.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "components/calibration/cloud/cloud_calibration.hpp"
+#include "components/calibration/joint/found_calibration.hpp"
+#include "components/calibration/joint/kept_model.hpp"
+#include "libs/core/sha256.hpp"
+#include "libs/core/utc_text.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+template <typename Derived>
+void AppendBytes(const Eigen::DenseBase<Derived>& numbers, std::string* bytes) {
+  const auto plain = numbers.derived().eval();
+  bytes->append(reinterpret_cast<const char*>(plain.data()),
+                static_cast<std::size_t>(plain.size()) * sizeof(*plain.data()));
+}
+
+void AppendCables(const std::vector<robot::CableCommand>& cables, std::string* bytes) {
+  for (const robot::CableCommand& cable : cables) {
+    bytes->push_back(static_cast<char>(cable.kind));
+    AppendBytes(Eigen::Matrix<double, 1, 1>(cable.value), bytes);
+  }
+}
+
+/// Over all numbers of the frames.
+std::string HashOf(const LiveJob& job) {
+  std::string bytes;
+  for (const CloudFrame& frame : job.clouds) {
+    AppendBytes(frame.cloud.points_m, &bytes);
+    AppendBytes(frame.cloud.sigma_m, &bytes);
+    AppendCables(frame.cables, &bytes);
+  }
+  for (const CalibrationFrame& frame : job.markers) {
+    for (const MarkerSighting& sighting : frame.markers) {
+      AppendBytes(Eigen::Matrix<double, 1, 1>(sighting.marker), &bytes);
+      AppendBytes(sighting.position_m, &bytes);
+      AppendBytes(sighting.covariance_m2, &bytes);
+    }
+    AppendCables(frame.cables, &bytes);
+  }
+  return "sha256-" + Sha256Hex(bytes);
+}
+
+JointCalibration Fit(robot::RobotModel& model, const LiveJob& job) {
+  if (job.clouds.empty()) {
+    return CalibrateFrames(model, job.markers,
+                           job.T_robot_camera_start ? &*job.T_robot_camera_start : nullptr,
+                           job.request);
+  }
+  if (!job.T_robot_camera_start) {
+    JointCalibration refused;
+    refused.status = {StatusCode::kNoCalibration,
+                      "clouds need to know roughly where the camera stands"};
+    return refused;
+  }
+  CloudSettings settings;
+  settings.request = job.request;
+  CloudCalibration fit =
+      CalibrateFromClouds(model, job.clouds, *job.T_robot_camera_start, settings);
+  fit.joint.status = fit.status;
+  return std::move(fit.joint);
+}
+
+/// Moduli that hold on from before.
+void KeepModuli(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
+  for (const robot::CalibratedModulus& modulus : before.moduli) {
+    const bool found_anew =
+        std::any_of(file->moduli.begin(), file->moduli.end(),
+                    [&](const auto& other) { return other.part == modulus.part; });
+    if (!found_anew) file->moduli.push_back(modulus);
+  }
+}
+
+}  // namespace
+
+LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
+  const KeptModel kept(model);
+  LiveResult result;
+  if (job.before) {
+    result.status = robot::CheckCalibration(*job.before, model);
+    if (!result.status.ok()) return result;
+    robot::ApplyCalibration(*job.before, &model);
+  }
+  const JointCalibration fit = Fit(model, job);
+  kept.Restore();
+  result.status = fit.status;
+  if (!fit.status.ok()) return result;
+  result.file = robot::DescribeForCalibration(model);
+  result.file.date_utc = UtcText(job.found_ns_since_1970 / 1'000'000'000);
+  result.file.data = job.data;
+  result.file.data_hash = HashOf(job);
+  TakeFit(fit, model, &result.file);
+  if (job.before) KeepModuli(*job.before, &result.file);
+  result.pose_covariance = fit.pose_covariance;
+  return result;
+}
+
+}  // namespace palpate::calibration

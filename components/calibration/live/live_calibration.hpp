@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/calibration/cloud/cloud_frame.hpp"
+#include "components/calibration/joint/joint_request.hpp"
+#include "libs/core/status.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// A calibration of frames that were taken from the running robot.
+struct LiveJob {
+  JointRequest request;
+  std::vector<CloudFrame> clouds;         ///< these,
+  std::vector<CalibrationFrame> markers;  ///< or these
+  /// Where the search for the pose starts; clouds need it, markers tell it.
+  std::optional<geometry::RigidTransform> T_robot_camera_start;
+  /// Whose moduli hold where none are looked for or determined.
+  std::optional<robot::CalibrationFile> before;
+  std::string data;  ///< what it is fitted to, for people
+  std::int64_t found_ns_since_1970 = 0;
+};
+
+struct LiveResult {
+  Status status;                ///< why not, as of CalibrateFromClouds and CalibrateFrames
+  robot::CalibrationFile file;  ///< where it is ok
+  /// Of the pose: rotation vector (rad), translation (m), robot frame.
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// Runs it. `model`, which must be as the robot file has it, is left so.
+LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job);
+
+}  // namespace palpate::calibration

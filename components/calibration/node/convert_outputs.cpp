@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/node/convert.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/frames.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using Covariance = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+/// ROS has translation before rotation.
+Covariance InRosOrder(const Eigen::Matrix<double, 6, 6>& turn_and_shift) {
+  Covariance ros;
+  ros.topLeftCorner<3, 3>() = turn_and_shift.bottomRightCorner<3, 3>();
+  ros.topRightCorner<3, 3>() = turn_and_shift.bottomLeftCorner<3, 3>();
+  ros.bottomLeftCorner<3, 3>() = turn_and_shift.topRightCorner<3, 3>();
+  ros.bottomRightCorner<3, 3>() = turn_and_shift.topLeftCorner<3, 3>();
+  return ros;
+}
+
+void SetHead(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  dds::SetText(message->robot, file.robot);
+  dds::SetText(message->mesh_hash, file.mesh_hash);
+  dds::SetText(message->element, file.element);
+  dds::SetText(message->material_model, file.model);
+  message->poissons_ratio = file.poissons_ratio;
+  dds::SetText(message->volumetric, file.volumetric);
+  message->c20_over_c10 = file.c20_over_c10;
+  message->c30_over_c10 = file.c30_over_c10;
+  dds::SetText(message->date_utc, file.date_utc);
+  dds::SetText(message->data, file.data);
+  dds::SetText(message->data_hash, file.data_hash);
+  message->residual_rms_m = file.residual_rms_m;
+  message->chi_squared = file.chi_squared;
+  message->degrees_of_freedom = static_cast<std::uint32_t>(file.degrees_of_freedom);
+}
+
+void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  dds::Resize(message->drives, file.drives.size());
+  for (std::size_t k = 0; k < file.drives.size(); ++k) {
+    auto& drive = message->drives._buffer[k];
+    dds::SetText(drive.cable, file.drives[k].cable);
+    drive.offset_m = file.drives[k].drive.offset_m;
+    drive.offset_standard_error_m = file.drives[k].standard_error.offset_m;
+    drive.gain = file.drives[k].drive.gain;
+    drive.gain_standard_error = file.drives[k].standard_error.gain;
+  }
+  dds::Resize(message->moduli, file.moduli.size());
+  for (std::size_t k = 0; k < file.moduli.size(); ++k) {
+    auto& modulus = message->moduli._buffer[k];
+    dds::SetText(modulus.part, file.moduli[k].part);
+    modulus.youngs_modulus_pa = file.moduli[k].youngs_modulus_Pa;
+    modulus.standard_error_pa = file.moduli[k].standard_error_Pa;
+  }
+  dds::Resize(message->undetermined, file.undetermined.size());
+  for (std::size_t k = 0; k < file.undetermined.size(); ++k) {
+    auto& number = message->undetermined._buffer[k];
+    dds::SetText(number.name, file.undetermined[k].name);
+    dds::SetText(number.what_would_tell, file.undetermined[k].what_would_tell);
+  }
+}
+
+}  // namespace
+
+dds::Message<idl::palpate_msgs::Calibration> ToCalibration(
+    const robot::CalibrationFile& file, const Eigen::Matrix<double, 6, 6>& pose_covariance,
+    std::int64_t stamp_ns) {
+  dds::Message<idl::palpate_msgs::Calibration> message;
+  dds::SetHeader(message->header, stamp_ns, geometry::kRobotFrame);
+  SetHead(file, &*message);
+  SetNumbersFound(file, &*message);
+  message->has_camera = file.pose.has_value();
+  message->camera_in_robot =
+      dds::ToPose(file.pose ? file.pose->T_robot_camera : Eigen::Isometry3d::Identity());
+  Eigen::Map<Covariance>(message->camera_covariance) = InRosOrder(pose_covariance);
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::CalibrationStatus> ToStatus(const Progress& progress,
+                                                            std::int64_t stamp_ns) {
+  dds::Message<idl::palpate_msgs::CalibrationStatus> message;
+  dds::SetHeader(message->header, stamp_ns, geometry::kRobotFrame);
+  dds::SetText(message->request_id, progress.request_id);
+  dds::SetText(message->state, progress.state);
+  dds::SetText(message->status, ToString(progress.status.code()));
+  dds::SetText(message->reason, progress.status.ok() ? progress.reason : progress.status.message());
+  message->frames_taken = static_cast<std::uint32_t>(progress.frames_taken);
+  message->frames_wanted = static_cast<std::uint32_t>(progress.frames_wanted);
+  return message;
+}
+
+}  // namespace palpate::calibration

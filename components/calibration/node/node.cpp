@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/node/node.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "components/calibration/joint/found_calibration.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/pose_text.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kTickPeriod = std::chrono::milliseconds(200);
+constexpr int kLeastMarkers = 3;
+
+CollectorSettings CollectorOf(const NodeConfig& config) {
+  return {.rest = {.still_s = config.still_s, .still_m = config.still_m, .still_N = config.still_N},
+          .cable_input = config.cable_input == "displacement" ? robot::CableInput::kDisplacement
+                                                              : robot::CableInput::kTension,
+          .new_setting_m = config.new_setting_m,
+          .new_setting_N = config.new_setting_N,
+          .marker_pictures = config.marker_pictures,
+          .marker_bias_m = config.marker_bias_m};
+}
+
+geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {
+  return {Eigen::Quaterniond(T.linear()), T.translation()};
+}
+
+/// Of a file, which holds no correlations.
+Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibrationFile& file) {
+  Eigen::Matrix<double, 6, 1> errors = Eigen::Matrix<double, 6, 1>::Zero();
+  if (file.pose) errors << file.pose->rotation_error_rad, file.pose->translation_error_m;
+  return errors.cwiseAbs2().asDiagonal();
+}
+
+Status NotOk(StatusCode code, std::string reason) { return {code, std::move(reason)}; }
+
+}  // namespace
+
+CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
+                                 int domain_id, dds::TopicTable table,
+                                 dds::NodeLog::ProcessLog process_log, Worker::Fit fit)
+    : config_{config},
+      participant_{dds::ParticipantOf(config.dds, "palpate_calibration", domain_id),
+                   std::move(table)},
+      loop_{participant_},
+      log_{participant_, std::move(process_log)},
+      health_{participant_, "calibration", Clock::now()},
+      worker_{std::move(model), std::move(fit), [this] { loop_.Wake(); }},
+      marker_names_{worker_.model().MarkerNames()},
+      cable_names_{worker_.model().CableNames()},
+      part_names_{PartNames(worker_.model().body())},
+      collector_{worker_.model(), CollectorOf(config)},
+      requests_{participant_.CreateReader(dds::kCalibrationRequestTopic)},
+      joint_states_{participant_.CreateReader(dds::kJointStatesTopic)},
+      markers_{participant_.CreateReader(dds::kMarkersTopic)},
+      calibration_{participant_.CreateWriter(dds::kCalibrationTopic)},
+      status_{participant_.CreateWriter(dds::kCalibrationStatusTopic)},
+      clouds_{participant_, loop_, config.allow_contacts, EventsOfClouds()} {
+  ReadLastCalibration();
+  loop_.Attach(requests_, [this] { TakeRequests(); });
+  loop_.Attach(joint_states_, [this] { TakeJointStates(); });
+  loop_.Attach(markers_, [this] { TakeMarkers(); });
+  loop_.OnWake([this] { TakeResult(); });
+  loop_.Every(kTickPeriod, [this] { Tick(); });
+  loop_.Every(kReportPeriod, [this] { ReportHealth(); });
+  SendProgress();
+  if (!config_.at_start) return;
+  const Request request = Defaults();
+  const Status status = Check(request);
+  if (!status.ok()) throw InputError("at_start: " + status.message());
+  Begin(request);
+}
+
+void CalibrationNode::ReadLastCalibration() {
+  const std::filesystem::path file = config_.calibration_file;
+  if (!file.empty() && std::filesystem::exists(file)) {
+    last_ = robot::ReadCalibrationFile(file, app::LoadYaml);
+    const Status status = robot::CheckCalibration(*last_, worker_.model());
+    if (!status.ok()) throw InputError(file.string() + ": " + status.message());
+    Publish(*last_, CovarianceOf(*last_));
+    if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
+  }
+  if (config_.camera_pose.empty()) return;
+  T_robot_camera_ =
+      ToTransform(geometry::ReadPose(app::ParseYaml(config_.camera_pose, "camera_pose")));
+}
+
+CloudEvents CalibrationNode::EventsOfClouds() {
+  return {.seen =
+              [this](SeenCloud seen) {
+                if (!Collects("clouds")) return;
+                obstacle_.clear();
+                collector_.Add(std::move(seen));
+                Advance();
+              },
+          .refused =
+              [this](const Status& status) {
+                if (Collects("clouds")) Obstruct(status, &obstacle_);
+              },
+          .other_camera =
+              [this](const std::string& device) {
+                if (!Collects("clouds") || collector_.taken() == 0) return;
+                End("failed",
+                    NotOk(StatusCode::kInvalidInput,
+                          "the camera became '" + device + "' while frames were taken: ask again"));
+              }};
+}
+
+void CalibrationNode::TakeRequests() {
+  for (const auto& message : requests_.Take()) {
+    Request request;
+    Status status = FromRequest(message, Defaults(), &request);
+    if (status.ok() && request.cancel) {
+      Cancel(request);
+      continue;
+    }
+    if (status.ok()) status = Check(request);
+    if (status.ok()) {
+      Begin(request);
+    } else {
+      Refuse(request, status);
+    }
+  }
+}
+
+void CalibrationNode::TakeJointStates() {
+  for (const auto& message : joint_states_.Take()) {
+    CableReading reading;
+    const Status status = FromJointState(message, cable_names_, &reading);
+    if (status.ok()) {
+      cable_obstacle_.clear();
+      collector_.Add(std::move(reading));
+    } else {
+      Obstruct(status, &cable_obstacle_);
+    }
+  }
+  Advance();
+}
+
+void CalibrationNode::TakeMarkers() {
+  for (const auto& message : markers_.Take()) {
+    ++counts_.received;
+    if (!Collects("markers")) continue;
+    SeenMarkers seen;
+    const Status status = FromMarkerArray(message, marker_names_, config_.marker_sigma_m, &seen);
+    if (!status.ok()) {
+      Obstruct(status, &obstacle_);
+      continue;
+    }
+    obstacle_.clear();
+    collector_.Add(std::move(seen));
+    Advance();
+  }
+}
+
+Request CalibrationNode::Defaults() const {
+  Request request;
+  request.source = config_.source;
+  request.frames = config_.frames;
+  return request;
+}
+
+/// Why a request cannot be begun.
+Status CalibrationNode::Check(const Request& request) const {
+  if (IsGoing()) {
+    return NotOk(StatusCode::kInvalidInput,
+                 "request '" + request_.id + "' is being worked on: cancel it, or wait for it");
+  }
+  if (worker_.busy()) {
+    return NotOk(StatusCode::kInvalidInput, "the fit of a cancelled request has not ended yet");
+  }
+  for (const std::string& part : request.moduli) {
+    if (std::find(part_names_.begin(), part_names_.end(), part) != part_names_.end()) continue;
+    return NotOk(StatusCode::kInvalidInput,
+                 "moduli: the robot has no part '" + part + "'" + DidYouMean(part, part_names_));
+  }
+  if (request.source == "clouds" && !T_robot_camera_) {
+    return NotOk(StatusCode::kNoCalibration,
+                 "clouds need to know roughly where the camera stands: set camera_pose");
+  }
+  if (request.source == "markers" && std::ssize(marker_names_) < kLeastMarkers) {
+    return NotOk(StatusCode::kUnobservable, "the robot file has " +
+                                                std::to_string(marker_names_.size()) +
+                                                " markers: a pose takes three");
+  }
+  return Status::Ok();
+}
+
+void CalibrationNode::Begin(const Request& request) {
+  request_ = request;
+  collector_.Begin(request.frames);
+  obstacle_.clear();
+  last_step_ = Clock::now();
+  progress_ = {.request_id = request.id,
+               .state = "collecting",
+               .reason = collector_.waits_for(),
+               .frames_wanted = request.frames};
+  log_.Write(Severity::kInfo, "takes " + std::to_string(request.frames) + " frames of " +
+                                  request.source + " for request '" + request.id + "'");
+  SendProgress();
+}
+
+void CalibrationNode::Cancel(const Request& request) {
+  if (!IsGoing() || (!request.id.empty() && request.id != request_.id)) {
+    return Refuse(request, NotOk(StatusCode::kInvalidInput, "no such request is being worked on"));
+  }
+  drop_result_ = progress_.state == "computing";
+  End("cancelled", Status::Ok(), "as was asked");
+}
+
+/// Answers it; what is being worked on stays the last word.
+void CalibrationNode::Refuse(const Request& request, const Status& status) {
+  ++counts_.refused;
+  log_.Write(Severity::kWarning, "request '" + request.id + "' refused: " + status.message());
+  Progress refused{.request_id = request.id,
+                   .state = "refused",
+                   .status = status,
+                   .reason = {},
+                   .frames_wanted = request.frames};
+  if (IsGoing()) {
+    counts_.dropped += status_.Write(ToStatus(refused, dds::WallClockNs())) ? 0 : 1;
+  } else {
+    progress_ = std::move(refused);
+  }
+  SendProgress();
+}
+
+/// Something came that does not serve.
+void CalibrationNode::Obstruct(const Status& status, std::string* obstacle) {
+  ++counts_.refused;
+  *obstacle = status.message();
+}
+
+bool CalibrationNode::Collects(const char* source) const {
+  return progress_.state == "collecting" && request_.source == source;
+}
+
+bool CalibrationNode::IsGoing() const {
+  return progress_.state == "collecting" || progress_.state == "computing";
+}
+
+/// After something was added to the frames.
+void CalibrationNode::Advance() {
+  if (progress_.state != "collecting" || collector_.taken() == progress_.frames_taken) return;
+  progress_.frames_taken = collector_.taken();
+  last_step_ = Clock::now();
+  if (collector_.IsComplete()) progress_.state = "computing";
+  progress_.reason.clear();
+  SendProgress();
+  if (collector_.IsComplete()) worker_.Start(MakeJob());
+}
+
+LiveJob CalibrationNode::MakeJob() const {
+  LiveJob job;
+  job.request = {.drive_offset_sigma_m = config_.drive_offset_sigma_m,
+                 .drive_gains = request_.drive_gains,
+                 .drive_gain_sigma = config_.drive_gain_sigma,
+                 .moduli = {},
+                 .modulus_relative_sigma = config_.modulus_relative_sigma};
+  for (const std::string& part : request_.moduli) {
+    const auto found = std::find(part_names_.begin(), part_names_.end(), part);
+    job.request.moduli.push_back(static_cast<int>(found - part_names_.begin()));
+  }
+  job.clouds = collector_.clouds();
+  job.markers = collector_.markers();
+  if (!job.clouds.empty()) job.T_robot_camera_start = T_robot_camera_;
+  job.before = last_;
+  job.data = std::to_string(collector_.taken()) + " frames of " + request_.source + ", live";
+  job.found_ns_since_1970 = dds::WallClockNs();
+  return job;
+}
+
+void CalibrationNode::TakeResult() {
+  const std::optional<LiveResult> result = worker_.TakeResult();
+  if (!result) return;
+  if (std::exchange(drop_result_, false)) return;
+  if (result->status.ok()) return Adopt(*result);
+  End("failed", result->status);
+}
+
+void CalibrationNode::Adopt(const LiveResult& result) {
+  last_ = result.file;
+  if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
+  Publish(*last_, result.pose_covariance);
+  std::string reason;
+  if (!config_.calibration_file.empty()) {
+    try {
+      robot::WriteCalibrationFile(*last_, config_.calibration_file);
+    } catch (const RunError& error) {
+      reason = std::string("published, but not written: ") + error.what();
+      log_.Write(Severity::kError, reason);
+    }
+  }
+  End("done", Status::Ok(), reason);
+}
+
+void CalibrationNode::Publish(const robot::CalibrationFile& file,
+                              const Eigen::Matrix<double, 6, 6>& covariance) {
+  const bool sent = calibration_.Write(ToCalibration(file, covariance, dds::WallClockNs()));
+  counts_.dropped += sent ? 0 : 1;
+}
+
+void CalibrationNode::End(const std::string& state, const Status& status,
+                          const std::string& reason) {
+  progress_.state = state;
+  progress_.status = status;
+  progress_.reason = reason;
+  log_.Write(status.ok() ? Severity::kInfo : Severity::kWarning,
+             "request '" + request_.id + "' " + state +
+                 (status.ok() ? std::string() : ": " + status.message()));
+  SendProgress();
+}
+
+/// Says what is waited for, and gives up where that does not come.
+void CalibrationNode::Tick() {
+  if (progress_.state != "collecting") return;
+  const std::string& obstacle = cable_obstacle_.empty() ? obstacle_ : cable_obstacle_;
+  progress_.reason = obstacle.empty() ? collector_.waits_for() : obstacle;
+  const double waited_s = std::chrono::duration<double>(Clock::now() - last_step_).count();
+  if (waited_s > config_.patience_s) {
+    return End("failed", NotOk(StatusCode::kStale, "no further frame within " +
+                                                       FormatNumber(config_.patience_s) +
+                                                       " s: " + progress_.reason));
+  }
+  if (progress_.reason != sent_reason_) SendProgress();
+}
+
+void CalibrationNode::SendProgress() {
+  sent_reason_ = progress_.reason;
+  counts_.dropped += status_.Write(ToStatus(progress_, dds::WallClockNs())) ? 0 : 1;
+}
+
+void CalibrationNode::ReportHealth() {
+  dds::HealthCounts counts = counts_;
+  counts.received += clouds_.received();
+  counts.published = calibration_.sent_count();
+  health_.Report(progress_.status, counts,
+                 {{"state", progress_.state},
+                  {"calibration", last_ ? last_->date_utc : "none"},
+                  {"readers_of_calibration", std::to_string(calibration_.matched())},
+                  {"writers_of_clouds", std::to_string(clouds_.writers())}},
+                 Clock::now());
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/calibration/live/frame_collector.hpp"
+#include "components/calibration/node/cloud_source.hpp"
+#include "components/calibration/node/convert.hpp"
+#include "components/calibration/node/node_config.hpp"
+#include "components/calibration/node/worker.hpp"
+#include "libs/dds/health.hpp"
+#include "libs/dds/node_log.hpp"
+#include "libs/dds/wait_set.hpp"
+
+namespace palpate::calibration {
+
+/// Takes frames of the running robot when asked on /calibration/request, calibrates, and publishes
+/// what came of it on /calibration, where it stays for late joiners. Every request is answered on
+/// /calibration/status, one at a time is worked on.
+class CalibrationNode {
+ public:
+  /// `fit`: what calibrates. Publishes the last calibration where its file is there. Throws
+  /// InputError for bad settings and for a file of another robot, RunError where DDS refuses.
+  CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model, int domain_id,
+                  dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
+                  Worker::Fit fit = CalibrateLive);
+
+  /// Works until Stop().
+  void Run() { loop_.Run(); }
+  /// From any thread.
+  void Stop() { loop_.Stop(); }
+
+ private:
+  using Clock = dds::WaitSet::Clock;
+
+  void ReadLastCalibration();
+  CloudEvents EventsOfClouds();
+  void TakeRequests();
+  void TakeJointStates();
+  void TakeMarkers();
+  Request Defaults() const;
+  Status Check(const Request& request) const;
+  void Begin(const Request& request);
+  void Cancel(const Request& request);
+  void Refuse(const Request& request, const Status& status);
+  void Obstruct(const Status& status, std::string* obstacle);
+  bool Collects(const char* source) const;
+  bool IsGoing() const;
+  void Advance();
+  LiveJob MakeJob() const;
+  void TakeResult();
+  void Adopt(const LiveResult& result);
+  void Publish(const robot::CalibrationFile& file, const Eigen::Matrix<double, 6, 6>& covariance);
+  void End(const std::string& state, const Status& status, const std::string& reason = {});
+  void Tick();
+  void SendProgress();
+  void ReportHealth();
+
+  NodeConfig config_;
+  dds::Participant participant_;
+  dds::WaitSet loop_;
+  dds::NodeLog log_;
+  dds::HealthReporter health_;
+  Worker worker_;
+  std::vector<std::string> marker_names_;
+  std::vector<std::string> cable_names_;
+  std::vector<std::string> part_names_;
+  FrameCollector collector_;
+  dds::Reader<idl::palpate_msgs::CalibrationRequest> requests_;
+  dds::Reader<idl::sensor_msgs::JointState> joint_states_;
+  dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
+  dds::Writer<idl::palpate_msgs::Calibration> calibration_;
+  dds::Writer<idl::palpate_msgs::CalibrationStatus> status_;
+  CloudSource clouds_;
+  std::optional<robot::CalibrationFile> last_;              ///< that was found or read
+  std::optional<geometry::RigidTransform> T_robot_camera_;  ///< where clouds start from
+  Request request_;                                         ///< the last one that was begun
+  Progress progress_;
+  std::string obstacle_;        ///< why the last cloud or markers do not serve; empty: they do
+  std::string cable_obstacle_;  ///< the same of the cable inputs
+  bool drop_result_ = false;    ///< of a request that was cancelled
+  Clock::time_point last_step_;
+  std::string sent_reason_;
+  dds::HealthCounts counts_;
+};
+
+}  // namespace palpate::calibration

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "components/calibration/live/live_calibration.hpp"
+#include "libs/core/hand_over.hpp"
+
+namespace palpate::calibration {
+
+/// Runs calibrations one after the other in a thread of its own.
+class Worker {
+ public:
+  using Fit = std::function<LiveResult(robot::RobotModel&, const LiveJob&)>;
+
+  /// `on_result` is called from that thread when a result waits.
+  Worker(std::unique_ptr<robot::RobotModel> model, Fit fit, std::function<void()> on_result);
+  /// Waits for the calibration that runs.
+  ~Worker();
+
+  /// Not to be looked at while a job is in work.
+  const robot::RobotModel& model() const { return *model_; }
+  void Start(LiveJob job);
+  std::optional<LiveResult> TakeResult();
+  bool busy() const { return busy_; }
+
+ private:
+  void Run();
+
+  std::unique_ptr<robot::RobotModel> model_;
+  Fit fit_;
+  std::function<void()> on_result_;
+  bool busy_ = false;  ///< from Start to TakeResult
+  HandOver<LiveJob> jobs_;
+  HandOver<LiveResult> results_;
+  std::thread thread_;
+};
+
+}  // namespace palpate::calibration

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/node/calibration_input.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "libs/dds/geometry_messages.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+Status Invalid(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+
+bool IsError(double value) { return std::isfinite(value) && value >= 0.0; }
+
+void ReadHead(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->robot = dds::Text(message.robot);
+  file->mesh_hash = dds::Text(message.mesh_hash);
+  file->element = dds::Text(message.element);
+  file->model = dds::Text(message.material_model);
+  file->poissons_ratio = message.poissons_ratio;
+  file->volumetric = dds::Text(message.volumetric);
+  file->c20_over_c10 = message.c20_over_c10;
+  file->c30_over_c10 = message.c30_over_c10;
+  file->date_utc = dds::Text(message.date_utc);
+  file->data = dds::Text(message.data);
+  file->data_hash = dds::Text(message.data_hash);
+  file->residual_rms_m = message.residual_rms_m;
+  file->chi_squared = message.chi_squared;
+  file->degrees_of_freedom = static_cast<int>(message.degrees_of_freedom);
+}
+
+Status ReadPose(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->pose.reset();
+  if (!message.has_camera) return Status::Ok();
+  robot::CalibratedPose& pose = file->pose.emplace();
+  if (!dds::FromPose(message.camera_in_robot, &pose.T_robot_camera)) {
+    return Invalid("camera_in_robot is no pose");
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double shift_m2 = message.camera_covariance[7 * i];
+    const double turn_rad2 = message.camera_covariance[7 * (i + 3)];
+    if (!IsError(shift_m2) || !IsError(turn_rad2)) return Invalid("camera_covariance is none");
+    pose.translation_error_m[i] = std::sqrt(shift_m2);
+    pose.rotation_error_rad[i] = std::sqrt(turn_rad2);
+  }
+  return Status::Ok();
+}
+
+Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->drives.clear();
+  for (const auto& drive : dds::Elements(message.drives)) {
+    const std::string cable(dds::Text(drive.cable));
+    if (!std::isfinite(drive.offset_m) || !std::isfinite(drive.gain) ||
+        !IsError(drive.offset_standard_error_m) || !IsError(drive.gain_standard_error)) {
+      return Invalid("the drive of cable '" + cable + "' has a number that is none");
+    }
+    file->drives.push_back({cable,
+                            {drive.offset_m, drive.gain},
+                            {drive.offset_standard_error_m, drive.gain_standard_error}});
+  }
+  file->moduli.clear();
+  for (const auto& modulus : dds::Elements(message.moduli)) {
+    const std::string part(dds::Text(modulus.part));
+    if (!std::isfinite(modulus.youngs_modulus_pa) || modulus.youngs_modulus_pa <= 0.0 ||
+        !IsError(modulus.standard_error_pa)) {
+      return Invalid("the modulus of '" + part + "' is none");
+    }
+    file->moduli.push_back({part, modulus.youngs_modulus_pa, modulus.standard_error_pa});
+  }
+  file->undetermined.clear();
+  for (const auto& number : dds::Elements(message.undetermined)) {
+    file->undetermined.push_back(
+        {std::string(dds::Text(number.name)), std::string(dds::Text(number.what_would_tell))});
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+Status FromCalibration(const idl::palpate_msgs::Calibration& message,
+                       robot::CalibrationFile* calibration) {
+  ReadHead(message, calibration);
+  if (Status status = ReadPose(message, calibration); !status.ok()) return status;
+  return ReadNumbers(message, calibration);
+}
+
+CalibrationInput::CalibrationInput(dds::Participant& participant, const robot::RobotModel& model)
+    : model_(model), reader_(participant.CreateReader(dds::kCalibrationTopic)) {}
+
+void CalibrationInput::SetInUse(const robot::CalibrationFile& calibration) {
+  date_utc_ = calibration.date_utc;
+  data_hash_ = calibration.data_hash;
+}
+
+std::vector<CalibrationInput::Verdict> CalibrationInput::Take() {
+  std::vector<Verdict> verdicts;
+  for (const auto& message : reader_.Take()) {
+    Verdict verdict = Judge(message);
+    const robot::CalibrationFile& calibration = verdict.calibration;
+    const bool again = calibration.date_utc == date_utc_ && calibration.data_hash == data_hash_;
+    if (verdict.status.ok() && again) continue;
+    if (verdict.status.ok()) SetInUse(calibration);
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+CalibrationInput::Verdict CalibrationInput::Judge(
+    const idl::palpate_msgs::Calibration& message) const {
+  Verdict verdict;
+  verdict.status = FromCalibration(message, &verdict.calibration);
+  if (!verdict.status.ok()) return verdict;
+  verdict.status = robot::CheckCalibration(verdict.calibration, model_);
+  const std::string& date_utc = verdict.calibration.date_utc;
+  if (verdict.status.ok() && date_utc < date_utc_) {
+    verdict.status = {StatusCode::kStale,
+                      "it is of " + date_utc + ", older than the one in use, of " + date_utc_};
+  }
+  return verdict;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "libs/core/status.hpp"
+#include "libs/dds/topics.hpp"
+
+namespace palpate::perception {
+
+/// Where the depth camera stands in the robot's frame: as the settings say, until a calibration
+/// says so.
+class CameraPose {
+ public:
+  explicit CameraPose(std::optional<Eigen::Isometry3d> T_robot_camera)
+      : T_robot_camera_(std::move(T_robot_camera)) {}
+
+  /// nullopt: unknown.
+  const std::optional<Eigen::Isometry3d>& T_robot_camera() const { return T_robot_camera_; }
+
+  /// One without a pose changes nothing. kInvalidInput for a pose that is none, kStale for one
+  /// older than the one in use. It holds once Adopt has found that it is this robot's.
+  Status Take(const idl::palpate_msgs::Calibration& message);
+  /// With the mesh of the robot that is there, empty: it has not come yet. kInvalidInput where what
+  /// was taken is another one's.
+  Status Adopt(const std::string& mesh_hash);
+
+ private:
+  struct Told {
+    Eigen::Isometry3d T_robot_camera;
+    std::string mesh_hash, date_utc;
+  };
+
+  std::optional<Eigen::Isometry3d> T_robot_camera_;
+  std::optional<Told> told_;  ///< waits for the mesh
+  std::string date_utc_;      ///< of the calibration in use; empty: none
+};
+
+}  // namespace palpate::perception

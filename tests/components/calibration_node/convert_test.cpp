@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/node/convert.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "components/force_estimation/node/calibration_input.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::calibration {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+robot::CalibrationFile SomeCalibration() {
+  robot::CalibrationFile file;
+  file.robot = "beam";
+  file.mesh_hash = "mesh";
+  file.element = "tet10";
+  file.model = "yeoh";
+  file.poissons_ratio = 0.49;
+  file.volumetric = "pointwise";
+  file.c20_over_c10 = 0.1;
+  file.c30_over_c10 = 0.2;
+  file.date_utc = "2026-01-31T12:00:00Z";
+  file.data = "frames";
+  file.data_hash = "sha256-0";
+  file.moduli = {{"body", 1e5, 2e3}, {"tip", 2e5, 3e3}};
+  robot::CalibratedPose& pose = file.pose.emplace();
+  pose.T_robot_camera = Eigen::Translation3d(1.0, 2.0, 3.0) *
+                        Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, -1.0).normalized());
+  pose.rotation_error_rad = {0.01, 0.02, 0.03};
+  pose.translation_error_m = {0.004, 0.005, 0.006};
+  file.drives = {{"top", {1e-3, 0.02}, {2e-4, 0.01}}};
+  file.undetermined = {{"cable_gain:top", "a longer pull"}};
+  file.residual_rms_m = 1e-4;
+  file.chi_squared = 12.5;
+  file.degrees_of_freedom = 11;
+  return file;
+}
+
+/// As the joint calibration gives it: turn, then shift.
+Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibratedPose& pose) {
+  Eigen::Matrix<double, 6, 1> errors;
+  errors << pose.rotation_error_rad, pose.translation_error_m;
+  Eigen::Matrix<double, 6, 6> covariance = errors.cwiseAbs2().asDiagonal();
+  covariance(0, 4) = covariance(4, 0) = 7e-6;
+  return covariance;
+}
+
+dds::Message<idl::palpate_msgs::Calibration> SomeMessage() {
+  const robot::CalibrationFile file = SomeCalibration();
+  return ToCalibration(file, CovarianceOf(*file.pose), 5);
+}
+
+TEST(ConvertCalibration, ComesOutAtTheOtherEndAsItWentIn) {
+  const robot::CalibrationFile sent = SomeCalibration();
+  const auto message = SomeMessage();
+  EXPECT_EQ(dds::StampNs(message->header.stamp), 5);
+  robot::CalibrationFile got;
+  ASSERT_TRUE(force_estimation::FromCalibration(*message, &got).ok());
+  EXPECT_TRUE(robot::CheckCalibrated(got, sent).ok());
+  EXPECT_EQ(got.date_utc, sent.date_utc);
+  EXPECT_EQ(got.data, sent.data);
+  EXPECT_EQ(got.data_hash, sent.data_hash);
+  ASSERT_TRUE(got.pose);
+  EXPECT_TRUE(got.pose->T_robot_camera.isApprox(sent.pose->T_robot_camera, 1e-14));
+  EXPECT_TRUE(got.pose->rotation_error_rad.isApprox(sent.pose->rotation_error_rad, 1e-12));
+  EXPECT_TRUE(got.pose->translation_error_m.isApprox(sent.pose->translation_error_m, 1e-12));
+  ASSERT_EQ(got.drives.size(), 1u);
+  EXPECT_EQ(got.drives[0].cable, "top");
+  EXPECT_EQ(got.drives[0].drive.offset_m, 1e-3);
+  EXPECT_EQ(got.drives[0].drive.gain, 0.02);
+  EXPECT_EQ(got.drives[0].standard_error.offset_m, 2e-4);
+  EXPECT_EQ(got.drives[0].standard_error.gain, 0.01);
+  ASSERT_EQ(got.moduli.size(), 2u);
+  EXPECT_EQ(got.moduli[1].part, "tip");
+  EXPECT_EQ(got.moduli[1].youngs_modulus_Pa, 2e5);
+  EXPECT_EQ(got.moduli[1].standard_error_Pa, 3e3);
+  ASSERT_EQ(got.undetermined.size(), 1u);
+  EXPECT_EQ(got.undetermined[0].name, "cable_gain:top");
+  EXPECT_EQ(got.undetermined[0].what_would_tell, "a longer pull");
+  EXPECT_EQ(got.residual_rms_m, 1e-4);
+  EXPECT_EQ(got.chi_squared, 12.5);
+  EXPECT_EQ(got.degrees_of_freedom, 11);
+}
+
+TEST(ConvertCalibration, HasTheCovarianceInTheOrderOfRos) {
+  const auto message = SomeMessage();
+  // Turn about x with shift along y: row 3, column 1 of x, y, z, about x, about y, about z.
+  EXPECT_EQ(message->camera_covariance[6 * 3 + 1], 7e-6);
+  EXPECT_EQ(message->camera_covariance[6 * 1 + 3], 7e-6);
+  EXPECT_DOUBLE_EQ(message->camera_covariance[0], 0.004 * 0.004);
+}
+
+TEST(ConvertCalibration, RefusesNumbersThatAreNone) {
+  robot::CalibrationFile got;
+  auto message = SomeMessage();
+  message->camera_in_robot.orientation.w = 3.0;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("no pose"));
+  message = SomeMessage();
+  message->camera_covariance[7] = -1.0;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("covariance"));
+  message = SomeMessage();
+  message->drives._buffer[0].offset_m = kNaN;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("'top'"));
+  message = SomeMessage();
+  message->moduli._buffer[1].youngs_modulus_pa = 0.0;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("'tip'"));
+}
+
+dds::Message<idl::palpate_msgs::MarkerArray3> Markers(const std::string& first, double x_m) {
+  dds::Message<idl::palpate_msgs::MarkerArray3> message;
+  dds::SetHeader(message->header, 7, "camera_depth_optical_frame");
+  dds::Resize(message->markers, 2);
+  dds::SetText(message->markers._buffer[0].name, first);
+  dds::SetText(message->markers._buffer[1].name, "b");
+  message->markers._buffer[0].position_m = {x_m, 0.2, 0.3};
+  message->markers._buffer[0].valid = true;
+  return message;
+}
+
+TEST(ConvertMarkers, KeepsThoseThatWereSeenWithTheNoiseOfTheSettingsWhereTheyHaveNone) {
+  SeenMarkers seen;
+  ASSERT_TRUE(FromMarkerArray(*Markers("c", 0.1), {"b", "c"}, 1e-3, &seen).ok());
+  EXPECT_EQ(seen.stamp_ns, 7);
+  ASSERT_EQ(seen.markers.size(), 1u);
+  EXPECT_EQ(seen.markers[0].marker, 1);
+  EXPECT_EQ(seen.markers[0].position_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_TRUE(seen.markers[0].covariance_m2.isApprox(1e-6 * Eigen::Matrix3d::Identity(), 1e-12));
+}
+
+TEST(ConvertMarkers, RefusesThoseThatAreNotTheRobots) {
+  SeenMarkers seen;
+  const std::vector<std::string> names = {"b", "cc"};
+  EXPECT_THAT(FromMarkerArray(*Markers("ccc", 0.1), names, 1e-3, &seen).message(),
+              HasSubstr("did you mean 'cc'"));
+  EXPECT_THAT(FromMarkerArray(*Markers("b", 0.1), names, 1e-3, &seen).message(),
+              HasSubstr("comes twice"));
+  EXPECT_THAT(FromMarkerArray(*Markers("cc", kNaN), names, 1e-3, &seen).message(),
+              HasSubstr("not finite"));
+}
+
+}  // namespace
+}  // namespace palpate::calibration

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "components/calibration/node/node.hpp"
+#include "components/force_estimation/node/calibration_input.hpp"
+#include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+#include "tests/components/force_estimation/node_test_robot.hpp"
+#include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/test_folder.hpp"
+
+namespace palpate::calibration {
+
+inline constexpr auto kCameraFrame = "camera_depth_optical_frame";
+
+/// Stands in for the fit: remembers its jobs, and does not return while it is held.
+class ScriptedFit {
+ public:
+  Worker::Fit Fit() {
+    return [this](robot::RobotModel& model, const LiveJob& job) { return Answer(model, job); };
+  }
+  void Hold(bool hold) {
+    const std::lock_guard lock(mutex_);
+    hold_ = hold;
+    changed_.notify_all();
+  }
+  std::vector<LiveJob> jobs() const {
+    const std::lock_guard lock(mutex_);
+    return jobs_;
+  }
+  Status status = Status::Ok();  ///< of what comes of it
+
+ private:
+  LiveResult Answer(robot::RobotModel& model, const LiveJob& job) {
+    std::unique_lock lock(mutex_);
+    jobs_.push_back(job);
+    changed_.wait(lock, [this] { return !hold_; });
+    LiveResult result;
+    result.status = status;
+    result.file = robot::DescribeForCalibration(model);
+    result.file.date_utc = "2026-01-31T12:00:00Z";
+    result.file.data = job.data;
+    result.file.data_hash = "sha256-of-it";
+    result.file.pose.emplace().T_robot_camera.translation().z() = 0.25;
+    return result;
+  }
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool hold_ = false;
+  std::vector<LiveJob> jobs_;
+};
+
+/// The node in a thread of its own, and a participant that plays robot, perception and requester.
+class CalibrationNodeTest : public testing::Test {
+ protected:
+  struct Told {
+    std::string id, state, status, reason;
+    std::uint32_t taken = 0, wanted = 0;
+  };
+
+  CalibrationNodeTest()
+      : test_("test"),
+        joint_states_(test_.participant.CreateWriter(dds::kJointStatesTopic, test_.Waker())),
+        markers_(test_.participant.CreateWriter(dds::kMarkersTopic, test_.Waker())),
+        clouds_(test_.participant.CreateWriter(dds::kRobotCloudTopic, test_.Waker())),
+        reports_(test_.participant.CreateWriter(dds::kPerceptionReportTopic, test_.Waker())),
+        requests_(test_.participant.CreateWriter(dds::kCalibrationRequestTopic, test_.Waker())),
+        statuses_(test_.participant.CreateReader(dds::kCalibrationStatusTopic, test_.Waker())),
+        calibrations_(test_.participant.CreateReader(dds::kCalibrationTopic, test_.Waker())) {
+    test_.loop.Attach(statuses_, [this] { TakeStatuses(); });
+    test_.loop.Attach(calibrations_, [this] {
+      for (const auto& message : calibrations_.Take()) {
+        EXPECT_TRUE(force_estimation::FromCalibration(message, &found_.emplace_back()).ok());
+      }
+    });
+  }
+  ~CalibrationNodeTest() override {
+    fit_.Hold(false);
+    if (!node_) return;
+    node_->Stop();
+    thread_.join();
+  }
+
+  NodeConfig TestConfig() const {
+    NodeConfig config;
+    config.calibration_file = (folder_.path() / "calibration.yaml").string();
+    config.source = "markers";
+    config.frames = 2;
+    config.still_s = 0.1;
+    config.marker_pictures = 3;
+    return config;
+  }
+
+  void StartNode(const NodeConfig& config, Worker::Fit fit) {
+    node_ = std::make_unique<CalibrationNode>(
+        config, force_estimation::NodeTestRobot(), static_cast<int>(dds::TestDomain()),
+        dds::BuiltInTable(), dds::NodeLog::ProcessLog(), std::move(fit));
+    thread_ = std::thread([this] { node_->Run(); });
+    ASSERT_TRUE(test_.WaitFor([this] {
+      return joint_states_.matched() == 1 && markers_.matched() == 1 && clouds_.matched() == 1 &&
+             reports_.matched() == 1 && requests_.matched() == 1 && statuses_.matched() == 1 &&
+             calibrations_.matched() == 1 && !told_.empty();
+    }));
+  }
+
+  struct Asked {
+    std::string id = "one";
+    std::string source = {};
+    std::uint32_t frames = 0;
+    std::vector<std::string> moduli = {};
+    std::uint8_t action = 0;
+  };
+  void Ask(const Asked& asked) {
+    dds::Message<idl::palpate_msgs::CalibrationRequest> message;
+    dds::SetText(message->id, asked.id);
+    dds::SetText(message->source, asked.source);
+    message->frame_count = asked.frames;
+    message->action = asked.action;
+    dds::Resize(message->moduli, asked.moduli.size());
+    for (std::size_t k = 0; k < asked.moduli.size(); ++k) {
+      dds::SetText(message->moduli._buffer[k], asked.moduli[k]);
+    }
+    ASSERT_TRUE(requests_.Write(message));
+  }
+  /// The first thing that is told of it with this state, from now on.
+  Told WaitForState(const std::string& id, const std::string& state) {
+    Told found;
+    EXPECT_TRUE(test_.WaitFor([&] {
+      for (; read_ < told_.size(); ++read_) {
+        found = told_[read_];
+        if (found.id == id && found.state == state) return true;
+      }
+      return false;
+    })) << "no '"
+        << state << "' of '" << id << "', but '" << found.state << "': " << found.reason;
+    ++read_;
+    return found;
+  }
+
+  /// The cable at rest at `taken_in_m` over 0.2 s before `stamp_ns` and at it.
+  void SendRest(std::int64_t stamp_ns, double taken_in_m, const std::string& cable = "top") {
+    for (std::int64_t back_ns = 200'000'000; back_ns >= 0; back_ns -= 20'000'000) {
+      dds::Message<idl::sensor_msgs::JointState> message;
+      dds::SetHeader(message->header, stamp_ns - back_ns, "robot");
+      dds::Resize(message->name, 1);
+      dds::SetText(message->name._buffer[0], cable);
+      dds::SetNumbers(message->position, &taken_in_m, 1);
+      ASSERT_TRUE(joint_states_.Write(message));
+    }
+  }
+  /// `seen_m` [3 x markers], camera frame.
+  void SendMarkers(std::int64_t stamp_ns, const Eigen::Matrix3Xd& seen_m,
+                   const std::string& frame = kCameraFrame) {
+    const auto names = robot_->MarkerNames();
+    dds::Message<idl::palpate_msgs::MarkerArray3> message;
+    dds::SetHeader(message->header, stamp_ns, frame);
+    dds::Resize(message->markers, names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      auto& marker = message->markers._buffer[k];
+      dds::SetText(marker.name, names[k]);
+      dds::SetVector(marker.position_m, seen_m.col(static_cast<Eigen::Index>(k)));
+      dds::SetVector(marker.sigma_m, Eigen::Vector3d::Constant(1e-5));
+      marker.valid = true;
+    }
+    ASSERT_TRUE(markers_.Write(message));
+  }
+  /// A setting of the cable with enough pictures of the markers for a frame.
+  void SendSetting(std::int64_t stamp_ns, double taken_in_m, const Eigen::Matrix3Xd& seen_m) {
+    SendRest(stamp_ns, taken_in_m);
+    for (std::int64_t k = 3; k > 0; --k) SendMarkers(stamp_ns - k, seen_m);
+  }
+  struct Seen {
+    std::int64_t stamp_ns = 0;
+    Eigen::Index points = 1;
+    std::string device = "Palpate-1";
+    std::uint32_t contacts = 0;
+    std::string status = "ok";
+  };
+  void SendCloud(const Seen& seen) {
+    rgbd::SensedCloud cloud;
+    cloud.points_m = Eigen::Matrix3Xf::Constant(3, seen.points, 0.25f);
+    cloud.sigma_m = Eigen::VectorXf::Ones(seen.points);
+    cloud.colors_rgb.assign(static_cast<std::size_t>(3 * seen.points), 9);
+    ASSERT_TRUE(clouds_.Write(dds::ToPointCloud2(cloud, seen.stamp_ns, kCameraFrame)));
+    dds::Message<idl::palpate_msgs::PerceptionReport> report;
+    dds::SetHeader(report->header, seen.stamp_ns, kCameraFrame);
+    dds::SetText(report->device, seen.device);
+    dds::SetText(report->status, seen.status);
+    dds::SetText(report->reason, "as perception says");
+    report->contacts = seen.contacts;
+    ASSERT_TRUE(reports_.Write(report));
+  }
+
+  void TakeStatuses() {
+    for (const auto& message : statuses_.Take()) {
+      told_.push_back(
+          {std::string(dds::Text(message.request_id)), std::string(dds::Text(message.state)),
+           std::string(dds::Text(message.status)), std::string(dds::Text(message.reason)),
+           message.frames_taken, message.frames_wanted});
+    }
+  }
+
+  test_support::TestFolder folder_;
+  ScriptedFit fit_;
+  std::unique_ptr<robot::RobotModel> robot_ = force_estimation::NodeTestRobot();
+  dds::TestNode test_;
+  dds::Writer<idl::sensor_msgs::JointState> joint_states_;
+  dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;
+  dds::Writer<idl::sensor_msgs::PointCloud2> clouds_;
+  dds::Writer<idl::palpate_msgs::PerceptionReport> reports_;
+  dds::Writer<idl::palpate_msgs::CalibrationRequest> requests_;
+  dds::Reader<idl::palpate_msgs::CalibrationStatus> statuses_;
+  dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
+  std::vector<Told> told_;
+  std::size_t read_ = 0;
+  std::vector<robot::CalibrationFile> found_;
+  std::unique_ptr<CalibrationNode> node_;
+  std::thread thread_;
+};
+
+}  // namespace palpate::calibration

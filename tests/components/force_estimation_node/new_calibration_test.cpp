@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "components/force_estimation/node/node.hpp"
+#include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/stamp.hpp"
+#include "tests/components/force_estimation/node_test_robot.hpp"
+#include "tests/components/force_estimation_node/scripted_estimator.hpp"
+#include "tests/libs/dds/test_participant.hpp"
+
+/// palpate-force-estimation takes what comes on /calibration without a restart.
+namespace palpate::force_estimation {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kTold_m = 0.002;
+constexpr auto kFrame = "camera_depth_optical_frame";
+
+class NewCalibrationTest : public testing::Test {
+ protected:
+  NewCalibrationTest()
+      : test_("test"),
+        clouds_(test_.participant.CreateWriter(dds::kRobotCloudTopic, test_.Waker())),
+        reports_(test_.participant.CreateWriter(dds::kPerceptionReportTopic, test_.Waker())),
+        contacts_(test_.participant.CreateWriter(dds::kContactsTopic, test_.Waker())),
+        joint_states_(test_.participant.CreateWriter(dds::kJointStatesTopic, test_.Waker())),
+        calibrations_(test_.participant.CreateWriter(dds::kCalibrationTopic, test_.Waker())),
+        forces_(test_.participant.CreateReader(dds::kForcesTopic, test_.Waker())),
+        log_(test_.participant.CreateReader(dds::kRosoutTopic, test_.Waker())) {
+    test_.loop.Attach(forces_, [this] {
+      for (const auto& message : forces_.Take()) {
+        answered_ns_ = dds::StampNs(message.header.stamp);
+        status_ = dds::Text(message.status);
+        reason_ = dds::Text(message.reason);
+      }
+    });
+    test_.loop.Attach(log_, [this] {
+      for (const auto& message : log_.Take()) said_.emplace_back(dds::Text(message.msg));
+    });
+  }
+  ~NewCalibrationTest() override {
+    if (!node_) return;
+    node_->Stop();
+    thread_.join();
+  }
+
+  static NodeConfig Config() {
+    NodeConfig config;
+    config.source = "shape";
+    config.camera_pose = "{translation_m: [0, 0, 0.5], rotation_xyzw: [0, 0, 0, 1]}";
+    return config;
+  }
+
+  /// `in_use`: date of the calibration that was given at the start; empty: none.
+  void Start(const NodeConfig& config, const std::string& in_use = {}) {
+    node_ = std::make_unique<ForceEstimationNode>(
+        config, NodeTestRobot(), 0.0, static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
+        dds::NodeLog::ProcessLog(), script_.Maker());
+    robot::CalibrationFile given;
+    given.date_utc = in_use;
+    if (!in_use.empty()) node_->SetCalibrationInUse(given);
+    thread_ = std::thread([this] { node_->Run(); });
+    ASSERT_TRUE(test_.WaitFor([this] {
+      return clouds_.matched() == 1 && reports_.matched() == 1 && contacts_.matched() == 1 &&
+             joint_states_.matched() == 1 && calibrations_.matched() == 1 &&
+             forces_.matched() == 1 && log_.matched() >= 1;
+    }));
+  }
+
+  struct Sent {
+    double z_m = 0.75;
+    std::string date_utc = "2026-01-31T12:00:00Z";
+    std::string robot = {}, mesh = {}, element = {};  ///< empty: as the node has it
+  };
+  void Send(const Sent& sent) {
+    const robot::CalibrationFile present = robot::DescribeForCalibration(*robot_);
+    dds::Message<idl::palpate_msgs::Calibration> message;
+    const auto given_or = [](const std::string& given, const std::string& other) {
+      return given.empty() ? other : given;
+    };
+    dds::SetText(message->robot, given_or(sent.robot, present.robot));
+    dds::SetText(message->mesh_hash, given_or(sent.mesh, present.mesh_hash));
+    dds::SetText(message->element, given_or(sent.element, present.element));
+    dds::SetText(message->material_model, present.model);
+    dds::SetText(message->volumetric, present.volumetric);
+    message->poissons_ratio = present.poissons_ratio;
+    dds::SetText(message->date_utc, sent.date_utc);
+    dds::SetText(message->data, "this test");
+    message->has_camera = true;
+    message->camera_in_robot =
+        dds::ToPose(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, sent.z_m)));
+    dds::Resize(message->drives, 1);
+    dds::SetText(message->drives._buffer[0].cable, "top");
+    message->drives._buffer[0].offset_m = 1e-3;
+    dds::Resize(message->moduli, 1);
+    dds::SetText(message->moduli._buffer[0].part, "body");
+    message->moduli._buffer[0].youngs_modulus_pa = 321e3;
+    ASSERT_TRUE(calibrations_.Write(message));
+  }
+
+  /// Sends a frame with its cable input and waits for the answer; the frame as the estimator saw it
+  /// is the last call of the script.
+  void Ask(std::int64_t stamp_ns) {
+    dds::Message<idl::sensor_msgs::JointState> joint;
+    dds::SetHeader(joint->header, stamp_ns, "robot");
+    dds::Resize(joint->name, 1);
+    dds::SetText(joint->name._buffer[0], "top");
+    dds::SetNumbers(joint->position, &kTold_m, 1);
+    ASSERT_TRUE(joint_states_.Write(joint));
+    rgbd::SensedCloud cloud;
+    cloud.points_m = Eigen::Matrix3Xf::Constant(3, 1, 0.25f);
+    cloud.sigma_m = Eigen::VectorXf::Ones(1);
+    cloud.colors_rgb.assign(3, 9);
+    ASSERT_TRUE(clouds_.Write(dds::ToPointCloud2(cloud, stamp_ns, kFrame)));
+    dds::Message<idl::palpate_msgs::PerceptionReport> report;
+    dds::SetHeader(report->header, stamp_ns, kFrame);
+    dds::SetText(report->status, "ok");
+    ASSERT_TRUE(reports_.Write(report));
+    dds::Message<idl::palpate_msgs::ContactArray> contacts;
+    dds::SetHeader(contacts->header, stamp_ns, kFrame);
+    ASSERT_TRUE(contacts_.Write(contacts));
+    ASSERT_TRUE(test_.WaitFor([&] { return answered_ns_ == stamp_ns; })) << stamp_ns;
+  }
+  bool WaitUntilSaid(const std::string& text) {
+    return test_.WaitFor([&] {
+      return std::any_of(said_.begin(), said_.end(), [&](const std::string& line) {
+        return line.find(text) != std::string::npos;
+      });
+    });
+  }
+  double LastCameraZ_m() const {
+    return script_.calls().back().seen.frame.T_robot_camera.translation().z();
+  }
+
+  Script script_;
+  std::unique_ptr<robot::RobotModel> robot_ = NodeTestRobot();
+  dds::TestNode test_;
+  dds::Writer<idl::sensor_msgs::PointCloud2> clouds_;
+  dds::Writer<idl::palpate_msgs::PerceptionReport> reports_;
+  dds::Writer<idl::palpate_msgs::ContactArray> contacts_;
+  dds::Writer<idl::sensor_msgs::JointState> joint_states_;
+  dds::Writer<idl::palpate_msgs::Calibration> calibrations_;
+  dds::Reader<idl::palpate_msgs::ForceArray> forces_;
+  dds::Reader<idl::rcl_interfaces::Log> log_;
+  std::int64_t answered_ns_ = 0;
+  std::string status_, reason_;
+  std::vector<std::string> said_;
+  std::unique_ptr<ForceEstimationNode> node_;
+  std::thread thread_;
+};
+
+TEST_F(NewCalibrationTest, HoldsFromTheNextFrameOnWhichBeginsASequence) {
+  Start(Config());
+  Ask(10);
+  EXPECT_EQ(LastCameraZ_m(), 0.5);
+  EXPECT_EQ(script_.calls().back().seen.frame.cables.at(0).value, kTold_m);
+  EXPECT_EQ(script_.calls().back().youngs_modulus_Pa, 250e3);
+  Send({});
+  ASSERT_TRUE(WaitUntilSaid("takes the calibration of 2026-01-31"));
+  Ask(20);
+  const Script::Call call = script_.calls().back();
+  EXPECT_EQ(call.seen.frame.T_robot_camera.translation().z(), 0.75);
+  EXPECT_NEAR(call.seen.frame.cables.at(0).value, kTold_m + 1e-3, 1e-15);
+  EXPECT_EQ(call.youngs_modulus_Pa, 321e3);
+  EXPECT_EQ(call.estimator, script_.calls().front().estimator + 1);
+  Ask(30);
+  EXPECT_EQ(script_.calls().back().estimator, call.estimator);
+}
+
+TEST_F(NewCalibrationTest, IsRefusedWhereItIsForeignAndThatIsSaid) {
+  Start(Config());
+  Send({.robot = "another"});
+  EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for robot 'another'"));
+  Send({.mesh = "another"});
+  EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for mesh 'another'"));
+  Send({.element = "tet10"});
+  EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for element 'tet10'"));
+  Ask(10);
+  EXPECT_EQ(LastCameraZ_m(), 0.5);
+  EXPECT_EQ(script_.calls().back().youngs_modulus_Pa, 250e3);
+}
+
+TEST_F(NewCalibrationTest, IsRefusedWhereItIsOlderThanTheOneInUse) {
+  Start(Config(), "2026-01-31T11:00:00Z");
+  Send({.z_m = 0.6, .date_utc = "2026-01-31T10:59:59Z"});
+  EXPECT_TRUE(WaitUntilSaid("older than the one in use"));
+  Ask(10);
+  EXPECT_EQ(LastCameraZ_m(), 0.5);
+  Send({.z_m = 0.7, .date_utc = "2026-01-31T11:00:01Z"});
+  EXPECT_TRUE(WaitUntilSaid("takes the calibration"));
+  Ask(20);
+  EXPECT_EQ(LastCameraZ_m(), 0.7);
+}
+
+TEST_F(NewCalibrationTest, SaysWhereTheCameraStandsToANodeThatDidNotKnow) {
+  NodeConfig config = Config();
+  config.camera_pose.clear();
+  Start(config);
+  Ask(10);
+  EXPECT_EQ(status_, "no_calibration");
+  EXPECT_THAT(reason_, HasSubstr("where the camera stands is not known"));
+  EXPECT_TRUE(script_.calls().empty());
+  Send({});
+  ASSERT_TRUE(WaitUntilSaid("takes the calibration"));
+  Ask(20);
+  EXPECT_EQ(status_, "ok");
+  EXPECT_EQ(LastCameraZ_m(), 0.75);
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation
