@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/material_calibration.hpp"
 #include "components/calibration/recording_observation.hpp"
 #include "components/palpate/calibrate/calibrate_ways.hpp"
@@ -44,9 +45,10 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
   const MaterialCalibration fit = calibration::CalibrateMaterial(*model, observations, settings);
   RequireFit(fit.status);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
+  const std::vector<std::string> parts = calibration::PartNames(model->body());
   for (const calibration::FittedModulus& modulus : fit.moduli) {
-    file.moduli.push_back({PartName(model->body(), modulus.material), modulus.youngs_modulus_Pa,
-                           modulus.standard_error_Pa});
+    file.moduli.push_back({parts.at(static_cast<std::size_t>(modulus.material)),
+                           modulus.youngs_modulus_Pa, modulus.standard_error_Pa});
   }
   TakeQuality(fit, &file);
   if (!options.json) PrintFit(fit, observations);

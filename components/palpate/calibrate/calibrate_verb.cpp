@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "components/calibration/joint/found_calibration.hpp"
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -23,8 +24,7 @@ namespace {
 
 // Indices into RobotBody::materials.
 std::vector<int> MaterialsOf(const std::vector<std::string>& parts, const robot::RobotBody& body) {
-  std::vector<std::string> known = {"body"};
-  known.insert(known.end(), body.region_names.begin(), body.region_names.end());
+  const std::vector<std::string> known = calibration::PartNames(body);
   std::vector<int> materials;
   for (const std::string& part : parts.empty() ? std::vector<std::string>{"body"} : parts) {
     const auto found = std::find(known.begin(), known.end(), part);
@@ -41,14 +41,30 @@ std::vector<int> MaterialsOf(const std::vector<std::string>& parts, const robot:
   return materials;
 }
 
+bool HasMarkers(const experiment::Experiment& experiment) {
+  return std::any_of(
+      experiment.recordings.begin(), experiment.recordings.end(),
+      [](const experiment::Recording& recording) { return recording.markers.has_value(); });
+}
+
 robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* model) {
   const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const std::vector<int> materials = MaterialsOf(options.parts, model->body());
-  const bool camera = options.what == "camera" || options.what == "joint" ||
-                      (options.what == "auto" && NeedsCameraPose(experiment));
-  if (!camera) return CalibrateMaterial(options, experiment, materials, model);
-  const bool joint = options.what == "joint" || !options.parts.empty();
-  return CalibrateCamera(options, experiment, joint ? materials : std::vector<int>(), model);
+  if (options.from == "markers" && !options.camera_pose.empty()) {
+    throw InputError("--camera-pose is for images; --from markers needs none");
+  }
+  const bool joint = options.what == "joint";
+  const bool images_are_meant = options.from == "images" || !options.camera_pose.empty();
+  const bool camera =
+      options.what == "camera" ||
+      (options.what != "material" && (images_are_meant || NeedsCameraPose(experiment)));
+  if (!joint && !camera) return CalibrateMaterial(options, experiment, materials, model);
+  const std::vector<int> wanted = joint || !options.parts.empty() ? materials : std::vector<int>();
+  const bool has_markers = camera ? HasMarkersOfTheCamera(experiment) : HasMarkers(experiment);
+  const bool from_images = images_are_meant || (options.from.empty() && !has_markers &&
+                                                HasImagesOfTheCamera(experiment));
+  if (from_images) return CalibrateFromImages(options, experiment, wanted, model);
+  return CalibrateJointly(options, experiment, wanted, camera, model);
 }
 
 }  // namespace
@@ -78,9 +94,20 @@ app::Verb CalibrateVerb() {
                          app::Need::kRequired);
         arguments.Option("--out", &options->out, "calibration file to write", app::Need::kRequired);
         arguments.Choice("--what", &options->what, {"auto", "material", "camera", "joint"},
-                         "what is found; camera: pose and drives' offsets; joint: with the moduli; "
-                         "auto: camera where markers are in its frame and its pose is not known, "
+                         "what is found; camera: pose and drives' offsets; joint: with the moduli, "
+                         "without the pose where it is known; auto: camera where markers are in "
+                         "its frame and its pose is not known, "
                          "else material");
+        arguments.Choice("--from", &options->from, {"markers", "images"},
+                         "what the camera is found from; else from markers in its frame where a "
+                         "recording has them, and without them from depth and colour");
+        arguments.Option(
+            "--camera-pose", &options->camera_pose,
+            "roughly where the camera stands, \"{translation_m: [x, y, z], "
+            "rotation_xyzw: [x, y, z, w]}\" (50 mm, 20 degrees): images start from it; "
+            "else from the experiment's");
+        arguments.Repeated("--set", &options->overrides,
+                           "a setting perception.* for images, KEY=VALUE");
         arguments.Repeated("--recording", &options->recordings,
                            "use this recording (repeatable); else all but those of kind 'free'");
         arguments.Repeated("--part", &options->parts,
@@ -95,6 +122,21 @@ app::Verb CalibrateVerb() {
                          "how far a drive's zero may be off, one sigma");
         arguments.Flag("--drive-gains", &options->drive_gains,
                        "find the gains of the drives' displacements, too");
+        arguments.Option("--marker-offset-sigma-m", &options->marker_offset_sigma_m,
+                         "how far a marker may sit from its place in the robot file, one sigma; "
+                         "joint: looked for where not 0");
+        arguments.Option("--gravity-tilt-sigma-deg", &options->gravity_tilt_sigma_deg,
+                         "how far gravity may lean, one sigma; joint: looked for where not 0");
+        arguments.Option("--mass-relative-sigma", &options->mass_relative_sigma,
+                         "how far the body's weight may be off, one sigma, 0.1: 10 %; joint: "
+                         "looked for where not 0");
+        arguments.Option("--poissons-ratio-sigma", &options->poissons_ratio_sigma,
+                         "how far Poisson's ratio may be off, one sigma; joint: looked for where "
+                         "not 0, of the parts whose modulus is");
+        arguments.Option(
+            "--convergence", &options->convergence,
+            "draw how the residual of the first frame falls, by the paper's Algorithm 1 "
+            "and jointly (SVG); camera's pose only");
         arguments.Flag("--json", &options->json, "print JSON");
         return [options] { return Calibrate(*options); };
       }};

@@ -14,8 +14,11 @@ namespace palpate::command {
 
 struct CalibrateOptions {
   std::filesystem::path robot;
-  std::string what = "auto";   ///< material, camera, joint (both); auto: what the data lack
-  std::filesystem::path data;  ///< experiment or recording folder
+  std::string what = "auto";           ///< material, camera, joint (both); auto: what the data lack
+  std::filesystem::path data;          ///< experiment or recording folder
+  std::string from;                    ///< markers, images; empty: what there is
+  std::string camera_pose;             ///< of which images start; empty: the experiment's
+  std::vector<std::string> overrides;  ///< perception.*=VALUE
   std::vector<std::string> recordings;  ///< names; empty: all that serve
   std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body
   std::string cable_input = "displacement";
@@ -23,14 +26,20 @@ struct CalibrateOptions {
   double marker_bias_m = 0.0;          ///< constant error of each marker, one sigma
   double drive_offset_sigma_m = 2e-3;  ///< how far a drive's zero may be off, one sigma
   bool drive_gains = false;
+  double marker_offset_sigma_m = 0.0;  ///< of these four 0: not looked for
+  double gravity_tilt_sigma_deg = 0.0;
+  double mass_relative_sigma = 0.0;
+  double poissons_ratio_sigma = 0.0;
   std::filesystem::path out;
+  std::filesystem::path convergence;  ///< SVG to draw (convergence_plot.hpp); empty: none
   bool json = false;
 };
 
 /// `palpate calibrate`: finds where the camera stands and how the drives' displacements are to be
-/// read (markers in the camera's frame), Young's moduli (static phases with known loads or self
-/// weight), or both jointly, and writes the calibration file. Returns 0; throws InputError, and
-/// RunError where the data do not determine what was asked for.
+/// read (markers in the camera's frame, or depth and colour without markers), Young's moduli
+/// (static phases with known loads or self weight), or both jointly, and writes the calibration
+/// file. Returns 0; throws InputError, and RunError where the data do not determine what was asked
+/// for.
 int Calibrate(const CalibrateOptions& options);
 
 app::Verb CalibrateVerb();

@@ -21,10 +21,24 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
 /// Whether a recording lies in the camera's frame and nobody says where the camera stood.
 bool NeedsCameraPose(const experiment::Experiment& experiment);
 
-/// Camera pose and drives from markers in the camera's frame, with the moduli of `materials`
-/// (empty: as they are).
-robot::CalibrationFile CalibrateCamera(const CalibrateOptions& options,
-                                       const experiment::Experiment& experiment,
-                                       const std::vector<int>& materials, robot::RobotModel* model);
+/// Whether a recording that serves has markers in the camera's frame.
+bool HasMarkersOfTheCamera(const experiment::Experiment& experiment);
+
+/// Whether a recording that serves has depth images.
+bool HasImagesOfTheCamera(const experiment::Experiment& experiment);
+
+/// Drives, gravity and the moduli of `materials` (empty: as they are) from markers, with the
+/// camera's pose where they were measured in its frame (`camera`).
+robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
+                                        const experiment::Experiment& experiment,
+                                        const std::vector<int>& materials, bool camera,
+                                        robot::RobotModel* model);
+
+/// The same from depth and colour without markers: perception's clouds of the robot, first as it
+/// sees them from the rough pose, then from the one that was found.
+robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
+                                           const experiment::Experiment& experiment,
+                                           const std::vector<int>& materials,
+                                           robot::RobotModel* model);
 
 }  // namespace palpate::command

@@ -5,26 +5,17 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "components/palpate/choose_recordings.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/utc_text.hpp"
 #include "libs/geometry/pose_text.hpp"
 
 namespace palpate::command {
 
 namespace {
-
-std::string UtcNow() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
 
 std::vector<double> ToList(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
@@ -36,7 +27,7 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
                                        const std::vector<const experiment::Recording*>& recordings,
                                        const std::filesystem::path& data) {
   robot::CalibrationFile file = robot::DescribeForCalibration(model);
-  file.date_utc = UtcNow();
+  file.date_utc = UtcText(std::time(nullptr));
   file.data = data.filename().empty() ? data.parent_path().filename() : data.filename();
   for (const experiment::Recording* recording : recordings) {
     file.data += (recording == recordings.front() ? ": " : ", ") + recording->name;
@@ -51,15 +42,20 @@ void RequireFit(const Status& status) {
                  "): " + status.message());
 }
 
-std::string PartName(const robot::RobotBody& body, int material) {
-  return material == 0 ? "body" : body.region_names[static_cast<std::size_t>(material) - 1];
-}
-
 void PrintCalibration(const robot::CalibrationFile& file) {
   for (const robot::CalibratedModulus& modulus : file.moduli) {
     fmt::print("E of {}: {:.2f} kPa, standard error {:.2f} kPa ({:.2g} %)\n", modulus.part,
                1e-3 * modulus.youngs_modulus_Pa, 1e-3 * modulus.standard_error_Pa,
                100.0 * modulus.standard_error_Pa / modulus.youngs_modulus_Pa);
+  }
+  for (const robot::CalibratedPoissonsRatio& poissons : file.poissons_ratios) {
+    fmt::print("Poisson's ratio of {}: {:.4f}, standard error {:.4f}\n", poissons.part,
+               poissons.poissons_ratio, poissons.standard_error);
+  }
+  if (file.gravity) {
+    fmt::print("gravity: {} m/s^2, standard error {}\n",
+               geometry::FormatVector(file.gravity->gravity_m_s2),
+               geometry::FormatVector(file.gravity->standard_error_m_s2));
   }
   if (file.pose) {
     constexpr double kDegrees = 57.29577951308232;
@@ -97,6 +93,15 @@ void PrintCalibrationJson(const robot::CalibrationFile& file) {
                                  {"residual_rms_m", file.residual_rms_m},
                                  {"chi_squared", file.chi_squared},
                                  {"degrees_of_freedom", file.degrees_of_freedom}};
+  for (const robot::CalibratedPoissonsRatio& poissons : file.poissons_ratios) {
+    json["poissons_ratios"].push_back({{"part", poissons.part},
+                                       {"poissons_ratio", poissons.poissons_ratio},
+                                       {"standard_error", poissons.standard_error}});
+  }
+  if (file.gravity) {
+    json["gravity_m_s2"] = ToList(file.gravity->gravity_m_s2);
+    json["gravity_standard_error_m_s2"] = ToList(file.gravity->standard_error_m_s2);
+  }
   if (file.pose) {
     const Eigen::Isometry3d& pose = file.pose->T_robot_camera;
     const Eigen::Quaterniond rotation(pose.linear());

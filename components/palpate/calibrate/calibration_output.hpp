@@ -20,9 +20,6 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
                                        const std::vector<const experiment::Recording*>& recordings,
                                        const std::filesystem::path& data);
 
-/// Name of a material (RobotBody::materials) in calibration files: "body", or its region's.
-std::string PartName(const robot::RobotBody& body, int material);
-
 /// Throws RunError with the reason where a fit failed.
 void RequireFit(const Status& status);
 

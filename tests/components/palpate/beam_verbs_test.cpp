@@ -33,6 +33,27 @@ CalibrateOptions OnSelfWeight(const TestFolder& folder) {
   return options;
 }
 
+TEST(BeamVerbs, FindStiffnessAndGravityJointly) {
+  const TestFolder folder;
+  CalibrateOptions options = OnSelfWeight(folder);
+  options.what = "joint";
+  options.marker_offset_sigma_m = 2e-3;
+  options.gravity_tilt_sigma_deg = 5.0;
+  ASSERT_EQ(Calibrate(options), 0);
+  const auto calibration = robot::ReadCalibrationFile(folder / "calibration.yaml", app::LoadYaml);
+  EXPECT_FALSE(calibration.pose);
+  ASSERT_EQ(calibration.moduli.size(), 1U);
+  EXPECT_NEAR(calibration.moduli[0].youngs_modulus_Pa, 231e3, 0.02 * 231e3);  // truth.yaml
+  ASSERT_TRUE(calibration.gravity);
+  const Eigen::Vector3d off_m_s2 =
+      calibration.gravity->gravity_m_s2 - Eigen::Vector3d(0.0, 0.0, -9.81);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_GT(calibration.gravity->standard_error_m_s2[i], 0.0);
+    EXPECT_LE(std::abs(off_m_s2[i]), 1.96 * calibration.gravity->standard_error_m_s2[i]) << i;
+  }
+  EXPECT_TRUE(calibration.undetermined.empty());
+}
+
 TEST(BeamVerbs, FindTheStiffnessAndThenTheHungWeight) {
   const TestFolder folder;
   ASSERT_EQ(Calibrate(OnSelfWeight(folder)), 0);

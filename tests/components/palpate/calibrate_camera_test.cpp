@@ -117,6 +117,22 @@ TEST_F(CalibrateCamera, FindsTheModulusWithThem) {
   EXPECT_TRUE(file.pose->T_robot_camera.isApprox(T_robot_camera_, 1e-3));
 }
 
+TEST_F(CalibrateCamera, DrawsHowBothWaysConverge) {
+  CalibrateOptions options = Options();
+  options.convergence = folder_ / "convergence.svg";
+  Run(options);
+  const std::string svg = ReadFile(options.convergence);
+  EXPECT_THAT(svg, HasSubstr("Algorithm 1"));
+  EXPECT_THAT(svg, HasSubstr("jointly"));
+  int lines = 0;
+  for (size_t at = 0; (at = svg.find("<polyline", at)) != std::string::npos; ++at) ++lines;
+  EXPECT_EQ(lines, 2);
+
+  folder_.Write("data/experiment.yaml", "frame: robot\nmarkers_sigma_m: 1.0e-4\n");
+  options.what = "joint";
+  EXPECT_THROW(Calibrate(options), InputError);
+}
+
 TEST_F(CalibrateCamera, AnotherRobotIsRefused) {
   std::string text = ReadFile(robot_);
   const std::string old = "[0.04, 0.02, 0.02]";

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "components/calibration/joint/calibration_frame.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// Calibrates the first of these frames that is without loads as the paper does, whose cables
+/// nothing is known of: by its Algorithm 1 and jointly by Ipopt; draws the residual of both after
+/// each iteration (the paper's Fig. 6) and prints where they end. `model` stays as it was. Throws
+/// InputError where every frame has loads, and RunError where neither finds a pose or the file
+/// cannot be written.
+void PlotConvergence(const std::vector<calibration::CalibrationFrame>& frames,
+                     robot::RobotModel* model, const std::filesystem::path& file);
+
+}  // namespace palpate::command

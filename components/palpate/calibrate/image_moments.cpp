@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/calibrate/image_moments.hpp"
+
+#include <algorithm>
+
+#include "components/calibration/recording_phase.hpp"
+#include "components/palpate/progress_line.hpp"
+#include "components/perception/perception.hpp"
+#include "components/perception/predicted_surface.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+double Seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
+
+/// Pictures to take, into `images.frames`.
+std::vector<std::size_t> Choose(const experiment::Recording& recording,
+                                const experiment::RgbdSequence& images, std::size_t most) {
+  std::vector<std::size_t> in_window;
+  for (std::size_t k = 0; k < images.frames.size(); ++k) {
+    const double t_s = Seconds(images.frames[k].t_ns);
+    const auto& window = recording.steady_window_s;
+    if (!window || (t_s >= window->begin_s && t_s <= window->end_s)) in_window.push_back(k);
+  }
+  if (in_window.empty()) {
+    throw InputError(recording.folder.string() + ": no picture lies in steady_window_s");
+  }
+  if (recording.steady_window_s || calibration::CablesAreStill(recording)) {
+    return {in_window[in_window.size() / 2]};
+  }
+  const std::size_t count = std::min(in_window.size(), most);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(in_window[count == 1 ? 0 : k * (in_window.size() - 1) / (count - 1)]);
+  }
+  return chosen;
+}
+
+perception::PredictedSurface SurfaceOf(const ExpectedShape& expected,
+                                       const robot::RobotBody& body) {
+  const Eigen::Map<const Eigen::Matrix3Xd> nodes_m(expected.x_m.data(), 3, expected.x_m.size() / 3);
+  return perception::MakePredictedSurface(nodes_m.cast<float>(), body.boundary.DrawnTriangles(),
+                                          expected.T_robot_camera);
+}
+
+}  // namespace
+
+std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
+                                   const experiment::RgbdSequence& images,
+                                   const robot::RobotModel& model, robot::CableInput preferred,
+                                   std::size_t most) {
+  experiment::CheckCables(recording, model.CableNames());
+  const Eigen::Matrix3d R_base = experiment::BaseRotation(recording);
+  const std::vector<std::size_t> chosen = Choose(recording, images, most);
+  std::vector<ImageMoment> moments;
+  for (const std::size_t index : chosen) {
+    const double t_s = Seconds(images.frames[index].t_ns);
+    moments.push_back(
+        {.images = &images,
+         .index = index,
+         .frame = {.name = chosen.size() == 1 ? recording.name
+                                              : recording.name + " at " + FormatNumber(t_s) + " s",
+                   .cloud = {},
+                   .cables = calibration::CablesAt(recording, model, preferred, t_s),
+                   .loads = calibration::LoadsAt(recording, model, t_s),
+                   .gravity_m_s2 = R_base.transpose() * model.gravity_m_s2()}});
+  }
+  return moments;
+}
+
+std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
+                                               const perception::Config& config,
+                                               const robot::RobotBody& body,
+                                               const std::vector<ExpectedShape>& expected,
+                                               std::vector<std::string>* left_out) {
+  perception::Perception perception(config);
+  const experiment::RgbdSequence* opened = nullptr;
+  std::vector<calibration::CloudFrame> frames;
+  rgbd::RgbdFrame images;
+  ProgressLine progress("pictures", static_cast<int>(moments.size()));
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const ImageMoment& moment = moments[k];
+    if (opened != moment.images) perception.SetCamera(moment.images->camera);
+    opened = moment.images;
+    moment.images->Read(moment.index, &images);
+    images.stamp_ns = moment.images->frames[moment.index].t_ns;
+    std::optional<perception::PredictedSurface> surface;
+    if (!expected.empty()) surface = SurfaceOf(expected[k], body);
+    const perception::Observation& seen = perception.Update(images, surface ? &*surface : nullptr);
+    if (seen.frame.status.ok()) {
+      frames.push_back(moment.frame);
+      frames.back().cloud = seen.frame.robot;
+    } else {
+      left_out->push_back(moment.frame.name + ": " + seen.frame.status.message());
+    }
+    progress.Update(static_cast<int>(k) + 1);
+  }
+  return frames;
+}
+
+}  // namespace palpate::command

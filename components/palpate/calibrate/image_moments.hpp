@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/calibration/cloud/cloud_frame.hpp"
+#include "components/perception/config.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/experiment/images/rgbd_sequence.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// A picture that calibration takes, and what acted on the robot then.
+struct ImageMoment {
+  const experiment::RgbdSequence* images = nullptr;
+  std::size_t index = 0;          ///< into its frames
+  calibration::CloudFrame frame;  ///< the cloud is yet to come
+};
+
+/// Of a recording whose cables are still, or in its steady window, the middle picture; of a moving
+/// one up to `most`, spread over its time. `images` must outlive them. Throws InputError where a
+/// load lies off the body, or a steady window shows no picture.
+std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
+                                   const experiment::RgbdSequence& images,
+                                   const robot::RobotModel& model, robot::CableInput preferred,
+                                   std::size_t most = 6);
+
+/// Where the robot is thought to be at a moment.
+struct ExpectedShape {
+  Eigen::VectorXd x_m;  ///< [3n] nodes, robot frame
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+};
+
+/// Perception's clouds of the robot at these moments; `expected`: one for each, or none where
+/// nothing is known. Those in which it does not see the robot are left out, with a line for each in
+/// `left_out`.
+std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
+                                               const perception::Config& config,
+                                               const robot::RobotBody& body,
+                                               const std::vector<ExpectedShape>& expected,
+                                               std::vector<std::string>* left_out);
+
+}  // namespace palpate::command
