@@ -15,19 +15,16 @@
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "tests/benchmarks/lazy.hpp"
+#include "tests/benchmarks/sensing_frames.hpp"
 #include "tests/benchmarks/sensing_sets.hpp"
 
 namespace palpate::benchmarks {
 
 namespace {
 
-using force_estimation::ShapeForceEstimator;
 using test_support::AccuracySummary;
 using test_support::ContactWish;
 using Eyes = SensingSets::Eyes;
-using SharedSets = std::shared_ptr<Lazy<SensingSets>>;
-
-constexpr int kUntouchedFrames = 20;
 
 int NumberFrom(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
@@ -132,51 +129,6 @@ Benchmark OfWeights(const SharedSets& sets, Eyes eyes, const char* name, bool gi
           .max_repetitions = 1};
 }
 
-/// An estimator that sees the same frames again and again.
-class Replay {
- public:
-  Replay(std::vector<force_estimation::ShapeFrame> frames, int feature_points)
-      : frames_(std::move(frames)),
-        model_(BodyWith(feature_points)),
-        estimator_(model_, force_estimation::Config(), force_estimation::ShapeConfig()) {
-    for (; next_ < kUntouchedFrames; ++next_) estimator_.Update(frames_[next_]);
-    TakeFrame();
-  }
-
-  void TakeFrame() {
-    const force_estimation::ForceEstimate& estimate = estimator_.Update(frames_[next_]);
-    if (!estimate.status.ok() && estimate.status.code() != StatusCode::kNoContact) {
-      throw RunError("the frame was not used: " + estimate.status.message());
-    }
-    if (++next_ == frames_.size()) next_ = kUntouchedFrames;
-  }
-
- private:
-  static robot::RobotBody BodyWith(int feature_points) {
-    robot::RobotDescription robot = test_support::FourLeg();
-    robot.feature_point_count = feature_points;
-    return robot::BuildRobotBody(robot);
-  }
-
-  std::vector<force_estimation::ShapeFrame> frames_;
-  robot::RobotModel model_;
-  ShapeForceEstimator estimator_;
-  std::size_t next_ = 0;
-};
-
-Benchmark OfFrames(const SharedSets& sets, int feature_points) {
-  const auto replay = MakeLazy<Replay>([sets, feature_points] {
-    return std::make_unique<Replay>(sets->Get().Frames(kUntouchedFrames), feature_points);
-  });
-  return {.name = "sensing/estimate_" + std::to_string(feature_points) + "_points",
-          .measure =
-              [replay](benchmark::State& state) {
-                Replay& frames = replay->Get();
-                for ([[maybe_unused]] auto iteration : state) frames.TakeFrame();
-              },
-          .max_repetitions = 300};
-}
-
 }  // namespace
 
 std::vector<Block> SensingBlocks() {
@@ -185,11 +137,7 @@ std::vector<Block> SensingBlocks() {
   const SharedSets sets =
       MakeLazy<SensingSets>([size] { return std::make_unique<SensingSets>(size); });
   const int half = (size.contacts + 1) / 2;
-  Block frames{.heading = "force sensing by sight, four_leg_tet10: one frame of the estimator",
-               .benchmarks = {}};
-  for (const int feature_points : {51, 15})
-    frames.benchmarks.push_back(OfFrames(sets, feature_points));
-  std::vector<Block> blocks = {std::move(frames)};
+  std::vector<Block> blocks = FrameBlocks(sets);
   const auto add = [&](Benchmark set) {
     blocks.push_back({.heading = "force sensing by sight: whole sets (their accuracy: below)",
                       .benchmarks = {std::move(set)}});

@@ -140,23 +140,25 @@ std::array<double, kTableWeights_mN.size()> SensingSets::HangWeights(Eyes eyes, 
   return found_N;
 }
 
-std::vector<force_estimation::ShapeFrame> SensingSets::Frames(int untouched) {
-  std::vector<force_estimation::ShapeFrame> frames;
-  const std::vector<Path>& paths = PathsOf({}, 1);
+std::vector<PhaseFrame> SensingSets::Frames(int untouched, int contacts) {
+  std::vector<PhaseFrame> frames;
+  const std::vector<Path>& paths = PathsOf({}, contacts);
   SensingChain& chain = ChainOf(Eyes::kIdeal);
   for (int k = 0; k < untouched; ++k) {
     chain.Take();
-    frames.push_back(chain.frame());
-    frames.back().untouched = true;
+    frames.push_back({Phase::kUntouched, chain.frame()});
+    frames.back().frame.untouched = true;
   }
-  const auto show = [&](const SceneState& state) {
+  const auto show = [&](const SceneState& state, Phase phase) {
     scene_.Show(state);
     chain.Take();
-    frames.push_back(chain.frame());
+    frames.push_back({phase, chain.frame()});
   };
-  for (const SceneState& state : paths.front()) show(state);
-  for (int k = 0; k < kHandFrames; ++k) show(paths.front().back());
-  for (auto state = paths.front().rbegin(); state != paths.front().rend(); ++state) show(*state);
+  for (const Path& path : paths) {
+    for (const SceneState& state : path) show(state, Phase::kMoving);
+    for (int k = 0; k < kHeldFrames; ++k) show(path.back(), Phase::kHeld);
+    for (auto state = path.rbegin(); state != path.rend(); ++state) show(*state, Phase::kMoving);
+  }
   return frames;
 }
 

@@ -22,6 +22,17 @@ namespace palpate::benchmarks {
 inline constexpr std::array<int, 6> kTableWeights_mN = {260, 460, 660, 760, 860, 1060};
 inline constexpr std::array<int, 6> kTableComputed_mN = {230, 434, 634, 756, 873, 1045};
 
+/// Frames in which a contact of SensingSets::Frames is held.
+inline constexpr int kHeldFrames = 30;
+
+/// What happens in a frame of SensingSets::Frames.
+enum class Phase { kUntouched, kMoving, kHeld };
+
+struct PhaseFrame {
+  Phase phase = Phase::kUntouched;
+  force_estimation::ShapeFrame frame;
+};
+
 struct SensingSize {
   int contacts = 10;
   int untouched_frames = 300;
@@ -53,9 +64,9 @@ class SensingSets {
   /// `given`: the estimator is told that something touches the tip; else it finds out.
   std::array<double, kTableWeights_mN.size()> HangWeights(Eyes eyes, bool given);
 
-  /// The frames of one contact coming, held and going, as an estimator gets them, with the first
-  /// `untouched` ones.
-  std::vector<force_estimation::ShapeFrame> Frames(int untouched);
+  /// The frames of `contacts` contacts in view, one after the other, each coming, held and going,
+  /// as an estimator gets them, after `untouched` ones.
+  std::vector<PhaseFrame> Frames(int untouched, int contacts);
 
  private:
   /// Shows the scene at rest.

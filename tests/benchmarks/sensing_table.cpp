@@ -119,9 +119,33 @@ weight           the paper       whole, searched   ideal cloud, given  ideal clo
   }
 }
 
+void PrintCosts(std::ostream& out, const Results& results) {
+  const Result* result = results.Find("sensing/frame_costs");
+  if (result == nullptr || !result->ok()) return;
+  out << R"(
+Processor time of the estimator for a frame, 51 feature points, four contacts in view one after the
+other; linearisations (each with a factorisation) in a frame.
+
+contact         median ms    mean ms   worst ms   linearisations
+)";
+  for (const std::string kind : {"held", "moving", "jump"}) {
+    out << std::left << std::setw(14) << kind << std::right;
+    for (const char* figure : {"_median_ms", "_mean_ms", "_worst_ms"}) {
+      out << std::setw(11) << Figure(*result, kind + figure, 1);
+    }
+    out << std::setw(17) << Figure(*result, kind + "_linearisations", 2) << '\n';
+  }
+  out << "Held, with 12 feature points: median " << Figure(*result, "held_few_points_median_ms", 1)
+      << " ms; 51 cost " << Figure(*result, "held_ratio", 2) << " times as much\n";
+  out << "From nothing to the whole force between two frames: an estimate in frame "
+      << Figure(*result, "jump_frames_to_estimate", 0) << " (median), none within ten for "
+      << Figure(*result, "jumps_without_estimate", 0) << " of the four\n";
+}
+
 }  // namespace
 
 void PrintSensing(std::ostream& out, const Results& results) {
+  PrintCosts(out, results);
   PrintAccuracy(out, results);
   PrintWeights(out, results);
 }

@@ -76,6 +76,7 @@ class PalpateBench(unittest.TestCase):
         self.assertIn("\ndgemm_768/", names)
         for points in (51, 15):
             self.assertIn(f"\nsensing/estimate_{points}_points/", names)
+        self.assertIn("\nsensing/frame_costs/", names)
         for eyes in ("whole", "ideal_perception"):
             for part in SENSING_SETS:
                 self.assertIn(f"\nsensing/{eyes}/{part}/", names)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/fem/mesh_io/read_mesh.hpp"
+#include "tests/benchmarks/calibration_bench.hpp"
 #include "tests/benchmarks/camera_bench.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/measure.hpp"
@@ -186,6 +187,7 @@ Suite MakeSuite() {
   }
   suite.blocks.push_back(CameraBlock());
   suite.blocks.push_back(PerceptionBlock());
+  suite.blocks.push_back(CalibrationBlock());
   suite.blocks.push_back(VirtualRobotBlock());
   for (Block& block : SensingBlocks()) suite.blocks.push_back(std::move(block));
   for (const int refinements : {0, 1, 2}) {
