@@ -24,6 +24,12 @@ void SetVector(Target& target, const Eigen::Vector3d& source) {
   target.z = source.z();
 }
 
+/// A Point or Vector3 message.
+template <typename Source>
+Eigen::Vector3d ToVector(const Source& source) {
+  return {source.x, source.y, source.z};
+}
+
 /// Pose of the body b in the frame a of the message: p_a = T_a_b * p_b.
 idl::geometry_msgs::Pose ToPose(const Eigen::Isometry3d& T_a_b);
 /// The quaternion is normalised. False, and nothing is set, where a number is not finite or the

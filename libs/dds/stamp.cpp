@@ -3,6 +3,8 @@
 
 #include "libs/dds/stamp.hpp"
 
+#include <string>
+
 #include "libs/dds/message.hpp"
 
 namespace palpate::dds {
@@ -26,6 +28,13 @@ idl::builtin_interfaces::Time TimeFromNs(int64_t stamp_ns) {
 }
 
 int64_t WallClockNs() { return dds_time(); }
+
+Status CheckFrameId(const idl::std_msgs::Header& header, std::string_view expected) {
+  const std::string_view frame_id = Text(header.frame_id);
+  if (frame_id == expected) return Status::Ok();
+  return {StatusCode::kInvalidInput,
+          "frame_id is '" + std::string(frame_id) + "', expected '" + std::string(expected) + "'"};
+}
 
 void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns, std::string_view frame_id) {
   header.stamp = TimeFromNs(stamp_ns);

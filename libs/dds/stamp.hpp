@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "builtin_interfaces/msg/Time.hpp"
+#include "libs/core/status.hpp"
 #include "std_msgs/msg/Header.hpp"
 
 namespace palpate::dds {
@@ -17,6 +18,9 @@ idl::builtin_interfaces::Time TimeFromNs(int64_t stamp_ns);
 
 /// ns since 1970 by the system clock.
 int64_t WallClockNs();
+
+/// kInvalidInput where a message is of another frame.
+Status CheckFrameId(const idl::std_msgs::Header& header, std::string_view expected);
 
 void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns, std::string_view frame_id);
 

@@ -4,6 +4,8 @@
 #include "libs/experiment/marker_table.hpp"
 
 #include <cmath>
+#include <deque>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -46,18 +48,27 @@ class FrameBuilder {
     frame.t_s = t_s;
     frame.line = table_.Line(row);
     frame.positions_m.resize(count);
+    unlabelled_in_frame_ = 0;
     if (columns_.residual) result_.residuals_m.emplace_back(count);
   }
 
   std::size_t MarkerOf(std::size_t row) {
-    const std::string_view name = table_.Text(row, columns_.marker);
-    if (name.empty()) table_.Refuse(row, columns_.marker, "must not be empty");
+    std::string_view name = table_.Text(row, columns_.marker);
+    if (name.empty()) name = NextUnlabelled();
     const auto [entry, is_new] = index_of_.try_emplace(name, result_.tracks.names.size());
     if (is_new) {
       result_.tracks.names.emplace_back(name);
       result_.tracks.names_where.push_back(table_.Where(row, columns_.marker));
     }
     return entry->second;
+  }
+
+  std::string_view NextUnlabelled() {
+    const std::size_t number = ++unlabelled_in_frame_;
+    if (number > unlabelled_.size()) {
+      unlabelled_.push_back(std::string(kUnlabelledPrefix) + std::to_string(number));
+    }
+    return unlabelled_[number - 1];
   }
 
   void StoreSample(std::size_t row, std::size_t marker) {
@@ -104,6 +115,8 @@ class FrameBuilder {
   const MarkerColumns& columns_;
   MarkerTable result_;
   std::unordered_map<std::string_view, std::size_t> index_of_;
+  std::deque<std::string> unlabelled_;  // names made up, which index_of_ points to
+  std::size_t unlabelled_in_frame_ = 0;
   std::vector<std::size_t> seen_in_frame_;  // number of the frame, from 1, of the last sample
 };
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libs/core/error.hpp"
@@ -32,6 +33,12 @@ struct MarkerFrame {
   int line = 0;  ///< of the file where the frame begins; 0 where it is from no text file
 };
 
+/// What points without a name are called, followed by a number; no marker of a robot is.
+inline constexpr std::string_view kUnlabelledPrefix = "unlabelled_";
+
+/// Whether nobody says which of the robot's markers this is.
+inline bool IsUnlabelled(std::string_view name) { return name.starts_with(kUnlabelledPrefix); }
+
 /// Named markers over time (markers.csv).
 struct MarkerTracks {
   std::vector<std::string> names;           ///< in the order of their first rows, no two alike
@@ -45,9 +52,11 @@ struct MarkerTracks {
 inline constexpr double kLargestCoordinate_m = 50.0;
 
 /// Reads markers.csv (t_s,marker,x_m,y_m,z_m; rows of equal time are one frame; x, y and z empty:
-/// not seen). Throws InputError with file:line:column for an unknown, missing, doubled or wrongly
-/// scaled column, a wrong number of fields, what is no finite number, falling time, a marker given
-/// twice in a frame, a position with one or two coordinates, a file without a row.
+/// not seen; no name: the points of each time without one are called unlabelled_1, unlabelled_2,
+/// ... as they come, and are not followed from time to time). Throws InputError with
+/// file:line:column for an unknown, missing, doubled or wrongly scaled column, a wrong number of
+/// fields, what is no finite number, falling time, a marker given twice in a frame, a position with
+/// one or two coordinates, a file without a row.
 MarkerTracks ReadMarkers(const std::filesystem::path& file);
 
 /// Writes what ReadMarkers reads back exactly. Throws RunError where it cannot.

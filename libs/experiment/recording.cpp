@@ -95,7 +95,9 @@ Eigen::Matrix3d BaseRotation(const Recording& recording) {
 void CheckMarkers(const Recording& recording, const std::vector<std::string>& names) {
   if (!recording.markers) return;
   for (std::size_t i = 0; i < recording.markers->names.size(); ++i) {
-    CheckName(recording.markers->names[i], recording.markers->names_where[i], "marker", names);
+    const std::string& name = recording.markers->names[i];
+    if (IsUnlabelled(name)) continue;
+    CheckName(name, recording.markers->names_where[i], "marker", names);
   }
 }
 

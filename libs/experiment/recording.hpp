@@ -91,7 +91,7 @@ struct Recording {
 Eigen::Matrix3d BaseRotation(const Recording& recording);
 
 /// Refuses markers, or cables, that the robot does not have: InputError with file:line and "did you
-/// mean". `names` are the robot's.
+/// mean". `names` are the robot's; points without a name (IsUnlabelled) are passed over.
 void CheckMarkers(const Recording& recording, const std::vector<std::string>& names);
 void CheckCables(const Recording& recording, const std::vector<std::string>& names);
 

@@ -96,6 +96,15 @@ Vector2d Undistort(const CameraModel& camera, const Vector2d& wanted) {
 
 }  // namespace
 
+geometry::DepthPicture PictureOf(const CameraModel& camera) {
+  return {.width_px = camera.width_px,
+          .height_px = camera.height_px,
+          .fx_px = camera.fx_px,
+          .fy_px = camera.fy_px,
+          .cx_px = camera.cx_px,
+          .cy_px = camera.cy_px};
+}
+
 Vector2d Project(const CameraModel& camera, const Eigen::Vector3d& point_m) {
   Vector2d point = point_m.head<2>() / point_m.z();
   if (camera.distorted()) point = Distort(camera, point);

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "libs/geometry/depth_picture.hpp"
+
 namespace palpate::rgbd {
 
 /// A pinhole camera with the lens distortion of Brown and Conrady ("plumb_bob" in ROS): a point
@@ -25,6 +27,8 @@ struct CameraModel {
   bool distorted() const { return distortion != std::array<double, 5>{}; }
   bool operator==(const CameraModel&) const = default;
 };
+
+geometry::DepthPicture PictureOf(const CameraModel& camera);
 
 /// Where a point (camera frame, m, z > 0) is seen, px.
 Eigen::Vector2d Project(const CameraModel& camera, const Eigen::Vector3d& point_m);

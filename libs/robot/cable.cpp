@@ -68,6 +68,12 @@ Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> 
   rest_length_m_ = Value(rest_x_m);
 }
 
+void Cable::SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m) {
+  pull_point_m_ = pull_point_m;
+  pieces_.front().offset_m = -pull_point_m;
+  rest_length_m_ = Value(rest_x_m);
+}
+
 void Cable::SetFriction(const CableFriction& friction) {
   PALPATE_CHECK(friction.coefficient >= 0.0 && std::isfinite(friction.coefficient),
                 friction.coefficient);

@@ -36,6 +36,8 @@ class Cable final : public fem::ScalarConstraint {
 
   double rest_length_m() const { return rest_length_m_; }
   const Eigen::Vector3d& pull_point_m() const { return pull_point_m_; }
+  /// `rest_x_m` as at the construction.
+  void SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m);
   const std::vector<fem::NodeWeights>& eyelets() const { return eyelets_; }
   const CableFriction& friction() const { return friction_; }
   void SetFriction(const CableFriction& friction);

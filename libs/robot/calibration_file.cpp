@@ -161,6 +161,10 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   if (const ConfigNode* pose = map.Optional("T_robot_camera")) {
     calibration.pose = ReadCalibratedPose(*pose, map.Require("T_robot_camera_standard_error"));
   }
+  if (const ConfigNode* bias = map.Optional("depth_bias")) {
+    if (!calibration.pose) Refuse(*bias, "needs T_robot_camera, which it was found with");
+    calibration.depth_bias = ReadDepthBias(*bias);
+  }
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
   calibration.undetermined = ReadItems(&map, "undetermined", ReadUndetermined);
   if (calibration.moduli.empty() && calibration.poissons_ratios.empty() && !calibration.gravity &&
@@ -194,6 +198,7 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   text += FormatMaterials(calibration);
   if (calibration.gravity) text += FormatGravity(*calibration.gravity);
   if (calibration.pose) text += FormatPoseAndErrors(*calibration.pose);
+  if (calibration.depth_bias) text += FormatDepthBias(*calibration.depth_bias);
   text += FormatDrives(calibration.drives);
   text += FormatUndetermined(calibration.undetermined);
   text += "residual_rms_m: " + FormatNumber(calibration.residual_rms_m) + "\n";

@@ -12,6 +12,7 @@
 
 #include "libs/core/config_node.hpp"
 #include "libs/core/status.hpp"
+#include "libs/robot/calibrated_depth_bias.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::robot {
@@ -77,6 +78,7 @@ struct CalibrationFile {
   std::vector<CalibratedPoissonsRatio> poissons_ratios;
   std::optional<CalibratedGravity> gravity;
   std::optional<CalibratedPose> pose;
+  std::optional<CalibratedDepthBias> depth_bias;  ///< only where there is a pose
   std::vector<CalibratedDrive> drives;
   std::vector<Undetermined> undetermined;
   double residual_rms_m = 0.0;

@@ -71,6 +71,12 @@ fem::SurfacePatch RobotModel::Patch(const Eigen::Vector3d& position_m, double ra
   return fem::MakeSurfacePatch(locator_, position_m, radius_m);
 }
 
+void RobotModel::SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m) {
+  Cable& moved = cables_.at(static_cast<size_t>(cable));
+  moved.SetPullPoint(pull_point_m, elastic_body_.rest_m());
+  cable_rest_length_m_[cable] = moved.rest_length_m();
+}
+
 void RobotModel::SetYoungsModulus(int material, double youngs_modulus_Pa) {
   elastic_body_.SetYoungsModulus(material, youngs_modulus_Pa);
   body_.materials.at(static_cast<size_t>(material)).youngs_modulus_Pa = youngs_modulus_Pa;

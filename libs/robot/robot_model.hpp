@@ -88,6 +88,9 @@ class RobotModel {
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
+  /// The point fixed to the ground that a cable is pulled from; at first the robot file's. Its rest
+  /// length and displacements count from the undeformed body with the point there.
+  void SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m);
   /// How a cable's measured displacements are read; at first as they are.
   void SetDrive(int cable, const DriveCalibration& drive) {
     drives_.at(static_cast<size_t>(cable)) = drive;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "components/view/plot/axis_ticks.hpp"
 #include "libs/core/check.hpp"
@@ -58,8 +59,8 @@ SvgDocument::SvgDocument(int width_px, int height_px) {
   const std::string height = std::to_string(height_px);
   head_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg" +
           Attribute("xmlns", "http://www.w3.org/2000/svg") + Attribute("version", "1.1") +
-          Attribute("width", width) + Attribute("height", height) +
-          Attribute("viewBox", "0 0 " + width + " " + height) +
+          Attribute("xmlns:xlink", "http://www.w3.org/1999/xlink") + Attribute("width", width) +
+          Attribute("height", height) + Attribute("viewBox", "0 0 " + width + " " + height) +
           Attribute("font-family", "DejaVu Sans, Helvetica, Arial, sans-serif") + ">\n";
 }
 
@@ -105,6 +106,14 @@ void SvgDocument::Text(const SvgPoint& at, std::string_view text, const SvgText&
   body_.append(">").append(EscapeXml(text)).append("</text>\n");
 }
 
+void SvgDocument::Picture(const SvgPoint& corner, double width_px, double height_px,
+                          std::string_view png_bytes) {
+  body_ += std::string("<image") + Attribute("x", corner.x_px) + Attribute("y", corner.y_px) +
+           Attribute("width", width_px) + Attribute("height", height_px) +
+           Attribute("preserveAspectRatio", "none") +
+           Attribute("xlink:href", "data:image/png;base64," + Base64(png_bytes)) + "/>\n";
+}
+
 void SvgDocument::BeginGroup(const std::string& name, const SvgPoint& corner, double width_px,
                              double height_px) {
   const std::string id = "clip" + std::to_string(clip_count_++);
@@ -134,6 +143,24 @@ std::string HexText(const Color& color) {
     const int value = static_cast<int>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0)));
     text += kDigits[value / 16];
     text += kDigits[value % 16];
+  }
+  return text;
+}
+
+std::string Base64(std::string_view bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8 | (k < here ? static_cast<std::uint8_t>(bytes[at + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= here ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
+    }
   }
   return text;
 }

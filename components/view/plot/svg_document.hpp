@@ -47,6 +47,10 @@ class SvgDocument {
   void Dot(const SvgPoint& center, double radius_px, const Color& fill);
   void Text(const SvgPoint& at, std::string_view text, const SvgText& style);
 
+  /// A PNG file's bytes, stretched over the rectangle.
+  void Picture(const SvgPoint& corner, double width_px, double height_px,
+               std::string_view png_bytes);
+
   /// What comes until EndGroup() is seen inside the rectangle only. `name`: its class.
   void BeginGroup(const std::string& name, const SvgPoint& corner, double width_px,
                   double height_px);
@@ -65,6 +69,9 @@ class SvgDocument {
 
 /// "#rrggbb"
 std::string HexText(const Color& color);
+
+/// Base 64 (RFC 4648) of some bytes.
+std::string Base64(std::string_view bytes);
 
 /// `text` as the content of an XML element or attribute; characters that XML does not know become
 /// U+FFFD.

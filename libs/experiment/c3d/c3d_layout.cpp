@@ -140,7 +140,7 @@ std::vector<std::string> ReadLabels(const C3dBytes& bytes, const C3dParameters& 
   std::set<std::string> seen;
   for (std::size_t i = 0; i < count; ++i) {
     labels[i] = WithoutBlanks(labels[i]);
-    if (labels[i].empty()) labels[i] = "unlabelled_" + std::to_string(i + 1);
+    if (labels[i].empty()) labels[i] = std::string(kUnlabelledPrefix) + std::to_string(i + 1);
     if (!seen.insert(labels[i]).second) {
       bytes.Refuse(parameters.OffsetOf("POINT:LABELS"),
                    "label '" + labels[i] + "' is given to two points");

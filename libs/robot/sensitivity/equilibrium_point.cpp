@@ -13,9 +13,15 @@ EquilibriumPoint::EquilibriumPoint(RobotModel& model)
       rest_paths_(paths_.size()),
       path_m_(paths_.size()),
       force_(paths_.size()) {
-  const Eigen::VectorXd& rest_m = model.elastic_body().rest_m();
-  for (int c = 0; c < model.CableCount(); ++c) {
-    rest_paths_[static_cast<size_t>(c)].Evaluate(model.cable(c).Path_m(rest_m), 0.0);
+  EvaluateRestPaths();
+}
+
+/// Pull points may have moved.
+void EquilibriumPoint::EvaluateRestPaths() {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
+    model_.cable(c).FindPath(model_.elastic_body().rest_m(), &path_m);
+    rest_paths_[static_cast<size_t>(c)].Evaluate(path_m, 0.0);
   }
 }
 
@@ -27,6 +33,7 @@ void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
   x_m_ = state.x_m;
   tension_N_ = state.multipliers_N;
   has_lame_forces_ = false;
+  EvaluateRestPaths();
   for (int c = 0; c < model_.CableCount(); ++c) {
     const Cable& cable = model_.cable(c);
     Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];

@@ -63,6 +63,7 @@ class EquilibriumPoint {
 
  private:
   size_t Index(int cable) const;
+  void EvaluateRestPaths();
   void EvaluateLameForces() const;
   void ApplyHeldMotion(ParameterColumn* column) const;
 

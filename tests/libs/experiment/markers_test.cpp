@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "libs/experiment/recording.hpp"
 #include "tests/libs/experiment/test_folder.hpp"
 
 namespace palpate::experiment {
@@ -51,6 +52,20 @@ TEST(Markers, AnEmptyFieldIsAMissingMarkerAndNeverTheOrigin) {
   const MarkerTracks tracks = Parse("0,a,,,\n0,b,1,1,1\n");
   EXPECT_FALSE(tracks.frames[0].positions_m[0].has_value());
   EXPECT_THAT(RefusalOfRows("0,a,1,,1\n"), AllOf(HasSubstr(":2:3"), HasSubstr("three")));
+}
+
+TEST(Markers, PointsWithoutANameAreNumberedAnewAtEachTime) {
+  const MarkerTracks tracks = Parse("0,,1,2,3\n0,b,4,5,6\n0,,7,8,9\n0.5,,1,1,1\n0.5,b,2,2,2\n");
+  EXPECT_THAT(tracks.names, ElementsAre("unlabelled_1", "b", "unlabelled_2"));
+  EXPECT_TRUE(IsUnlabelled(tracks.names[2]));
+  EXPECT_FALSE(IsUnlabelled("b"));
+  EXPECT_EQ(*tracks.frames[0].positions_m[2], Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(*tracks.frames[1].positions_m[0], Eigen::Vector3d(1, 1, 1));
+  EXPECT_FALSE(tracks.frames[1].positions_m[2]);
+  Recording recording;
+  recording.markers = tracks;
+  EXPECT_NO_THROW(CheckMarkers(recording, {"b"}));
+  EXPECT_THAT(MessageOf([&] { CheckMarkers(recording, {"c"}); }), HasSubstr("marker 'b'"));
 }
 
 TEST(Markers, ReadBackExactlyWhatTheyWrote) {
@@ -100,7 +115,6 @@ TEST(Markers, RefuseNaNAndTextAndWrongUnits) {
               AllOf(HasSubstr(":1:24"), HasSubstr("unknown column 'colour'")));
   EXPECT_THAT(RefusalOf("t_s,markers,x_m,y_m,z_m\n0,a,1,2,3\n"), HasSubstr("'marker' is missing"));
   EXPECT_THAT(RefusalOf("t_s,marker,x_m,y_m,z_m\n"), HasSubstr("no row"));
-  EXPECT_THAT(RefusalOfRows("0,,1,2,3\n"), HasSubstr("marker ''"));
 }
 
 TEST(Markers, MapIntoAnotherFrameKeepingGaps) {

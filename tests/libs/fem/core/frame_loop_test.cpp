@@ -281,6 +281,19 @@ TEST(FrameLoop, SlowStepsWithAKeptFactorGiveWayToACheapExactOne) {
   EXPECT_EQ(outcome.exact_steps, 1);
 }
 
+TEST(FrameLoop, SlowChordStepsFollowAnExactOneOnlyWhereAnotherCostsMore) {
+  const auto run = [](double exact_step_cost) {
+    Scalar root(
+        1.5, [](double x) { return x * x - 2.0; }, [](double) { return 5.6; });
+    return RunFrame(root, {.relative_tolerance = 1e-3, .exact_step_cost_s = exact_step_cost},
+                    BudgetOfTrials(root, std::numeric_limits<double>::infinity()));
+  };
+  EXPECT_EQ(run(50.0).exact_steps, 1);
+  EXPECT_GT(run(50.0).chord_steps, 4);
+  EXPECT_GT(run(2.0).exact_steps, 1);
+  EXPECT_TRUE(run(2.0).converged());
+}
+
 TEST(FrameLoop, WithoutRoomForAnExactStepTheKeptOnesEndWithTheBudget) {
   Scalar root = SlowSquareRootOfTwo();
   const FrameSettings settings{
@@ -329,6 +342,8 @@ TEST(FrameLoop, TheFirstStepWithAKeptFactorMayRaiseTheErrorWhereAnExactOneIsDear
   EXPECT_GT(RunWithKeptFactor(unknown, 0.0).exact_steps, 0);
   Scalar far_up = Stairs({{0.95, 0.1}, {0.7, 0.9}, {-0.1, 0.04}});
   EXPECT_GT(RunWithKeptFactor(far_up, 50.0).exact_steps, 0);
+  Scalar slow_thereafter = Stairs({{0.95, 0.1}, {0.7, 0.4}, {0.3, 0.32}});
+  EXPECT_GT(RunWithKeptFactor(slow_thereafter, 50.0).exact_steps, 0);
 }
 
 TEST(FrameLoop, AStepThatWasCutIsNotJudgedByItsError) {

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace palpate {
+
+/// What is known of each of the robot's cables at one time.
+struct CableReading {
+  struct Inputs {
+    std::optional<double> displacement_m;  ///< as the drive says it
+    std::optional<double> tension_N;
+  };
+  std::int64_t stamp_ns = 0;
+  std::vector<Inputs> cables;  ///< in the order of the robot's cables
+};
+
+}  // namespace palpate

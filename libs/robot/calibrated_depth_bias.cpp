@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/calibrated_depth_bias.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <vector>
+
+#include "libs/core/config_reader.hpp"
+#include "libs/core/text.hpp"
+#include "libs/geometry/pose_text.hpp"
+
+namespace palpate::robot {
+
+namespace {
+
+using geometry::DepthPicture;
+
+constexpr int kPoseRows = 6;
+constexpr int kMostPixels = 1 << 16;
+constexpr int kHighestOrder = 4;
+
+DepthPicture ReadPicture(const ConfigNode& node) {
+  MapReader map(node);
+  DepthPicture picture;
+  picture.width_px = ReadInteger(map.Require("width_px"), 1, kMostPixels);
+  picture.height_px = ReadInteger(map.Require("height_px"), 1, kMostPixels);
+  picture.fx_px = ReadNumber(map.Require("fx_px"), kPositive);
+  picture.fy_px = ReadNumber(map.Require("fy_px"), kPositive);
+  picture.cx_px = ReadNumber(map.Require("cx_px"));
+  picture.cy_px = ReadNumber(map.Require("cy_px"));
+  map.Finish();
+  return picture;
+}
+
+std::string Format(const DepthPicture& picture) {
+  return "{width_px: " + std::to_string(picture.width_px) +
+         ", height_px: " + std::to_string(picture.height_px) +
+         ", fx_px: " + FormatNumber(picture.fx_px) + ", fy_px: " + FormatNumber(picture.fy_px) +
+         ", cx_px: " + FormatNumber(picture.cx_px) + ", cy_px: " + FormatNumber(picture.cy_px) +
+         "}";
+}
+
+/// Rounding of the file may leave eigenvalues just below 0.
+bool IsCovariance(const Eigen::MatrixXd& matrix) {
+  constexpr double kRounding = 1e-9;
+  const Eigen::VectorXd variance = matrix.diagonal();
+  if ((variance.array() < 0.0).any()) return false;
+  const Eigen::VectorXd over_sigma =
+      (variance.array() > 0.0).select(variance.cwiseSqrt().cwiseInverse(), 1.0);
+  const Eigen::MatrixXd scaled = over_sigma.asDiagonal() * matrix * over_sigma.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() >= -kRounding;
+}
+
+Eigen::MatrixXd ReadCovariance(const ConfigNode& node, int rows) {
+  const std::string rule = "must be the lower triangle of a covariance of " + std::to_string(rows) +
+                           " numbers: pose (6), then the coefficients";
+  if (node.kind != ConfigNode::Kind::kList || static_cast<int>(node.items.size()) != rows) {
+    Refuse(node, rule);
+  }
+  Eigen::MatrixXd covariance(rows, rows);
+  for (int i = 0; i < rows; ++i) {
+    const ConfigNode& row_node = node.items[static_cast<std::size_t>(i)];
+    const std::vector<double> row = ReadNumbers(row_node);
+    if (static_cast<int>(row.size()) != i + 1) Refuse(row_node, rule);
+    for (int j = 0; j <= i; ++j) {
+      covariance(i, j) = covariance(j, i) = row[static_cast<std::size_t>(j)];
+    }
+  }
+  if (!IsCovariance(covariance)) Refuse(node, rule + "; it has a variance below 0");
+  return covariance;
+}
+
+}  // namespace
+
+CalibratedDepthBias ReadDepthBias(const ConfigNode& node) {
+  MapReader reader(node);
+  CalibratedDepthBias bias;
+  bias.picture = ReadPicture(reader.Require("image"));
+  geometry::DepthBiasMap& map = bias.map;
+  map.basis.order = ReadInteger(reader.Require("order"), 0, kHighestOrder);
+  map.basis.span = ReadNumber(reader.Require("span"), kPositive);
+  const ConfigNode& coefficients = reader.Require("coefficients");
+  const std::vector<double> numbers = ReadNumbers(coefficients);
+  const int count = geometry::CountOf(map.basis);
+  if (static_cast<int>(numbers.size()) != count) {
+    Refuse(coefficients, "must hold the " + std::to_string(count) + " of this order");
+  }
+  map.coefficients = Eigen::Map<const Eigen::VectorXd>(numbers.data(), count);
+  map.covariance = ReadCovariance(reader.Require("covariance"), kPoseRows + count);
+  reader.Finish();
+  return bias;
+}
+
+std::string FormatDepthBias(const CalibratedDepthBias& bias) {
+  const geometry::DepthBiasMap& map = bias.map;
+  std::string text = "# A point that is measured at p is at (1 + b) p: b = c . monomials of\n";
+  text += "# x / (z span), y / (z span). Covariance: rotation (rad) and shift (m) of\n";
+  text += "# T_robot_camera, then the coefficients.\n";
+  text += "depth_bias:\n  image: " + Format(bias.picture) + "\n";
+  text += "  order: " + std::to_string(map.basis.order) + "\n";
+  text += "  span: " + FormatNumber(map.basis.span) + "\n";
+  text += "  coefficients: " + geometry::FormatVector(map.coefficients) + "\n";
+  text += "  covariance:\n";
+  for (Eigen::Index i = 0; i < map.covariance.rows(); ++i) {
+    text += "    - " + geometry::FormatVector(map.covariance.row(i).head(i + 1)) + "\n";
+  }
+  return text;
+}
+
+Status CheckDepthBias(const CalibratedDepthBias& bias) {
+  const auto invalid = [](const std::string& what) {
+    return Status(StatusCode::kInvalidInput, "the depth bias has " + what);
+  };
+  const DepthPicture& picture = bias.picture;
+  const bool has_size = picture.width_px > 0 && picture.height_px > 0;
+  if (!has_size || !(picture.fx_px > 0.0) || !(picture.fy_px > 0.0)) {
+    return invalid("no image: " + Format(picture));
+  }
+  const geometry::DepthBiasMap& map = bias.map;
+  if (map.basis.order < 0 || map.basis.order > kHighestOrder || !(map.basis.span > 0.0)) {
+    return invalid("order " + std::to_string(map.basis.order) + ", span " +
+                   FormatNumber(map.basis.span));
+  }
+  const int count = geometry::CountOf(map.basis), rows = kPoseRows + count;
+  if (map.coefficients.size() != count || !map.coefficients.allFinite()) {
+    return invalid("no " + std::to_string(count) + " coefficients");
+  }
+  if (map.covariance.rows() != rows || map.covariance.cols() != rows ||
+      !map.covariance.allFinite() || !IsCovariance(map.covariance)) {
+    return invalid("no covariance of " + std::to_string(rows) + " numbers");
+  }
+  return Status::Ok();
+}
+
+Status CheckDepthPicture(const CalibratedDepthBias& bias, const DepthPicture& present) {
+  if (bias.picture == present) return Status::Ok();
+  return {StatusCode::kInvalidInput, "the calibration's depth bias is for images " +
+                                         Format(bias.picture) + ", these are " + Format(present) +
+                                         ": calibrate again with this camera"};
+}
+
+}  // namespace palpate::robot
