@@ -13,6 +13,14 @@ rgbd::DepthNoise NoiseOf(const Config& config) {
           .correlation_px = config.depth_correlation_px};
 }
 
+FiducialConfig FiducialsOf(const Config& config) {
+  FiducialConfig markers = config.markers;
+  markers.min_z_m = config.min_z_m;
+  markers.max_z_m = config.max_z_m;
+  markers.noise = NoiseOf(config);
+  return markers;
+}
+
 std::optional<Eigen::Vector3d> RobotColor(const Config& config) {
   const std::vector<double>& rgb = config.robot_color_rgb;
   if (rgb.empty()) return std::nullopt;

@@ -10,13 +10,14 @@
 
 #include "components/perception/color/color_config.hpp"
 #include "components/perception/contacts/contact_config.hpp"
+#include "components/perception/markers/fiducial_config.hpp"
 #include "components/perception/model/model_config.hpp"
 #include "libs/core/config_reader.hpp"
 #include "libs/rgbd/depth_noise.hpp"
 
 namespace palpate::perception {
 
-/// Settings that both ways of segmentation share, and those of contact location.
+/// Settings that all parts of perception share, and those of each.
 struct Config {
   std::string segmentation = "model";
   double min_z_m = 0.1;
@@ -30,6 +31,7 @@ struct Config {
   ContactConfig contacts;
   TrackingConfig tracking;
   ModelConfig model;
+  FiducialConfig markers;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -53,11 +55,15 @@ struct Config {
     v("contacts", contacts, "Where the robot is touched");
     v("tracking", tracking, "Names of contacts");
     v("model", model, "Segmentation by the predicted surface");
+    v("markers", markers, "Coloured discs on the robot");
   }
 };
 
 /// Noise of the depth image, where the camera does not say its own.
 rgbd::DepthNoise NoiseOf(const Config& config);
+
+/// Settings of the markers with what they share with the others.
+FiducialConfig FiducialsOf(const Config& config);
 
 /// robot_color_rgb, or nothing where it is empty. Throws InputError where it is no colour.
 std::optional<Eigen::Vector3d> RobotColor(const Config& config);

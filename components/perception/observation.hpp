@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/perception/markers/fiducial.hpp"
 #include "libs/core/status.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
@@ -54,6 +55,7 @@ struct Observation {
   std::int64_t stamp_ns = 0;  ///< of the frame
   SegmentedFrame frame;
   std::vector<DetectedContact> contacts;  ///< by rising number
+  FiducialFrame markers;                  ///< kNotRun where Config::markers has no colour
 };
 
 }  // namespace palpate::perception

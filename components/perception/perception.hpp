@@ -13,8 +13,9 @@
 namespace palpate::perception {
 
 /// From a frame of the camera to the points of the robot and where it is touched (section V.A of
-/// the paper). Frames are taken one after the other; colour model and contacts go on from one to
-/// the next. The same frames and predictions give the same bits.
+/// the paper), and to the markers on it where their colour is told. Frames are taken one after the
+/// other; colour model and contacts go on from one to the next. The same frames and predictions
+/// give the same bits.
 class Perception {
  public:
   /// Throws InputError for settings that do not go together.

@@ -4,13 +4,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "libs/core/status.hpp"
 
 namespace palpate::perception {
 
-/// A coloured disc that was seen on a surface. Nobody says which of the robot's markers it is.
+/// A coloured disc that was seen on a surface.
 struct Fiducial {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< centre, on the surface; depth camera
   /// One sigma: its place in the image moves it along the surface, the depth along the ray.
@@ -21,6 +22,9 @@ struct Fiducial {
   double contrast = 0.0;  ///< of its colour and that of what is round it, as directions, [0, 1.4]
   double open_rim = 0.0;  ///< share of the rim that does not border on the surface it is on
   int color = 0;          ///< which of FiducialConfig::color_rgb
+  /// The robot's marker: where FiducialConfig::names tells it by a colour that only one fiducial of
+  /// the frame has; else empty.
+  std::string name;
 };
 
 /// Spots of a marker's colour that are no markers, by the first reason found.

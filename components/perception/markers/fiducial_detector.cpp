@@ -3,7 +3,10 @@
 
 #include "components/perception/markers/fiducial_detector.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "components/perception/markers/color_spots.hpp"
 #include "components/perception/markers/spot_judge.hpp"
@@ -20,6 +23,32 @@ void CheckRange(const char* name, double low, double high) {
   if (low <= high) return;
   throw InputError(std::string("min_") + name + " is " + FormatNumber(low) + ", max_" + name +
                    " is " + FormatNumber(high) + "; the first must not be larger");
+}
+
+void CheckNames(const FiducialConfig& config) {
+  const std::vector<std::string>& names = config.names;
+  if (names.empty()) return;
+  if (3 * names.size() != config.color_rgb.size()) {
+    throw InputError("names has " + std::to_string(names.size()) + " markers, color_rgb " +
+                     std::to_string(config.color_rgb.size() / 3) +
+                     " colours; must have a name for each, or none");
+  }
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    if (name.empty() || !known.insert(name).second) {
+      throw InputError("names has '" + name + "' twice, or an empty one");
+    }
+  }
+}
+
+/// A colour that two spots have tells neither of them.
+void Name(const std::vector<std::string>& names, std::vector<Fiducial>* fiducials) {
+  for (std::size_t color = 0; color < names.size(); ++color) {
+    const auto is_of_it = [&](const Fiducial& one) { return one.color == static_cast<int>(color); };
+    const auto first = std::find_if(fiducials->begin(), fiducials->end(), is_of_it);
+    if (first == fiducials->end()) continue;
+    if (std::none_of(std::next(first), fiducials->end(), is_of_it)) first->name = names[color];
+  }
 }
 
 }  // namespace
@@ -39,6 +68,7 @@ FiducialDetector::FiducialDetector(const FiducialConfig& config)
     : parts_{std::make_unique<Parts>(config)} {
   CheckRange("radius_m", config.min_radius_m, config.max_radius_m);
   CheckRange("z_m", config.min_z_m, config.max_z_m);
+  CheckNames(config);
 }
 
 FiducialDetector::~FiducialDetector() = default;
@@ -62,6 +92,7 @@ const FiducialFrame& FiducialDetector::Detect(const rgbd::RgbdFrame& frame) {
   for (const ColorSpot& spot : parts_->spots.Find(parts_->registered)) {
     parts_->judge->Judge(spot, parts_->registered, &found);
   }
+  Name(parts_->config.names, &found.fiducials);
   return found;
 }
 

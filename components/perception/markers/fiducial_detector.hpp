@@ -19,7 +19,8 @@ namespace palpate::perception {
 /// itself; the same frame gives the same bits.
 class FiducialDetector {
  public:
-  /// Throws InputError for colours that are none, and for ranges without anything in them.
+  /// Throws InputError for colours that are none, ranges without anything in them, and names that
+  /// are not one for each colour.
   explicit FiducialDetector(const FiducialConfig& config);
   ~FiducialDetector();
 

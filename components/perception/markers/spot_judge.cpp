@@ -29,11 +29,7 @@ bool InSpot(const SpotWindow::Pixel& pixel) { return pixel.distance_px <= kSpotR
 }  // namespace
 
 SpotJudge::SpotJudge(const FiducialConfig& config, const Registration& registration)
-    : config_{config},
-      registration_{registration},
-      noise_{.subpixel_px = config.depth_subpixel_px,
-             .range_sigma_m = config.depth_range_sigma_m,
-             .correlation_px = config.depth_correlation_px} {
+    : config_{config}, registration_{registration}, noise_{config.noise} {
   const rgbd::RgbdCamera& camera = registration.camera();
   step_ = {1.0 / camera.depth.fx_px, 1.0 / camera.depth.fy_px};
   const double scale = camera.color_registered || camera.color.fx_px <= 0.0

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -147,6 +148,7 @@ dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& o
   report->frame_counter = outcome.frame_counter;
   report->epoch = outcome.epoch;
   dds::SetText(report->device, outcome.device);
+  dds::SetPicture(report->picture, outcome.picture);
   dds::SetText(report->status, ToString(frame.status.code()));
   dds::SetText(report->reason, frame.status.message());
   report->robot_points = static_cast<std::uint32_t>(frame.robot.Count());

@@ -43,6 +43,7 @@ struct FrameOutcome {
   std::uint64_t frame_counter = 0;
   std::uint32_t epoch = 0;
   std::string device;
+  geometry::DepthPicture picture;        ///< of the depth image
   std::int64_t prediction_stamp_ns = 0;  ///< 0: none was used
   Observation observation;
 };

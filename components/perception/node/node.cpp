@@ -61,7 +61,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       meshes_{participant_.CreateReader(dds::kMeshTopic)},
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
-      outputs_{participant_},
+      outputs_{participant_, !config.markers.color_rgb.empty()},
       pairing_{Seconds(config.pairing_wait_s)},
       worker_{config, std::move(maker), [this] { loop_.Wake(); }} {
   AttachReaders();
@@ -278,6 +278,7 @@ PerceptionJob PerceptionNode::HeadOf(const FrameSet& set) const {
 
 PerceptionJob PerceptionNode::MakeJob(FrameSet& set, const rgbd::RgbdCamera& camera) {
   PerceptionJob job = HeadOf(set);
+  job.outcome.picture = rgbd::PictureOf(camera.depth);
   job.images.stamp_ns = set.stamp_ns;
   job.images.depth = std::move(*set.depth);
   if (set.color) job.images.color = std::move(*set.color);

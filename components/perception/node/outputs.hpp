@@ -13,11 +13,12 @@
 
 namespace palpate::perception {
 
-/// The writers of the node: both clouds, report and contacts of each frame, in this order, under
-/// its stamp. All calls come from the node's loop.
+/// The writers of the node: both clouds, markers where they are looked for, report and contacts of
+/// each frame, in this order, under its stamp. All calls come from the node's loop.
 class Outputs {
  public:
-  explicit Outputs(dds::Participant& participant);
+  /// `with_markers`: without, /perception/markers is left to a motion-capture bridge.
+  Outputs(dds::Participant& participant, bool with_markers);
 
   void Publish(const FrameOutcome& outcome, FrameSet::Time taken);
   /// Sends the last frame's messages again where they are of this stamp.
@@ -35,10 +36,12 @@ class Outputs {
 
   dds::Writer<idl::sensor_msgs::PointCloud2> robot_writer_;
   dds::Writer<idl::sensor_msgs::PointCloud2> object_writer_;
+  std::optional<dds::Writer<idl::palpate_msgs::MarkerArray3>> marker_writer_;
   dds::Writer<idl::palpate_msgs::PerceptionReport> report_writer_;
   dds::Writer<idl::palpate_msgs::ContactArray> contact_writer_;
   dds::Message<idl::sensor_msgs::PointCloud2> robot_;
   dds::Message<idl::sensor_msgs::PointCloud2> object_;
+  dds::Message<idl::palpate_msgs::MarkerArray3> markers_;
   dds::Message<idl::palpate_msgs::PerceptionReport> report_;
   dds::Message<idl::palpate_msgs::ContactArray> contacts_;
   std::optional<std::int64_t> last_stamp_ns_;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -70,6 +71,50 @@ TEST(Perception, ContactsAreLocatedNamedAndGoneAgain) {
   EXPECT_TRUE(perception.Update({}, nullptr).contacts.empty());
 }
 
+/// A green disc on a wall, whatever becomes of the robot.
+TEST(Perception, MarkersAreLookedForWhereTheirColourIsTold) {
+  SegmentedFrame next;
+  next.status = Status(StatusCode::kNoRobotSeen, "turned away");
+  rgbd::RgbdCamera camera;
+  camera.depth = {.width_px = 80,
+                  .height_px = 60,
+                  .fx_px = 400.0,
+                  .fy_px = 400.0,
+                  .cx_px = 39.5,
+                  .cy_px = 29.5};
+  camera.depth_unit_m = 1e-3;
+  camera.baseline_m = 0.05;
+  camera.color = camera.depth;
+  camera.color_registered = true;
+  rgbd::RgbdFrame frame;
+  frame.depth = rgbd::DepthImage(80, 60, 400);
+  frame.color = rgbd::ColorImage(80, 60, 150);
+  for (int v = 26; v <= 34; ++v) {
+    for (int u = 36; u <= 44; ++u) {
+      if (std::hypot(u - 40, v - 30) > 3.5) continue;
+      std::uint8_t* rgb = frame.color.Pixel(u, v);
+      rgb[0] = 26, rgb[1] = 178, rgb[2] = 51;
+    }
+  }
+  Config config;
+  Perception without(config, std::make_unique<GivenFrames>(&next));
+  without.SetCamera(camera);
+  EXPECT_EQ(without.Update(frame, nullptr).markers.status.code(), StatusCode::kNotRun);
+  config.markers.color_rgb = {0.1, 0.7, 0.2};
+  Perception with(config, std::make_unique<GivenFrames>(&next));
+  with.SetCamera(camera);
+  const FiducialFrame& seen = with.Update(frame, nullptr).markers;
+  ASSERT_TRUE(seen.status.ok()) << seen.status.message();
+  ASSERT_EQ(seen.fiducials.size(), 1u);
+  EXPECT_NEAR(seen.fiducials[0].position_m.x(), 0.4 * 0.5 / 400.0, 1e-4);
+  EXPECT_GT(seen.fiducials[0].covariance_m2.determinant(), 0.0);
+  // What all of perception shares holds for them, too.
+  config.min_z_m = 0.5;
+  Perception near(config, std::make_unique<GivenFrames>(&next));
+  near.SetCamera(camera);
+  EXPECT_TRUE(near.Update(frame, nullptr).markers.fiducials.empty());
+}
+
 TEST(Perception, SettingsThatDoNotGoTogetherAreRefused) {
   SegmentedFrame next;
   Config config;
@@ -77,6 +122,11 @@ TEST(Perception, SettingsThatDoNotGoTogetherAreRefused) {
   EXPECT_THAT(test_support::MessageOf<InputError>(
                   [&] { Perception perception(config, std::make_unique<GivenFrames>(&next)); }),
               HasSubstr("max_z_m is 0.5; must be larger than min_z_m, 0.5"));
+  config = {};
+  config.markers.names = {"tip"};
+  EXPECT_THAT(test_support::MessageOf<InputError>(
+                  [&] { Perception perception(config, std::make_unique<GivenFrames>(&next)); }),
+              HasSubstr("markers.color_rgb is empty"));
 }
 
 }  // namespace

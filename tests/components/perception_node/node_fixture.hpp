@@ -9,11 +9,13 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "components/perception/node/node.hpp"
 #include "libs/dds/camera_publisher.hpp"
 #include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/components/perception_node/scripted_perception.hpp"
@@ -46,6 +48,7 @@ class PerceptionNodeTest : public testing::Test {
     std::int64_t prediction_ns = 0;
     double age_s = 0.0;
     double latency_s = 0.0;
+    geometry::DepthPicture picture;
   };
 
   explicit PerceptionNodeTest()
@@ -70,10 +73,12 @@ class PerceptionNodeTest : public testing::Test {
     thread_.join();
   }
 
-  void StartNode(const NodeConfig& config, bool with_pose = true) {
+  void StartNode(const NodeConfig& config, bool with_pose = true,
+                 FramePerceptionMaker maker = nullptr) {
     std::optional<Eigen::Isometry3d> pose;
     if (with_pose) pose = Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.5));
-    node_ = std::make_unique<PerceptionNode>(config, pose, script_.Maker(),
+    if (!maker) maker = script_.Maker();
+    node_ = std::make_unique<PerceptionNode>(config, pose, std::move(maker),
                                              static_cast<int>(dds::TestDomain()), ManyImages(),
                                              dds::NodeLog::ProcessLog());
     thread_ = std::thread([this] { node_->Run(); });
@@ -141,10 +146,11 @@ class PerceptionNodeTest : public testing::Test {
 
   void TakeReports() {
     for (const auto& message : reports_.Take()) {
-      answers_.push_back(
-          {dds::StampNs(message.header.stamp), message.counter,
-           std::string(dds::Text(message.status)), std::string(dds::Text(message.reason)),
-           dds::StampNs(message.prediction_stamp), message.age_s, message.latency_s});
+      answers_.push_back({dds::StampNs(message.header.stamp), message.counter,
+                          std::string(dds::Text(message.status)),
+                          std::string(dds::Text(message.reason)),
+                          dds::StampNs(message.prediction_stamp), message.age_s, message.latency_s,
+                          dds::ToPicture(message.picture)});
     }
   }
 

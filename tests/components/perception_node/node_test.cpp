@@ -45,6 +45,7 @@ TEST_F(PerceptionNodeTest, GivesCloudsReportAndContactsTheStampOfTheFrame) {
   const Answer answer = Ask(stamp_ns);
   EXPECT_EQ(answer.status, "ok") << answer.reason;
   ASSERT_TRUE(test_.WaitFor([&] { return contacts_ns == stamp_ns && object_ns == stamp_ns; }));
+  EXPECT_EQ(answer.picture, rgbd::PictureOf(SmallCamera().depth));
   EXPECT_EQ(robot_ns, stamp_ns);
   ASSERT_EQ(robot.Count(), 1);
   EXPECT_EQ(robot.points_m(2, 0), 0.4f);

@@ -75,7 +75,7 @@ TEST(FiducialDetector, CovarianceIsHonest) {
   const Scenario scenario = MarkedScenario();
   FiducialConfig config = ConfigOf(scenario);
   // The renderer's noise is alike by exp(-(d / c)^2), the noise law's by exp(-d^2 / (2 c^2)).
-  config.depth_correlation_px = scenario.camera->noise.correlation_px / std::sqrt(2.0);
+  config.noise.correlation_px = scenario.camera->noise.correlation_px / std::sqrt(2.0);
   FiducialScore score;
   constexpr int kSeeds = 15;
   for (const double height_deg : {28.0, 50.0}) {

@@ -125,6 +125,21 @@ TEST(FiducialRefusals, EachOfSeveralColors) {
   EXPECT_EQ(found.fiducials[1].color, 0);
 }
 
+TEST(FiducialRefusals, AColorThatOnlyOneHasTellsItsName) {
+  FiducialConfig config = GreenConfig();
+  config.color_rgb.insert(config.color_rgb.end(), {0.1, 0.2, 0.9, 0.9, 0.1, 0.1});
+  config.names = {"tip", "leg", "foot"};
+  rgbd::RgbdFrame frame = Wall();
+  Paint(Disc(50.0, 40.0, 3.4), {26, 51, 230}, &frame.color);
+  Paint(Disc(90.0, 80.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(50.0, 90.0, 3.4), kGreen, &frame.color);
+  const FiducialFrame& found = DetectIn(frame, config);
+  ASSERT_EQ(found.fiducials.size(), 3u);
+  EXPECT_EQ(found.fiducials[0].name, "leg");
+  EXPECT_EQ(found.fiducials[1].name, "") << "two are green";
+  EXPECT_EQ(found.fiducials[2].name, "");
+}
+
 TEST(FiducialRefusals, TooSmall) {
   rgbd::RgbdFrame frame = Wall();
   Paint(Disc(70.0, 50.0, 0.8), kGreen, &frame.color);
@@ -253,6 +268,12 @@ TEST(FiducialRefusals, SettingsThatCannotBe) {
   config = GreenConfig();
   config.min_z_m = 3.0;
   EXPECT_THAT(RefusalOf(config), testing::HasSubstr("min_z_m is 3"));
+  config = GreenConfig();
+  config.names = {"tip", "leg"};
+  EXPECT_THAT(RefusalOf(config), testing::HasSubstr("names has 2 markers, color_rgb 1"));
+  config.color_rgb.insert(config.color_rgb.end(), {0.1, 0.2, 0.9});
+  config.names = {"tip", "tip"};
+  EXPECT_THAT(RefusalOf(config), testing::HasSubstr("names has 'tip' twice"));
 }
 
 }  // namespace
