@@ -48,6 +48,20 @@ bool CablesAreStill(const experiment::Recording& recording) {
   return true;
 }
 
+std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recording,
+                                              int most_frames) {
+  if (recording.steady_window_s) return {*recording.steady_window_s};
+  const auto& frames = recording.markers->frames;
+  if (CablesAreStill(recording)) return {{frames.front().t_s, frames.back().t_s}};
+  std::vector<experiment::TimeWindow> moments;
+  const auto count = std::min(frames.size(), static_cast<std::size_t>(most_frames));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t_s = frames[count == 1 ? 0 : k * (frames.size() - 1) / (count - 1)].t_s;
+    moments.push_back({t_s, t_s});
+  }
+  return moments;
+}
+
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
                                           const robot::RobotModel& model,
                                           robot::CableInput preferred, double t_s) {

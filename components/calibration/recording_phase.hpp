@@ -13,6 +13,11 @@ namespace palpate::calibration {
 /// Whether no cable moved, by more than drives and sensors tremble, in the whole recording.
 bool CablesAreStill(const experiment::Recording& recording);
 
+/// Windows to average markers over: a static phase is one, of a motion up to `most_frames` single
+/// moments. The recording has markers.
+std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recording,
+                                              int most_frames);
+
 /// What the cables were commanded at this time of the recording, as the model's drives read it;
 /// kNone for a cable of which nothing was recorded.
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,

@@ -44,6 +44,7 @@ class Search {
   Status FindRigid(const geometry::RigidTransform& start);
   bool IsSettled(const geometry::RigidTransform& last, const Eigen::Vector3d& middle_m) const;
   Status FitTogether();
+  ThinCloud UnbiasedOf(const ThinCloud& cloud) const;
   void Match();
   Status CheckResult(const geometry::RigidTransform& start);
 
@@ -70,11 +71,12 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   }
   setup_.fit_pose = true;
   setup_.marker_offset_sigma_m = 0.0;
+  setup_.motion_relative_sigma = settings_.motion_relative_sigma;
   if (settings_.depth_bias_sigma > 0.0) {
     const double sigma = settings_.depth_bias_sigma;
     setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma},
-                                        .estimated = false,
-                                        .order = settings_.depth_bias_order};
+                                        .estimated = settings_.fit_depth_bias,
+                                        .basis = settings_.depth_bias};
   }
   return TakeShapes();
 }
@@ -83,6 +85,7 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
 Status Search::TakeShapes() {
   const KeptModel kept(model_);
   for (std::size_t f = 0; f < skins_.size(); ++f) {
+    if (settings_.request.stop.stop_requested()) return {StatusCode::kNotConverged, "stopped"};
     const CalibrationFrame& frame = setup_.frames[f];
     model_.SetGravity(frame.gravity_m_s2);
     fem::StaticState state = model_.RestState();
@@ -108,12 +111,21 @@ Status Search::FindRigid(const geometry::RigidTransform& start) {
               "it is another robot"};
 }
 
+/// As far as the bias is known by now.
+ThinCloud Search::UnbiasedOf(const ThinCloud& cloud) const {
+  ThinCloud unbiased = cloud;
+  if (!result_.joint.depth_bias) return unbiased;
+  for (auto point_m : unbiased.points_m.colwise())
+    point_m *= 1.0 + result_.joint.depth_bias->At(point_m);
+  return unbiased;
+}
+
 void Search::Match() {
   result_.matches.resize(skins_.size());
   for (std::size_t f = 0; f < skins_.size(); ++f) {
     skins_[f].LookFrom(setup_.T_robot_camera);
-    setup_.frames[f].surface =
-        MatchCloud(skins_[f], thin_[f], setup_.T_robot_camera, settings_, &result_.matches[f]);
+    setup_.frames[f].surface = MatchCloud(skins_[f], thin_[f], UnbiasedOf(thin_[f]).points_m,
+                                          setup_.T_robot_camera, settings_, &result_.matches[f]);
   }
 }
 
@@ -141,7 +153,8 @@ Status Search::FitTogether() {
   joint_settings.solver.huber_threshold = settings_.huber_threshold;
   // Finer than the noise by far; points are matched again after each fit anyway.
   joint_settings.solver.step_tolerance = 1e-6;
-  while (result_.rounds < settings_.max_rounds) {
+  joint_settings.solver.stop = settings_.request.stop;
+  while (result_.rounds < settings_.max_rounds && !settings_.request.stop.stop_requested()) {
     Match();
     ++result_.rounds;
     result_.joint = CalibrateJointly(model_, setup_, joint_settings);
@@ -161,7 +174,8 @@ Status Search::CheckResult(const geometry::RigidTransform& start) {
   const geometry::RigidTransform& found = setup_.T_robot_camera;
   for (std::size_t f = 0; f < skins_.size(); ++f) {
     CloudMatch& match = result_.matches[f];
-    match.skin_covered = ShareCovered(skins_[f], thin_[f], found, settings_.search.near_m);
+    match.skin_covered =
+        ShareCovered(skins_[f], UnbiasedOf(thin_[f]), found, settings_.search.near_m);
     if (match.skin_covered < settings_.least_cover || match.rms_m > settings_.most_rms_m) {
       return {StatusCode::kInvalidInput,
               frames_[f].name + ": " + FormatNumber(match.skin_covered) +

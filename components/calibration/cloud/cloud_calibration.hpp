@@ -17,10 +17,17 @@ struct CloudSettings {
   /// of markers and whether the pose is fitted has no meaning here.
   JointRequest request;
   double huber_threshold = 2.0;  ///< sigmas; in place of the request's
-  /// Smooth error of the depth image, one sigma as a share of z (DepthBiasBelief): counts in the
-  /// standard errors; 0: it has none.
+  /// Smooth error of the depth image, one sigma of each coefficient as a share of z
+  /// (geometry::DepthBiasMap): what of it is not looked for, and what the clouds do not tell, stays
+  /// at 0 and counts in the standard errors. 0: it has none.
   double depth_bias_sigma = 0.003;
-  int depth_bias_order = 2;
+  geometry::DepthBiasBasis depth_bias = {};
+  /// Look for it. Where the model bends, or the clouds were made, otherwise than this one knows, it
+  /// takes up a part of that, and pose and map err by more than they say.
+  bool fit_depth_bias = false;
+  /// How far the robot may move by more or less than the model says, as a share, one sigma: counts
+  /// in the standard errors. Meshes alone make some percent of it.
+  double motion_relative_sigma = 0.02;
   PoseSearchSettings search;
   /// Distance of neighbouring points that are used, m: of the search, and of the joint fit. Depth
   /// noise is alike in neighbouring pixels; points some pixels apart count as independent.

@@ -34,12 +34,12 @@ double AcrossOf_m(const Candidate& candidate) {
 /// and go by leaps, which would keep the camera moving for ever.
 double Fading(double share) { return std::max(0.0, 1.0 - share * share); }
 
-std::vector<Candidate> CandidatesOf(const SkinInView& skin, const ThinCloud& cloud,
+std::vector<Candidate> CandidatesOf(const SkinInView& skin, const Eigen::Matrix3Xd& points_m,
                                     const geometry::RigidTransform& T_robot_camera,
                                     double widest_m) {
   std::vector<Candidate> candidates;
-  for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
-    const Eigen::Vector3d here_m = T_robot_camera * cloud.points_m.col(k);
+  for (Eigen::Index k = 0; k < points_m.cols(); ++k) {
+    const Eigen::Vector3d here_m = T_robot_camera * points_m.col(k);
     const std::optional<SkinFoot> foot = skin.FootOf(here_m);
     if (!foot || foot->distance_m > widest_m) continue;
     const Candidate candidate{k, *foot, foot->normal.dot(here_m - foot->position_m)};
@@ -102,11 +102,12 @@ Status CheckClouds(const robot::RobotModel& model, const std::vector<CloudFrame>
 }
 
 std::vector<SurfaceSighting> MatchCloud(const SkinInView& skin, const ThinCloud& cloud,
+                                        const Eigen::Matrix3Xd& unbiased_m,
                                         const geometry::RigidTransform& T_robot_camera,
                                         const CloudSettings& settings, CloudMatch* match) {
   *match = {.points = static_cast<int>(cloud.Count()), .outlier_share = 1.0};
   const std::vector<Candidate> candidates =
-      CandidatesOf(skin, cloud, T_robot_camera, settings.widest_gate_m);
+      CandidatesOf(skin, unbiased_m, T_robot_camera, settings.widest_gate_m);
   std::vector<SurfaceSighting> sightings;
   if (candidates.empty()) return sightings;
   const double gate_m = GateOf(candidates, settings);

@@ -14,9 +14,11 @@ namespace palpate::calibration {
 Status CheckClouds(const robot::RobotModel& model, const std::vector<CloudFrame>& frames,
                    const CloudSettings& settings);
 
-/// Points of a cloud on the skin that is seen, ready for the joint fit; `match` says how many, but
-/// not what they cover.
+/// Points of a cloud on the skin that is seen, ready for the joint fit; `unbiased_m`: where they
+/// are held to be, camera frame, without the error of the depth that is known so far. `match` says
+/// how many, but not what they cover.
 std::vector<SurfaceSighting> MatchCloud(const SkinInView& skin, const ThinCloud& cloud,
+                                        const Eigen::Matrix3Xd& unbiased_m,
                                         const geometry::RigidTransform& T_robot_camera,
                                         const CloudSettings& settings, CloudMatch* match);
 

@@ -198,7 +198,7 @@ PoseFit SearchFrom(std::vector<SkinInView>& skins, const std::vector<ThinCloud>&
     for (int k = 0; k < settings.steps_each; ++k) {
       const double moved_m =
           Step(skins, clouds, middle_m, pull, return_weight, &fit.T_robot_camera);
-      if (moved_m < settings.at_rest_m) break;
+      if (moved_m < settings.at_rest_m || settings.stop.stop_requested()) break;
     }
     if (width_m > kHalfway * settings.widest_m) continue;
     fit.skin_covered = MeanCovered(skins, clouds, fit.T_robot_camera, settings.near_m);
@@ -245,6 +245,7 @@ PoseFit SearchPose(std::vector<SkinInView>& skins, const std::vector<ThinCloud>&
     }
     best.starts = ++searched;
     if (best_is_near && best.skin_covered >= settings.good_cover) break;
+    if (settings.stop.stop_requested()) break;
   }
   return best;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <vector>
 
 #include "components/calibration/cloud/skin_in_view.hpp"
@@ -44,6 +45,7 @@ struct PoseSearchSettings {
   /// the one that was meant: a robot that looks the same after a quarter turn fits there as well.
   double farthest_rad = 0.7;
   double farthest_m = 0.1;
+  std::stop_token stop = {};  ///< ends the search where it is
 };
 
 /// What a pose says of the clouds.

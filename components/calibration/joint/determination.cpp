@@ -80,31 +80,29 @@ WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
   return fit;
 }
 
-Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem) {
-  std::vector<int> uncertain, considered;
-  Eigen::VectorXd believed = Eigen::VectorXd::Zero(CountOf(problem));  // of those considered
+Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened) {
+  std::vector<int> estimated, believed;
   for (int v = 0; v < CountOf(problem); ++v) {
-    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
-    const bool known = problem.IsHeld(v) && !std::isfinite(variable.belief.sigma);
-    if (variable.considered) {
-      believed[std::ssize(considered)] = variable.belief.sigma / problem.Scale(v);
-      considered.push_back(v);
-    } else if (!known) {
-      uncertain.push_back(v);
+    if (!problem.IsHeld(v)) {
+      estimated.push_back(v);
+    } else if (std::isfinite(problem.variables()[static_cast<size_t>(v)].belief.sigma)) {
+      believed.push_back(v);
     }
   }
-  Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, uncertain));
-  // What is considered shifts the estimates by so much for each of its sigmas (Schmidt 1966).
-  const Eigen::MatrixXd shift = inverse * Pick(fit.information, uncertain, considered) *
-                                believed.head(std::ssize(considered)).asDiagonal();
-  inverse += shift * shift.transpose();
+  const Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, estimated));
+  Eigen::VectorXd sigma(std::ssize(believed));
+  for (Eigen::Index k = 0; k < sigma.size(); ++k) {
+    const int v = believed[static_cast<size_t>(k)];
+    sigma[k] = problem.variables()[static_cast<size_t>(v)].belief.sigma / problem.Scale(v);
+  }
+  // One held a sigma too high shifts the estimates by this.
+  const Eigen::MatrixXd shift =
+      -inverse * Pick(fit.information, estimated, believed) * sigma.asDiagonal();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(CountOf(problem), CountOf(problem));
-  for (std::size_t i = 0; i < uncertain.size(); ++i) {
-    for (std::size_t j = 0; j < uncertain.size(); ++j) {
-      covariance(uncertain[i], uncertain[j]) =
-          inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    }
-  }
+  covariance(estimated, estimated) = widened * inverse + shift * shift.transpose();
+  covariance(estimated, believed) = shift * sigma.asDiagonal();
+  covariance(believed, estimated) = covariance(estimated, believed).transpose();
+  covariance(believed, believed) = sigma.cwiseAbs2().asDiagonal();
   return covariance;
 }
 

@@ -26,8 +26,10 @@ struct WeightedFit {
 WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
                   double huber_threshold);
 
-/// [variables x variables] of the variables' errors. Held ones count with what is believed of them;
-/// with nothing believed they count as known, and have 0.
-Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem);
+/// [variables x variables] of the errors (found - true) of the variables: of those that were
+/// estimated from the information, times `widened`, and from what held ones shift them by (Schmidt
+/// 1966: considered). Held ones err by what is believed of them; with nothing believed they count
+/// as known, and have 0.
+Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened);
 
 }  // namespace palpate::calibration

@@ -104,4 +104,10 @@ void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
   file->degrees_of_freedom = fit.degrees_of_freedom;
 }
 
+void TakeDepthBias(const JointCalibration& fit, const geometry::DepthPicture& picture,
+                   robot::CalibrationFile* file) {
+  if (!fit.depth_bias || !file->pose) return;
+  file->depth_bias = robot::CalibratedDepthBias{picture, *fit.depth_bias};
+}
+
 }  // namespace palpate::calibration

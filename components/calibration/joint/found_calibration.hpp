@@ -24,4 +24,9 @@ std::vector<std::string> PartNames(const robot::RobotBody& body);
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file);
 
+/// Puts the depth bias that was found from images of this size and lens into the file, with the
+/// pose, which it belongs to.
+void TakeDepthBias(const JointCalibration& fit, const geometry::DepthPicture& picture,
+                   robot::CalibrationFile* file);
+
 }  // namespace palpate::calibration

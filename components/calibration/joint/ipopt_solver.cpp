@@ -147,7 +147,7 @@ class Nlp final : public Ipopt::TNLP {
     const bool ended = step <= tolerance || idle_iterations_ >= kPatience;
     arrived_ = iteration > 0 && ended && infeasibility <= tolerance &&
                (!has_bounds_ || barrier <= tolerance);
-    return !arrived_;
+    return !arrived_ && !settings_.stop.stop_requested();
   }
 
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct LeastSquaresSettings {
   double step_tolerance = 1e-8;
   /// Blocks weigh less beyond so many sigmas; <= 0: all weigh alike.
   double huber_threshold = 0.0;
+  /// Asked after each iteration: it then ends there, kNotConverged.
+  std::stop_token stop = {};
 };
 
 struct LeastSquaresSolution {

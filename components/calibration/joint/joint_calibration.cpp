@@ -91,6 +91,26 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
   }
 }
 
+void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& solution,
+                     const Eigen::MatrixXd& covariance, JointCalibration* result) {
+  if (!problem.depth_bias() || !problem.depth_bias()->estimated) return;
+  geometry::DepthBiasMap& map = result->depth_bias.emplace();
+  map.basis = problem.depth_bias()->basis;
+  const int count = geometry::CountOf(map.basis);
+  map.coefficients.resize(count);
+  Eigen::MatrixXd per_variable = Eigen::MatrixXd::Zero(6 + count, covariance.cols());
+  for (int i = 0; i < 6 && problem.pose_column() >= 0; ++i) {
+    const int v = problem.pose_column() + i;
+    per_variable(i, v) = problem.Scale(v);
+  }
+  for (int k = 0; k < count; ++k) {
+    const int v = problem.depth_bias_column() + k;
+    map.coefficients[k] = problem.ValueOf(v, solution.variables);
+    per_variable(6 + k, v) = problem.Scale(v);
+  }
+  map.covariance = per_variable * covariance * per_variable.transpose();
+}
+
 void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
               const JointSettings& settings, JointCalibration* result) {
   const Eigen::Index rows = problem.DataRows();
@@ -116,9 +136,9 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   }
   result->degrees_of_freedom = static_cast<int>(rows) - free;
   const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));
-  const Eigen::MatrixXd covariance = widened * CovarianceOf(fit, problem);
+  const Eigen::MatrixXd covariance = CovarianceOf(fit, problem, widened);
   result->T_robot_camera = problem.PoseAt(solution.variables);
-  for (const fem::StaticState& state : problem.states()) result->x_m.push_back(state.x_m);
+  result->x_m = problem.ShapesAt(solution.variables);
   if (problem.pose_column() >= 0) {
     Eigen::Matrix<double, 6, 1> scale;
     for (int i = 0; i < 6; ++i) scale[i] = problem.Scale(problem.pose_column() + i);
@@ -126,6 +146,7 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
                               covariance.block<6, 6>(problem.pose_column(), problem.pose_column()) *
                               scale.asDiagonal();
   }
+  ReportDepthBias(problem, solution, covariance, result);
   ReportValues(problem, solution, covariance, result);
 }
 

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/calibration/joint/ipopt_solver.hpp"
 #include "components/calibration/joint/joint_problem.hpp"
 #include "libs/core/status.hpp"
+#include "libs/geometry/depth_bias_map.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -38,6 +40,7 @@ struct JointCalibration {
   /// Of PoseChange at the found pose (rad, m); 0 where the pose was given.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<FittedValue> values;  ///< without the pose; unknowns in their order, last
+  std::optional<geometry::DepthBiasMap> depth_bias;  ///< where it was looked for
   /// [values] of their errors; 0 for held ones that nothing is known of.
   Eigen::MatrixXd correlation;
   double residual_rms_m = 0.0;  ///< of all frames

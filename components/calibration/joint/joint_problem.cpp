@@ -23,7 +23,7 @@ Eigen::Index At(std::size_t i) { return static_cast<Eigen::Index>(i); }
 JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
     : model_(model),
       setup_(setup),
-      sensitivity_(model),
+      team_(1 + static_cast<int>(setup.helpers.size())),
       accepted_(setup.states.empty()
                     ? std::vector<fem::StaticState>(setup.frames.size(), model.RestState())
                     : setup.states),
@@ -31,6 +31,8 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
       accepted_solved_(setup.frames.size()),
       solved_(setup.frames.size()),
       residual_rms_m_(setup.frames.size(), 0.0) {
+  workers_.push_back(std::make_unique<Worker>(model));
+  for (const auto& helper : setup.helpers) workers_.push_back(std::make_unique<Worker>(*helper));
   AddVariables();
   for (const Variable& variable : variables_) held_.push_back(variable.considered);
   start_ = Eigen::VectorXd::Zero(At(variables_.size()));
@@ -43,15 +45,23 @@ void JointProblem::AddVariables() {
   if (setup_.fit_pose) AddPoseVariables();
   if (setup_.depth_bias) {
     depth_bias_column_ = static_cast<int>(variables_.size());
-    for (const std::string& name : NamesOf(*setup_.depth_bias)) {
+    for (const std::string& name : geometry::NamesOf(setup_.depth_bias->basis)) {
       variables_.push_back({name, "", setup_.depth_bias->coefficient,
                             "recordings of the robot at several distances, all over the picture",
                             nullptr, !setup_.depth_bias->estimated});
     }
   }
   if (setup_.marker_offset_sigma_m > 0.0) AddMarkerOffsets();
+  if (const double sigma = setup_.motion_relative_sigma; sigma > 0.0) {
+    motion_column_ = static_cast<int>(variables_.size());
+    variables_.push_back({"model_motion", "", {.sigma = sigma, .plausible = sigma}, "", {}, true});
+  }
   unknown_column_ = static_cast<int>(variables_.size());
   for (const UnknownPtr& unknown : setup_.unknowns) {
+    if (unknown->ScalesTheRobot()) {
+      PALPATE_CHECK(setup_.conditions.empty(), setup_.conditions.size());
+      scale_column_ = static_cast<int>(variables_.size());
+    }
     variables_.push_back({unknown->name(), unknown->unit(), unknown->belief(),
                           unknown->what_would_tell(), unknown.get()});
   }
@@ -106,7 +116,8 @@ CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
 
 /// Empty where the depth counts as right.
 Eigen::VectorXd JointProblem::DepthBasisAt(const Eigen::Vector3d& p_camera_m) const {
-  return setup_.depth_bias ? DepthBiasBasis(*setup_.depth_bias, p_camera_m) : Eigen::VectorXd();
+  if (!setup_.depth_bias) return {};
+  return geometry::ValuesAt(setup_.depth_bias->basis, p_camera_m);
 }
 
 double JointProblem::DepthScaleAt(const Eigen::VectorXd& basis,
@@ -116,6 +127,13 @@ double JointProblem::DepthScaleAt(const Eigen::VectorXd& basis,
     scale += basis[k] * ValueOf(depth_bias_column_ + static_cast<int>(k), variables);
   }
   return scale;
+}
+
+std::vector<Eigen::VectorXd> JointProblem::ShapesAt(const Eigen::VectorXd& variables) const {
+  const double scale = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
+  std::vector<Eigen::VectorXd> shapes_m;
+  for (const fem::StaticState& state : states_) shapes_m.emplace_back(scale * state.x_m);
+  return shapes_m;
 }
 
 geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables) const {
@@ -130,8 +148,6 @@ Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variab
   }
   return offset_m;
 }
-
-Eigen::VectorXd JointProblem::Start() const { return start_; }
 
 void JointProblem::Accept() {
   accepted_ = states_;
@@ -179,21 +195,14 @@ Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoin
   point->jacobian.setZero(data_rows_ + beliefs, columns);
   point->constraint.setZero(At(setup_.conditions.size()));
   point->constraint_jacobian.setZero(At(setup_.conditions.size()), columns);
-  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
-    setup_.unknowns[u]->ApplyToModel(ValueOf(unknown_column_ + static_cast<int>(u), variables),
-                                     &model_);
-  }
+  ApplyToModels(variables);
+  if (Status status = BalanceAll(variables, point); !status.ok()) return status;
   const CameraView view = ViewAt(variables);
+  scale_ = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
   Eigen::Index row = 0;
-  for (std::size_t f = 0; f < setup_.frames.size(); ++f) {
-    const CalibrationFrame& frame = setup_.frames[f];
-    const auto index = static_cast<int>(f);
-    if (Status status = Balance(index, InputsOf(index, variables), variables); !status.ok()) {
-      return {status.code(), frame.name + ": " + status.message()};
-    }
+  for (const CalibrationFrame& frame : setup_.frames) {
     SeeMarkers(frame, view, variables, &row, point);
     SeeSurface(frame, view, variables, &row, point);
-    CheckConditions(index, point);
   }
   AddBeliefs(variables, point);
   return Status::Ok();
@@ -202,6 +211,7 @@ Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoin
 FrameInputs JointProblem::InputsOf(int frame, const Eigen::VectorXd& variables) const {
   const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
   FrameInputs inputs{.cables = given.cables,
+                     .loads = given.loads,
                      .nominal_gravity_m_s2 = given.gravity_m_s2,
                      .gravity_m_s2 = given.gravity_m_s2};
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
@@ -211,34 +221,69 @@ FrameInputs JointProblem::InputsOf(int frame, const Eigen::VectorXd& variables) 
   return inputs;
 }
 
+void JointProblem::ApplyToModels(const Eigen::VectorXd& variables) {
+  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
+    const double value = ValueOf(unknown_column_ + static_cast<int>(u), variables);
+    for (const auto& worker : workers_) setup_.unknowns[u]->ApplyToModel(value, &worker->model);
+  }
+}
+
+/// Of the first frame that fails, whoever finishes first.
+Status JointProblem::BalanceAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
+  std::vector<Status> status(setup_.frames.size(), Status::Ok());
+  const std::size_t step = workers_.size();
+  team_.Run([&](int index) {
+    const auto first = static_cast<std::size_t>(index);
+    for (std::size_t f = first; f < status.size(); f += step) {
+      status[f] = Balance(static_cast<int>(f), variables, workers_[first].get());
+      if (status[f].ok()) CheckConditions(static_cast<int>(f), *workers_[first], point);
+    }
+  });
+  for (std::size_t f = 0; f < status.size(); ++f) {
+    if (status[f].ok()) continue;
+    return {status[f].code(), setup_.frames[f].name + ": " + status[f].message()};
+  }
+  return Status::Ok();
+}
+
 /// The frame's equilibrium, from the last accepted one, and how it depends on the variables.
-Status JointProblem::Balance(int frame, const FrameInputs& inputs,
-                             const Eigen::VectorXd& variables) {
+Status JointProblem::Balance(int frame, const Eigen::VectorXd& variables, Worker* worker) {
   const auto f = static_cast<size_t>(frame);
-  model_.SetGravity(inputs.mass_factor * inputs.gravity_m_s2);
+  const FrameInputs inputs = InputsOf(frame, variables);
+  const FrameInputs acting = ToModel(inputs);
+  worker->model.SetGravity(acting.mass_factor * acting.gravity_m_s2);
   states_[f] = accepted_[f];
   const SolvedState::Move move = accepted_solved_[f].MoveTo(variables, &states_[f].x_m);
   if (move == SolvedState::Move::kTiny && !HasCondition(frame)) {
     solved_[f] = accepted_solved_[f];
     return Status::Ok();
   }
-  const fem::StaticResult result = model_.Solve(inputs.cables, setup_.frames[f].loads, &states_[f]);
+  const fem::StaticResult result = worker->model.Solve(acting.cables, acting.loads, &states_[f]);
   if (!result.status.ok()) return result.status;
-  parameters_.clear();
-  column_of_.clear();
-  factor_of_.clear();
+  DescribeInfluences(frame, inputs, variables, worker);
+  Status status = worker->sensitivity.Compute(acting.cables, states_[f], worker->parameters,
+                                              robot::Factor::kPresent);
+  if (status.ok()) {
+    solved_[f].Keep(states_[f].x_m, variables, worker->column_of, worker->factor_of,
+                    worker->sensitivity);
+  }
+  return status;
+}
+
+void JointProblem::DescribeInfluences(int frame, const FrameInputs& inputs,
+                                      const Eigen::VectorXd& variables, Worker* worker) const {
+  worker->parameters.clear();
+  worker->column_of.clear();
+  worker->factor_of.clear();
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     const int column = unknown_column_ + static_cast<int>(u);
-    auto influence = setup_.unknowns[u]->InfluenceOn(ValueOf(column, variables), frame, inputs);
-    if (!influence) continue;
-    parameters_.push_back(std::move(influence->parameter));
-    column_of_.push_back(column);
-    factor_of_.push_back(influence->per_value * Scale(column));
+    for (Influence& influence :
+         setup_.unknowns[u]->InfluencesOn(ValueOf(column, variables), frame, inputs)) {
+      worker->parameters.push_back(std::move(influence.parameter));
+      worker->column_of.push_back(column);
+      worker->factor_of.push_back(influence.per_value * Scale(column));
+    }
   }
-  Status status =
-      sensitivity_.Compute(inputs.cables, states_[f], parameters_, robot::Factor::kPresent);
-  if (status.ok()) solved_[f].Keep(states_[f].x_m, variables, column_of_, factor_of_, sensitivity_);
-  return status;
 }
 
 bool JointProblem::HasCondition(int frame) const {
@@ -255,15 +300,17 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
     const fem::NodeWeights& weights =
         model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
     const Eigen::Vector3d place_m =
-        weights.Position(states_[index].x_m) + OffsetOf(sighting.marker, variables);
+        scale_ * weights.Position(states_[index].x_m) + OffsetOf(sighting.marker, variables);
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
-    const SightingRows<3> rows = view.Rows(sighting, place_m, DepthScaleAt(basis, variables));
-    PutRows(rows, basis, {solved_[index], weights}, *row, point);
+    const double depth_scale = DepthScaleAt(basis, variables);
+    const SightingRows<3> rows = view.Rows(sighting, place_m, depth_scale);
+    PutRows(rows, basis, {solved_[index], weights, states_[index].x_m}, *row, point);
     if (marker_offset_column_ >= 0) {
       const int column = marker_offset_column_ + 3 * sighting.marker;
       point->jacobian.block<3, 3>(*row, column) = Scale(column) * rows.per_point_m;
     }
-    squares_m2 += (view.T_robot_camera() * sighting.position_m - place_m).squaredNorm();
+    const Eigen::Vector3d seen_m = (1.0 + depth_scale) * sighting.position_m;
+    squares_m2 += (view.T_robot_camera() * seen_m - place_m).squaredNorm();
     *row += 3;
   }
   const double count = std::max<double>(1.0, static_cast<double>(frame.markers.size()));
@@ -278,9 +325,10 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   double squares_m2 = 0.0;
   for (const SurfaceSighting& sighting : frame.surface) {
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
-    const SightingRows<1> rows = view.Rows(sighting, sighting.point.Position(states_[index].x_m),
-                                           DepthScaleAt(basis, variables));
-    PutRows(rows, basis, {solved_[index], sighting.point}, *row, point);
+    const SightingRows<1> rows =
+        view.Rows(sighting, scale_ * sighting.point.Position(states_[index].x_m),
+                  DepthScaleAt(basis, variables));
+    PutRows(rows, basis, {solved_[index], sighting.point, states_[index].x_m}, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
     squares_m2 += off_m * off_m;
     ++*row;
@@ -306,21 +354,33 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
     point->jacobian.block<Rows, 1>(row, column) =
         Scale(column) * depth_basis[k] * rows.per_depth_scale;
   }
+  if (motion_column_ >= 0) {
+    point->jacobian.block<Rows, 1>(row, motion_column_) =
+        Scale(motion_column_) * rows.per_point_m *
+        (place.point.Position(place.x_m) - place.point.Position(rest_m_));
+  }
   const Eigen::Matrix3Xd motion_m = place.solved.PointMotion(place.point);
   const std::vector<Eigen::Index>& columns = place.solved.column();
   for (std::size_t p = 0; p < columns.size(); ++p) {
-    point->jacobian.block<Rows, 1>(row, columns[p]) += rows.per_point_m * motion_m.col(At(p));
+    point->jacobian.block<Rows, 1>(row, columns[p]) +=
+        scale_ * rows.per_point_m * motion_m.col(At(p));
+  }
+  if (scale_column_ >= 0) {
+    point->jacobian.block<Rows, 1>(row, scale_column_) +=
+        Scale(scale_column_) * rows.per_point_m * place.point.Position(place.x_m);
   }
 }
 
-void JointProblem::CheckConditions(int frame, LeastSquaresPoint* point) const {
+void JointProblem::CheckConditions(int frame, const Worker& worker,
+                                   LeastSquaresPoint* point) const {
   for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
     const Condition& condition = *setup_.conditions[c];
     if (condition.frame() != frame) continue;
-    point->constraint[At(c)] = condition.Value(model_, states_[static_cast<size_t>(frame)]);
-    const Eigen::RowVectorXd derivative = condition.Derivative(sensitivity_);
-    for (std::size_t p = 0; p < column_of_.size(); ++p) {
-      point->constraint_jacobian(At(c), column_of_[p]) += factor_of_[p] * derivative[At(p)];
+    point->constraint[At(c)] = condition.Value(worker.model, states_[static_cast<size_t>(frame)]);
+    const Eigen::RowVectorXd derivative = condition.Derivative(worker.sensitivity);
+    for (std::size_t p = 0; p < worker.column_of.size(); ++p) {
+      point->constraint_jacobian(At(c), worker.column_of[p]) +=
+          worker.factor_of[p] * derivative[At(p)];
     }
   }
 }

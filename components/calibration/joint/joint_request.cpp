@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/models_like.hpp"
 #include "components/calibration/joint/unknowns.hpp"
 #include "libs/core/text.hpp"
+#include "libs/core/thread_team.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::calibration {
@@ -23,25 +25,43 @@ constexpr double kWrongRobotShare = 0.1;
 constexpr double kFirstTension_N = 0.5;
 constexpr double kLeastPoissonsRatio = 0.0;
 constexpr double kMostPoissonsRatio = 0.4999;
+constexpr double kSmallestScale = 0.5;
+constexpr double kLargestScale = 2.0;
+
+/// The frames' equilibria under what is believed of their inputs.
+Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
+  std::vector<robot::RobotModel*> models = {&model};
+  for (const auto& helper : setup->helpers) models.push_back(helper.get());
+  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
+  setup->states.assign(setup->frames.size(), model.RestState());
+  std::vector<Status> status(setup->frames.size(), Status::Ok());
+  ThreadTeam team(static_cast<int>(models.size()));
+  team.Run([&](int index) {
+    const auto first = static_cast<std::size_t>(index);
+    for (std::size_t f = first; f < status.size(); f += models.size()) {
+      const CalibrationFrame& frame = setup->frames[f];
+      models[first]->SetGravity(frame.gravity_m_s2);
+      status[f] = models[first]->Solve(frame.cables, frame.loads, &setup->states[f]).status;
+    }
+  });
+  model.SetGravity(gravity_m_s2);
+  for (std::size_t f = 0; f < status.size(); ++f) {
+    if (status[f].ok()) continue;
+    return {status[f].code(), setup->frames[f].name + ": " + status[f].message()};
+  }
+  return Status::Ok();
+}
 
 /// The pose under which all frames' markers lie nearest to the model's, and the frames' equilibria.
 Status FindStart(robot::RobotModel& model, JointSetup* setup) {
-  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
+  if (Status status = SolveStates(model, setup); !status.ok()) return status;
   std::vector<Eigen::Vector3d> seen, expected;
-  for (const CalibrationFrame& frame : setup->frames) {
-    model.SetGravity(frame.gravity_m_s2);
-    fem::StaticState state = model.RestState();
-    const fem::StaticResult result = model.Solve(frame.cables, frame.loads, &state);
-    model.SetGravity(gravity_m_s2);
-    if (!result.status.ok()) {
-      return {result.status.code(), frame.name + ": " + result.status.message()};
-    }
-    for (const MarkerSighting& sighting : frame.markers) {
+  for (std::size_t f = 0; f < setup->frames.size(); ++f) {
+    for (const MarkerSighting& sighting : setup->frames[f].markers) {
       const auto& marker = model.body().markers.at(static_cast<size_t>(sighting.marker));
       seen.push_back(sighting.position_m);
-      expected.push_back(marker.point.weights.Position(state.x_m));
+      expected.push_back(marker.point.weights.Position(setup->states[f].x_m));
     }
-    setup->states.push_back(std::move(state));
   }
   const auto count = static_cast<Eigen::Index>(seen.size());
   Eigen::Matrix3Xd source_m(3, count), target_m(3, count);
@@ -125,6 +145,12 @@ void AddPoissonsRatios(const robot::RobotModel& model, const JointRequest& reque
   }
 }
 
+Eigen::Vector3d FirstEyelet_m(const robot::RobotModel& model, int cable) {
+  const Eigen::Map<const Eigen::VectorXd> rest_m(model.body().mesh.nodes_m.data(),
+                                                 model.body().mesh.nodes_m.size());
+  return model.cable(cable).eyelets().front().Position(rest_m);
+}
+
 /// Turns of gravity, and a factor on it.
 void AddWeight(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   const double tilt_sigma = std::tan(request.gravity_tilt_sigma_rad);
@@ -138,6 +164,28 @@ void AddWeight(const robot::RobotModel& model, const JointRequest& request, Join
   if (mass_sigma > 0.0) {
     setup->unknowns.push_back(
         MassFactor({.mean = 1.0, .sigma = mass_sigma, .lower = 0.0, .plausible = mass_sigma}));
+  }
+}
+
+/// Size of the robot, and where its cables' guides sit.
+void AddGeometry(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
+  const double scale_sigma = request.geometry_scale_sigma;
+  if (scale_sigma > 0.0) {
+    setup->unknowns.push_back(GeometryScaleOf({.mean = 1.0,
+                                               .sigma = scale_sigma,
+                                               .lower = kSmallestScale,
+                                               .upper = kLargestScale,
+                                               .plausible = scale_sigma}));
+  }
+  const double route_sigma_m = request.cable_route_sigma_m;
+  if (route_sigma_m <= 0.0) return;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const robot::BodyCable& cable = model.body().cables[static_cast<size_t>(c)];
+    const Eigen::Vector3d& guide_m = model.cable(c).pull_point_m();
+    for (const TiltAxis& direction : AcrossCable(FirstEyelet_m(model, c) - guide_m)) {
+      setup->unknowns.push_back(RouteOf(c, cable.name, guide_m, direction,
+                                        {.sigma = route_sigma_m, .plausible = route_sigma_m}));
+    }
   }
 }
 
@@ -168,6 +216,8 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   setup->marker_offset_sigma_m = setup->estimate_marker_offsets ? request.marker_offset_sigma_m
                                                                 : request.marker_placement_sigma_m;
   AddInputs(model, setup);
+  const int threads = std::min(request.threads, static_cast<int>(setup->frames.size()));
+  setup->helpers = ModelsLike(model, std::max(0, threads - 1));
   if (T_robot_camera != nullptr) {
     setup->T_robot_camera = *T_robot_camera;
   } else if (Status status = FindStart(model, setup); !status.ok()) {
@@ -177,6 +227,12 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   AddModuli(model, request, setup);
   AddPoissonsRatios(model, request, setup);
   AddWeight(model, request, setup);
+  AddGeometry(model, request, setup);
+  if (request.depth_scale_sigma > 0.0) {
+    const double sigma = request.depth_scale_sigma;
+    setup->depth_bias =
+        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .basis = {.order = 0}};
+  }
   return Status::Ok();
 }
 
@@ -190,6 +246,7 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   if (!result.status.ok()) return result;
   JointSettings settings;
   settings.solver.huber_threshold = request.huber_threshold;
+  settings.solver.stop = request.stop;
   result = CalibrateJointly(model, setup, settings);
   const double spread_m = SpreadOf(setup.frames);
   if (result.status.ok() && result.residual_rms_m > kWrongRobotShare * spread_m) {

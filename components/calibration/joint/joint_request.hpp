@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "components/calibration/joint/joint_calibration.hpp"
@@ -17,19 +18,28 @@ struct JointRequest {
   double drive_offset_sigma_m = 2e-3;
   bool drive_gains = false;
   double drive_gain_sigma = 0.05;
-  std::vector<int> moduli;  ///< RobotBody::materials whose Young's modulus is looked for
+  std::vector<int> moduli = {};  ///< RobotBody::materials whose Young's modulus is looked for
   double modulus_relative_sigma = 0.5;
   /// Poisson's ratio of the same materials, gravity's direction and the body's weight are looked
   /// for where how far they may be off (one sigma) is not 0.
   double poissons_ratio_sigma = 0.0;
   double gravity_tilt_sigma_rad = 0.0;  ///< about each of two axes across gravity
   double mass_relative_sigma = 0.0;
+  /// The same of the robot's size (FrameInputs::scale), of the guides from which the cables are
+  /// pulled, along each of two directions across them, and of the depth by which markers were
+  /// measured, a share of it.
+  double geometry_scale_sigma = 0.0;
+  double cable_route_sigma_m = 0.0;
+  double depth_scale_sigma = 0.0;
   /// How far a marker may sit from its place in the robot file: looked for where it is not 0; else
   /// it counts in the standard errors as `marker_placement_sigma_m`, of what mesh and embedding
   /// leave.
   double marker_offset_sigma_m = 0.0;
   double marker_placement_sigma_m = 1e-4;
+  /// That work on frames, each with a model of its own; never more than there are frames.
+  int threads = 2;
   double huber_threshold = 4.0;  ///< sigmas; for markers that are mistaken for others
+  std::stop_token stop = {};     ///< ends the fit, which then is kNotConverged
 };
 
 /// The problem for these frames: where no pose is given, the search starts from the rigid motion

@@ -10,17 +10,24 @@
 
 namespace palpate::calibration {
 
-/// The model's moduli, Poisson's ratios and gravity, to put back.
+/// The model's moduli, Poisson's ratios, pull points and gravity, to put back.
 class KeptModel {
  public:
   /// `model` must outlive it.
   explicit KeptModel(robot::RobotModel& model)
-      : model_(model), materials_(model.body().materials), gravity_m_s2_(model.gravity_m_s2()) {}
+      : model_(model), materials_(model.body().materials), gravity_m_s2_(model.gravity_m_s2()) {
+    for (int c = 0; c < model.CableCount(); ++c) {
+      pull_points_m_.push_back(model.cable(c).pull_point_m());
+    }
+  }
 
   void Restore() const {
     for (std::size_t m = 0; m < materials_.size(); ++m) {
       model_.SetYoungsModulus(static_cast<int>(m), materials_[m].youngs_modulus_Pa);
       model_.SetPoissonsRatio(static_cast<int>(m), materials_[m].poissons_ratio);
+    }
+    for (int c = 0; c < model_.CableCount(); ++c) {
+      model_.SetPullPoint(c, pull_points_m_[static_cast<std::size_t>(c)]);
     }
     RestoreGravity();
   }
@@ -29,6 +36,7 @@ class KeptModel {
  private:
   robot::RobotModel& model_;
   std::vector<fem::Material> materials_;
+  std::vector<Eigen::Vector3d> pull_points_m_;
   Eigen::Vector3d gravity_m_s2_;
 };
 

@@ -18,20 +18,6 @@ namespace {
 
 using experiment::TimeWindow;
 
-/// Windows to average over: a static phase is one, of a motion single moments.
-std::vector<TimeWindow> WindowsOf(const experiment::Recording& recording, int most_frames) {
-  if (recording.steady_window_s) return {*recording.steady_window_s};
-  const auto& frames = recording.markers->frames;
-  if (CablesAreStill(recording)) return {{frames.front().t_s, frames.back().t_s}};
-  std::vector<TimeWindow> moments;
-  const auto count = std::min(frames.size(), static_cast<std::size_t>(most_frames));
-  for (std::size_t k = 0; k < count; ++k) {
-    const double t_s = frames[count == 1 ? 0 : k * (frames.size() - 1) / (count - 1)].t_s;
-    moments.push_back({t_s, t_s});
-  }
-  return moments;
-}
-
 std::vector<MarkerSighting> Sightings(const experiment::Experiment& experiment,
                                       const experiment::Recording& recording,
                                       const robot::RobotModel& model, const TimeWindow& window,

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +31,19 @@ struct Belief {
 /// What acts on the model in a frame, as unknowns put it together.
 struct FrameInputs {
   std::vector<robot::CableCommand> cables;
+  std::vector<robot::DeadLoad> loads = {};
   Eigen::Vector3d nominal_gravity_m_s2 = Eigen::Vector3d::Zero();  ///< of the frame
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();          ///< as unknowns turn it
   double mass_factor = 1.0;  ///< a mass counts by its weight alone
+  /// Size of the robot, guides of its cables and all, over the model's, about the robot frame's
+  /// origin, at the model's density. Its shape is that of the model under ToModel of these, so many
+  /// times as large: stresses are the same where forces grow with the square.
+  double scale = 1.0;
 };
+
+/// What acts on a model of scale 1 whose shape is the robot's over its scale: displacements over
+/// s, tensions and loads over s^2, weights times s. (Limits of tensions are not scaled.)
+FrameInputs ToModel(const FrameInputs& robot);
 
 /// How an equilibrium depends on an unknown: the parameter's derivative times `per_value`.
 struct Influence {
@@ -62,9 +70,12 @@ class Unknown {
 
   virtual void ApplyToModel(double value, robot::RobotModel* model) const;
   virtual void ApplyToFrame(double value, int frame, FrameInputs* inputs) const;
-  /// At a frame's inputs as they are with all unknowns applied; nothing where it has no part.
-  virtual std::optional<Influence> InfluenceOn(double value, int frame,
-                                               const FrameInputs& inputs) const = 0;
+  /// On the model of scale 1 (ToModel), at the robot's inputs of a frame with all unknowns applied;
+  /// their sum counts; none where it has no part.
+  virtual std::vector<Influence> InfluencesOn(double value, int frame,
+                                              const FrameInputs& inputs) const = 0;
+  /// Whether its value is FrameInputs::scale.
+  virtual bool ScalesTheRobot() const { return false; }
 
   /// The value as people read it, and its derivative: for E the modulus where the value is its
   /// logarithm.

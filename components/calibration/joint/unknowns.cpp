@@ -28,19 +28,26 @@ robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
   return inputs->cables.at(static_cast<size_t>(cable));
 }
 
-/// What `per_value` more of a cable's command does.
-std::optional<Influence> OfCommand(int cable, const FrameInputs& inputs, double per_value) {
-  switch (inputs.cables.at(static_cast<size_t>(cable)).kind) {
-    case Kind::kDisplacement: return Influence{robot::CableOffset(cable), per_value};
-    case Kind::kTension: return Influence{robot::TensionOffset(cable), per_value};
-    case Kind::kNone: break;
-  }
-  return std::nullopt;
+std::vector<Influence> One(robot::ParameterPtr parameter, double per_value) {
+  std::vector<Influence> influences;
+  influences.push_back({std::move(parameter), per_value});
+  return influences;
 }
 
-std::optional<Influence> OfDisplacement(int cable, const FrameInputs& inputs, double per_value) {
+/// What `per_value` more of a cable's command does.
+std::vector<Influence> OfCommand(int cable, const FrameInputs& inputs, double per_value) {
+  const double s = inputs.scale;
+  switch (inputs.cables.at(static_cast<size_t>(cable)).kind) {
+    case Kind::kDisplacement: return One(robot::CableOffset(cable), per_value / s);
+    case Kind::kTension: return One(robot::TensionOffset(cable), per_value / (s * s));
+    case Kind::kNone: break;
+  }
+  return {};
+}
+
+std::vector<Influence> OfDisplacement(int cable, const FrameInputs& inputs, double per_value) {
   const bool acts = inputs.cables.at(static_cast<size_t>(cable)).kind == Kind::kDisplacement;
-  return acts ? OfCommand(cable, inputs, per_value) : std::nullopt;
+  return acts ? OfCommand(cable, inputs, per_value) : std::vector<Influence>();
 }
 
 class InputOfFrame final : public Unknown {
@@ -55,9 +62,8 @@ class InputOfFrame final : public Unknown {
     if (frame == frame_) CommandOf(cable_, inputs) = {kind_, value};
   }
 
-  std::optional<Influence> InfluenceOn(double, int frame,
-                                       const FrameInputs& inputs) const override {
-    return frame == frame_ ? OfCommand(cable_, inputs, 1.0) : std::nullopt;
+  std::vector<Influence> InfluencesOn(double, int frame, const FrameInputs& inputs) const override {
+    return frame == frame_ ? OfCommand(cable_, inputs, 1.0) : std::vector<Influence>();
   }
 
  private:
@@ -76,7 +82,7 @@ class OffsetOfCommand final : public Unknown {
     if (command.kind == Kind::kDisplacement) command.value += value;
   }
 
-  std::optional<Influence> InfluenceOn(double, int, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
     return OfDisplacement(cable_, inputs, 1.0);
   }
 
@@ -96,8 +102,7 @@ class GainOfCommand final : public Unknown {
     if (command.kind == Kind::kDisplacement) command.value += value * MeasuredIn(frame);
   }
 
-  std::optional<Influence> InfluenceOn(double, int frame,
-                                       const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(double, int frame, const FrameInputs& inputs) const override {
     return OfDisplacement(cable_, inputs, MeasuredIn(frame));
   }
 
@@ -119,8 +124,8 @@ class LogModulus final : public Unknown {
     model->SetYoungsModulus(material_, Quantity(value));
   }
 
-  std::optional<Influence> InfluenceOn(double value, int, const FrameInputs&) const override {
-    return Influence{robot::YoungsModulus(material_), Quantity(value)};
+  std::vector<Influence> InfluencesOn(double value, int, const FrameInputs&) const override {
+    return One(robot::YoungsModulus(material_), Quantity(value));
   }
 
   double Quantity(double value) const override { return youngs_modulus_Pa_ * std::exp(value); }
@@ -142,8 +147,8 @@ class Poisson final : public Unknown {
     model->SetPoissonsRatio(material_, value);
   }
 
-  std::optional<Influence> InfluenceOn(double, int, const FrameInputs&) const override {
-    return Influence{robot::PoissonsRatio(material_), 1.0};
+  std::vector<Influence> InfluencesOn(double, int, const FrameInputs&) const override {
+    return One(robot::PoissonsRatio(material_), 1.0);
   }
 
  private:
@@ -160,8 +165,8 @@ class MassUnknown final : public Unknown {
     inputs->mass_factor = value;
   }
 
-  std::optional<Influence> InfluenceOn(double, int, const FrameInputs& inputs) const override {
-    return Influence{robot::GravityChange(inputs.gravity_m_s2), 1.0};
+  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
+    return One(robot::GravityChange(inputs.gravity_m_s2), inputs.scale);
   }
 };
 
@@ -176,16 +181,87 @@ class TiltUnknown final : public Unknown {
     inputs->gravity_m_s2 += value * axis_.cross(inputs->nominal_gravity_m_s2);
   }
 
-  std::optional<Influence> InfluenceOn(double, int, const FrameInputs& inputs) const override {
-    return Influence{robot::GravityChange(axis_.cross(inputs.nominal_gravity_m_s2)),
-                     inputs.mass_factor};
+  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
+    return One(robot::GravityChange(axis_.cross(inputs.nominal_gravity_m_s2)),
+               inputs.scale * inputs.mass_factor);
   }
 
  private:
   Eigen::Vector3d axis_;
 };
 
+class ScaleUnknown final : public Unknown {
+ public:
+  explicit ScaleUnknown(const Belief& belief)
+      : Unknown("geometry_scale", "", belief,
+                "markers measured in metres that do not go by the camera's depth, or known "
+                "displacements of the cables") {}
+
+  void ApplyToFrame(double value, int, FrameInputs* inputs) const override {
+    inputs->scale = value;
+  }
+  bool ScalesTheRobot() const override { return true; }
+
+  std::vector<Influence> InfluencesOn(double s, int, const FrameInputs& inputs) const override {
+    std::vector<Influence> all;
+    for (std::size_t c = 0; c < inputs.cables.size(); ++c) {
+      const robot::CableCommand& command = inputs.cables[c];
+      if (command.value == 0.0) continue;
+      const double share = command.kind == Kind::kTension ? -2.0 / s : -1.0 / s;
+      for (Influence& influence : OfCommand(static_cast<int>(c), inputs, share * command.value)) {
+        all.push_back(std::move(influence));
+      }
+    }
+    for (const robot::DeadLoad& load : inputs.loads) {
+      all.push_back({robot::ExternalForce(load.weights, load.force_N.normalized()),
+                     -2.0 * load.force_N.norm() / (s * s * s)});
+    }
+    all.push_back({robot::GravityChange(inputs.gravity_m_s2), inputs.mass_factor});
+    return all;
+  }
+};
+
+class RouteUnknown final : public Unknown {
+ public:
+  RouteUnknown(int cable, std::string name, const Eigen::Vector3d& pull_point_m,
+               const Eigen::Vector3d& direction, const Belief& belief)
+      : Unknown(std::move(name), "m", belief,
+                "a recording in which this cable pulls much, with markers on the part it moves"),
+        cable_(cable),
+        pull_point_m_(pull_point_m),
+        direction_(direction) {}
+
+  void ApplyToModel(double value, robot::RobotModel* model) const override {
+    // Two directions of one point: only this one's part is set.
+    const Eigen::Vector3d& now_m = model->cable(cable_).pull_point_m();
+    const double off_m = value - direction_.dot(now_m - pull_point_m_);
+    if (off_m != 0.0) model->SetPullPoint(cable_, now_m + off_m * direction_);
+  }
+
+  std::vector<Influence> InfluencesOn(double, int, const FrameInputs&) const override {
+    return One(robot::PullPointMove(cable_, direction_), 1.0);
+  }
+
+ private:
+  int cable_;
+  Eigen::Vector3d pull_point_m_;
+  Eigen::Vector3d direction_;
+};
+
 }  // namespace
+
+FrameInputs ToModel(const FrameInputs& robot) {
+  FrameInputs model = robot;
+  const double s = robot.scale;
+  if (s == 1.0) return model;
+  for (robot::CableCommand& command : model.cables) {
+    command.value /= command.kind == Kind::kTension ? s * s : s;
+  }
+  for (robot::DeadLoad& load : model.loads) load.force_N /= s * s;
+  model.mass_factor *= s;
+  model.scale = 1.0;
+  return model;
+}
 
 UnknownPtr CableInput(int frame, const std::string& frame_name, int cable,
                       const std::string& cable_name, Kind kind, const Belief& belief) {
@@ -219,6 +295,14 @@ UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis
   return std::make_unique<TiltUnknown>(axis_name, axis, belief);
 }
 
+UnknownPtr GeometryScaleOf(const Belief& belief) { return std::make_unique<ScaleUnknown>(belief); }
+
+UnknownPtr RouteOf(int cable, const std::string& cable_name, const Eigen::Vector3d& pull_point_m,
+                   const TiltAxis& direction, const Belief& belief) {
+  return std::make_unique<RouteUnknown>(cable, "cable_route:" + cable_name + ":" + direction.name,
+                                        pull_point_m, direction.direction, belief);
+}
+
 std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
   const Eigen::Vector3d down = gravity_m_s2.normalized();
   Eigen::Index along = 0;
@@ -229,6 +313,13 @@ std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
     axes[static_cast<std::size_t>(k++)] = {
         std::string(1, "xyz"[i]), (Eigen::Vector3d::Unit(i) - down[i] * down).normalized()};
   }
+  return axes;
+}
+
+std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along) {
+  std::array<TiltAxis, 2> axes = TiltAxes(along);
+  const Eigen::Vector3d square = along.normalized().cross(axes[0].direction);
+  axes[1].direction = square.dot(axes[1].direction) < 0.0 ? Eigen::Vector3d(-square) : square;
   return axes;
 }
 

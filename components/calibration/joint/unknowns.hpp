@@ -37,13 +37,26 @@ UnknownPtr MassFactor(const Belief& belief);
 UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis,
                        const Belief& belief);
 
+/// s: FrameInputs::scale.
+UnknownPtr GeometryScaleOf(const Belief& belief);
+
 struct TiltAxis {
   std::string name;  ///< of the robot axis that it lies nearest to
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// Two directions to turn gravity about: the robot's axes that it lies least along, as far as they
-/// are across it.
+/// m: how far the point from which a cable is pulled (the guide before its drive) sits off
+/// `pull_point_m`, its place in the robot file, along `direction`; that of a robot of scale 1.
+/// Drives count from the undeformed body with the guide where it is. Where it sits along the cable
+/// shows in nothing: AcrossCable. The directions of one cable must be square to each other.
+UnknownPtr RouteOf(int cable, const std::string& cable_name, const Eigen::Vector3d& pull_point_m,
+                   const TiltAxis& direction, const Belief& belief);
+
+/// Two directions across a vector: the robot's axes that it lies least along, as far as they are
+/// across it.
 std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2);
+
+/// Two directions across a cable and square to each other, near TiltAxes of it.
+std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along);
 
 }  // namespace palpate::calibration

@@ -5,22 +5,12 @@
 
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <vector>
 
+#include "libs/core/cable_reading.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::calibration {
-
-/// What is known of each of the robot's cables at one time.
-struct CableReading {
-  struct Inputs {
-    std::optional<double> displacement_m;  ///< as the drive says it
-    std::optional<double> tension_N;
-  };
-  std::int64_t stamp_ns = 0;
-  std::vector<Inputs> cables;  ///< in the order of the robot's cables
-};
 
 /// When cables count as at rest.
 struct RestSettings {

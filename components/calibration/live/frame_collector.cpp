@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -35,6 +36,7 @@ void FrameCollector::Begin(int count) {
   group_.clear();
   settings_taken_.clear();
   clouds_.clear();
+  pictures_.clear();
   markers_.clear();
   waits_for_ = "nothing of the robot has been seen yet";
 }
@@ -107,6 +109,7 @@ void FrameCollector::Take(SeenCloud seen, Setting setting) {
                      .cloud = std::move(seen.cloud),
                      .cables = setting.cables,
                      .gravity_m_s2 = gravity_m_s2_});
+  pictures_.push_back(seen.picture);
   settings_taken_.push_back(std::move(setting));
   waits_for_.clear();
 }
@@ -163,6 +166,13 @@ std::vector<MarkerSighting> FrameCollector::MeanOfGroup() const {
     means.push_back(mean);
   }
   return means;
+}
+
+std::optional<geometry::DepthPicture> FrameCollector::picture() const {
+  const bool is_one = std::adjacent_find(pictures_.begin(), pictures_.end(),
+                                         std::not_equal_to<>()) == pictures_.end();
+  if (pictures_.empty() || !is_one || pictures_.front().width_px == 0) return std::nullopt;
+  return pictures_.front();
 }
 
 std::string FrameCollector::NextName() const { return "frame " + std::to_string(taken() + 1); }

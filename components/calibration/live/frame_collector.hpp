@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,13 +13,15 @@
 #include "components/calibration/cloud/cloud_frame.hpp"
 #include "components/calibration/joint/calibration_frame.hpp"
 #include "components/calibration/live/cable_watch.hpp"
+#include "libs/geometry/depth_picture.hpp"
 
 namespace palpate::calibration {
 
 /// The untouched robot's points in one picture.
 struct SeenCloud {
   std::int64_t stamp_ns = 0;
-  rgbd::SensedCloud cloud;  ///< camera frame
+  rgbd::SensedCloud cloud;         ///< camera frame
+  geometry::DepthPicture picture;  ///< that it was made from
 };
 
 /// Its markers; covariances are of one picture's noise.
@@ -56,6 +59,8 @@ class FrameCollector {
   /// What was taken: of one kind.
   const std::vector<CloudFrame>& clouds() const { return clouds_; }
   const std::vector<CalibrationFrame>& markers() const { return markers_; }
+  /// That all clouds were made from; nullopt where it is not one.
+  std::optional<geometry::DepthPicture> picture() const;
 
  private:
   using Seen = std::variant<SeenCloud, SeenMarkers>;
@@ -84,6 +89,7 @@ class FrameCollector {
   std::vector<SeenMarkers> group_;  ///< of this rest
   std::vector<Setting> settings_taken_;
   std::vector<CloudFrame> clouds_;
+  std::vector<geometry::DepthPicture> pictures_;  ///< [clouds]
   std::vector<CalibrationFrame> markers_;
   std::string waits_for_;
 };

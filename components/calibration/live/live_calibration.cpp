@@ -3,12 +3,12 @@
 
 #include "components/calibration/live/live_calibration.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/live/earlier_calibration.hpp"
 #include "libs/core/sha256.hpp"
 #include "libs/core/utc_text.hpp"
 
@@ -63,20 +63,12 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job) {
   }
   CloudSettings settings;
   settings.request = job.request;
+  settings.fit_depth_bias = job.fit_depth_bias;
+  settings.search.stop = job.request.stop;
   CloudCalibration fit =
       CalibrateFromClouds(model, job.clouds, *job.T_robot_camera_start, settings);
   fit.joint.status = fit.status;
   return std::move(fit.joint);
-}
-
-/// Moduli that hold on from before.
-void KeepModuli(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
-  for (const robot::CalibratedModulus& modulus : before.moduli) {
-    const bool found_anew =
-        std::any_of(file->moduli.begin(), file->moduli.end(),
-                    [&](const auto& other) { return other.part == modulus.part; });
-    if (!found_anew) file->moduli.push_back(modulus);
-  }
 }
 
 }  // namespace
@@ -84,12 +76,18 @@ void KeepModuli(const robot::CalibrationFile& before, robot::CalibrationFile* fi
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
   const KeptModel kept(model);
   LiveResult result;
+  LiveJob read = job;
   if (job.before) {
     result.status = robot::CheckCalibration(*job.before, model);
     if (!result.status.ok()) return result;
-    robot::ApplyCalibration(*job.before, &model);
+    ReadAsBefore(*job.before, model.CableNames(), &read.clouds);
+    ReadAsBefore(*job.before, model.CableNames(), &read.markers);
+    robot::CalibrationFile body = *job.before;
+    body.drives.clear();  // the frames are read so already
+    robot::ApplyCalibration(body, &model);
   }
-  const JointCalibration fit = Fit(model, job);
+  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
+  const JointCalibration fit = Fit(model, read);
   kept.Restore();
   result.status = fit.status;
   if (!fit.status.ok()) return result;
@@ -97,8 +95,11 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
   result.file.date_utc = UtcText(job.found_ns_since_1970 / 1'000'000'000);
   result.file.data = job.data;
   result.file.data_hash = HashOf(job);
+  model.SetGravity(gravity_m_s2);
   TakeFit(fit, model, &result.file);
-  if (job.before) KeepModuli(*job.before, &result.file);
+  if (job.picture) TakeDepthBias(fit, *job.picture, &result.file);
+  kept.RestoreGravity();
+  if (job.before) KeepFromBefore(*job.before, &result.file);
   result.pose_covariance = fit.pose_covariance;
   return result;
 }

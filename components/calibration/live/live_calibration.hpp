@@ -22,9 +22,13 @@ struct LiveJob {
   JointRequest request;
   std::vector<CloudFrame> clouds;         ///< these,
   std::vector<CalibrationFrame> markers;  ///< or these
+  /// That the clouds were made from: without, their depth bias is not kept.
+  std::optional<geometry::DepthPicture> picture;
+  bool fit_depth_bias = false;  ///< of CloudSettings
   /// Where the search for the pose starts; clouds need it, markers tell it.
   std::optional<geometry::RigidTransform> T_robot_camera_start;
-  /// Whose moduli hold where none are looked for or determined.
+  /// What holds where nothing else is looked for or determined: moduli, Poisson's ratios, gravity,
+  /// and how drives are read.
   std::optional<robot::CalibrationFile> before;
   std::string data;  ///< what it is fitted to, for people
   std::int64_t found_ns_since_1970 = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -14,11 +15,9 @@ namespace palpate::calibration {
 namespace {
 
 Status CheckFrame(const idl::std_msgs::Header& header) {
-  const std::string_view frame = dds::Text(header.frame_id);
-  if (frame == geometry::kCameraDepthOpticalFrame) return Status::Ok();
-  return {StatusCode::kInvalidInput, "/perception/robot_cloud: frame_id is '" + std::string(frame) +
-                                         "', expected '" +
-                                         std::string(geometry::kCameraDepthOpticalFrame) + "'"};
+  const Status status = dds::CheckFrameId(header, geometry::kCameraDepthOpticalFrame);
+  if (status.ok()) return status;
+  return {status.code(), "/perception/robot_cloud: " + status.message()};
 }
 
 }  // namespace
@@ -62,7 +61,7 @@ void CloudSource::TakeReports() {
                   : Status(StatusCode::kNoRobotSeen,
                            "perception says: " + std::string(dds::Text(message.status)) + ", " +
                                std::string(dds::Text(message.reason))),
-               message.contacts};
+               message.contacts, dds::ToPicture(message.picture)};
     PassOn(stamp_ns);
   }
 }
@@ -77,7 +76,7 @@ void CloudSource::PassOn(std::int64_t stamp_ns) {
   if (report.contacts > 0 && !allow_contacts_) {
     return events_.refused({StatusCode::kInvalidInput, "something touches the robot"});
   }
-  events_.seen({stamp_ns, std::move(*whole.cloud)});
+  events_.seen({stamp_ns, std::move(*whole.cloud), report.picture});
 }
 
 }  // namespace palpate::calibration

@@ -37,6 +37,7 @@ class CloudSource {
     std::string device;
     Status status;
     std::uint32_t contacts = 0;
+    geometry::DepthPicture picture;
   };
   struct Parts {
     Status status = Status::Ok();

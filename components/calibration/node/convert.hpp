@@ -37,12 +37,6 @@ Status FromRequest(const idl::palpate_msgs::CalibrationRequest& message, const R
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, double sigma_m, SeenMarkers* seen);
 
-/// Inputs in the order of `names`; NaN and cables that are not named count as not known.
-/// kInvalidInput for a cable that is not among `names` (with "did you mean"), or numbers that do
-/// not go with the names.
-Status FromJointState(const idl::sensor_msgs::JointState& message,
-                      const std::vector<std::string>& names, CableReading* reading);
-
 /// `pose_covariance`: rotation vector (rad), then translation (m).
 dds::Message<idl::palpate_msgs::Calibration> ToCalibration(
     const robot::CalibrationFile& file, const Eigen::Matrix<double, 6, 6>& pose_covariance,

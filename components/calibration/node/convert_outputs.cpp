@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/calibration/node/convert.hpp"
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -39,6 +40,42 @@ void SetHead(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration*
   message->degrees_of_freedom = static_cast<std::uint32_t>(file.degrees_of_freedom);
 }
 
+void SetDepthBias(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  message->has_depth_bias = file.depth_bias.has_value();
+  if (!file.depth_bias) return;
+  const geometry::DepthBiasMap& map = file.depth_bias->map;
+  auto& target = message->depth_bias;
+  dds::SetPicture(target.picture, file.depth_bias->picture);
+  target.order = static_cast<std::uint32_t>(map.basis.order);
+  target.span = map.basis.span;
+  dds::SetNumbers(target.coefficients, map.coefficients.data(),
+                  static_cast<std::size_t>(map.coefficients.size()));
+  // It is symmetric: rows or columns.
+  dds::SetNumbers(target.covariance, map.covariance.data(),
+                  static_cast<std::size_t>(map.covariance.size()));
+}
+
+void SetMaterials(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  dds::Resize(message->moduli, file.moduli.size());
+  for (std::size_t k = 0; k < file.moduli.size(); ++k) {
+    auto& modulus = message->moduli._buffer[k];
+    dds::SetText(modulus.part, file.moduli[k].part);
+    modulus.youngs_modulus_pa = file.moduli[k].youngs_modulus_Pa;
+    modulus.standard_error_pa = file.moduli[k].standard_error_Pa;
+  }
+  dds::Resize(message->poissons_ratios, file.poissons_ratios.size());
+  for (std::size_t k = 0; k < file.poissons_ratios.size(); ++k) {
+    auto& ratio = message->poissons_ratios._buffer[k];
+    dds::SetText(ratio.part, file.poissons_ratios[k].part);
+    ratio.poissons_ratio = file.poissons_ratios[k].poissons_ratio;
+    ratio.standard_error = file.poissons_ratios[k].standard_error;
+  }
+  message->has_gravity = file.gravity.has_value();
+  if (!file.gravity) return;
+  dds::SetVector(message->gravity_m_s2, file.gravity->gravity_m_s2);
+  dds::SetVector(message->gravity_standard_error_m_s2, file.gravity->standard_error_m_s2);
+}
+
 void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
   dds::Resize(message->drives, file.drives.size());
   for (std::size_t k = 0; k < file.drives.size(); ++k) {
@@ -49,13 +86,8 @@ void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Cali
     drive.gain = file.drives[k].drive.gain;
     drive.gain_standard_error = file.drives[k].standard_error.gain;
   }
-  dds::Resize(message->moduli, file.moduli.size());
-  for (std::size_t k = 0; k < file.moduli.size(); ++k) {
-    auto& modulus = message->moduli._buffer[k];
-    dds::SetText(modulus.part, file.moduli[k].part);
-    modulus.youngs_modulus_pa = file.moduli[k].youngs_modulus_Pa;
-    modulus.standard_error_pa = file.moduli[k].standard_error_Pa;
-  }
+  SetDepthBias(file, message);
+  SetMaterials(file, message);
   dds::Resize(message->undetermined, file.undetermined.size());
   for (std::size_t k = 0; k < file.undetermined.size(); ++k) {
     auto& number = message->undetermined._buffer[k];

@@ -11,6 +11,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/dds/joint_states.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -137,7 +138,7 @@ void CalibrationNode::TakeRequests() {
 void CalibrationNode::TakeJointStates() {
   for (const auto& message : joint_states_.Take()) {
     CableReading reading;
-    const Status status = FromJointState(message, cable_names_, &reading);
+    const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
       cable_obstacle_.clear();
       collector_.Add(std::move(reading));
@@ -216,6 +217,7 @@ void CalibrationNode::Cancel(const Request& request) {
     return Refuse(request, NotOk(StatusCode::kInvalidInput, "no such request is being worked on"));
   }
   drop_result_ = progress_.state == "computing";
+  if (drop_result_) worker_.StopFit();
   End("cancelled", Status::Ok(), "as was asked");
 }
 
@@ -274,6 +276,8 @@ LiveJob CalibrationNode::MakeJob() const {
   }
   job.clouds = collector_.clouds();
   job.markers = collector_.markers();
+  job.picture = collector_.picture();
+  job.fit_depth_bias = config_.fit_depth_bias;
   if (!job.clouds.empty()) job.T_robot_camera_start = T_robot_camera_;
   job.before = last_;
   job.data = std::to_string(collector_.taken()) + " frames of " + request_.source + ", live";

@@ -25,6 +25,7 @@ struct NodeConfig {
   double new_setting_N = 0.1;
   double patience_s = 60.0;
   bool allow_contacts = false;
+  bool fit_depth_bias = false;
   int marker_pictures = 20;
   double marker_sigma_m = 3e-4;
   double marker_bias_m = 0.0;
@@ -61,6 +62,8 @@ struct NodeConfig {
     v("patience_s", patience_s, positive, "Without a further frame for so long it is given up");
     v("allow_contacts", allow_contacts,
       "Clouds in which perception sees something touch the robot serve, too");
+    v("fit_depth_bias", fit_depth_bias,
+      "From clouds, look for the smooth error of the depth image, too (Limits)");
     v("marker_pictures", marker_pictures, {.min = 1.0, .max = 10000.0},
       "A frame of markers is the mean over so many pictures");
     v("marker_sigma_m", marker_sigma_m, positive,

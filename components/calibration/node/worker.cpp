@@ -19,6 +19,7 @@ Worker::Worker(std::unique_ptr<robot::RobotModel> model, Fit fit, std::function<
 }
 
 Worker::~Worker() {
+  StopFit();
   jobs_.Stop();
   thread_.join();
 }
@@ -26,6 +27,8 @@ Worker::~Worker() {
 void Worker::Start(LiveJob job) {
   PALPATE_CHECK(!busy_);
   busy_ = true;
+  stop_ = std::stop_source();
+  job.request.stop = stop_.get_token();
   jobs_.Push(std::move(job), false);
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "components/calibration/live/live_calibration.hpp"
@@ -20,12 +21,14 @@ class Worker {
 
   /// `on_result` is called from that thread when a result waits.
   Worker(std::unique_ptr<robot::RobotModel> model, Fit fit, std::function<void()> on_result);
-  /// Waits for the calibration that runs.
+  /// Stops the calibration that runs.
   ~Worker();
 
   /// Not to be looked at while a job is in work.
   const robot::RobotModel& model() const { return *model_; }
   void Start(LiveJob job);
+  /// Stops the one in work, where there is one: its result is then a failure, and comes soon.
+  void StopFit() { stop_.request_stop(); }
   std::optional<LiveResult> TakeResult();
   bool busy() const { return busy_; }
 
@@ -35,7 +38,8 @@ class Worker {
   std::unique_ptr<robot::RobotModel> model_;
   Fit fit_;
   std::function<void()> on_result_;
-  bool busy_ = false;  ///< from Start to TakeResult
+  std::stop_source stop_;  ///< of the job in work
+  bool busy_ = false;      ///< from Start to TakeResult
   HandOver<LiveJob> jobs_;
   HandOver<LiveResult> results_;
   std::thread thread_;

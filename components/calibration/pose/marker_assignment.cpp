@@ -156,6 +156,23 @@ bool Contradict(const std::vector<int>& one, const std::vector<int>& other) {
   return false;
 }
 
+/// Of the explanations, best first, those that fit alike.
+std::vector<AssignmentChoice> ChoicesOf(std::vector<Explanation> explanations,
+                                        const AssignmentSettings& settings) {
+  std::stable_sort(explanations.begin(), explanations.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::vector<AssignmentChoice> choices;
+  for (const Explanation& one : explanations) {
+    if (!(one.cost <= explanations.front().cost + settings.ambiguous_below)) break;
+    const bool is_other = std::all_of(choices.begin(), choices.end(), [&](const auto& choice) {
+      return Contradict(choice.marker_of_point, one.marker_of_point);
+    });
+    if (is_other)
+      choices.push_back({one.marker_of_point, one.T_robot_camera, one.tension_N, one.cost});
+  }
+  return choices;
+}
+
 MarkerAssignment Judge(const std::vector<Explanation>& explanations,
                        const AssignmentSettings& settings) {
   MarkerAssignment result;
@@ -188,6 +205,7 @@ MarkerAssignment Judge(const std::vector<Explanation>& explanations,
                                " points can be markers: another robot, or seen in a mirror");
     return result;
   }
+  result.choices = ChoicesOf(explanations, settings);
   result.ambiguous = result.rival_cost <= result.cost + settings.ambiguous_below;
   result.status = result.ambiguous ? Status(StatusCode::kUnobservable,
                                             "ambiguous: another assignment fits the points as well")

@@ -24,6 +24,14 @@ struct AssignmentSettings {
   int most_refined = 24;     ///< hypotheses that are refined
 };
 
+/// A way to tell which marker each point is.
+struct AssignmentChoice {
+  std::vector<int> marker_of_point;  ///< [points] index of the marker; -1: none of them
+  geometry::RigidTransform T_robot_camera;
+  Eigen::VectorXd tension_N;  ///< [a] rough
+  double cost = 0.0;
+};
+
 struct MarkerAssignment {
   /// kUnobservable: too few points or matches, or ambiguous. kInvalidInput: not finite.
   Status status;
@@ -36,6 +44,9 @@ struct MarkerAssignment {
   double cost = 0.0;
   double rival_cost = 0.0;  ///< infinite where there is no rival
   int matches = 0;
+  /// All that fit as well as the best, best first, each contradicting all others; where the
+  /// assignment is ambiguous two or more.
+  std::vector<AssignmentChoice> choices;
 };
 
 /// Which marker each of some unlabelled points is, `points_m` [3 x n] in any one camera's frame:

@@ -14,18 +14,18 @@
 
 #include "components/calibration/node/node.hpp"
 #include "components/force_estimation/node/calibration_input.hpp"
-#include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/components/force_estimation/node_test_robot.hpp"
-#include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/perception_sender.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::calibration {
 
 inline constexpr auto kCameraFrame = "camera_depth_optical_frame";
 
-/// Stands in for the fit: remembers its jobs, and does not return while it is held.
+/// Stands in for the fit: remembers its jobs, and does not return while it is held, but where it is
+/// stopped and heeds that.
 class ScriptedFit {
  public:
   Worker::Fit Fit() {
@@ -41,12 +41,17 @@ class ScriptedFit {
     return jobs_;
   }
   Status status = Status::Ok();  ///< of what comes of it
+  bool heeds_stop = false;
 
  private:
   LiveResult Answer(robot::RobotModel& model, const LiveJob& job) {
     std::unique_lock lock(mutex_);
     jobs_.push_back(job);
-    changed_.wait(lock, [this] { return !hold_; });
+    if (heeds_stop) {
+      changed_.wait(lock, job.request.stop, [this] { return !hold_; });
+    } else {
+      changed_.wait(lock, [this] { return !hold_; });
+    }
     LiveResult result;
     result.status = status;
     result.file = robot::DescribeForCalibration(model);
@@ -58,7 +63,7 @@ class ScriptedFit {
   }
 
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   bool hold_ = false;
   std::vector<LiveJob> jobs_;
 };
@@ -73,10 +78,8 @@ class CalibrationNodeTest : public testing::Test {
 
   CalibrationNodeTest()
       : test_("test"),
-        joint_states_(test_.participant.CreateWriter(dds::kJointStatesTopic, test_.Waker())),
+        perception_(test_),
         markers_(test_.participant.CreateWriter(dds::kMarkersTopic, test_.Waker())),
-        clouds_(test_.participant.CreateWriter(dds::kRobotCloudTopic, test_.Waker())),
-        reports_(test_.participant.CreateWriter(dds::kPerceptionReportTopic, test_.Waker())),
         requests_(test_.participant.CreateWriter(dds::kCalibrationRequestTopic, test_.Waker())),
         statuses_(test_.participant.CreateReader(dds::kCalibrationStatusTopic, test_.Waker())),
         calibrations_(test_.participant.CreateReader(dds::kCalibrationTopic, test_.Waker())) {
@@ -89,9 +92,14 @@ class CalibrationNodeTest : public testing::Test {
   }
   ~CalibrationNodeTest() override {
     fit_.Hold(false);
+    StopNode();
+  }
+
+  void StopNode() {
     if (!node_) return;
     node_->Stop();
     thread_.join();
+    node_.reset();
   }
 
   NodeConfig TestConfig() const {
@@ -110,9 +118,8 @@ class CalibrationNodeTest : public testing::Test {
         dds::BuiltInTable(), dds::NodeLog::ProcessLog(), std::move(fit));
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] {
-      return joint_states_.matched() == 1 && markers_.matched() == 1 && clouds_.matched() == 1 &&
-             reports_.matched() == 1 && requests_.matched() == 1 && statuses_.matched() == 1 &&
-             calibrations_.matched() == 1 && !told_.empty();
+      return perception_.IsMatched(false) && markers_.matched() == 1 && requests_.matched() == 1 &&
+             statuses_.matched() == 1 && calibrations_.matched() == 1 && !told_.empty();
     }));
   }
 
@@ -153,12 +160,7 @@ class CalibrationNodeTest : public testing::Test {
   /// The cable at rest at `taken_in_m` over 0.2 s before `stamp_ns` and at it.
   void SendRest(std::int64_t stamp_ns, double taken_in_m, const std::string& cable = "top") {
     for (std::int64_t back_ns = 200'000'000; back_ns >= 0; back_ns -= 20'000'000) {
-      dds::Message<idl::sensor_msgs::JointState> message;
-      dds::SetHeader(message->header, stamp_ns - back_ns, "robot");
-      dds::Resize(message->name, 1);
-      dds::SetText(message->name._buffer[0], cable);
-      dds::SetNumbers(message->position, &taken_in_m, 1);
-      ASSERT_TRUE(joint_states_.Write(message));
+      perception_.SendCable(stamp_ns - back_ns, taken_in_m, cable);
     }
   }
   /// `seen_m` [3 x markers], camera frame.
@@ -182,26 +184,9 @@ class CalibrationNodeTest : public testing::Test {
     SendRest(stamp_ns, taken_in_m);
     for (std::int64_t k = 3; k > 0; --k) SendMarkers(stamp_ns - k, seen_m);
   }
-  struct Seen {
-    std::int64_t stamp_ns = 0;
-    Eigen::Index points = 1;
-    std::string device = "Palpate-1";
-    std::uint32_t contacts = 0;
-    std::string status = "ok";
-  };
-  void SendCloud(const Seen& seen) {
-    rgbd::SensedCloud cloud;
-    cloud.points_m = Eigen::Matrix3Xf::Constant(3, seen.points, 0.25f);
-    cloud.sigma_m = Eigen::VectorXf::Ones(seen.points);
-    cloud.colors_rgb.assign(static_cast<std::size_t>(3 * seen.points), 9);
-    ASSERT_TRUE(clouds_.Write(dds::ToPointCloud2(cloud, seen.stamp_ns, kCameraFrame)));
-    dds::Message<idl::palpate_msgs::PerceptionReport> report;
-    dds::SetHeader(report->header, seen.stamp_ns, kCameraFrame);
-    dds::SetText(report->device, seen.device);
-    dds::SetText(report->status, seen.status);
-    dds::SetText(report->reason, "as perception says");
-    report->contacts = seen.contacts;
-    ASSERT_TRUE(reports_.Write(report));
+  void SendCloud(const test_support::SeenFrame& seen) {
+    perception_.SendCloud(seen);
+    perception_.SendReport(seen);
   }
 
   void TakeStatuses() {
@@ -217,10 +202,8 @@ class CalibrationNodeTest : public testing::Test {
   ScriptedFit fit_;
   std::unique_ptr<robot::RobotModel> robot_ = force_estimation::NodeTestRobot();
   dds::TestNode test_;
-  dds::Writer<idl::sensor_msgs::JointState> joint_states_;
+  test_support::PerceptionSender perception_;
   dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;
-  dds::Writer<idl::sensor_msgs::PointCloud2> clouds_;
-  dds::Writer<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Writer<idl::palpate_msgs::CalibrationRequest> requests_;
   dds::Reader<idl::palpate_msgs::CalibrationStatus> statuses_;
   dds::Reader<idl::palpate_msgs::Calibration> calibrations_;

@@ -77,12 +77,14 @@ TEST_F(CalibrationNodeTest, AnotherRobotsMarkersAreNoCalibration) {
   WaitForState("one", "collecting");
   for (int k = 0; k < 2; ++k) {
     Eigen::Matrix3Xd seen_m = MarkersSeen(*robot_, 2e-3 * k);
-    seen_m.col(0) += Eigen::Vector3d(0.02, 0.02, -0.02);
+    const Eigen::Vector3d first_m = seen_m.col(0);
+    constexpr double kBigger = 1.3;  // that robot
+    seen_m = (kBigger * (seen_m.colwise() - first_m)).colwise() + first_m;
     SendSetting((k + 1) * kSecond_ns, 2e-3 * k, seen_m);
   }
   const Told failed = WaitForState("one", "failed");
-  EXPECT_NE(failed.status, "ok");
-  EXPECT_FALSE(failed.reason.empty());
+  EXPECT_EQ(failed.status, "invalid_input");
+  EXPECT_THAT(failed.reason, HasSubstr("another robot"));
   EXPECT_TRUE(found_.empty());
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "calibration.yaml"));
 }
@@ -219,6 +221,31 @@ TEST_F(CalibrationNodeTest, WhatIsCancelledIsNotPublishedAndTheNextRequestIsServ
   EXPECT_EQ(told.state, "collecting");
   Ask({.id = "three", .action = 1});
   WaitForState("three", "cancelled");
+  EXPECT_TRUE(found_.empty());
+}
+
+TEST_F(CalibrationNodeTest, DoesNotWaitForAFitThatNobodyWantsAnyMore) {
+  fit_.heeds_stop = true;
+  StartNode(TestConfig(), fit_.Fit());
+  fit_.Hold(true);
+  Ask({});
+  WaitForState("one", "collecting");
+  SendSetting(1 * kSecond_ns, 1e-3, SomeMarkers());
+  SendSetting(2 * kSecond_ns, 3e-3, SomeMarkers());
+  WaitForState("one", "computing");
+  Ask({.action = 1});
+  WaitForState("one", "cancelled");
+  Told told;
+  do {  // until that fit has ended, though it is held
+    Ask({.id = "two"});
+    EXPECT_TRUE(test_.WaitFor([&] { return read_ < told_.size(); }));
+    told = told_[read_++];
+  } while (told.state == "refused" && !HasFailure());
+  EXPECT_EQ(told.state, "collecting");
+  SendSetting(3 * kSecond_ns, 1e-3, SomeMarkers());
+  SendSetting(4 * kSecond_ns, 3e-3, SomeMarkers());
+  WaitForState("two", "computing");
+  StopNode();
   EXPECT_TRUE(found_.empty());
 }
 

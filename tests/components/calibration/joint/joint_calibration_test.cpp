@@ -210,6 +210,31 @@ TEST_F(JointCalibrationOfOurRobot, AWindingDrumTiesTwoCables) {
             1e-5);
 }
 
+TEST_F(JointCalibrationOfOurRobot, APlaneIsNotEnteredWhateverTheMarkersSay) {
+  const auto tensions = Commands(Kind::kTension, {1.2, 0.4, 0.3, 0.5});
+  JointSetup setup;
+  setup.frames = {See(*model_, TableOnePose(), "table_1", tensions, {}, 1e-3)};
+  FreeTensions(*model_, 0.5, &setup);
+  setup.frames[0].markers[4].position_m.x() += 2e-3;
+  setup.T_robot_camera = TableOnePose();
+  setup.fit_pose = false;
+  const fem::NodeWeights tip = model_->body().markers[4].point.weights;
+  const fem::StaticState truth = force_estimation::SolveTruth(*model_, tensions, {});
+  JointProblem anywhere(*model_, setup);
+  const LeastSquaresSolution loose = SolveLeastSquares(anywhere, {});
+  ASSERT_TRUE(loose.status.ok()) << loose.status.message();
+  const Eigen::Vector3d at_m = tip.Position(truth.x_m);
+  const Eigen::Vector3d off_m = at_m - tip.Position(anywhere.states()[0].x_m);
+  ASSERT_GT(off_m.norm(), 1e-4);
+  setup.conditions.push_back(StaysBeyondPlane(0, tip, at_m, off_m.normalized()));
+  JointProblem before(*model_, setup);
+  const LeastSquaresSolution kept = SolveLeastSquares(before, {});
+  ASSERT_TRUE(kept.status.ok()) << kept.status.message();
+  EXPECT_NEAR(kept.point.constraint[0], 0.0, 1e-5);  // mm: it lies against the plane
+  EXPECT_GE(kept.point.constraint[0], -1e-6);
+  EXPECT_GT(kept.objectives.back(), loose.objectives.back());
+}
+
 TEST_F(JointCalibrationOfOurRobot, AnotherRobotIsRefusedAndTheModelStaysAsItWas) {
   JointSetup setup = Frames(2, 1e-4, nullptr);
   for (CalibrationFrame& frame : setup.frames) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "components/calibration/joint/models_like.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
 
 namespace palpate::calibration {
@@ -46,8 +47,27 @@ class JointDerivatives : public testing::Test {
   JointSetup setup_;
 };
 
-TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
-  JointProblem problem(*model_, setup_);
+/// A larger robot whose guides sit elsewhere, with loads on it.
+class GeometryDerivatives : public JointDerivatives {
+ protected:
+  GeometryDerivatives() {
+    setup_.conditions.clear();
+    setup_.unknowns.push_back(GeometryScaleOf({.mean = 1.03, .sigma = 0.02, .plausible = 0.02}));
+    const Eigen::Vector3d guide_m = model_->cable(2).pull_point_m();
+    const auto across = AcrossCable(Eigen::Vector3d(0.3, -0.1, 0.9));
+    setup_.unknowns.push_back(
+        RouteOf(2, "south", guide_m, across[0], {.mean = 1e-3, .sigma = 2e-3, .plausible = 2e-3}));
+    setup_.unknowns.push_back(
+        RouteOf(2, "south", guide_m, across[1], {.mean = -2e-3, .sigma = 2e-3, .plausible = 2e-3}));
+    setup_.unknowns.push_back(CableInput(0, "pulled", 2, "south", Kind::kDisplacement,
+                                         {.mean = 0.011, .plausible = 1e-3}));
+    setup_.frames[0].loads.push_back(
+        {model_->body().markers[1].point.weights, Eigen::Vector3d(0.1, -0.2, 0.15)});
+  }
+};
+
+void ExpectCentralDifferences(robot::RobotModel& model, const JointSetup& setup) {
+  JointProblem problem(model, setup);
   const Eigen::Index count = problem.Start().size();
   const Eigen::VectorXd at = 0.05 * Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
   LeastSquaresPoint point, plus, minus;
@@ -69,6 +89,28 @@ TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
     EXPECT_LE((bend - point.constraint_jacobian.col(v)).norm(), 1e-6 * std::max(1.0, bend.norm()))
         << name;
   }
+}
+
+TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
+  ExpectCentralDifferences(*model_, setup_);
+}
+
+TEST_F(GeometryDerivatives, AreThoseOfCentralDifferences) {
+  ExpectCentralDifferences(*model_, setup_);
+}
+
+TEST_F(GeometryDerivatives, AreTheSameWithAModelForEachFrame) {
+  LeastSquaresPoint alone, together;
+  const auto evaluate = [&](LeastSquaresPoint* point) {
+    JointProblem problem(*model_, setup_);
+    const Eigen::VectorXd at = 0.05 * Eigen::VectorXd::LinSpaced(problem.Start().size(), -1.0, 1.0);
+    ASSERT_TRUE(problem.Evaluate(at, point).ok());
+  };
+  evaluate(&alone);
+  setup_.helpers = ModelsLike(*model_, 1);
+  evaluate(&together);
+  EXPECT_TRUE(alone.residual.isApprox(together.residual, 1e-9));
+  EXPECT_TRUE(alone.jacobian.isApprox(together.jacobian, 1e-9));
 }
 
 /// A line search would else look at steps that change nothing, again and again.

@@ -17,11 +17,11 @@ constexpr double kPoissonsRatio = 0.35;
 constexpr double kMassFactor = 1.06;
 constexpr double kTiltX = 0.05;
 constexpr double kTiltY = -0.03;
-constexpr JointRequest kEverything{.pose = false,
-                                   .moduli = {},
-                                   .poissons_ratio_sigma = 0.2,
-                                   .gravity_tilt_sigma_rad = 0.2,
-                                   .mass_relative_sigma = 0.2};
+const JointRequest kEverything{.pose = false,
+                               .moduli = {},
+                               .poissons_ratio_sigma = 0.2,
+                               .gravity_tilt_sigma_rad = 0.2,
+                               .mass_relative_sigma = 0.2};
 
 /// A beam that is heavier, stiffer and bulges less than its robot file says, on a base that nobody
 /// levelled: under its own weight, with a known load, and lying on its side.

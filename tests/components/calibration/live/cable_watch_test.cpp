@@ -51,13 +51,31 @@ TEST(CableWatch, ForgetsWhenTimeGoesBack) {
   Read(&watch, 1000, 1200, 1e-3);
   watch.Add({0, {{1e-3, std::nullopt}}});
   EXPECT_EQ(watch.At(1200 * kMs_ns), State::kNotYet);
+  Read(&watch, 10, 300, 2e-3);
+  EXPECT_EQ(watch.At(250 * kMs_ns), State::kResting);
+  EXPECT_NEAR(watch.MeanAt(250 * kMs_ns).at(0).value, 2e-3, 1e-15);
 }
 
 TEST(CableWatch, JudgesTheInputThatCounts) {
   CableWatch watch(1, robot::CableInput::kTension, {.still_s = 0.1, .still_N = 0.05});
-  for (int t_ms = 0; t_ms <= 200; t_ms += 10) watch.Add({t_ms * kMs_ns, {{1e-3 * t_ms, 0.4}}});
+  for (int t_ms = 0; t_ms <= 200; t_ms += 10) {
+    watch.Add({t_ms * kMs_ns, {{1e-3 * t_ms, t_ms % 20 == 0 ? 0.41 : 0.39}}});
+  }
   EXPECT_EQ(watch.At(150 * kMs_ns), State::kResting);
   EXPECT_EQ(watch.MeanAt(150 * kMs_ns).at(0).kind, Kind::kTension);
+  EXPECT_NEAR(watch.MeanAt(150 * kMs_ns).at(0).value, 0.4, 2e-3);
+  watch.Add({210 * kMs_ns, {{0.0, 0.45}}});
+  EXPECT_EQ(watch.At(210 * kMs_ns), State::kMoving);
+}
+
+TEST(CableWatch, AnInputThatBecomesUnknownIsNoRest) {
+  CableWatch watch(1, robot::CableInput::kTension, {.still_s = 0.1, .still_N = 0.05});
+  for (int t_ms = 0; t_ms <= 200; t_ms += 10) {
+    const auto tension_N = t_ms < 150 ? std::optional<double>(0.0) : std::nullopt;
+    watch.Add({t_ms * kMs_ns, {{std::nullopt, tension_N}}});
+  }
+  EXPECT_EQ(watch.At(140 * kMs_ns), State::kResting);
+  EXPECT_EQ(watch.At(160 * kMs_ns), State::kMoving);
 }
 
 TEST(CableWatch, ARobotWithoutCablesRests) {

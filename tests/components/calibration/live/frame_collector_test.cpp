@@ -27,7 +27,9 @@ class FrameCollectorTest : public testing::Test {
                             .covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity()});
     collector_.Add(std::move(seen));
   }
-  void SeeCloud(int t_ms) { collector_.Add(SeenCloud{t_ms * kMs_ns, {}}); }
+  void SeeCloud(int t_ms, int width_px = 0) {
+    collector_.Add(SeenCloud{t_ms * kMs_ns, {}, {.width_px = width_px, .height_px = 480}});
+  }
 
   std::unique_ptr<robot::RobotModel> robot_ = force_estimation::NodeTestRobot();
   FrameCollector collector_{
@@ -42,6 +44,23 @@ TEST_F(FrameCollectorTest, WaitsForTheCableReadingsOfAPicture) {
   Read(0, 300, 1e-3);
   EXPECT_TRUE(collector_.IsComplete());
   EXPECT_EQ(collector_.clouds().at(0).gravity_m_s2, robot_->gravity_m_s2());
+}
+
+TEST_F(FrameCollectorTest, TellsThePictureThatAllCloudsAreFrom) {
+  Read(0, 300, 1e-3);
+  Read(400, 700, 5e-3);
+  for (const int second_px : {848, 640}) {
+    collector_.Begin(2);
+    EXPECT_FALSE(collector_.picture());
+    SeeCloud(200, 848);
+    SeeCloud(600, second_px);
+    ASSERT_TRUE(collector_.IsComplete());
+    EXPECT_EQ(collector_.picture().has_value(), second_px == 848);
+  }
+  collector_.Begin(1);
+  SeeCloud(600, 0);
+  ASSERT_TRUE(collector_.IsComplete());
+  EXPECT_FALSE(collector_.picture()) << "perception does not say";
 }
 
 TEST_F(FrameCollectorTest, AveragesMarkersOfOneRestAndSaysHowWellTheyAreKnown) {

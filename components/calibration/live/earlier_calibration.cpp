@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/live/earlier_calibration.hpp"
+
+#include <algorithm>
+
+namespace palpate::calibration {
+
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+
+template <typename Frame>
+void ReadFrames(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+                std::vector<Frame>* frames) {
+  for (Frame& frame : *frames) {
+    if (before.gravity) frame.gravity_m_s2 = before.gravity->gravity_m_s2;
+    for (const robot::CalibratedDrive& drive : before.drives) {
+      const auto name = std::find(cable_names.begin(), cable_names.end(), drive.cable);
+      if (name == cable_names.end()) continue;
+      robot::CableCommand& cable =
+          frame.cables.at(static_cast<std::size_t>(name - cable_names.begin()));
+      if (cable.kind == Kind::kDisplacement) cable.value = drive.drive.TakenIn_m(cable.value);
+    }
+  }
+}
+
+/// Of parts that were not found anew.
+template <typename Number>
+void KeepParts(const std::vector<Number>& before, std::vector<Number>* found) {
+  for (const Number& number : before) {
+    const bool found_anew = std::any_of(found->begin(), found->end(), [&](const Number& other) {
+      return other.part == number.part;
+    });
+    if (!found_anew) found->push_back(number);
+  }
+}
+
+/// The reading `before`, corrected by `found`. A standard error of 0: that was not found.
+robot::CalibratedDrive Compose(const robot::CalibratedDrive& before,
+                               const robot::CalibratedDrive& found) {
+  robot::CalibratedDrive both = found;
+  both.drive.offset_m = found.drive.TakenIn_m(before.drive.offset_m);
+  both.drive.gain = (1.0 + before.drive.gain) * (1.0 + found.drive.gain) - 1.0;
+  if (found.standard_error.offset_m == 0.0) {
+    both.standard_error.offset_m = before.standard_error.offset_m;
+  }
+  if (found.standard_error.gain == 0.0) both.standard_error.gain = before.standard_error.gain;
+  return both;
+}
+
+}  // namespace
+
+void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+                  std::vector<CloudFrame>* frames) {
+  ReadFrames(before, cable_names, frames);
+}
+
+void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+                  std::vector<CalibrationFrame>* frames) {
+  ReadFrames(before, cable_names, frames);
+}
+
+void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
+  KeepParts(before.moduli, &file->moduli);
+  KeepParts(before.poissons_ratios, &file->poissons_ratios);
+  if (!file->gravity) file->gravity = before.gravity;
+  if (!file->pose) {
+    file->pose = before.pose;
+    file->depth_bias = before.depth_bias;  // found with that pose
+  }
+  for (const robot::CalibratedDrive& drive : before.drives) {
+    const auto found = std::find_if(
+        file->drives.begin(), file->drives.end(),
+        [&](const robot::CalibratedDrive& other) { return other.cable == drive.cable; });
+    if (found == file->drives.end()) {
+      file->drives.push_back(drive);
+    } else {
+      *found = Compose(drive, *found);
+    }
+  }
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/pose/tension_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/calibration/joint/kept_model.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+
+constexpr double kMargin = 1.2;
+constexpr double kOffsetSigmas = 2.0;
+
+Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticState& state) {
+  const auto& markers = model.body().markers;
+  Eigen::Matrix3Xd markers_m(3, static_cast<Eigen::Index>(markers.size()));
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    markers_m.col(static_cast<Eigen::Index>(m)) = markers[m].point.weights.Position(state.x_m);
+  }
+  return markers_m;
+}
+
+/// What one cable alone may pull with before the markers move far.
+double ReachOf(robot::RobotModel& model, int cable) {
+  constexpr double kFarShare = 0.25;
+  constexpr int kDoublings = 12;
+  const double most_N = model.body().cables[static_cast<std::size_t>(cable)].max_tension_N;
+  fem::StaticState state = model.RestState();
+  const Eigen::Matrix3Xd rest_m = MarkersAt(model, state);
+  const Eigen::Vector3d middle_m = rest_m.rowwise().mean();
+  const double spread_m = std::sqrt((rest_m.colwise() - middle_m).colwise().squaredNorm().mean());
+  double reach_N = std::ldexp(most_N, -kDoublings);
+  for (double tension_N = reach_N; tension_N <= most_N; tension_N *= 2.0) {
+    std::vector<robot::CableCommand> commands(static_cast<std::size_t>(model.CableCount()));
+    commands[static_cast<std::size_t>(cable)] = {Kind::kTension, tension_N};
+    if (!model.Solve(commands, {}, &state).status.ok()) break;
+    const Eigen::Matrix3Xd moved_m = MarkersAt(model, state) - rest_m;
+    if (moved_m.colwise().norm().maxCoeff() > kFarShare * spread_m) break;
+    reach_N = tension_N;
+  }
+  return reach_N;
+}
+
+/// Raises `most_N` to the tensions of one frame.
+Status Raise(robot::RobotModel& model, const CalibrationFrame& frame, double drive_offset_sigma_m,
+             Eigen::VectorXd* most_N) {
+  std::vector<robot::CableCommand> commands = frame.cables;
+  for (robot::CableCommand& command : commands) {
+    if (command.kind == Kind::kDisplacement) command.value += kOffsetSigmas * drive_offset_sigma_m;
+  }
+  model.SetGravity(frame.gravity_m_s2);
+  fem::StaticState state = model.RestState();
+  const fem::StaticResult result = model.Solve(commands, frame.loads, &state);
+  if (!result.status.ok()) {
+    return {result.status.code(), frame.name + ": " + result.status.message()};
+  }
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const double tension_N = model.StateOfCable(c, state).tension_N;
+    (*most_N)[c] = std::max((*most_N)[c], kMargin * tension_N);
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
+                        double drive_offset_sigma_m, Eigen::VectorXd* most_N) {
+  constexpr double kLeastShare = 0.05;  // of what a cable alone may pull with
+  const KeptModel kept(model);
+  *most_N = Eigen::VectorXd::Zero(model.CableCount());
+  Status status = Status::Ok();
+  for (const CalibrationFrame& frame : frames) {
+    if (status.ok()) status = Raise(model, frame, drive_offset_sigma_m, most_N);
+  }
+  kept.RestoreGravity();
+  if (!status.ok()) return status;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const auto is_unknown = [&](const CalibrationFrame& frame) {
+      return frame.cables[static_cast<std::size_t>(c)].kind == Kind::kNone;
+    };
+    const bool unknown = std::any_of(frames.begin(), frames.end(), is_unknown);
+    if (!unknown && (*most_N)[c] > 0.0) continue;
+    const double share = unknown ? 1.0 : kLeastShare;
+    (*most_N)[c] = std::max((*most_N)[c], share * ReachOf(model, c));
+  }
+  return status;
+}
+
+}  // namespace palpate::calibration

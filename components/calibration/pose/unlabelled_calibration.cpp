@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/pose/unlabelled_calibration.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/pose/drive_misfit.hpp"
+#include "components/calibration/pose/tension_range.hpp"
+#include "libs/core/text.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A choice and what came of it.
+struct Attempt {
+  FrameLabels labels;
+  std::vector<CalibrationFrame> frames;
+  JointCalibration joint;
+
+  /// Sum of squares of all rows, robust.
+  double Cost() const { return joint.status.ok() ? 2.0 * joint.objectives.back() : kInfinity; }
+  /// By how much the residual exceeds the noise, squared; at least 1.
+  double Excess() const {
+    return std::max(1.0, joint.chi_squared / std::max(1, joint.degrees_of_freedom));
+  }
+};
+
+JointCalibration Fit(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
+                     const UnlabelledSettings& settings) {
+  JointSetup setup;
+  JointCalibration fit;
+  fit.status = MakeJointSetup(model, frames, nullptr, settings.request, &setup);
+  if (!fit.status.ok()) return fit;
+  if (const double sigma = settings.depth_bias_sigma; sigma > 0.0) {
+    setup.depth_bias =
+        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .estimated = false};
+  }
+  JointSettings joint;
+  joint.solver.huber_threshold = settings.request.huber_threshold;
+  return CalibrateJointly(model, setup, joint);
+}
+
+/// Points that have a name already.
+FrameAssignment TakeNames(const std::vector<UnlabelledFrame>& frames) {
+  FrameAssignment assignment;
+  FrameLabels& labels = assignment.choices.emplace_back();
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    std::vector<int> markers;
+    for (const MarkerSighting& point : frames[f].points) markers.push_back(point.marker);
+    if (std::none_of(markers.begin(), markers.end(), [](int marker) { return marker >= 0; })) {
+      assignment.left_out.push_back(frames[f].frame.name + ": no marker has a name");
+      continue;
+    }
+    labels.frames.push_back(f);
+    labels.marker_of_point.push_back(std::move(markers));
+  }
+  assignment.status = labels.frames.empty()
+                          ? Status(StatusCode::kUnobservable, assignment.left_out.front())
+                          : Status::Ok();
+  return assignment;
+}
+
+/// The range of tensions, the shapes in it, and what the points are in them.
+FrameAssignment Assign(robot::RobotModel& model, const std::vector<UnlabelledFrame>& frames,
+                       const geometry::RigidTransform* T_rough,
+                       const UnlabelledSettings& settings) {
+  if (settings.named) return TakeNames(frames);
+  FrameAssignment assignment;
+  std::vector<CalibrationFrame> inputs;
+  for (const UnlabelledFrame& frame : frames) inputs.push_back(frame.frame);
+  Eigen::VectorXd most_N;
+  assignment.status =
+      FindTensionRange(model, inputs, settings.request.drive_offset_sigma_m, &most_N);
+  if (!assignment.status.ok()) return assignment;
+  const SolvedShapes solved = SolveMarkerShapes(model, most_N);
+  assignment.status = solved.status;
+  if (!solved.status.ok()) return assignment;
+  return AssignFrames(solved.shapes, frames, T_rough, settings.model_sigma_m);
+}
+
+/// Gives up choices that contradict the drives.
+void HearDrives(robot::RobotModel& model, const std::vector<UnlabelledFrame>& frames,
+                const UnlabelledSettings& settings, std::vector<FrameLabels>* choices) {
+  if (choices->size() < 2) return;
+  const DriveErrors errors{.displacement_m = settings.model_sigma_m,
+                           .offset_m = settings.request.drive_offset_sigma_m};
+  std::vector<CalibrationFrame> inputs;
+  for (const UnlabelledFrame& frame : frames) inputs.push_back(frame.frame);
+  const Eigen::MatrixXd commanded_m = CommandedDisplacements_m(model, inputs);
+  std::vector<double> misfits;
+  for (const FrameLabels& labels : *choices) {
+    misfits.push_back(DriveMisfit(model, LabelledFrames(frames, labels), labels.tension_N,
+                                  commanded_m(Eigen::all, labels.frames), errors));
+  }
+  const double most =
+      *std::min_element(misfits.begin(), misfits.end()) + settings.most_drive_misfit;
+  std::vector<FrameLabels> kept;
+  for (std::size_t k = 0; k < choices->size(); ++k) {
+    if (misfits[k] <= most) kept.push_back(std::move((*choices)[k]));
+  }
+  *choices = std::move(kept);
+}
+
+Status Compare(const std::vector<Attempt>& attempts, const Attempt& best,
+               const UnlabelledSettings& settings) {
+  for (const Attempt& other : attempts) {
+    if (&other == &best) continue;
+    const double gap = (other.Cost() - best.Cost()) / best.Excess();
+    if (gap > settings.ambiguous_below) continue;
+    return {StatusCode::kUnobservable,
+            "ambiguous: two ways to tell which marker is which explain all pictures alike "
+            "(chi-squared " +
+                FormatNumber(best.Cost()) + " and " + FormatNumber(other.Cost()) +
+                "); a rough pose of the camera tells, or other settings of the cables, or markers "
+                "that look different after every turn"};
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
+                                          const std::vector<UnlabelledFrame>& frames,
+                                          const geometry::RigidTransform* T_rough,
+                                          const UnlabelledSettings& settings) {
+  const KeptModel kept(model);
+  UnlabelledCalibration result;
+  FrameAssignment assignment = Assign(model, frames, T_rough, settings);
+  result.status = assignment.status;
+  result.left_out = std::move(assignment.left_out);
+  if (!result.status.ok()) return result;
+  result.choices = static_cast<int>(assignment.choices.size());
+  HearDrives(model, frames, settings, &assignment.choices);
+  std::vector<Attempt> attempts;
+  for (FrameLabels& labels : assignment.choices) {
+    Attempt& attempt = attempts.emplace_back();
+    attempt.frames = LabelledFrames(frames, labels);
+    attempt.labels = std::move(labels);
+    attempt.joint = Fit(model, attempt.frames, settings);
+    kept.Restore();
+  }
+  const auto best =
+      std::min_element(attempts.begin(), attempts.end(),
+                       [](const auto& a, const auto& b) { return a.Cost() < b.Cost(); });
+  result.status = best->joint.status;
+  if (result.status.ok()) result.status = Compare(attempts, *best, settings);
+  result.joint = std::move(best->joint);
+  result.labels = std::move(best->labels);
+  result.frames = std::move(best->frames);
+  return result;
+}
+
+}  // namespace palpate::calibration

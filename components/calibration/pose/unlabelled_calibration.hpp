@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/calibration/joint/joint_request.hpp"
+#include "components/calibration/pose/frame_assignment.hpp"
+
+namespace palpate::calibration {
+
+struct UnlabelledSettings {
+  JointRequest request;
+  /// The points' `marker` holds (-1: none); nothing is assigned.
+  bool named = false;
+  /// How far the model's markers may lie from the real ones when points are told apart, m, one
+  /// sigma: of material, mesh, and where the markers sit.
+  double model_sigma_m = 1e-3;
+  /// Smooth error of the depth that all points of a camera have in common, one sigma as a share of
+  /// z: counts in the standard errors (DepthBiasBelief); 0: it has none.
+  double depth_bias_sigma = 0.0;
+  /// Choices whose DriveMisfit, with errors of `model_sigma_m`, is larger than the least by more
+  /// than this are not calibrated from.
+  double most_drive_misfit = 50.0;
+  /// Another assignment that fits the pictures no worse than by so much (chi-squared, over the
+  /// reduced one of the best) fits as well.
+  double ambiguous_below = 9.0;
+};
+
+struct UnlabelledCalibration {
+  /// kUnobservable: the points do not tell which marker is which, or not the pose; else as
+  /// CalibrateFrames.
+  Status status;
+  JointCalibration joint;                ///< usable where `status` is ok
+  FrameLabels labels;                    ///< what it is from
+  std::vector<CalibrationFrame> frames;  ///< likewise: those of `labels`, with their markers
+  int choices = 0;                       ///< ways to tell the markers apart that pictures leave
+  std::vector<std::string> left_out;     ///< pictures that are in none of it, and why
+};
+
+/// CalibrateFrames from points without names. Where pictures alone do not tell which marker is
+/// which (the robot looks the same after a turn) what is known of the cables may: choices whose
+/// cables are pulled quite otherwise than the drives say (DriveMisfit) are given up, it is
+/// calibrated with each of the others, and the one that explains all best holds, unless another
+/// does as well.
+UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
+                                          const std::vector<UnlabelledFrame>& frames,
+                                          const geometry::RigidTransform* T_rough,
+                                          const UnlabelledSettings& settings);
+
+}  // namespace palpate::calibration

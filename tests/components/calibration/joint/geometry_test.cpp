@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include "components/calibration/joint/joint_request.hpp"
+#include "components/calibration/joint/kept_model.hpp"
+#include "tests/components/calibration/joint/joint_scene.hpp"
+
+namespace palpate::calibration {
+namespace {
+
+constexpr double kNoise_m = 1e-5;
+
+/// Size, guides and depth of a robot that differs from its file.
+class GeometryOfOurRobot : public testing::Test {
+ protected:
+  std::vector<CalibrationFrame> See(robot::RobotModel& truth, double scale = 1.0) {
+    std::vector<CalibrationFrame> frames;
+    for (int f = 0; f < 5; ++f) {
+      std::vector<double> pulls_m;
+      for (int c = 0; c < 4; ++c) pulls_m.push_back(1e-3 * (4.0 + (5 * f + 3 * c) % 8));
+      FrameInputs inputs{.cables = Commands(Kind::kDisplacement, pulls_m), .scale = scale};
+      const FrameInputs acting = ToModel(inputs);
+      truth.SetGravity(acting.mass_factor * model_->gravity_m_s2());
+      CalibrationFrame frame =
+          calibration::See(truth, geometry::RigidTransform(), "pull " + std::to_string(f),
+                           acting.cables, {}, kNoise_m);
+      std::normal_distribution<double> noise(0.0, kNoise_m);
+      for (MarkerSighting& sighting : frame.markers) {
+        sighting.position_m = TableOnePose().Inverse() * (scale * sighting.position_m);
+        for (double& coordinate : sighting.position_m) coordinate += noise(random_);
+      }
+      frame.cables = inputs.cables;
+      frame.gravity_m_s2 = model_->gravity_m_s2();
+      frames.push_back(std::move(frame));
+    }
+    return frames;
+  }
+
+  static void ExpectFound(const JointCalibration& fit, const std::string& name, double truth,
+                          double most_error) {
+    const FittedValue* found = ValueNamed(fit, name);
+    ASSERT_NE(found, nullptr);
+    EXPECT_TRUE(found->determined) << name;
+    EXPECT_NEAR(found->value, truth, 4.0 * found->standard_error) << name;
+    EXPECT_LT(found->standard_error, most_error) << name;
+  }
+
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> truth_ = Build(QuickFourLegs());
+  std::mt19937_64 random_{7};
+};
+
+TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
+  const JointCalibration fit = CalibrateFrames(
+      *model_, See(*truth_, 1.02), nullptr,
+      {.drive_offsets = false, .geometry_scale_sigma = 0.01, .marker_placement_sigma_m = 0.0});
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  ExpectFound(fit, "geometry_scale", 1.02, 1e-3);
+  ExpectPose(fit.T_robot_camera, TableOnePose(), 1e-3, 5e-4);
+  EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
+}
+
+/// A robot that is larger and a depth that is too short look alike but for what the cables say.
+TEST_F(GeometryOfOurRobot, SizeAndDepthAreToldByTheCablesAloneAndNamedWhereTheyAreNot) {
+  std::vector<CalibrationFrame> frames = See(*truth_, 1.02);
+  JointRequest request{.drive_offsets = false,
+                       .geometry_scale_sigma = 0.01,
+                       .depth_scale_sigma = 0.01,
+                       .marker_placement_sigma_m = 0.0};
+  const JointCalibration fit = CalibrateFrames(*model_, frames, nullptr, request);
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  ExpectFound(fit, "geometry_scale", 1.02, 5e-3);
+  ExpectFound(fit, "depth_scale", 0.0, 5e-3);
+  for (CalibrationFrame& frame : frames) {
+    for (MarkerSighting& sighting : frame.markers) sighting.covariance_m2 *= 1e4;
+  }
+  const JointCalibration vague = CalibrateFrames(*model_, frames, nullptr, request);
+  ASSERT_TRUE(vague.status.ok()) << vague.status.message();
+  const FittedValue* scale = ValueNamed(vague, "geometry_scale");
+  const FittedValue* depth = ValueNamed(vague, "depth_scale");
+  EXPECT_FALSE(scale->determined && depth->determined);
+  EXPECT_TRUE(scale->determined || depth->determined);
+  const FittedValue* held = scale->determined ? depth : scale;
+  EXPECT_EQ(held->value, held == scale ? 1.0 : 0.0);
+  EXPECT_NEAR(held->standard_error, 0.01, 1e-12);
+  EXPECT_FALSE(held->what_would_tell.empty());
+}
+
+TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
+  const Eigen::Vector3d guide_m = model_->cable(1).pull_point_m();
+  const Eigen::Map<const Eigen::VectorXd> rest_m(model_->body().mesh.nodes_m.data(),
+                                                 model_->body().mesh.nodes_m.size());
+  const auto across = AcrossCable(model_->cable(1).eyelets().front().Position(rest_m) - guide_m);
+  truth_->SetPullPoint(1, guide_m + 1.5e-3 * across[0].direction - 1e-3 * across[1].direction);
+  const JointCalibration fit = CalibrateFrames(
+      *model_, See(*truth_), nullptr,
+      {.drive_offsets = false, .cable_route_sigma_m = 2e-3, .marker_placement_sigma_m = 0.0});
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  const std::string name = "cable_route:" + model_->CableNames()[1] + ":";
+  ExpectFound(fit, name + across[0].name, 1.5e-3, 5e-4);
+  ExpectFound(fit, name + across[1].name, -1e-3, 5e-4);
+  EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
+}
+
+TEST_F(GeometryOfOurRobot, GuidesArePutBackWhereNothingIsFound) {
+  const Eigen::Vector3d guide_m = model_->cable(0).pull_point_m();
+  const double rest_length_m = model_->cable_rest_length_m()[0];
+  const KeptModel kept(*model_);
+  model_->SetPullPoint(0, guide_m + Eigen::Vector3d(0.0, 0.0, -0.01));
+  EXPECT_NE(model_->cable_rest_length_m()[0], rest_length_m);
+  kept.Restore();
+  EXPECT_EQ(model_->cable(0).pull_point_m(), guide_m);
+  EXPECT_EQ(model_->cable_rest_length_m()[0], rest_length_m);
+}
+
+}  // namespace
+}  // namespace palpate::calibration

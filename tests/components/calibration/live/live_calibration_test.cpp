@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/live/live_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "components/calibration/live/earlier_calibration.hpp"
+#include "tests/components/force_estimation/node_test_robot.hpp"
+
+namespace palpate::calibration {
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+
+const Eigen::Vector3d kGravity_m_s2(1.5, -0.5, -9.0);
+const robot::DriveCalibration kEarlierDrive{.offset_m = 4e-4, .gain = 0.05};
+const robot::DriveCalibration kTrueDrive{.offset_m = 9e-4, .gain = 0.05};
+
+Eigen::Isometry3d TruePose() {
+  return Eigen::Translation3d(0.3, -0.2, 0.4) *
+         Eigen::AngleAxisd(2.0, Eigen::Vector3d(0.3, -0.8, 0.5).normalized());
+}
+
+/// Of another material, gravity and drive than the robot file's.
+robot::CalibrationFile Earlier(const robot::RobotModel& robot) {
+  robot::CalibrationFile before = robot::DescribeForCalibration(robot);
+  before.date_utc = before.data = before.data_hash = "some";
+  before.moduli = {{"body", 123e3, 4e3}};
+  before.poissons_ratios = {{"body", 0.35, 0.01}};
+  before.gravity = robot::CalibratedGravity{kGravity_m_s2, {0.1, 0.2, 0.3}};
+  before.drives = {{"top", kEarlierDrive, {1e-4, 0.02}}};
+  return before;
+}
+
+/// What the camera sees of a robot as `before` has it but for the zero of its drive, as its drive
+/// tells it.
+CalibrationFrame Frame(const robot::CalibrationFile& before, double told_m) {
+  const auto robot = force_estimation::NodeTestRobot();
+  robot::ApplyCalibration(before, robot.get());
+  fem::StaticState state = robot->RestState();
+  const auto result =
+      robot->Solve({{Kind::kDisplacement, kTrueDrive.TakenIn_m(told_m)}}, {}, &state);
+  EXPECT_TRUE(result.status.ok()) << result.status.message();
+  CalibrationFrame frame{.name = "frame", .cables = {{Kind::kDisplacement, told_m}}};
+  frame.gravity_m_s2 = robot->body().gravity_m_s2;  // nominal, as the collector has it
+  const auto& markers = robot->body().markers;
+  for (std::size_t k = 0; k < markers.size(); ++k) {
+    frame.markers.push_back(
+        {.marker = static_cast<int>(k),
+         .position_m = TruePose().inverse() * markers[k].point.weights.Position(state.x_m),
+         .covariance_m2 = 1e-10 * Eigen::Matrix3d::Identity()});
+  }
+  return frame;
+}
+
+TEST(LiveCalibration, KeepsWhatItDoesNotFindAnewAndFitsWithIt) {
+  const auto robot = force_estimation::NodeTestRobot();
+  const Eigen::Vector3d nominal_m_s2 = robot->gravity_m_s2();
+  LiveJob job;
+  job.before = Earlier(*robot);
+  for (const double told_m : {0.0, 2e-3, 4e-3}) job.markers.push_back(Frame(*job.before, told_m));
+  const LiveResult result = CalibrateLive(*robot, job);
+  ASSERT_TRUE(result.status.ok()) << result.status.message();
+  const robot::CalibrationFile& file = result.file;
+  EXPECT_LT(file.residual_rms_m, 1e-7);
+  ASSERT_TRUE(file.pose);
+  EXPECT_TRUE(file.pose->T_robot_camera.isApprox(TruePose(), 1e-5));
+  ASSERT_EQ(file.moduli.size(), 1u);
+  EXPECT_EQ(file.moduli[0].youngs_modulus_Pa, 123e3);
+  EXPECT_EQ(file.moduli[0].standard_error_Pa, 4e3);
+  ASSERT_EQ(file.poissons_ratios.size(), 1u);
+  EXPECT_EQ(file.poissons_ratios[0].poissons_ratio, 0.35);
+  EXPECT_EQ(file.poissons_ratios[0].standard_error, 0.01);
+  ASSERT_TRUE(file.gravity);
+  EXPECT_EQ(file.gravity->gravity_m_s2, kGravity_m_s2);
+  EXPECT_EQ(file.gravity->standard_error_m_s2, Eigen::Vector3d(0.1, 0.2, 0.3));
+  ASSERT_EQ(file.drives.size(), 1u);
+  EXPECT_NEAR(file.drives[0].drive.offset_m, kTrueDrive.offset_m, 1e-6);
+  EXPECT_NEAR(file.drives[0].drive.gain, kTrueDrive.gain, 1e-12);
+  EXPECT_EQ(file.drives[0].standard_error.gain, 0.02);
+  EXPECT_NE(file.drives[0].standard_error.offset_m, 1e-4);
+  // The model is as the robot file has it.
+  EXPECT_EQ(robot->gravity_m_s2(), nominal_m_s2);
+  EXPECT_EQ(robot->drives().at(0).offset_m, 0.0);
+  EXPECT_EQ(robot->body().materials[0].poissons_ratio,
+            force_estimation::NodeTestRobot()->body().materials[0].poissons_ratio);
+}
+
+TEST(LiveCalibration, EndsWhenItIsToldToAndLeavesTheModelAsItWas) {
+  const auto robot = force_estimation::NodeTestRobot();
+  const double modulus_Pa = robot->body().materials[0].youngs_modulus_Pa;
+  std::stop_source stop;
+  LiveJob job;
+  job.before = Earlier(*robot);
+  job.request.moduli = {0};
+  job.request.stop = stop.get_token();
+  for (const double told_m : {0.0, 2e-3, 4e-3}) job.markers.push_back(Frame(*job.before, told_m));
+  stop.request_stop();
+  EXPECT_EQ(CalibrateLive(*robot, job).status.code(), StatusCode::kNotConverged);
+  EXPECT_EQ(robot->body().materials[0].youngs_modulus_Pa, modulus_Pa);
+  job.request.stop = {};
+  EXPECT_TRUE(CalibrateLive(*robot, job).status.ok());
+}
+
+TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
+  robot::CalibrationFile before;
+  before.moduli = {{"body", 1e5, 1e3}, {"tip", 2e5, 2e3}};
+  before.poissons_ratios = {{"body", 0.4, 0.01}};
+  before.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.0}, {0.1, 0.1, 0.1}};
+  before.pose.emplace().T_robot_camera.translation().x() = 1.0;
+  before.drives = {{"a", {1e-3, 0.1}, {1e-4, 0.01}}, {"b", {2e-3, 0.2}, {2e-4, 0.02}}};
+  robot::CalibrationFile found;
+  found.moduli = {{"tip", 3e5, 3e3}};
+  found.poissons_ratios = {{"body", 0.3, 0.02}};
+  found.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.5}, {0.2, 0.2, 0.2}};
+  found.pose.emplace().T_robot_camera.translation().x() = 2.0;
+  found.drives = {{"b", {1e-4, 0.1}, {3e-4, 0.03}}};
+  KeepFromBefore(before, &found);
+  ASSERT_EQ(found.moduli.size(), 2u);
+  EXPECT_EQ(found.moduli[0].youngs_modulus_Pa, 3e5);
+  EXPECT_EQ(found.moduli[1].part, "body");
+  ASSERT_EQ(found.poissons_ratios.size(), 1u);
+  EXPECT_EQ(found.poissons_ratios[0].poissons_ratio, 0.3);
+  EXPECT_EQ(found.gravity->gravity_m_s2.z(), -9.5);
+  EXPECT_EQ(found.pose->T_robot_camera.translation().x(), 2.0);
+  ASSERT_EQ(found.drives.size(), 2u);
+  EXPECT_EQ(found.drives[1].cable, "a");
+  EXPECT_EQ(found.drives[1].drive.offset_m, 1e-3);
+  // Told u, it takes in 1.1 (1.2 u + 2 mm) + 0.1 mm.
+  EXPECT_NEAR(found.drives[0].drive.TakenIn_m(0.0), 2.3e-3, 1e-15);
+  EXPECT_NEAR(found.drives[0].drive.TakenIn_m(1e-2), 1.32e-2 + 2.3e-3, 1e-15);
+  EXPECT_EQ(found.drives[0].standard_error.offset_m, 3e-4);
+}
+
+}  // namespace
+}  // namespace palpate::calibration
