@@ -21,31 +21,31 @@ std::optional<double> Between(const std::optional<double>& before,
 
 }  // namespace
 
-void CableHistory::Add(CableSample sample) {
-  PALPATE_CHECK(sample.cables.size() == cable_count_, sample.cables.size(), cable_count_);
-  if (!samples_.empty() && sample.stamp_ns < samples_.back().stamp_ns) {
-    samples_.clear();
+void CableHistory::Add(CableReading reading) {
+  PALPATE_CHECK(reading.cables.size() == cable_count_, reading.cables.size(), cable_count_);
+  if (!readings_.empty() && reading.stamp_ns < readings_.back().stamp_ns) {
+    readings_.clear();
     went_back_ = true;
   }
-  if (!samples_.empty() && sample.stamp_ns == samples_.back().stamp_ns) samples_.pop_back();
-  if (samples_.size() == kCapacity) samples_.pop_front();
-  samples_.push_back(std::move(sample));
+  if (!readings_.empty() && reading.stamp_ns == readings_.back().stamp_ns) readings_.pop_back();
+  if (readings_.size() == kCapacity) readings_.pop_front();
+  readings_.push_back(std::move(reading));
 }
 
 void CableHistory::BeginSequence(bool time_went_back) {
   // Cable inputs of the new sequence may have come before its first markers, or may come after.
-  if (time_went_back && !went_back_) samples_.clear();
+  if (time_went_back && !went_back_) readings_.clear();
   went_back_ = false;
 }
 
 std::optional<std::vector<robot::CableCommand>> CableHistory::At(int64_t stamp_ns) const {
   if (cable_count_ == 0) return std::vector<robot::CableCommand>();
   const auto after = std::lower_bound(
-      samples_.begin(), samples_.end(), stamp_ns,
-      [](const CableSample& sample, int64_t stamp) { return sample.stamp_ns < stamp; });
-  if (after == samples_.end()) return std::nullopt;
+      readings_.begin(), readings_.end(), stamp_ns,
+      [](const CableReading& reading, int64_t stamp) { return reading.stamp_ns < stamp; });
+  if (after == readings_.end()) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return Commands(*after, *after, 0.0);
-  if (after == samples_.begin()) return std::nullopt;
+  if (after == readings_.begin()) return std::nullopt;
   const auto before = std::prev(after);
   const double share = static_cast<double>(stamp_ns - before->stamp_ns) /
                        static_cast<double>(after->stamp_ns - before->stamp_ns);
@@ -55,12 +55,12 @@ std::optional<std::vector<robot::CableCommand>> CableHistory::At(int64_t stamp_n
 Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
                                 std::vector<robot::CableCommand>* commands) const {
   const auto after = std::upper_bound(
-      samples_.begin(), samples_.end(), stamp_ns,
-      [](int64_t stamp, const CableSample& sample) { return stamp < sample.stamp_ns; });
-  if (after == samples_.begin()) {
+      readings_.begin(), readings_.end(), stamp_ns,
+      [](int64_t stamp, const CableReading& reading) { return stamp < reading.stamp_ns; });
+  if (after == readings_.begin()) {
     return {StatusCode::kStale, "no cable inputs on /robot/joint_states for the time of the frame"};
   }
-  const CableSample& last = *std::prev(after);
+  const CableReading& last = *std::prev(after);
   const double age_s = 1e-9 * static_cast<double>(stamp_ns - last.stamp_ns);
   if (age_s > max_age_s) {
     return {StatusCode::kStale,
@@ -71,8 +71,8 @@ Status CableHistory::LastBefore(int64_t stamp_ns, double max_age_s,
   return Status::Ok();
 }
 
-std::vector<robot::CableCommand> CableHistory::Commands(const CableSample& before,
-                                                        const CableSample& after,
+std::vector<robot::CableCommand> CableHistory::Commands(const CableReading& before,
+                                                        const CableReading& after,
                                                         double share) const {
   std::vector<robot::CableCommand> commands;
   for (size_t i = 0; i < cable_count_; ++i) {

@@ -9,20 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "libs/core/cable_reading.hpp"
 #include "libs/core/status.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
-
-/// What is known of each of the robot's cables at one time.
-struct CableSample {
-  struct Inputs {
-    std::optional<double> displacement_m;
-    std::optional<double> tension_N;
-  };
-  int64_t stamp_ns = 0;
-  std::vector<Inputs> cables;  ///< in the order of the robot's cables
-};
 
 /// The last cable inputs, to find those of the time of a marker frame.
 class CableHistory {
@@ -34,7 +25,7 @@ class CableHistory {
   void SetDrives(const std::vector<robot::DriveCalibration>& drives) { drives_ = drives; }
 
   /// A stamp below the last one says that time went back: what was before is forgotten.
-  void Add(CableSample sample);
+  void Add(CableReading reading);
   /// A marker sequence began. `time_went_back`: before the end of the one before.
   void BeginSequence(bool time_went_back);
 
@@ -47,7 +38,7 @@ class CableHistory {
                     std::vector<robot::CableCommand>* commands) const;
 
  private:
-  std::vector<robot::CableCommand> Commands(const CableSample& before, const CableSample& after,
+  std::vector<robot::CableCommand> Commands(const CableReading& before, const CableReading& after,
                                             double share) const;
 
   static constexpr size_t kCapacity = 1000;
@@ -55,7 +46,7 @@ class CableHistory {
   size_t cable_count_;
   robot::CableInput preferred_;
   std::vector<robot::DriveCalibration> drives_;  ///< [cable_count_]
-  std::deque<CableSample> samples_;              ///< rising stamps
+  std::deque<CableReading> readings_;            ///< rising stamps
   bool went_back_ = true;                        ///< since the last sequence began
 };
 

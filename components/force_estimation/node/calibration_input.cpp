@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 
 namespace palpate::force_estimation {
@@ -50,6 +51,58 @@ Status ReadPose(const idl::palpate_msgs::Calibration& message, robot::Calibratio
   return Status::Ok();
 }
 
+Status ReadDepthBias(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->depth_bias.reset();
+  if (!message.has_depth_bias) return Status::Ok();
+  if (!message.has_camera) return Invalid("depth_bias comes without the camera's pose");
+  const auto& source = message.depth_bias;
+  robot::CalibratedDepthBias& bias = file->depth_bias.emplace();
+  bias.picture = dds::ToPicture(source.picture);
+  bias.map.basis = {.order = static_cast<int>(source.order), .span = source.span};
+  bias.map.coefficients =
+      Eigen::Map<const Eigen::VectorXd>(source.coefficients._buffer, source.coefficients._length);
+  const std::size_t rows = 6 + source.coefficients._length;
+  if (source.covariance._length != rows * rows) return Invalid("depth_bias has no covariance");
+  bias.map.covariance = Eigen::Map<const Eigen::MatrixXd>(
+      source.covariance._buffer, static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(rows));
+  return robot::CheckDepthBias(bias);
+}
+
+Status ReadMaterials(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->moduli.clear();
+  for (const auto& modulus : dds::Elements(message.moduli)) {
+    const std::string part(dds::Text(modulus.part));
+    if (!std::isfinite(modulus.youngs_modulus_pa) || modulus.youngs_modulus_pa <= 0.0 ||
+        !IsError(modulus.standard_error_pa)) {
+      return Invalid("the modulus of '" + part + "' is none");
+    }
+    file->moduli.push_back({part, modulus.youngs_modulus_pa, modulus.standard_error_pa});
+  }
+  file->poissons_ratios.clear();
+  for (const auto& ratio : dds::Elements(message.poissons_ratios)) {
+    const std::string part(dds::Text(ratio.part));
+    if (!(ratio.poissons_ratio > -1.0 && ratio.poissons_ratio < 0.5) ||
+        !IsError(ratio.standard_error)) {
+      return Invalid("Poisson's ratio of '" + part + "' is none");
+    }
+    file->poissons_ratios.push_back({part, ratio.poissons_ratio, ratio.standard_error});
+  }
+  return Status::Ok();
+}
+
+Status ReadGravity(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->gravity.reset();
+  if (!message.has_gravity) return Status::Ok();
+  robot::CalibratedGravity& gravity = file->gravity.emplace();
+  gravity.gravity_m_s2 = dds::ToVector(message.gravity_m_s2);
+  gravity.standard_error_m_s2 = dds::ToVector(message.gravity_standard_error_m_s2);
+  if (!gravity.gravity_m_s2.allFinite() || !gravity.standard_error_m_s2.allFinite() ||
+      gravity.standard_error_m_s2.minCoeff() < 0.0) {
+    return Invalid("gravity_m_s2 has a number that is none");
+  }
+  return Status::Ok();
+}
+
 Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
   file->drives.clear();
   for (const auto& drive : dds::Elements(message.drives)) {
@@ -61,15 +114,6 @@ Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::Calibra
     file->drives.push_back({cable,
                             {drive.offset_m, drive.gain},
                             {drive.offset_standard_error_m, drive.gain_standard_error}});
-  }
-  file->moduli.clear();
-  for (const auto& modulus : dds::Elements(message.moduli)) {
-    const std::string part(dds::Text(modulus.part));
-    if (!std::isfinite(modulus.youngs_modulus_pa) || modulus.youngs_modulus_pa <= 0.0 ||
-        !IsError(modulus.standard_error_pa)) {
-      return Invalid("the modulus of '" + part + "' is none");
-    }
-    file->moduli.push_back({part, modulus.youngs_modulus_pa, modulus.standard_error_pa});
   }
   file->undetermined.clear();
   for (const auto& number : dds::Elements(message.undetermined)) {
@@ -85,6 +129,9 @@ Status FromCalibration(const idl::palpate_msgs::Calibration& message,
                        robot::CalibrationFile* calibration) {
   ReadHead(message, calibration);
   if (Status status = ReadPose(message, calibration); !status.ok()) return status;
+  if (Status status = ReadDepthBias(message, calibration); !status.ok()) return status;
+  if (Status status = ReadMaterials(message, calibration); !status.ok()) return status;
+  if (Status status = ReadGravity(message, calibration); !status.ok()) return status;
   return ReadNumbers(message, calibration);
 }
 

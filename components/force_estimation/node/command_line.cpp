@@ -26,14 +26,17 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
 }
 
 /// Gives the model what was calibrated, and source=shape the camera's pose where the settings have
-/// none; returns the moduli's relative standard error.
-double Calibrate(const robot::CalibrationFile& calibration, robot::RobotModel* model,
-                 NodeConfig* config) {
-  robot::ApplyCalibration(calibration, model);
-  if (calibration.pose && config->source == "shape" && config->camera_pose.empty()) {
-    config->camera_pose = geometry::FormatPose(calibration.pose->T_robot_camera);
+/// none. Where they have one, that of the calibration and its depth bias do not count.
+void Calibrate(robot::CalibrationFile* calibration, robot::RobotModel* model, NodeConfig* config) {
+  robot::ApplyCalibration(*calibration, model);
+  if (!calibration->pose) return;
+  if (!config->camera_pose.empty()) {
+    app::LogWarning("camera_pose is set: that of --calibration and its depth bias do not count");
+    calibration->pose.reset();
+    calibration->depth_bias.reset();
+  } else if (config->source == "shape") {
+    config->camera_pose = geometry::FormatPose(calibration->pose->T_robot_camera);
   }
-  return robot::RelativeModulusError(calibration);
 }
 
 }  // namespace
@@ -72,18 +75,16 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
   }
   auto model = LoadRobot(command.robot, {command.config.solver, command.config.threads});
   NodeConfig config = command.config;
-  std::optional<robot::CalibrationFile> calibration;
+  robot::CalibrationFile calibration;
   if (command.calibration.empty()) {
     app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
   } else {
     calibration = robot::ReadCalibrationFile(command.calibration, app::LoadYaml);
+    Calibrate(&calibration, model.get(), &config);
   }
-  const double modulus_error = calibration ? Calibrate(*calibration, model.get(), &config) : 0.0;
-  auto node = std::make_unique<ForceEstimationNode>(
-      config, std::move(model), modulus_error, command.options.domain_id,
+  return std::make_unique<ForceEstimationNode>(
+      config, std::move(model), calibration, command.options.domain_id,
       dds::LoadTopicTable(config.dds, app::LoadYaml, app::ParseYaml), app::Log);
-  if (calibration) node->SetCalibrationInUse(*calibration);
-  return node;
 }
 
 }  // namespace palpate::force_estimation

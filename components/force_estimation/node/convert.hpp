@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "components/force_estimation/node/cable_history.hpp"
 #include "components/force_estimation/node/frame_input.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/topics.hpp"
@@ -31,12 +30,6 @@ Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message);
 Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
                         const Eigen::Isometry3d& T_robot_camera,
                         std::vector<SeenContact>* contacts);
-
-/// Inputs in the order of `names`; NaN and cables that are not named count as not known.
-/// kInvalidInput for a cable that is not among `names` (with "did you mean"), or numbers that do
-/// not go with the names.
-Status FromJointState(const idl::sensor_msgs::JointState& message,
-                      const std::vector<std::string>& names, CableSample* sample);
 
 /// Counters, age and latency are left to whoever sends it. The numbers of an unobservable force are
 /// NaN.

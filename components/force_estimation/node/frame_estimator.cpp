@@ -16,8 +16,9 @@ namespace {
 
 class FromMarkers : public FrameEstimator {
  public:
-  FromMarkers(robot::RobotModel& model, const NodeConfig& config, double modulus_sigma)
-      : estimator_(model, config, modulus_sigma),
+  FromMarkers(robot::RobotModel& model, const NodeConfig& config,
+              const robot::CalibrationFile& calibration)
+      : estimator_(model, config, robot::RelativeModulusError(calibration)),
         gap_(model.body(), config.marker_sigma_m, config.marker_bias_m) {}
 
   FrameResult Update(FrameInput& input) override {
@@ -38,12 +39,17 @@ class FromMarkers : public FrameEstimator {
 /// untouched; where it was not seen, perception knows why.
 class FromShape : public FrameEstimator {
  public:
-  FromShape(robot::RobotModel& model, const NodeConfig& config, double modulus_sigma)
+  FromShape(robot::RobotModel& model, const NodeConfig& config,
+            const robot::CalibrationFile& calibration)
       : untouched_frames_(config.shape.untouched_frames),
         sites_(ParseContactSites(config.contacts)),
         known_contacts_(model.body()),
-        estimator_(model, config, config.shape, modulus_sigma),
-        gap_(model.body()) {}
+        estimator_(model, config, config.shape, robot::RelativeModulusError(calibration)),
+        gap_(model.body()),
+        held_skin_(model.body()) {
+    if (!calibration.depth_bias) return;
+    estimator_.TakeDepthBias(calibration.depth_bias->map, calibration.pose->T_robot_camera);
+  }
 
   FrameResult Update(FrameInput& input) override {
     auto& seen = std::get<SeenShape>(input.frame);
@@ -61,6 +67,9 @@ class FromShape : public FrameEstimator {
     const bool stands = IsUsable(status) || status.code() == StatusCode::kNoCalibration;
     result.state = result.state_is_known && stands ? Status::Ok() : status;
     if (!seen.looked.ok() && status.code() == StatusCode::kNoRobotSeen) status = seen.looked;
+    drift_.Add(seen.frame.t_s,
+               SeeMotion(held_skin_, seen.frame.cloud, seen.frame.T_robot_camera, nodes_m_));
+    result.drift = drift_.report();
     return result;
   }
 
@@ -72,6 +81,8 @@ class FromShape : public FrameEstimator {
   Eigen::VectorXd nodes_m_;  ///< [3n] of the last frame that says where they are; empty before
   ShapeForceEstimator estimator_;
   FeatureGapMeter gap_;
+  HeldSkin held_skin_;
+  DriftWatch drift_;
 };
 
 }  // namespace
@@ -81,15 +92,14 @@ bool IsFromShape(const NodeConfig& config) {
 }
 
 FrameEstimatorMaker EstimatorMakerOf(const NodeConfig& config,
-                                     double youngs_modulus_relative_sigma) {
-  const double sigma = youngs_modulus_relative_sigma;
+                                     const robot::CalibrationFile& calibration) {
   if (!IsFromShape(config)) {
-    return [config, sigma](robot::RobotModel& model) {
-      return std::make_unique<FromMarkers>(model, config, sigma);
+    return [config, calibration](robot::RobotModel& model) {
+      return std::make_unique<FromMarkers>(model, config, calibration);
     };
   }
-  return [config, sigma](robot::RobotModel& model) {
-    return std::make_unique<FromShape>(model, config, sigma);
+  return [config, calibration](robot::RobotModel& model) {
+    return std::make_unique<FromShape>(model, config, calibration);
   };
 }
 

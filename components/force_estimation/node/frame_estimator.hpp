@@ -31,9 +31,10 @@ struct NewCalibration {
 /// Where the frames come from, by the settings: "markers" or "shape".
 bool IsFromShape(const NodeConfig& config);
 
-/// MarkerForceEstimator or ShapeForceEstimator. What is made throws InputError for settings that do
-/// not fit the robot.
+/// MarkerForceEstimator or ShapeForceEstimator for a model that has been given `calibration`, of
+/// which the moduli's errors and the depth bias count. What is made throws InputError for settings
+/// that do not fit the robot.
 FrameEstimatorMaker EstimatorMakerOf(const NodeConfig& config,
-                                     double youngs_modulus_relative_sigma);
+                                     const robot::CalibrationFile& calibration);
 
 }  // namespace palpate::force_estimation

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/force_estimation/drift/drift_watch.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/force_estimation/node/model_gap.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
@@ -58,6 +59,7 @@ struct FrameResult {
   ModelGapReport gap;
   bool state_is_known = false;  ///< estimate.x_m may be shown to others
   Status state;                 ///< ok: x_m is where the robot is believed to be
+  DriftReport drift = {};       ///< of the camera, until this frame; from the shape only
 };
 
 }  // namespace palpate::force_estimation

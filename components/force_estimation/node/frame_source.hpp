@@ -12,6 +12,8 @@
 
 #include "components/force_estimation/node/frame_input.hpp"
 
+#include "libs/robot/calibration_file.hpp"
+
 namespace palpate::force_estimation {
 
 /// Whom a source tells what came.
@@ -30,8 +32,9 @@ class FrameSource {
   explicit FrameSource(FrameEvents events) : events_(std::move(events)) {}
   virtual ~FrameSource() = default;
 
-  /// The depth camera stands there from now on.
-  virtual void SetCameraPose(const Eigen::Isometry3d&) {}
+  /// What holds from now on: where the depth camera stands, and which images its depth bias is
+  /// for.
+  virtual void SetCalibration(const robot::CalibrationFile&) {}
 
   virtual std::string name() const = 0;  ///< of what comes, for a person: "markers"
   virtual uint64_t dropped() const = 0;  ///< frames that were lost or overtaken on the way here

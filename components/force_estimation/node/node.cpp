@@ -14,6 +14,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/dds/joint_states.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/pose_text.hpp"
 
@@ -46,7 +47,7 @@ double SecondsSince(dds::WaitSet::Clock::time_point then) {
 
 ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
                                          std::unique_ptr<robot::RobotModel> model,
-                                         double youngs_modulus_relative_sigma, int domain_id,
+                                         const robot::CalibrationFile& calibration, int domain_id,
                                          dds::TopicTable table,
                                          dds::NodeLog::ProcessLog process_log,
                                          FrameEstimatorMaker maker)
@@ -57,19 +58,21 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       cables_overdue_(loop_.AddAlarm([this] { MatchWithCables(); })),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
-      worker_(std::move(model),
-              maker ? maker : EstimatorMakerOf(config, youngs_modulus_relative_sigma),
+      worker_(std::move(model), maker ? maker : EstimatorMakerOf(config, calibration),
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
       outputs_(participant_, worker_.model().body(), IsFromShape(config)),
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
       calibration_(participant_, worker_.model()),
+      in_use_(calibration),
       source_(MakeSource()) {
   last_status_ = {StatusCode::kNotRun, "no " + source_->name() + " on /perception/" +
                                            (IsFromShape(config) ? "robot_cloud" : "markers") +
                                            " yet"};
   maker_is_given_ = static_cast<bool>(maker);
+  if (!calibration.date_utc.empty()) calibration_.SetInUse(calibration);
+  source_->SetCalibration(calibration);
   drives_ = worker_.model().drives();
   cables_.SetDrives(drives_);
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
@@ -103,10 +106,10 @@ std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
 
 void ForceEstimationNode::TakeJointStates() {
   for (const auto& message : joint_states_.Take()) {
-    CableSample sample;
-    const Status status = FromJointState(message, cable_names_, &sample);
+    CableReading reading;
+    const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
-      cables_.Add(std::move(sample));
+      cables_.Add(std::move(reading));
     } else {
       ++counts_.refused;
       last_status_ = status;
@@ -138,11 +141,14 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
     drives_.at(static_cast<size_t>(cable - cable_names_.begin())) = drive.drive;
   }
   cables_.SetDrives(drives_);
-  if (calibration.pose) source_->SetCameraPose(calibration.pose->T_robot_camera);
-  const bool keep_maker = maker_is_given_ || calibration.moduli.empty();
+  source_->SetCalibration(calibration);
+  if (calibration.pose) {
+    in_use_.pose = calibration.pose;
+    in_use_.depth_bias = calibration.depth_bias;
+  }
+  if (!calibration.moduli.empty()) in_use_.moduli = calibration.moduli;
   calibration_pending_ = std::make_shared<NewCalibration>(
-      calibration, keep_maker ? FrameEstimatorMaker()
-                              : EstimatorMakerOf(config_, RelativeModulusError(calibration)));
+      calibration, maker_is_given_ ? FrameEstimatorMaker() : EstimatorMakerOf(config_, in_use_));
   sequence_pending_ = true;
   log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
                                   calibration.data + ") from the next frame on");
@@ -217,6 +223,8 @@ bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
 void ForceEstimationNode::PublishResults() {
   while (const std::optional<FrameResult> result = worker_.TakeResult()) {
     last_status_ = result->estimate.status;
+    if (ToString(result->drift.state) != ToString(drift_.state)) SayDrift(result->drift);
+    drift_ = result->drift;
     outputs_.Publish(*result);
   }
 }
@@ -228,11 +236,19 @@ void ForceEstimationNode::ReportHealth() {
   counts.latencies_s = outputs_.TakeLatencies();
   const Status status = CurrentStatus();
   if (IsFromShape(config_) && IsSilent()) outputs_.PublishSilence(status);
-  health_.Report(status, counts,
-                 {{"readers_of_forces", std::to_string(outputs_.readers())},
-                  {"writers_of_" + source_->name(), std::to_string(source_->writers())},
-                  {"incompatible_qos", std::to_string(source_->incompatible_qos())}},
-                 Clock::now());
+  std::vector<std::pair<std::string, std::string>> values = {
+      {"readers_of_forces", std::to_string(outputs_.readers())},
+      {"writers_of_" + source_->name(), std::to_string(source_->writers())},
+      {"incompatible_qos", std::to_string(source_->incompatible_qos())}};
+  if (IsFromShape(config_)) AppendDrift(drift_, &values);
+  health_.Report(status, counts, values, Clock::now());
+}
+
+void ForceEstimationNode::SayDrift(const DriftReport& drift) {
+  const bool moved = drift.state == DriftReport::State::kMoved;
+  log_.Write(moved ? Severity::kWarning : Severity::kInfo,
+             "calibration of the camera: " + ToString(drift.state) +
+                 (moved ? ": " + drift.advice : std::string()));
 }
 
 bool ForceEstimationNode::IsSilent() const {
@@ -243,6 +259,10 @@ Status ForceEstimationNode::CurrentStatus() const {
   if (IsSilent()) {
     return {StatusCode::kStale, "no " + source_->name() + " for " +
                                     FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
+  }
+  // It explains what estimates make of the frames, too.
+  if (drift_.state == DriftReport::State::kMoved) {
+    return {StatusCode::kNoCalibration, drift_.advice};
   }
   const bool usable = IsUsable(last_status_) || last_status_.code() == StatusCode::kNoCalibration;
   return usable ? Status::Ok() : last_status_;

@@ -25,16 +25,13 @@ namespace palpate::force_estimation {
 /// is answered on /forces.
 class ForceEstimationNode {
  public:
-  /// `maker`: what estimates; empty: what the settings say. Throws InputError for bad settings,
-  /// RunError where DDS refuses.
+  /// `calibration`: what `model` has been given; older ones on /calibration are stale. One without
+  /// a date: none. `maker`: what estimates; empty: what the settings say. Throws InputError for bad
+  /// settings, RunError where DDS refuses.
   ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
-                      double youngs_modulus_relative_sigma, int domain_id, dds::TopicTable table,
-                      dds::NodeLog::ProcessLog process_log, FrameEstimatorMaker maker = {});
-
-  /// What was given at the start: older ones on /calibration are stale. Before Run.
-  void SetCalibrationInUse(const robot::CalibrationFile& calibration) {
-    calibration_.SetInUse(calibration);
-  }
+                      const robot::CalibrationFile& calibration, int domain_id,
+                      dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
+                      FrameEstimatorMaker maker = {});
 
   /// Works until Stop().
   void Run() { loop_.Run(); }
@@ -58,6 +55,7 @@ class ForceEstimationNode {
   void ReportHealth();
   bool IsSilent() const;
   Status CurrentStatus() const;
+  void SayDrift(const DriftReport& drift);
 
   NodeConfig config_;
   dds::Participant participant_;
@@ -72,12 +70,14 @@ class ForceEstimationNode {
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;
   CalibrationInput calibration_;
+  robot::CalibrationFile in_use_;   ///< moduli, pose and depth bias that hold
   std::deque<FrameInput> pending_;  ///< wait for the cable inputs of their time
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
   std::shared_ptr<const NewCalibration> calibration_pending_;  ///< for that frame
   bool maker_is_given_;
   dds::HealthCounts counts_;
   Status last_status_;
+  DriftReport drift_;
   Clock::time_point last_frame_;
   std::string last_refusal_;
   std::unique_ptr<FrameSource> source_;

@@ -8,6 +8,7 @@
 
 #include "components/force_estimation/node/convert.hpp"
 #include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -16,13 +17,6 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-
-Status CheckFrame(const idl::std_msgs::Header& header) {
-  const std::string_view frame = dds::Text(header.frame_id);
-  if (frame == geometry::kCameraDepthOpticalFrame) return Status::Ok();
-  return {StatusCode::kInvalidInput, "frame_id is '" + std::string(frame) + "', expected '" +
-                                         std::string(geometry::kCameraDepthOpticalFrame) + "'"};
-}
 
 }  // namespace
 
@@ -39,8 +33,10 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
 }
 
 /// Parts of frames that are not whole yet were seen from the old place.
-void ShapeSource::SetCameraPose(const Eigen::Isometry3d& T_robot_camera) {
-  T_robot_camera_ = T_robot_camera;
+void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
+  if (!calibration.pose) return;
+  T_robot_camera_ = calibration.pose->T_robot_camera;
+  depth_bias_ = calibration.depth_bias;
   dropped_ += pending_.size();
   pending_.clear();
 }
@@ -63,7 +59,7 @@ void ShapeSource::TakeClouds() {
   for (const auto& message : clouds_.Take()) {
     Parts* parts = PartsAt(dds::StampNs(message.header.stamp));
     if (!parts) continue;
-    Status status = CheckFrame(message.header);
+    Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
     if (status.ok()) status = dds::FromPointCloud2(message, &parts->cloud.emplace());
     if (!status.ok()) {
       parts->cloud.emplace();
@@ -78,7 +74,8 @@ void ShapeSource::TakeReports() {
     const int64_t stamp_ns = dds::StampNs(message.header.stamp);
     Parts* parts = PartsAt(stamp_ns);
     if (!parts) continue;
-    parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device))},
+    parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
+                            dds::ToPicture(message.picture)},
                            message.frame_counter,
                            LookedFrom(message)};
   }
@@ -92,7 +89,7 @@ void ShapeSource::TakeContacts() {
       events().repeated(last_head_);
       continue;
     }
-    Status status = CheckFrame(message.header);
+    Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
     if (status.ok()) {
       status = FromContactArray(message, T_robot_camera_.value_or(Eigen::Isometry3d::Identity()),
                                 &parts->contacts.emplace());
@@ -130,6 +127,10 @@ void ShapeSource::Accept(Parts parts) {
         last_head_, {StatusCode::kNoCalibration,
                      "where the camera stands is not known: no camera_pose is set, and nothing has "
                      "come on /calibration"});
+  }
+  if (depth_bias_ && report.looked.ok()) {
+    const Status status = robot::CheckDepthPicture(*depth_bias_, report.origin.picture);
+    if (!status.ok()) return events().refused(last_head_, status);
   }
   FrameInput input;
   input.head = last_head_;

@@ -11,6 +11,8 @@
 #include "components/force_estimation/node/frame_source.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/wait_set.hpp"
+#include "libs/geometry/depth_picture.hpp"
+#include "libs/robot/calibration_file.hpp"
 
 namespace palpate::force_estimation {
 
@@ -21,7 +23,8 @@ class ShapeSource : public FrameSource {
   ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
               const std::optional<Eigen::Isometry3d>& T_robot_camera, FrameEvents events);
 
-  void SetCameraPose(const Eigen::Isometry3d& T_robot_camera) override;
+  /// Frames of other images than its depth bias is for are refused.
+  void SetCalibration(const robot::CalibrationFile& calibration) override;
 
   std::string name() const override { return "clouds"; }
   uint64_t dropped() const override { return dropped_; }
@@ -37,6 +40,7 @@ class ShapeSource : public FrameSource {
     int64_t stamp_ns = 0;
     uint32_t epoch = 0;
     std::string device;
+    geometry::DepthPicture picture;
   };
   struct Report {
     Origin origin;
@@ -64,6 +68,7 @@ class ShapeSource : public FrameSource {
   static constexpr size_t kMostPending = 32;
 
   std::optional<Eigen::Isometry3d> T_robot_camera_;
+  std::optional<robot::CalibratedDepthBias> depth_bias_;
   dds::Reader<idl::sensor_msgs::PointCloud2> clouds_;
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Reader<idl::palpate_msgs::ContactArray> contacts_;

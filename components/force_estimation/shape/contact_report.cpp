@@ -3,9 +3,11 @@
 
 #include "components/force_estimation/shape/contact_report.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "components/force_estimation/shape/temporal_correlation.hpp"
 #include "components/force_estimation/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -18,10 +20,6 @@ constexpr double kQuietShare = 0.5;
 constexpr double kBeyondDoubt = 2.0;
 /// Of the prior's variance: with more left the tangential force counts as not observed.
 constexpr double kToldShare = 0.5;
-/// Depth noise is correlated from frame to frame (0.3 of stereo cameras): so much less does
-/// averaging over many frames help.
-constexpr double kTemporalCorrelation = 1.86;
-
 Eigen::Matrix3d CovarianceOf(const ShapeFit& fit, std::size_t site) {
   const auto row = static_cast<Eigen::Index>(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
@@ -32,8 +30,7 @@ Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
   const ShapeSite& followed = fit.sites()[site];
   if (followed.hidden) return CovarianceOf(fit, site) + followed.place_force_covariance_N2;
   if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
-  const auto row = static_cast<Eigen::Index>(3 * site);
-  return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
+  return CovarianceOf(fit, site);
 }
 
 /// The part of a force's covariance that comes from the depth noise, and so differs from frame to
@@ -47,8 +44,8 @@ Eigen::Matrix3d RandomCovariance(const ShapeFit& fit, std::size_t site) {
          estimator.transpose();
 }
 
-/// Of a mean over n frames with noise of that correlation the filter, which takes the variance of a
-/// single frame for the larger one, has 1.86 / n of it: right for many frames, too much for few.
+/// Of a mean over n correlated frames the filter, which takes the variance of a single frame for
+/// the larger one, has kTemporalCorrelation / n of it: right for many frames, too much for few.
 Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix3d& filtered_N2) {
   const double averaged = filtered_N2.trace() / (kTemporalCorrelation * single_N2.trace());
   return filtered_N2 / (1.0 + (kTemporalCorrelation - 1.0) * std::min(1.0, averaged));
@@ -60,21 +57,33 @@ ContactReport::ContactReport(const ShapeConfig& config, double force_relative_si
                              int search_places)
     : config_(config), force_relative_sigma_(force_relative_sigma), search_places_(search_places) {}
 
-/// One-sided: contacts push. Whether there is a force is asked at its place: without a force there
-/// would be no place to be unsure of. A place that was searched is the best of many.
+/// How surely there is a force, over what counts as significant. One-sided: contacts push. Asked at
+/// its place: without a force there would be no place to be unsure of. Where nobody sees which way
+/// the surface faces that it pushes on, all of the force counts, and its place is the best of many.
+double ContactReport::Strength(const ShapeFit& fit, std::size_t site) const {
+  const Eigen::Vector3d normal = fit.NormalAt(site);
+  const Eigen::Vector3d force_N = fit.ForceAt(site);
+  const Eigen::Matrix3d covariance_N2 = CovarianceOf(fit, site);
+  const double pressed_N = -normal.dot(force_N);
+  const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance_N2 * normal)));
+  const bool hidden = fit.sites()[site].hidden;
+  const double chance =
+      hidden ? config_.hidden_significance / search_places_ : config_.significance;
+  const double along = pressed_N / (NormalQuantile(1.0 - chance) * sigma_N);
+  if (!hidden || !(pressed_N > 0.0)) return along;
+  const Eigen::LLT<Eigen::Matrix3d> spread(covariance_N2);
+  if (spread.info() != Eigen::Success) return along;
+  const double whole = force_N.dot(spread.solve(force_N));
+  return std::max(along, std::sqrt(whole / ChiSquaredQuantile(1.0 - chance, 3)));
+}
+
 void ContactReport::Judge(double t_s, ShapeFit* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
-    const Eigen::Vector3d normal = fit->NormalAt(s);
-    const bool hidden = fit->sites()[s].hidden;
-    const double sigma_N = std::sqrt(std::max(0.0, normal.dot(CovarianceOf(*fit, s) * normal)));
-    const double chance =
-        hidden ? config_.hidden_significance / search_places_ : config_.significance;
-    const double limit_N = NormalQuantile(1.0 - chance) * sigma_N;
-    const double pressed_N = -normal.dot(fit->ForceAt(s));
-    const auto evidence = pressed_N > kBeyondDoubt * limit_N ? SiteBook::Evidence::kBeyondDoubt
-                          : pressed_N > limit_N              ? SiteBook::Evidence::kSignificant
-                                                             : SiteBook::Evidence::kNone;
-    fit->book().Judge(s, evidence, pressed_N < kQuietShare * limit_N);
+    const double strength = Strength(*fit, s);
+    const auto evidence = strength > kBeyondDoubt ? SiteBook::Evidence::kBeyondDoubt
+                          : strength > 1.0        ? SiteBook::Evidence::kSignificant
+                                                  : SiteBook::Evidence::kNone;
+    fit->book().Judge(s, evidence, strength < kQuietShare);
     fit->book().filter(s).Update(t_s, fit->ForceAt(s),
                                  kTemporalCorrelation * RandomCovariance(*fit, s));
   }

@@ -22,6 +22,7 @@ class ContactReport {
   std::vector<ContactForce> Contacts(const ShapeFit& fit) const;
 
  private:
+  double Strength(const ShapeFit& fit, std::size_t site) const;
   Status StatusOf(const ShapeFit& fit, std::size_t site) const;
   ContactForce ContactAt(const ShapeFit& fit, std::size_t site, double inflation) const;
 

@@ -4,6 +4,7 @@
 #include "components/force_estimation/shape/depth_bias.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +22,16 @@ constexpr int kFewestFeatures = 3;
 constexpr double kExpectedCorrelation = 0.3;
 constexpr double kPriorResiduals = 10.0;
 
-int MonomialCount(int order) { return (order + 1) * (order + 2) / 2; }
+/// L with L L' = `covariance`, which may be singular.
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd over_sigma =
+      (sigma.array() > 0.0).select(sigma.cwiseInverse(), Eigen::VectorXd::Ones(sigma.size()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(over_sigma.asDiagonal() * covariance *
+                                                              over_sigma.asDiagonal());
+  return sigma.asDiagonal() * solver.eigenvectors() *
+         solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
 
 /// Variance of the mean of `count` values over that of a mean of independent ones: 1 + 2 sum_k
 /// (1 - k / count) correlation^k.
@@ -40,14 +50,52 @@ double MeanInflation(int count, double correlation) {
 DepthBias::DepthBias(int feature_count, const ShapeConfig& config)
     : feature_count_(feature_count),
       config_(config),
-      shared_count_(kPoseParameters + MonomialCount(config.depth_bias_order)),
       correlation_(kExpectedCorrelation),
       series_(static_cast<size_t>(feature_count)) {
-  const Eigen::Index parameters = shared_count_ + feature_count;
+  basis_.order = config.depth_bias_order;
+  SetPrior();
+}
+
+/// What the settings say.
+void DepthBias::SetPrior() {
+  shared_count_ = kPoseParameters + geometry::CountOf(basis_);
+  prior_mean_.setZero(shared_count_);
+  Eigen::VectorXd sigma(shared_count_);
+  sigma.head<3>().setConstant(config_.pose_prior_m);
+  sigma.segment<3>(3).setConstant(config_.pose_prior_rad);
+  sigma.tail(shared_count_ - kPoseParameters).setConstant(config_.depth_bias_prior);
+  prior_root_ = sigma.asDiagonal();
+  BeginAnew();
+}
+
+void DepthBias::BeginAnew() {
+  const Eigen::Index parameters = shared_count_ + feature_count_;
   information_.setZero(parameters, parameters);
   right_side_.setZero(parameters);
   solution_.setZero(parameters);
   covariance_.setIdentity(parameters, parameters);
+}
+
+/// The errors of calibration are found - true. The camera is where it was found, so that those of
+/// the pose are what shifts the targets; of the map the truth is what was found without its error.
+void DepthBias::StartFrom(const geometry::DepthBiasMap& map,
+                          const Eigen::Isometry3d& T_robot_camera) {
+  PALPATE_CHECK(frames_ == 0, frames_);
+  basis_ = map.basis;
+  const int count = geometry::CountOf(basis_);
+  shared_count_ = kPoseParameters + count;
+  PALPATE_CHECK(map.coefficients.size() == count, map.coefficients.size());
+  PALPATE_CHECK(map.covariance.rows() == shared_count_, map.covariance.rows());
+  Eigen::MatrixXd per_error = Eigen::MatrixXd::Zero(shared_count_, shared_count_);
+  const Eigen::Matrix3d R_camera_robot = T_robot_camera.linear().transpose();
+  per_error.block<3, 3>(0, 3) = R_camera_robot;
+  per_error.block<3, 3>(3, 0) = R_camera_robot;
+  per_error.bottomRightCorner(count, count) = -Eigen::MatrixXd::Identity(count, count);
+  prior_mean_.setZero(shared_count_);
+  prior_mean_.tail(count) = map.coefficients;
+  prior_root_ = RootOf(per_error * map.covariance * per_error.transpose());
+  BeginAnew();
+  known_ = true;
 }
 
 Eigen::VectorXd DepthBias::SharedBasis(const FeatureMatch& match,
@@ -56,18 +104,17 @@ Eigen::VectorXd DepthBias::SharedBasis(const FeatureMatch& match,
   const Eigen::Vector3d& position_m = match.position_m;
   Eigen::VectorXd basis = Eigen::VectorXd::Zero(shared_count_);
   if (!(position_m.z() > 0.0)) return basis;
-  basis.head<3>() = config_.pose_prior_m * normal;
-  basis.segment<3>(3) = config_.pose_prior_rad * position_m.cross(normal);
-  const double x = position_m.x() / position_m.z();
-  const double y = position_m.y() / position_m.z();
-  const double along_sight_m = config_.depth_bias_prior * normal.dot(position_m);
-  Eigen::Index next = kPoseParameters;
-  for (int degree = 0; degree <= config_.depth_bias_order; ++degree) {
-    for (int of_y = 0; of_y <= degree; ++of_y) {
-      basis[next++] = along_sight_m * std::pow(x, degree - of_y) * std::pow(y, of_y);
-    }
-  }
+  basis.head<3>() = normal;
+  basis.segment<3>(3) = position_m.cross(normal);
+  // What is measured lies short of the truth by b p.
+  basis.tail(shared_count_ - kPoseParameters) =
+      -normal.dot(position_m) * geometry::ValuesAt(basis_, position_m);
   return basis;
+}
+
+Eigen::VectorXd DepthBias::ScaledBasis(const FeatureMatch& match,
+                                       const Eigen::Isometry3d& T_robot_camera) const {
+  return prior_root_.transpose() * SharedBasis(match, T_robot_camera);
 }
 
 void DepthBias::Learn(const std::vector<FeatureMatch>& matches, const Eigen::VectorXd& x_m,
@@ -79,9 +126,11 @@ void DepthBias::Learn(const std::vector<FeatureMatch>& matches, const Eigen::Vec
   for (int feature = 0; feature < feature_count_; ++feature) {
     const FeatureMatch& match = matches[static_cast<size_t>(feature)];
     if (!matched(match)) continue;
-    const double residual_over_sigma = (match.target_m - match.row.Value(x_m)) / match.sigma_m;
+    const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
+    const double residual_over_sigma =
+        (match.target_m - match.row.Value(x_m) - basis.dot(prior_mean_)) / match.sigma_m;
     PALPATE_CHECK(match.sigma_m > 0.0 && std::isfinite(residual_over_sigma), match.sigma_m);
-    const Eigen::VectorXd shared = SharedBasis(match, T_robot_camera) / match.sigma_m;
+    const Eigen::VectorXd shared = prior_root_.transpose() * basis / match.sigma_m;
     const double own = config_.feature_offset_prior_m / match.sigma_m;
     const Eigen::Index at = shared_count_ + feature;
     information_.topLeftCorner(shared_count_, shared_count_) += shared * shared.transpose();
@@ -135,7 +184,7 @@ void DepthBias::LearnNoise() {
 Status DepthBias::Finish() {
   const auto seen = std::count_if(series_.begin(), series_.end(),
                                   [](const Series& series) { return series.count > 0; });
-  if (seen < kFewestFeatures) {
+  if (seen < kFewestFeatures && !known_) {
     return {StatusCode::kNoCalibration, "depth bias: only " + std::to_string(seen) +
                                             " features seen in " + std::to_string(frames_) +
                                             " frames without contact"};
@@ -153,13 +202,14 @@ Status DepthBias::Finish() {
 
 double DepthBias::Correction_m(int feature, const FeatureMatch& match,
                                const Eigen::Isometry3d& T_robot_camera) const {
-  return SharedBasis(match, T_robot_camera).dot(solution_.head(shared_count_)) +
+  const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
+  return basis.dot(prior_mean_ + prior_root_ * solution_.head(shared_count_)) +
          config_.feature_offset_prior_m * solution_[shared_count_ + feature];
 }
 
 double DepthBias::CorrectionSigma_m(int feature, const FeatureMatch& match,
                                     const Eigen::Isometry3d& T_robot_camera) const {
-  const Eigen::VectorXd shared = SharedBasis(match, T_robot_camera);
+  const Eigen::VectorXd shared = ScaledBasis(match, T_robot_camera);
   const double own = config_.feature_offset_prior_m;
   const Eigen::Index at = shared_count_ + feature;
   const double variance_m2 =

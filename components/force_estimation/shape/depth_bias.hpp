@@ -10,6 +10,7 @@
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
 #include "libs/core/status.hpp"
+#include "libs/geometry/depth_bias_map.hpp"
 
 namespace palpate::force_estimation {
 
@@ -19,18 +20,25 @@ namespace palpate::force_estimation {
 /// priors, so that what the frames do not tell stays at zero with the prior's uncertainty. A shift
 /// of the camera looks much like a depth bias: their sum is known better than either.
 ///
+/// Where a calibration has found the map, and the camera's pose with it, learning starts from
+/// there: both and their joint covariance are the prior.
+///
 /// Scatter and correlation over time of the frames about each feature's own mean say what a frame
 /// is worth. Correlation is taken as that of a first-order process.
 class DepthBias {
  public:
   DepthBias(int feature_count, const ShapeConfig& config);
 
+  /// From a calibration, for frames whose T_robot_camera is its. Before the first frame. The map is
+  /// known then, with its covariance.
+  void StartFrom(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
+
   /// Matches of one untouched frame, found about an equilibrium `x_m` [3n] of the model. Frames in
   /// the order of time; those without a match do not count.
   void Learn(const std::vector<FeatureMatch>& matches, const Eigen::VectorXd& x_m,
              const Eigen::Isometry3d& T_robot_camera);
   /// Solves for what was learnt; more frames and another call make it better. kNoCalibration where
-  /// no frame or too few features (three) were seen.
+  /// no frame or too few features (three) were seen, and no calibration told of it.
   Status Finish();
 
   int frames() const { return frames_; }
@@ -59,17 +67,25 @@ class DepthBias {
     double last = 0.0;
   };
 
-  /// What the residual of a match changes by with each parameter that the features share, in units
-  /// of the prior sigmas: camera shift (3) and turn (3), camera frame, about its centre; then the
-  /// monomials of the depth bias in x / z and y / z.
+  /// What the residual of a match changes by with each parameter that the features share: camera
+  /// shift (3, m) and turn (3, rad), camera frame, about its centre; then the coefficients of the
+  /// map.
   Eigen::VectorXd SharedBasis(const FeatureMatch& match,
                               const Eigen::Isometry3d& T_robot_camera) const;
+  /// The same per independent parameter that the prior gives a sigma of 1.
+  Eigen::VectorXd ScaledBasis(const FeatureMatch& match,
+                              const Eigen::Isometry3d& T_robot_camera) const;
+  void SetPrior();
+  void BeginAnew();
   void AddToSeries(int feature, double residual_over_sigma);
   void LearnNoise();
 
   int feature_count_;
   ShapeConfig config_;
+  geometry::DepthBiasBasis basis_;
   int shared_count_;
+  Eigen::VectorXd prior_mean_;  ///< [shared]
+  Eigen::MatrixXd prior_root_;  ///< [shared square] L of the prior's covariance L L'
   int frames_ = 0;
   bool known_ = false;
   double noise_scale_ = 1.0;

@@ -61,23 +61,17 @@ Eigen::MatrixXd ModelErrors_m(const ShapeFit& fit, const Eigen::VectorXd& motion
 
 HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit)
     : config_(config),
+      model_(model),
       fit_(fit),
       search_(model, config),
       pause_(kFramesBetweenSearches),
       average_(static_cast<int>(model.body().feature_points.size())),
-      responses_(static_cast<Eigen::Index>(model.body().feature_points.size()),
-                 3 * search_.CandidateCount()),
-      responds_(model.body().feature_points.size(), false) {}
-
-Status HiddenContacts::Prepare(const std::vector<robot::CableCommand>& cables) {
-  linearisations_ = -1;
-  return search_.Prepare(fit_.state().x_m, cables, fit_.state().lambda_a_N);
-}
+      row_of_feature_(model.body().feature_points.size(), -1) {}
 
 Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
   if (before_) return Decide(frame, bias);
   Status status = Status::Ok();
-  if (!search_.prepared()) return status;
+  if (!bias.known()) return status;
   if (HiddenSites().empty()) {
     if (fit_.IsWorkUsedUp() || fit_.book().full() || !IsTimeToSearch()) return status;
     status = Search(frame, bias);
@@ -93,10 +87,8 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
 
 Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
   fit_.AddWork(kSearchWork);
-  Unexplained data = LeftOver();
   if (!Respond(frame.cables).ok()) return Status::Ok();
-  data.responses = responses_(fit_.targets().features(), Eigen::all);
-  data.left_m = data.residual_m;
+  Unexplained data = LeftOver();
   const std::vector<HiddenContact> found =
       search_.Find(data, kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
   if (found.empty()) return Status::Ok();
@@ -196,51 +188,55 @@ void HiddenContacts::Remember() {
 /// Responses of the features of this frame about the present shape.
 Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
   if (linearisations_ != fit_.linearisations()) {
-    std::fill(responds_.begin(), responds_.end(), false);
+    responses_.Clear();
+    std::fill(row_of_feature_.begin(), row_of_feature_.end(), -1);
     linearisations_ = fit_.linearisations();
   }
   std::vector<robot::EffectorRow> rows;
   std::vector<int> features;
   for (std::size_t r = 0; r < fit_.targets().features().size(); ++r) {
     const int feature = fit_.targets().features()[r];
-    if (responds_[static_cast<std::size_t>(feature)]) continue;
+    if (row_of_feature_[static_cast<std::size_t>(feature)] >= 0) continue;
     rows.push_back(fit_.targets().rows()[r]);
     features.push_back(feature);
   }
+  search_.LookAt(fit_.state().x_m);
   if (rows.empty()) return Status::Ok();
   fit_.AddWork(kRowWork * static_cast<double>(rows.size()));
-  Eigen::MatrixXd responses;
   const ModelState& state = fit_.state();
-  Status status = search_.RespondAbout(rows, state.x_m, cables, state.lambda_a_N, &responses);
+  int row = responses_.Count();
+  Status status = responses_.Add(model_, rows, state.x_m, cables, state.lambda_a_N);
   if (!status.ok()) return status;
-  responses_(features, Eigen::all) = responses;
-  for (const int feature : features) responds_[static_cast<std::size_t>(feature)] = true;
+  for (const int feature : features) row_of_feature_[static_cast<std::size_t>(feature)] = row++;
   return status;
 }
 
+std::vector<int> HiddenContacts::RowsOfTargets() const {
+  std::vector<int> rows;
+  for (const int feature : fit_.targets().features()) {
+    rows.push_back(row_of_feature_[static_cast<std::size_t>(feature)]);
+  }
+  return rows;
+}
+
 Unexplained HiddenContacts::LeftOver() const {
-  return {.rows = fit_.targets().rows(),
-          .residual_m = fit_.fitter().fit().residual_m,
+  return {.residual_m = fit_.fitter().fit().residual_m,
           .weight = fit_.targets().targets().weight,
-          .known = fit_.fitter().Response()};
+          .known = fit_.fitter().Response(),
+          .left_m = fit_.fitter().fit().residual_m,
+          .responses = &responses_,
+          .row = RowsOfTargets()};
 }
 
 /// What the hidden contacts do, on average, to be explained by places about the present shape.
 Unexplained HiddenContacts::OfHidden() const {
-  Unexplained data{.rows = fit_.targets().rows(),
-                   .residual_m = average_.motion_m(),
+  Unexplained data{.residual_m = average_.motion_m(),
                    .weight = average_.weight(),
-                   .known = Eigen::MatrixXd(fit_.targets().Count(), 0)};
-  data.left_m = fit_.fitter().fit().residual_m;
-  data.responses = responses_(fit_.targets().features(), Eigen::all);
+                   .known = Eigen::MatrixXd(fit_.targets().Count(), 0),
+                   .left_m = fit_.fitter().fit().residual_m,
+                   .responses = &responses_,
+                   .row = RowsOfTargets()};
   data.errors_m = ModelErrors_m(fit_, data.residual_m);
-  // Places in between have responses that are interpolated: so has, here, the present one.
-  for (const std::size_t s : HiddenSites()) {
-    const auto at = static_cast<Eigen::Index>(3 * s);
-    data.residual_m += (search_.ResponseAt(data.responses, fit_.sites()[s].centre.rest_m) -
-                        fit_.fitter().Response().middleCols<3>(at)) *
-                       fit_.ForceAt(s);
-  }
   for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
     if (fit_.sites()[s].hidden) continue;
     data.known.conservativeResize(Eigen::NoChange, data.known.cols() + 3);

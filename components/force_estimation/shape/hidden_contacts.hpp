@@ -21,11 +21,8 @@ class HiddenContacts {
   /// All must outlive this.
   HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit);
 
-  bool prepared() const { return search_.prepared(); }
   /// Patches that the search tries.
   int CandidateCount() const { return search_.CandidateCount(); }
-  /// About the fit's state, which must be one without contact.
-  Status Prepare(const std::vector<robot::CableCommand>& cables);
 
   /// After a fit of the contacts that are known; later where the frame's work is used up.
   /// kBudgetReached: that was while hidden contacts were tried, on which the next frame decides;
@@ -53,7 +50,10 @@ class HiddenContacts {
   std::vector<std::size_t> HiddenSites() const;
   std::vector<Eigen::Vector3d> SeenPlaces() const;
 
+  std::vector<int> RowsOfTargets() const;
+
   ShapeConfig config_;
+  robot::RobotModel& model_;
   ShapeFit& fit_;
   HiddenSearch search_;
   int frames_since_search_ = 0;
@@ -63,8 +63,8 @@ class HiddenContacts {
   std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average began
   bool are_new_ = false;            ///< the hidden sites: nothing was known before
   int linearisations_ = -1;         ///< that the responses belong to
-  Eigen::MatrixXd responses_;       ///< [features x 3 candidates]
-  std::vector<bool> responds_;      ///< [features]
+  RowResponses responses_;
+  std::vector<int> row_of_feature_;  ///< [features] of responses_; -1: none
   /// What there was before the hidden contacts that are still being tried.
   std::optional<ShapeFit::Attempt> before_;
 };

@@ -20,8 +20,14 @@ constexpr int kFrictionRounds = 2;
 
 }  // namespace
 
-HiddenProblem::HiddenProblem(Eigen::VectorXd residual, Eigen::MatrixXd response)
-    : residual_(std::move(residual)), response_(std::move(response)) {}
+HiddenProblem::HiddenProblem(const SearchPlaces& places, const RowResponses& responses,
+                             std::vector<int> row, const Eigen::VectorXd& scale_1_m,
+                             const Eigen::VectorXd& residual_m)
+    : places_(&places),
+      responses_(&responses),
+      row_(std::move(row)),
+      whitening_(scale_1_m.asDiagonal()),
+      residual_(scale_1_m.cwiseProduct(residual_m)) {}
 
 /// The noise becomes I + B B' = V (1 + s^2) V' + the rest; multiplies by its root's inverse.
 void HiddenProblem::Absorb(const Eigen::MatrixXd& columns) {
@@ -31,8 +37,8 @@ void HiddenProblem::Absorb(const Eigen::MatrixXd& columns) {
   const Eigen::VectorXd lost = 1.0 - (1.0 + svd.singularValues().array().square()).rsqrt();
   const Eigen::MatrixXd& V = svd.matrixU();
   residual_ -= V * lost.cwiseProduct(V.transpose() * residual_);
-  const Eigen::MatrixXd along = lost.asDiagonal() * (V.transpose() * response_);
-  response_.noalias() -= V * along;
+  const Eigen::MatrixXd along = lost.asDiagonal() * (V.transpose() * whitening_);
+  whitening_.noalias() -= V * along;
 }
 
 void HiddenProblem::Ignore(Eigen::MatrixXd columns) {
@@ -43,22 +49,12 @@ void HiddenProblem::Ignore(Eigen::MatrixXd columns) {
   Absorb(columns);
 }
 
-Eigen::MatrixX3d HiddenProblem::Place(const Interpolation& interpolation) const {
-  Eigen::MatrixX3d columns = Eigen::MatrixX3d::Zero(residual_.size(), 3);
-  for (size_t k = 0; k < interpolation.candidate.size(); ++k) {
-    if (interpolation.weight[k] == 0.0) continue;
-    columns += interpolation.weight[k] * Candidate(interpolation.candidate[k]);
-  }
-  return columns;
+Eigen::MatrixX3d HiddenProblem::Place(int place) const {
+  return whitening_ * responses_->To(places_->Patch(place))(Eigen::all, row_).transpose();
 }
 
-Eigen::MatrixXd HiddenProblem::AlongNormals(const SearchPlaces& places,
-                                            const Eigen::Matrix3Xd& normals) const {
-  Eigen::MatrixXd along(residual_.size(), places.CandidateCount());
-  for (int c = 0; c < places.CandidateCount(); ++c) {
-    along.col(c).noalias() = -Candidate(c) * normals.col(places.PlaceOfCandidate(c));
-  }
-  return along;
+Eigen::MatrixXd HiddenProblem::Whitened(const Eigen::MatrixXd& motion_m) const {
+  return whitening_ * motion_m(row_, Eigen::all);
 }
 
 PlaceFit HiddenProblem::Fit(const Eigen::Ref<const Eigen::MatrixX3d>& columns,

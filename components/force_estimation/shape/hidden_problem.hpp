@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
+#include "components/force_estimation/shape/row_responses.hpp"
 #include "components/force_estimation/shape/search_places.hpp"
 
 namespace palpate::force_estimation {
@@ -22,23 +24,23 @@ struct PlaceFit {
 /// so that all that follows is least squares with unit weights.
 class HiddenProblem {
  public:
-  /// `residual` [m], `response` [m x 3 candidates] along x, y, z, both divided by sigma.
-  HiddenProblem(Eigen::VectorXd residual, Eigen::MatrixXd response);
+  /// `residual_m` [m] of the rows `row` of `responses`, and 1 / sigma of each. Places and responses
+  /// must outlive the problem and its copies.
+  HiddenProblem(const SearchPlaces& places, const RowResponses& responses, std::vector<int> row,
+                const Eigen::VectorXd& scale_1_m, const Eigen::VectorXd& residual_m);
 
   const Eigen::VectorXd& residual() const { return residual_; }
 
-  /// Causes known up to their size, one column [m] for each, in the units that Place and Normal
-  /// give now. Known to a standard normal factor:
+  /// Causes known up to their size, one column [m] for each, in the units that Place gives now.
+  /// Known to a standard normal factor:
   void Absorb(const Eigen::MatrixXd& columns);
   /// and not known at all: the residual along them counts for nothing. Zero columns are fine.
   void Ignore(Eigen::MatrixXd columns);
 
-  /// What a unit force does: on a candidate along x, y, z [m x 3],
-  auto Candidate(int candidate) const { return response_.middleCols<3>(3 * candidate); }
-  /// at a place between,
-  Eigen::MatrixX3d Place(const Interpolation& interpolation) const;
-  /// and, along the inward normals, on all candidates [m x candidates].
-  Eigen::MatrixXd AlongNormals(const SearchPlaces& places, const Eigen::Matrix3Xd& normals) const;
+  /// What a unit force does: at a place along x, y, z [m x 3],
+  Eigen::MatrixX3d Place(int place) const;
+  /// and, of what it does to all rows of the responses [r x k], m, what this problem sees [m x k].
+  Eigen::MatrixXd Whitened(const Eigen::MatrixXd& motion_m) const;
 
   /// Fits a push along the inward normal with friction beside it: tangential components of normal
   /// distribution about 0 with a sigma of `friction` times the push. `columns` as Place gives them.
@@ -46,8 +48,11 @@ class HiddenProblem {
                double friction) const;
 
  private:
+  const SearchPlaces* places_;
+  const RowResponses* responses_;
+  std::vector<int> row_;
+  Eigen::MatrixXd whitening_;  ///< [m x m] from metres
   Eigen::VectorXd residual_;
-  Eigen::MatrixXd response_;
 };
 
 }  // namespace palpate::force_estimation

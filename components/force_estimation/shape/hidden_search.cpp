@@ -10,7 +10,6 @@
 
 #include "components/force_estimation/shape/false_alarm.hpp"
 #include "components/force_estimation/shape/hidden_problem.hpp"
-#include "components/force_estimation/shape/patch_responses.hpp"
 #include "components/force_estimation/shape/place_posterior.hpp"
 #include "components/force_estimation/shape/search_places.hpp"
 #include "libs/core/check.hpp"
@@ -26,8 +25,6 @@ constexpr double kFriction = 0.3;
 /// Error of the first order as a part of the motion that it has to explain, one sigma: of this row
 /// and of all rows, half and half. Forces of 0.3 to 1.5 N bend our robot by up to 20 mm.
 constexpr double kFirstOrderError = 0.15;
-/// Error of responses between the candidates, as a part of them.
-constexpr double kInterpolationError = 0.02;
 /// Unknowns of a contact: place on the surface and force.
 constexpr int kUnknowns = 5;
 /// Of two contacts each is placed while the other may be off: by about this many places, sigma.
@@ -45,9 +42,10 @@ struct Tests {
   Eigen::VectorXd statistic;    ///< [tests] standard normal without a contact
 };
 
+/// `pushes_m`: what unit forces along the candidates' inward normals do to all rows.
 Tests MakeTests(const HiddenProblem& problem, const SearchPlaces& places,
-                const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable) {
-  const Eigen::MatrixXd along = problem.AlongNormals(places, normals);
+                const Eigen::MatrixXd& pushes_m, const std::vector<bool>& usable) {
+  const Eigen::MatrixXd along = problem.Whitened(pushes_m);
   const Eigen::RowVectorXd size = along.colwise().norm();
   Tests tests;
   const double least = kUnseen * size.maxCoeff();
@@ -61,15 +59,12 @@ Tests MakeTests(const HiddenProblem& problem, const SearchPlaces& places,
   return tests;
 }
 
-/// Weights that allow for what the first order leaves out, and the interpolation between candidates
-/// of what is far from the state.
+/// Weights that allow for what the first order leaves out.
 Eigen::VectorXd FirstOrderWeights(const Unexplained& data) {
   const Eigen::VectorXd& left_m = data.left_m.size() > 0 ? data.left_m : data.residual_m;
-  const double interpolation = data.responses.size() > 0 ? 0.0 : kInterpolationError;
   const Eigen::ArrayXd squared_m2 = left_m.array().square();
   const Eigen::ArrayXd error_m2 =
-      0.5 * kFirstOrderError * kFirstOrderError * (squared_m2 + squared_m2.mean()) +
-      interpolation * interpolation * data.residual_m.array().square().mean();
+      0.5 * kFirstOrderError * kFirstOrderError * (squared_m2 + squared_m2.mean());
   return data.weight.array() / (1.0 + data.weight.array() * error_m2);
 }
 
@@ -97,11 +92,11 @@ std::pair<int, int> BestPair(const Tests& tests) {
 }  // namespace
 
 struct HiddenSearch::Parts {
-  Parts(robot::RobotModel& robot_model, const ShapeConfig& config)
-      : model(robot_model),
-        places(robot_model, std::max(config.contact_radius_m, kSmallestPatch_m)) {}
+  Parts(const robot::RobotModel& robot_model, const ShapeConfig& config)
+      : places(robot_model, std::max(config.contact_radius_m, kSmallestPatch_m)) {}
 
-  HiddenProblem ProblemOf(const Unexplained& data, const Eigen::VectorXd& weight) const;
+  HiddenProblem ProblemOf(const Unexplained& data, const Eigen::VectorXd& weight);
+  void PushAt(const RowResponses& responses);
   std::vector<bool> Usable(const std::vector<Eigen::Vector3d>& taken, double taken_radius_m) const;
   bool Stands(const HiddenProblem& problem, const std::vector<bool>& usable, double significance);
   HiddenProblem Without(const HiddenProblem& problem, const PlacePosterior& contact) const;
@@ -110,30 +105,41 @@ struct HiddenSearch::Parts {
   PlaceFit FitAt(const HiddenProblem& problem, int place) const;
   void Report(const Unexplained& data, const std::vector<PlacePosterior>& contacts);
 
-  robot::RobotModel& model;
   SearchPlaces places;
-  PatchResponses responses;
   FalseAlarm false_alarm;
-  Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape of the last Prepare
-  bool prepared = false;
+  Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape that was last looked at
+  Eigen::MatrixXd pushes_m;  ///< [rows x candidates] of unit forces along the inward normals
+  const RowResponses* pushed = nullptr;  ///< whose rows these are,
+  int pushed_version = 0;                ///< and as they were then
   std::vector<HiddenContact> found;
 };
 
 HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
-                                             const Eigen::VectorXd& weight) const {
-  const auto m = static_cast<Eigen::Index>(data.rows.size());
-  PALPATE_CHECK(prepared);
-  PALPATE_CHECK(data.residual_m.size() == m && weight.size() == m, m);
+                                             const Eigen::VectorXd& weight) {
+  const Eigen::Index m = data.residual_m.size();
+  PALPATE_CHECK(normals.cols() == places.Count(), "no shape was looked at yet");
+  PALPATE_CHECK(weight.size() == m, weight.size(), m);
+  PALPATE_CHECK(data.responses != nullptr && std::ssize(data.row) == m, data.row.size(), m);
   PALPATE_CHECK(data.known.rows() == m || data.known.cols() == 0, data.known.rows(), m);
   PALPATE_CHECK(data.left_m.size() == m || data.left_m.size() == 0, data.left_m.size(), m);
+  PushAt(*data.responses);
   const Eigen::VectorXd scale = weight.cwiseSqrt();
-  Eigen::MatrixXd response = data.responses.size() > 0
-                                 ? Eigen::MatrixXd(scale.asDiagonal() * data.responses)
-                                 : responses.Observe(data.rows, scale);
-  HiddenProblem problem(scale.cwiseProduct(data.residual_m), std::move(response));
+  HiddenProblem problem(places, *data.responses, data.row, scale, data.residual_m);
   if (data.errors_m.cols() > 0) problem.Absorb(scale.asDiagonal() * data.errors_m);
   problem.Ignore(scale.asDiagonal() * data.known);
   return problem;
+}
+
+/// The candidates serve every search about one shape.
+void HiddenSearch::Parts::PushAt(const RowResponses& responses) {
+  if (pushed == &responses && pushed_version == responses.version()) return;
+  pushed = &responses;
+  pushed_version = responses.version();
+  pushes_m.resize(responses.Count(), places.CandidateCount());
+  for (int c = 0; c < places.CandidateCount(); ++c) {
+    const int place = places.PlaceOfCandidate(c);
+    pushes_m.col(c).noalias() = -responses.To(places.Patch(place)).transpose() * normals.col(place);
+  }
 }
 
 std::vector<bool> HiddenSearch::Parts::Usable(const std::vector<Eigen::Vector3d>& taken,
@@ -151,7 +157,7 @@ std::vector<bool> HiddenSearch::Parts::Usable(const std::vector<Eigen::Vector3d>
 /// Whether the best candidate explains more than noise would.
 bool HiddenSearch::Parts::Stands(const HiddenProblem& problem, const std::vector<bool>& usable,
                                  double significance) {
-  const Tests tests = MakeTests(problem, places, normals, usable);
+  const Tests tests = MakeTests(problem, places, pushes_m, usable);
   return !tests.candidates.empty() &&
          false_alarm.Significant(tests.directions, tests.statistic.maxCoeff(), significance);
 }
@@ -162,12 +168,11 @@ HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
                                            const PlacePosterior& contact) const {
   const Eigen::Vector3d normal = normals.col(contact.place);
   const auto push_at = [&](const HiddenProblem& any, int place) -> Eigen::VectorXd {
-    return -any.Place(places.interpolation(place)) * normals.col(place);
+    return -any.Place(place) * normals.col(place);
   };
   const Eigen::VectorXd push = push_at(problem, contact.place);
   Eigen::MatrixXd prior(push.size(), 3 + kNeighbours);
-  prior.leftCols<3>() =
-      kFriction * (problem.Place(places.interpolation(contact.place)) + push * normal.transpose());
+  prior.leftCols<3>() = kFriction * (problem.Place(contact.place) + push * normal.transpose());
   Eigen::VectorXd distance_m2 =
       (places.positions_m().colwise() - places.positions_m().col(contact.place))
           .colwise()
@@ -187,14 +192,14 @@ HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
 
 /// Without friction.
 PlaceFit HiddenSearch::Parts::FitAt(const HiddenProblem& problem, int place) const {
-  return problem.Fit(problem.Place(places.interpolation(place)), normals.col(place), 0.0);
+  return problem.Fit(problem.Place(place), normals.col(place), 0.0);
 }
 
 /// Starts from the best pair of candidates, and places each in turn while the other is free.
 std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
                                                           const std::vector<bool>& usable,
                                                           int known) const {
-  const auto [first, second] = BestPair(MakeTests(problem, places, normals, usable));
+  const auto [first, second] = BestPair(MakeTests(problem, places, pushes_m, usable));
   if (first < 0) return {};
   std::vector<PlacePosterior> pair(2);
   pair[0].place = places.PlaceOfCandidate(first);
@@ -210,18 +215,18 @@ std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& p
   return pair;
 }
 
-/// Gains count with the weights that were given, the other contact's force refitted.
+/// Gains count with the weights that were given, the other contacts' forces refitted.
 void HiddenSearch::Parts::Report(const Unexplained& data,
                                  const std::vector<PlacePosterior>& contacts) {
   const HiddenProblem given = ProblemOf(data, data.weight);
   for (size_t k = 0; k < contacts.size(); ++k) {
     const PlacePosterior& contact = contacts[k];
     HiddenProblem rest = given;
-    if (contacts.size() == 2) {
-      const int other = contacts[1 - k].place;
-      rest.Ignore(given.Place(places.interpolation(other)) * normals.col(other));
+    for (size_t j = 0; j < contacts.size(); ++j) {
+      const int other = contacts[j].place;
+      if (j != k) rest.Ignore(rest.Place(other) * normals.col(other));
     }
-    const Eigen::MatrixX3d columns = rest.Place(places.interpolation(contact.place));
+    const Eigen::MatrixX3d columns = rest.Place(contact.place);
     found.push_back(
         {.rest_position_m = contact.mean_m,
          .normal = normals.col(contact.place),
@@ -234,69 +239,32 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
   }
 }
 
-HiddenSearch::HiddenSearch(robot::RobotModel& model, const ShapeConfig& config)
+HiddenSearch::HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config)
     : parts_(std::make_unique<Parts>(model, config)) {}
 
 HiddenSearch::~HiddenSearch() = default;
 
-Status HiddenSearch::Prepare(const Eigen::VectorXd& x_m,
-                             const std::vector<robot::CableCommand>& commands,
-                             const Eigen::VectorXd& lambda_a_N) {
-  Parts& parts = *parts_;
-  parts.prepared = false;
-  Status status =
-      parts.responses.Solve(parts.model, parts.places.patches(), x_m, commands, lambda_a_N);
-  if (!status.ok()) return status;
-  parts.normals = parts.places.Normals(x_m);
-  parts.prepared = true;
-  return status;
+void HiddenSearch::LookAt(const Eigen::VectorXd& x_m) {
+  parts_->normals = parts_->places.Normals(x_m);
+  parts_->pushed = nullptr;
 }
-
-Status HiddenSearch::RespondAbout(const std::vector<robot::EffectorRow>& rows,
-                                  const Eigen::VectorXd& x_m,
-                                  const std::vector<robot::CableCommand>& commands,
-                                  const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* responses) {
-  Parts& parts = *parts_;
-  parts.normals = parts.places.Normals(x_m);
-  return ObserveAbout(parts.model, parts.places.patches(), rows, x_m, commands, lambda_a_N,
-                      responses);
-}
-
-bool HiddenSearch::prepared() const { return parts_->prepared; }
 
 int HiddenSearch::CandidateCount() const { return parts_->places.CandidateCount(); }
 
-size_t HiddenSearch::MemoryBytes() const { return parts_->responses.MemoryBytes(); }
-
-Eigen::MatrixX3d HiddenSearch::ResponseAt(const std::vector<robot::EffectorRow>& rows,
-                                          const Eigen::Vector3d& rest_position_m) const {
-  const Parts& parts = *parts_;
-  const auto m = static_cast<Eigen::Index>(rows.size());
-  const HiddenProblem problem(Eigen::VectorXd::Zero(m),
-                              parts.responses.Observe(rows, Eigen::VectorXd::Ones(m)));
-  return problem.Place(parts.places.interpolation(parts.places.Nearest(rest_position_m)));
-}
-
-Eigen::MatrixX3d HiddenSearch::ResponseAt(const Eigen::MatrixXd& responses,
-                                          const Eigen::Vector3d& rest_position_m) const {
-  const HiddenProblem problem(Eigen::VectorXd::Zero(responses.rows()), responses);
-  return problem.Place(parts_->places.InterpolationAt(rest_position_m));
-}
-
 double HiddenSearch::SigmaOfForce_N(const Unexplained& data,
                                     const Eigen::Vector3d& rest_position_m) const {
-  const Parts& parts = *parts_;
+  Parts& parts = *parts_;
   const HiddenProblem problem = parts.ProblemOf(data, data.weight);
   const int place = parts.places.Nearest(rest_position_m);
   const Eigen::Vector3d normal = parts.normals.col(place);
-  return 1.0 / (problem.Place(parts.places.interpolation(place)) * normal).norm();
+  return 1.0 / (problem.Place(place) * normal).norm();
 }
 
 double HiddenSearch::Threshold_sigmas(const Unexplained& data, double significance) const {
-  const Parts& parts = *parts_;
+  Parts& parts = *parts_;
   const std::vector<bool> usable(static_cast<size_t>(parts.places.Count()), true);
   const Tests tests =
-      MakeTests(parts.ProblemOf(data, data.weight), parts.places, parts.normals, usable);
+      MakeTests(parts.ProblemOf(data, data.weight), parts.places, parts.pushes_m, usable);
   return parts_->false_alarm.Threshold(tests.directions, significance);
 }
 
@@ -327,7 +295,7 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
                                                        const std::vector<PlacePrior>& before,
                                                        const std::vector<Eigen::Vector3d>& taken,
                                                        double taken_radius_m) {
-  PALPATE_CHECK(before.size() == 1 || before.size() == 2, before.size());
+  PALPATE_CHECK(!before.empty());
   Parts& parts = *parts_;
   parts.found.clear();
   const std::vector<bool> usable = parts.Usable(taken, taken_radius_m);
@@ -342,8 +310,10 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
   const int rounds = contacts.size() == 1 ? 1 : kFollowRounds;
   for (int round = 0; round < rounds; ++round) {
     for (size_t k = 0; k < contacts.size(); ++k) {
-      const HiddenProblem rest =
-          contacts.size() == 1 ? problem : parts.Without(problem, contacts[1 - k]);
+      HiddenProblem rest = problem;
+      for (size_t other = 0; other < contacts.size(); ++other) {
+        if (other != k) rest = parts.Without(rest, contacts[other]);
+      }
       contacts[k] = Locate(rest, parts.places, parts.normals, usable,
                            {.friction = kFriction, .unknowns = unknowns, .prior = before[k]});
       if (contacts[k].place < 0) return parts.found;

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "components/force_estimation/shape/place_posterior.hpp"
+#include "components/force_estimation/shape/row_responses.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/surface_features.hpp"
-#include "libs/core/status.hpp"
-#include "libs/robot/effector_row.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -19,25 +18,24 @@ namespace palpate::force_estimation {
 /// What the search looks at: rows about the state of the model, and what the forces that are known
 /// already leave over.
 struct Unexplained {
-  std::vector<robot::EffectorRow> rows;  ///< [m]
-  Eigen::VectorXd residual_m;            ///< [m] target - model
-  Eigen::VectorXd weight;                ///< [m] 1 / variance
+  Eigen::VectorXd residual_m;  ///< [m] target - model
+  Eigen::VectorXd weight;      ///< [m] 1 / variance
   /// [m x q] what the rows do when a known contact's force changes, m/N: these are fitted along.
   Eigen::MatrixXd known;
   /// [m] The part of residual_m that the state leaves, where contacts of the state were taken out
-  /// to first order (their ResponseAt times force added), to be found anew; empty: all of it. The
+  /// to first order (their response times force added), to be found anew; empty: all of it. The
   /// first order errs by a part of this.
   Eigen::VectorXd left_m = {};
   /// [m x q] Errors that the rows may have together, each to a standard normal factor.
   Eigen::MatrixXd errors_m = {};
-  /// [m x 3 candidates] of the rows, as RespondAbout tells them; empty: those that were prepared.
-  Eigen::MatrixXd responses = {};
+  const RowResponses* responses = nullptr;  ///< about the shape that was last looked at
+  std::vector<int> row = {};                ///< [m] which of the rows of `responses` each is
 };
 
 /// Where the residual says that something pushes.
 struct HiddenContact {
   Eigen::Vector3d rest_position_m = Eigen::Vector3d::Zero();  ///< undeformed body, robot frame
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, unit, of the prepared shape
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, unit, in the present shape
   double force_N = 0.0;  ///< along the inward normal, to first order, > 0
   Eigen::Vector3d tangential_N = Eigen::Vector3d::Zero();  ///< most likely friction, robot frame
   /// By which the weighted residual falls when this contact joins the known ones and, of two, the
@@ -49,35 +47,29 @@ struct HiddenContact {
   Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
 };
 
-/// Finds contacts that nobody saw from the deformation alone: responses to forces on candidate
-/// patches all over the surface, solved once and kept while the shape changes little. A contact
-/// pushes along the inward normal of the present shape, with friction beside it; none pulls.
+/// Finds contacts that nobody saw from the deformation alone, by the responses to forces on patches
+/// all over the surface. A contact pushes along the inward normal of the present shape (LookAt,
+/// before all else), with friction beside it; none pulls.
 ///
 /// Whether there is one: the best of all candidates against the chance that noise does as well
-/// (false_alarm.hpp). Where it is: the posterior over places between the candidates
+/// (false_alarm.hpp). Where it is: the posterior over all places
 /// (place_posterior.hpp), with known forces refitted along. All to first order about the state.
 class HiddenSearch {
  public:
   /// `model` must outlive the search. Of `config` contact_radius_m counts (1 mm at least). Throws
   /// InputError where no part of the surface is free.
-  HiddenSearch(robot::RobotModel& model, const ShapeConfig& config);
+  HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config);
   ~HiddenSearch();
 
-  /// Columns of all candidates about `x_m`, with the linearisation that `model` has there (its
-  /// factor must be that of x_m or near). `lambda_a_N` and `commands`: cables at imposed
-  /// displacement hold their length. Costs about 1 ms for each candidate (60 to 240 of them), and
-  /// 12 bytes of memory for each of them and row of the reduced system. On failure (two taut cables
-  /// act alike, a state that is not finite) the search is not prepared.
-  Status Prepare(const Eigen::VectorXd& x_m, const std::vector<robot::CableCommand>& commands,
-                 const Eigen::VectorXd& lambda_a_N);
-  bool prepared() const;
   int CandidateCount() const;
-  size_t MemoryBytes() const;  ///< of the columns that are kept
+
+  /// The present shape: nodes [3n].
+  void LookAt(const Eigen::VectorXd& x_m);
 
   /// At most `most` (1 or 2) contacts that explain `data` beyond the noise with a false-alarm
   /// chance below `significance` for one call; empty: none. Sites already taken (rest positions)
   /// and their neighbourhood of `taken_radius_m` are left out. A large push bends the body beyond
-  /// the first order: solve for the equilibrium with what was found, prepare about it, and find
+  /// the first order: solve for the equilibrium with what was found, look at it, and find
   /// anew with `left_m`, as long as what is left falls. Of two contacts that one explains to within
   /// the error of the first order, only then two come out.
   const std::vector<HiddenContact>& Find(const Unexplained& data, int most, double significance,
@@ -91,20 +83,6 @@ class HiddenSearch {
                                            const std::vector<Eigen::Vector3d>& taken,
                                            double taken_radius_m);
 
-  /// [rows x 3 candidates] Responses of these rows about another shape than that of Prepare, with
-  /// the factor that the model has there; contacts push along its normals from now on. Costs a
-  /// substitution for each row.
-  Status RespondAbout(const std::vector<robot::EffectorRow>& rows, const Eigen::VectorXd& x_m,
-                      const std::vector<robot::CableCommand>& commands,
-                      const Eigen::VectorXd& lambda_a_N, Eigen::MatrixXd* responses);
-
-  /// [rows x 3] What unit forces along x, y and z at a place of the undeformed body do to the rows,
-  /// m/N, to first order about the prepared state.
-  Eigen::MatrixX3d ResponseAt(const std::vector<robot::EffectorRow>& rows,
-                              const Eigen::Vector3d& rest_position_m) const;
-  /// The same made of responses of candidates as RespondAbout tells them.
-  Eigen::MatrixX3d ResponseAt(const Eigen::MatrixXd& responses,
-                              const Eigen::Vector3d& rest_position_m) const;
   /// Sigma of the normal force of a contact at this place of the undeformed body, fitted along with
   /// the known ones to rows of these weights (the residual does not matter), N.
   double SigmaOfForce_N(const Unexplained& data, const Eigen::Vector3d& rest_position_m) const;

@@ -15,8 +15,6 @@ namespace {
 /// plausible places around them: between candidates the evidence may be higher.
 constexpr double kPlausibleFall = 20.0;
 constexpr double kPlausiblePart = 0.3;
-/// Nearest candidates of a place that may make it plausible.
-constexpr size_t kNearest = 4;
 /// Places that the first look takes at most, and how far around its best the second goes, in
 /// strides.
 constexpr size_t kFirstLook = 250;
@@ -80,8 +78,7 @@ class Locator {
  private:
   Look LookAt(int place) const {
     Look look{.place = place, .share = 1.0, .fit = {}, .unlikely = Unlikely(place)};
-    look.fit = problem_.Fit(problem_.Place(places_.interpolation(place)), normals_.col(place),
-                            settings_.friction);
+    look.fit = problem_.Fit(problem_.Place(place), normals_.col(place), settings_.friction);
     look.unlikely += std::pow(look.fit.force_N / kUsualForce_N, 2);
     return look;
   }
@@ -104,8 +101,8 @@ class Locator {
     std::vector<int> plausible;
     for (int place = 0; place < places_.Count(); ++place) {
       if (!usable_[static_cast<size_t>(place)]) continue;
-      const auto& around = places_.interpolation(place).candidate;
-      const bool any = std::any_of(around.begin(), around.begin() + kNearest, [&](int candidate) {
+      const auto& around = places_.NearestCandidates(place);
+      const bool any = std::any_of(around.begin(), around.end(), [&](int candidate) {
         return evidence[static_cast<size_t>(candidate)] >= least;
       });
       if (any) plausible.push_back(place);

@@ -3,7 +3,6 @@
 
 #include "components/force_estimation/shape/search_places.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,10 +22,6 @@ constexpr double kCandidateSpacing = 2.0;
 constexpr int kFewestCandidates = 60;
 constexpr int kMostCandidates = 240;
 constexpr int kPlacesPerCandidate = 16;
-/// Fall of the interpolation's weights: exp(-(kFall d)^2) at distance d in units of the farthest.
-constexpr double kFall = 1.5;
-/// Keeps the fit determined where all neighbours lie in one plane.
-constexpr double kRidge = 1e-4;
 
 /// The part of the surface that is held in any direction: nodes (as triangles without area) and
 /// the faces between them. Empty where nothing is.
@@ -51,7 +46,8 @@ geometry::TriangleSurface HeldSurface(const robot::RobotBody& body) {
 
 }  // namespace
 
-SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m) {
+SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m)
+    : model_(model), patch_radius_m_(patch_radius_m) {
   PALPATE_CHECK(patch_radius_m > 0.0, patch_radius_m);
   const robot::RobotBody& body = model.body();
   const double area_m2 = geometry::SurfaceArea_m2(fem::RestSurface(body.mesh, body.boundary));
@@ -59,10 +55,11 @@ SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m
   const int wanted = static_cast<int>(
       std::clamp(area_m2 / (apart_m * apart_m), 1.0 * kFewestCandidates, 1.0 * kMostCandidates));
   SpreadOver(model, 2.0 * patch_radius_m, kPlacesPerCandidate * wanted);
-  ChooseCandidates(model, patch_radius_m, wanted);
+  place_of_candidate_ = geometry::FarthestPoints(positions_m_, std::min(wanted, Count()));
   for (const auto& position_m : positions_m_.colwise()) {
-    interpolation_.push_back(InterpolationAt(position_m));
+    nearest_candidates_.push_back(CandidatesNear(position_m));
   }
+  patches_.resize(static_cast<size_t>(Count()));
   spacing_m_ = std::sqrt(area_m2 / (kPlacesPerCandidate * wanted));
 }
 
@@ -94,52 +91,30 @@ void SearchPlaces::SpreadOver(const robot::RobotModel& model, double clearance_m
   }
 }
 
-void SearchPlaces::ChooseCandidates(const robot::RobotModel& model, double patch_radius_m,
-                                    int count) {
-  place_of_candidate_ = geometry::FarthestPoints(positions_m_, std::min(count, Count()));
-  for (const int place : place_of_candidate_) {
-    patches_.push_back(model.Patch(positions_m_.col(place), patch_radius_m));
-  }
-}
-
-/// Weights of the value at `position_m` of an affine function fitted to the candidates around.
-Interpolation SearchPlaces::InterpolationAt(const Eigen::Vector3d& position_m) const {
+std::array<int, SearchPlaces::kNearest> SearchPlaces::CandidatesNear(
+    const Eigen::Vector3d& position_m) const {
   std::vector<double> distance_m;
   for (const int place : place_of_candidate_) {
     distance_m.push_back((positions_m_.col(place) - position_m).norm());
   }
   std::vector<int> order(distance_m.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto used = std::min(static_cast<size_t>(kSupport), order.size());
-  const auto nearer = [&](int a, int b) {
+  const auto used = std::min<std::ptrdiff_t>(kNearest, std::ssize(order));
+  std::partial_sort(order.begin(), order.begin() + used, order.end(), [&](int a, int b) {
     return distance_m[static_cast<size_t>(a)] < distance_m[static_cast<size_t>(b)];
-  };
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(used), order.end(),
-                    nearer);
-  const double reach_m = std::max(distance_m[static_cast<size_t>(order[used - 1])], 1e-9);
-  Eigen::Matrix<double, 4, kSupport> affine = Eigen::Matrix<double, 4, kSupport>::Zero();
-  Interpolation result;
-  for (size_t k = 0; k < used; ++k) {
-    const int candidate = order[k];
-    const double near = distance_m[static_cast<size_t>(candidate)] / reach_m;
-    const auto column = static_cast<Eigen::Index>(k);
-    result.candidate[k] = candidate;
-    result.weight[k] = std::exp(-kFall * kFall * near * near);
-    affine(0, column) = 1.0;
-    affine.col(column).tail<3>() =
-        (positions_m_.col(place_of_candidate_[static_cast<size_t>(candidate)]) - position_m) /
-        reach_m;
+  });
+  std::array<int, kNearest> nearest{};
+  for (int k = 0; k < kNearest; ++k) {
+    nearest[static_cast<size_t>(k)] =
+        order[static_cast<size_t>(std::min<std::ptrdiff_t>(k, used - 1))];
   }
-  Eigen::Matrix4d moments = Eigen::Vector4d(0.0, kRidge, kRidge, kRidge).asDiagonal();
-  for (size_t k = 0; k < used; ++k) {
-    const auto column = affine.col(static_cast<Eigen::Index>(k));
-    moments += result.weight[k] * column * column.transpose();
-  }
-  const Eigen::Vector4d value = moments.ldlt().solve(Eigen::Vector4d::UnitX());
-  for (size_t k = 0; k < used; ++k) {
-    result.weight[k] *= value.dot(affine.col(static_cast<Eigen::Index>(k)));
-  }
-  return result;
+  return nearest;
+}
+
+const fem::NodeWeights& SearchPlaces::Patch(int place) const {
+  std::optional<fem::NodeWeights>& patch = patches_[static_cast<size_t>(place)];
+  if (!patch) patch = model_.Patch(positions_m_.col(place), patch_radius_m_).weights;
+  return *patch;
 }
 
 int SearchPlaces::Nearest(const Eigen::Vector3d& rest_position_m) const {

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/force_estimation/shape/temporal_correlation.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
 
 /// Frames that count at most: what is older is faded out.
 constexpr int kMostFrames = 20;
-/// Depth noise is correlated from frame to frame (0.3 of stereo cameras): a mean over n frames has
-/// so much more than 1 / n of the variance.
-constexpr double kTemporalCorrelation = 1.86;
 /// Mean square of a frame over its noise from which on something has moved.
 constexpr double kMoved = 2.5;
 
+/// Of a single frame's variance in the mean.
 double ShareLeft(int frames) { return std::min(1.0, kTemporalCorrelation / frames); }
 
 }  // namespace

@@ -144,12 +144,15 @@ double ShapeFit::TangentialSigma_N(std::size_t site) const {
 }
 
 Eigen::Vector3d ShapeFit::NormalAt(std::size_t site) const {
-  const int triangle = sites()[site].centre.triangle;
-  Eigen::Vector3d corners[3];
-  for (int i = 0; i < 3; ++i) {
-    corners[i] = state_.x_m.segment<3>(3 * features_.triangles()(i, triangle));
+  Eigen::Vector3d area_m2 = Eigen::Vector3d::Zero();
+  for (const int triangle : sites()[site].triangles) {
+    Eigen::Vector3d corners[3];
+    for (int i = 0; i < 3; ++i) {
+      corners[i] = state_.x_m.segment<3>(3 * features_.triangles()(i, triangle));
+    }
+    area_m2 += (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   }
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  return area_m2.normalized();
 }
 
 Status ShapeFit::Match(const ShapeFrame& frame) {

@@ -88,7 +88,8 @@ class ShapeFit {
   Eigen::Vector3d ForceAt(std::size_t site) const {
     return state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * site));
   }
-  /// Unit, outward, of the skin at the contact in its present shape.
+  /// Unit, outward, of the contact's patch of skin in its present shape: what presses on an edge
+  /// touches both of its sides.
   Eigen::Vector3d NormalAt(std::size_t site) const;
   /// Of a contact's force along the surface, before it is seen: what friction allows.
   double TangentialSigma_N(std::size_t site) const;

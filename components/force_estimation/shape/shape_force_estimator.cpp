@@ -62,6 +62,11 @@ class ShapeForceEstimator::Impl {
     return estimate_;
   }
 
+  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera) {
+    bias_.StartFrom(map, T_robot_camera);
+    learning_ = true;  // the first frame with a contact ends it
+  }
+
   const std::vector<FeatureReport>& features() const { return features_; }
   double SmallestForce_N(const Eigen::Vector3d& rest_position_m);
 
@@ -69,7 +74,6 @@ class ShapeForceEstimator::Impl {
   Status Process(const ShapeFrame& frame);
   Status CheckFrame(const ShapeFrame& frame) const;
   Status Learn(const ShapeFrame& frame);
-  Status FinishLearning(const ShapeFrame& frame);
   Status Estimate(const ShapeFrame& frame);
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
@@ -138,17 +142,9 @@ Status ShapeForceEstimator::Impl::StartFromFreeState(const ShapeFrame& frame) {
   return status;
 }
 
-Status ShapeForceEstimator::Impl::FinishLearning(const ShapeFrame& frame) {
-  learning_ = false;
-  if (Status status = bias_.Finish(); !status.ok()) return status;
-  if (hidden_.prepared()) return Status::Ok();
-  if (Status status = StartFromFreeState(frame); !status.ok()) return status;
-  return hidden_.Prepare(frame.cables);
-}
-
 Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
-  if (learning_) {
-    if (Status status = FinishLearning(frame); !status.ok()) return status;
+  if (std::exchange(learning_, false)) {
+    if (Status status = bias_.Finish(); !status.ok()) return status;
   }
   if (!fit_.started()) {
     if (Status status = StartFromFreeState(frame); !status.ok()) return status;
@@ -302,6 +298,11 @@ ShapeForceEstimator::~ShapeForceEstimator() = default;
 
 const ForceEstimate& ShapeForceEstimator::Update(const ShapeFrame& frame) {
   return impl_->Update(frame);
+}
+
+void ShapeForceEstimator::TakeDepthBias(const geometry::DepthBiasMap& map,
+                                        const Eigen::Isometry3d& T_robot_camera) {
+  impl_->TakeDepthBias(map, T_robot_camera);
 }
 
 const std::vector<FeatureReport>& ShapeForceEstimator::features() const {

@@ -12,6 +12,7 @@
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/geometry/depth_bias_map.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -40,6 +41,11 @@ class ShapeForceEstimator {
   ShapeForceEstimator(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
                       double youngs_modulus_relative_sigma = 0.0);
   ~ShapeForceEstimator();
+
+  /// What calibration found of the depth image, together with this pose of the camera, which frames
+  /// will give: frames without contact then teach the rest of it, and none are needed. Before the
+  /// first frame.
+  void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
 
   /// The estimate stays valid until the next call. Contacts that were seen have their names and
   /// kOk, kTangentialUnobservable or kUnobservable; those found by search are called hidden_1,

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "components/force_estimation/shape/force_filter.hpp"
 #include "components/force_estimation/shape/surface_map.hpp"
@@ -19,6 +20,7 @@ struct ShapeSite {
   bool hidden = false;  ///< found by search: nobody sees it
   SkinPoint centre;
   fem::SurfacePatch patch;
+  std::vector<int> triangles;  ///< of the drawn surface, around the centre: which way it faces
   double radius_m = 0.0;
   /// Where it was seen, on the undeformed body, and how surely (one sigma in each direction along
   /// the surface). Of hidden ones the sigma is as large as the robot.

@@ -191,6 +191,7 @@ bool SiteBook::Move(std::size_t index, const Eigen::Vector3d& step_rest_m) {
 void SiteBook::Place(const SkinPoint& centre, ShapeSite* site) const {
   site->centre = centre;
   site->patch = model_.Patch(centre.rest_m, site->radius_m);
+  site->triangles = map_.TrianglesAround(centre, site->radius_m);
 }
 
 void SiteBook::Judge(std::size_t index, Evidence evidence, bool quiet) {

@@ -58,4 +58,14 @@ Eigen::Vector3d SurfaceMap::NormalAtRest(const SkinPoint& point) const {
   return geometry::TriangleNormal(rest_.surface(), point.triangle);
 }
 
+std::vector<int> SurfaceMap::TrianglesAround(const SkinPoint& point, double radius_m) const {
+  const Eigen::Vector3d normal = NormalAtRest(point);
+  std::vector<int> around = {point.triangle};
+  for (const int triangle : rest_.TrianglesWithin(point.rest_m, radius_m)) {
+    const bool faces = geometry::TriangleNormal(rest_.surface(), triangle).dot(normal) > 0.0;
+    if (faces && triangle != point.triangle) around.push_back(triangle);
+  }
+  return around;
+}
+
 }  // namespace palpate::force_estimation

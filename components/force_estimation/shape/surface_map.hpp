@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "libs/geometry/closest_point.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -37,6 +38,9 @@ class SurfaceMap {
   /// Unit outward normals of the triangle, now and at rest.
   Eigen::Vector3d NormalNow(const SkinPoint& point) const;
   Eigen::Vector3d NormalAtRest(const SkinPoint& point) const;
+  /// Triangles of the skin around a point at rest, its own first, as far as `radius_m` and as they
+  /// face the same way: not those of a thin limb's other side.
+  std::vector<int> TrianglesAround(const SkinPoint& point, double radius_m) const;
 
  private:
   SkinPoint PointOf(const geometry::SurfacePoint& found) const;

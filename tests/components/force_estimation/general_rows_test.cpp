@@ -231,5 +231,20 @@ TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
   EXPECT_GT(map.NormalNow(at_rest).dot(map.NormalAtRest(at_rest)), 0.5);
 }
 
+TEST_F(GeneralRows, TheSkinAroundAPointIsOnItsSideOfTheBody) {
+  constexpr double kThroughTheBody_m = 0.05;
+  const SurfaceMap map(*model_);
+  const SkinPoint place = map.NearestAtRest(kTip - Eigen::Vector3d(0.02, 0, 0));
+  const std::vector<int> around = map.TrianglesAround(place, kThroughTheBody_m);
+  ASSERT_GT(around.size(), 1U);
+  EXPECT_EQ(around.front(), place.triangle);
+  for (const int triangle : around) {
+    const SkinPoint other{.triangle = triangle};
+    EXPECT_GT(map.NormalAtRest(other).dot(map.NormalAtRest(place)), 0.0);
+  }
+  EXPECT_EQ(map.TrianglesAround(place, 0.0).front(), place.triangle);
+  EXPECT_LT(map.TrianglesAround(place, 0.004).size(), around.size());
+}
+
 }  // namespace
 }  // namespace palpate::force_estimation

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -45,7 +46,8 @@ class HiddenScene {
     LookForHiddenPlaces();
   }
 
-  Status Prepare() { return PrepareAbout(free, {}); }
+  /// The search looks at the body as nobody touches it.
+  Status Respond() { return RespondAbout(free, {}); }
 
   /// The first of the feature points, from all sides.
   void LookAtAllFeatures(size_t count) {
@@ -76,12 +78,17 @@ class HiddenScene {
     return Solve(pushes, &state);
   }
 
-  /// The same, and the search is then prepared about that equilibrium.
+  /// The same, and the search then looks about that equilibrium.
   Eigen::VectorXd MoveTo(const std::vector<Push>& pushes) {
     fem::StaticState state;
     const Eigen::VectorXd motion_m = Solve(pushes, &state);
-    EXPECT_TRUE(PrepareAbout(state, pushes).ok());
+    EXPECT_TRUE(RespondAbout(state, pushes).ok());
     return motion_m;
+  }
+
+  /// [rows x 3] of unit forces there, m/N, about what Respond or MoveTo came to.
+  Eigen::MatrixX3d ResponseAt(const Eigen::Vector3d& place_m) const {
+    return responses.To(model.Patch(place_m, kRadius_m).weights).transpose();
   }
 
   /// What the features show of the pushes, with noise.
@@ -93,10 +100,12 @@ class HiddenScene {
 
   Unexplained Noise(std::mt19937& random) const {
     const auto m = static_cast<Eigen::Index>(rows.size());
-    Unexplained data{.rows = rows,
-                     .residual_m = Eigen::VectorXd(m),
+    Unexplained data{.residual_m = Eigen::VectorXd(m),
                      .weight = Eigen::VectorXd::Constant(m, 1.0 / (kSigma_m * kSigma_m)),
-                     .known = Eigen::MatrixXd(m, 0)};
+                     .known = Eigen::MatrixXd(m, 0),
+                     .responses = &responses,
+                     .row = std::vector<int>(rows.size())};
+    std::iota(data.row.begin(), data.row.end(), 0);
     std::normal_distribution<double> noise(0.0, kSigma_m);
     for (double& residual_m : data.residual_m) residual_m = noise(random);
     return data;
@@ -106,6 +115,7 @@ class HiddenScene {
   std::vector<robot::CableCommand> commands;
   fem::StaticState free;
   std::vector<robot::EffectorRow> rows;
+  RowResponses responses;                 ///< of `rows`, about what Respond or MoveTo came to
   std::vector<Eigen::Vector3d> hidden_m;  ///< places, at rest
   std::unique_ptr<HiddenSearch> search;
 
@@ -127,7 +137,7 @@ class HiddenScene {
     }
     return motion_m;
   }
-  Status PrepareAbout(const fem::StaticState& state, const std::vector<Push>& pushes) {
+  Status RespondAbout(const fem::StaticState& state, const std::vector<Push>& pushes) {
     Eigen::VectorXd force_N = Eigen::VectorXd::Zero(state.x_m.size());
     model.AddWeight(force_N);
     for (const robot::DeadLoad& load : Loads(pushes)) {
@@ -137,7 +147,9 @@ class HiddenScene {
     }
     Status status = model.linearisation().Update(state.x_m, state.multipliers_N, force_N);
     if (!status.ok()) return status;
-    return search->Prepare(state.x_m, commands, state.multipliers_N);
+    search->LookAt(state.x_m);
+    responses.Clear();
+    return responses.Add(model, rows, state.x_m, commands, state.multipliers_N);
   }
   Eigen::Vector3d InCamera_m(const Eigen::Vector3d& point_m) const {
     Eigen::Matrix3d axes;  // in rows

@@ -11,7 +11,7 @@ namespace {
 using robot::CableCommand;
 using robot::CableInput;
 
-CableSample At(int64_t stamp_ns, double displacement_m) {
+CableReading At(int64_t stamp_ns, double displacement_m) {
   return {stamp_ns, {{displacement_m, std::nullopt}}};
 }
 

@@ -62,40 +62,10 @@ TEST(EstimationConvert, RefusesMarkersThatCannotBeUsed) {
   EXPECT_EQ(RefusalAfter([](Markers&) {}), "");
   EXPECT_THAT(RefusalAfter([](Markers& m) { dds::SetText(m.header.frame_id, "camera"); }),
               HasSubstr("frame_id is 'camera', expected 'robot'"));
-  EXPECT_THAT(RefusalAfter([](Markers& m) { dds::SetText(m.markers._buffer[0].name, "m33"); }),
-              HasSubstr("unknown marker 'm33' (did you mean 'm3'?)"));
   EXPECT_THAT(RefusalAfter([](Markers& m) { dds::SetText(m.markers._buffer[0].name, "m1"); }),
               HasSubstr("'m1' comes twice"));
-  EXPECT_THAT(RefusalAfter([](Markers& m) { m.markers._buffer[0].position_m.y = kNan; }),
-              HasSubstr("'m3' is not finite"));
-  EXPECT_THAT(RefusalAfter([](Markers& m) { m.markers._buffer[0].sigma_m.y = kNan; }),
-              HasSubstr("'m3' is not finite"));
   EXPECT_THAT(RefusalAfter([](Markers& m) { m.reference_shape = 9; }),
               HasSubstr("unknown reference_shape 9"));
-}
-
-TEST(EstimationConvert, CableInputsComeInTheRobotsOrderAndNanMeansNotKnown) {
-  dds::Message<idl::sensor_msgs::JointState> message;
-  dds::SetHeader(message->header, 7, "robot");
-  dds::Resize(message->name, 2);
-  dds::SetText(message->name._buffer[0], "south");
-  dds::SetText(message->name._buffer[1], "north");
-  const std::vector<double> displacements_m{kNan, 0.01}, tensions_N{3.0, kNan};
-  dds::SetNumbers(message->position, displacements_m.data(), 2);
-  dds::SetNumbers(message->effort, tensions_N.data(), 2);
-  CableSample sample;
-  ASSERT_TRUE(FromJointState(*message, {"north", "east", "south"}, &sample).ok());
-  EXPECT_EQ(sample.stamp_ns, 7);
-  EXPECT_EQ(sample.cables[0].displacement_m, 0.01);
-  EXPECT_EQ(sample.cables[0].tension_N, std::nullopt);
-  EXPECT_EQ(sample.cables[1].displacement_m, std::nullopt);
-  EXPECT_EQ(sample.cables[2].tension_N, 3.0);
-
-  EXPECT_THAT(FromJointState(*message, {"north", "sout"}, &sample).message(),
-              HasSubstr("unknown cable 'south' (did you mean 'sout'?)"));
-  message->effort._length = 1;
-  EXPECT_THAT(FromJointState(*message, {"north", "south"}, &sample).message(),
-              HasSubstr("2 names, 2 positions, 1 efforts"));
 }
 
 TEST(EstimationConvert, ForcesKeepTheirNumbersAndTheFrameTheyAnswer) {

@@ -30,7 +30,7 @@ TEST(FrameEstimatorFromShape, AContactThatIsGivenHasItsForce) {
   config.source = "shape";
   config.shape.untouched_frames = 3;
   config.contacts = {"top: 0, 0, 0.125, 0.006"};
-  const auto estimator = EstimatorMakerOf(config, 0.0)(*scene.model);
+  const auto estimator = EstimatorMakerOf(config, {})(*scene.model);
   std::mt19937 random(1);
   FrameResult result;
   for (int k = 0; k < 6; ++k) {

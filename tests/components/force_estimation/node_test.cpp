@@ -52,7 +52,7 @@ MarkerFrame FrameUnderLoad(const Eigen::Vector3d& force_N, ReferenceShape refere
 class ForceEstimationNodeTest : public testing::Test {
  protected:
   explicit ForceEstimationNodeTest()
-      : node_(TestConfig(), NodeTestRobot(), 0.0, static_cast<int>(dds::TestDomain()),
+      : node_(TestConfig(), NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()),
               dds::BuiltInTable(), {}),
         test_("test"),
         markers_(test_.participant.CreateWriter(dds::kMarkersTopic, test_.Waker())),

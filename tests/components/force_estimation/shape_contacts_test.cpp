@@ -132,7 +132,6 @@ TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
 }
 
 TEST_F(Contacts, ThatNobodySeesAreFoundAndAtRestNoneIs) {
-  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
   const ShapeFrame rest = FrameOf(free_);
   for (int k = 0; k < 3; ++k) {
     Fit(rest);
@@ -153,7 +152,6 @@ TEST_F(Contacts, ThatNobodySeesAreFoundAndAtRestNoneIs) {
 TEST_F(Contacts, ThatNobodySeesAreReportedWhereverTheyMayBe) {
   constexpr double kOnLeg_N = 0.1;
   const Eigen::Vector3d on_leg_m(-0.082, -0.002, 0.054);
-  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
   const fem::StaticState pushed = SolveAt(on_leg_m, kOnLeg_N);
   for (int k = 0; k < 6; ++k) {
     const ShapeFrame frame = FrameOf(pushed);
@@ -169,7 +167,6 @@ TEST_F(Contacts, ThatNobodySeesAreReportedWhereverTheyMayBe) {
 
 /// All frames in which a contact holds still tell its place, not the last one alone.
 TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
-  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
   const fem::StaticState pushed = Solve(kForce_N);
   double first_m = 0.0;
   for (int k = 0; k < 7; ++k) {
@@ -187,7 +184,6 @@ TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
 }
 
 TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {
-  ASSERT_TRUE(hidden_.Prepare(cables_).ok());
   const ShapeFrame frame = SeenFrameOf(Solve(kForce_N));
   for (int k = 0; k < 3; ++k) {
     Fit(frame);
@@ -195,6 +191,33 @@ TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {
   }
   ASSERT_EQ(fit_.sites().size(), 1u);
   EXPECT_FALSE(fit_.sites()[0].hidden);
+}
+
+/// As many can go out of sight at once as can be seen.
+TEST_F(Contacts, ThreeThatNobodySeesAreFollowedTogether) {
+  constexpr double kEach_N = 0.8;
+  const std::vector<Eigen::Vector3d> places_m = {
+      place_m_, {-0.082, -0.002, 0.054}, {0.082, 0.002, 0.054}};
+  std::vector<robot::DeadLoad> loads;
+  std::vector<HiddenContact> there;
+  for (const Eigen::Vector3d& place_m : places_m) {
+    const fem::SurfacePatch patch = scene_.model->Patch(place_m, shape_.contact_radius_m);
+    loads.push_back({patch.weights, -kEach_N * patch.normal});
+    there.push_back({.rest_position_m = place_m, .normal = patch.normal, .force_N = kEach_N});
+  }
+  fem::StaticState pushed = scene_.model->RestState();
+  ASSERT_TRUE(scene_.model->Solve(cables_, loads, &pushed).status.ok());
+  fit_.book().ReplaceHidden(there);
+  for (int k = 0; k < 3; ++k) {
+    const ShapeFrame frame = FrameOf(pushed);
+    Fit(frame);
+    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+    ASSERT_EQ(fit_.sites().size(), 3u);
+  }
+  for (std::size_t c = 0; c < there.size(); ++c) {
+    EXPECT_LT((fit_.sites()[c].centre.rest_m - places_m[c]).norm(), 0.02) << c;
+    EXPECT_NEAR(fit_.ForceAt(c).norm(), kEach_N, 0.5 * kEach_N) << c;
+  }
 }
 
 /// What a contact that went out of sight leaves behind goes on, but not into another recording.

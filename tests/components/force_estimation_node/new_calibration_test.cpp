@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "components/force_estimation/node/node.hpp"
-#include "libs/dds/cloud_messages.hpp"
+#include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/components/force_estimation/node_test_robot.hpp"
 #include "tests/components/force_estimation_node/scripted_estimator.hpp"
-#include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/perception_sender.hpp"
 
 /// palpate-force-estimation takes what comes on /calibration without a restart.
 namespace palpate::force_estimation {
@@ -23,16 +23,12 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kTold_m = 0.002;
-constexpr auto kFrame = "camera_depth_optical_frame";
 
 class NewCalibrationTest : public testing::Test {
  protected:
   NewCalibrationTest()
       : test_("test"),
-        clouds_(test_.participant.CreateWriter(dds::kRobotCloudTopic, test_.Waker())),
-        reports_(test_.participant.CreateWriter(dds::kPerceptionReportTopic, test_.Waker())),
-        contacts_(test_.participant.CreateWriter(dds::kContactsTopic, test_.Waker())),
-        joint_states_(test_.participant.CreateWriter(dds::kJointStatesTopic, test_.Waker())),
+        perception_(test_),
         calibrations_(test_.participant.CreateWriter(dds::kCalibrationTopic, test_.Waker())),
         forces_(test_.participant.CreateReader(dds::kForcesTopic, test_.Waker())),
         log_(test_.participant.CreateReader(dds::kRosoutTopic, test_.Waker())) {
@@ -62,16 +58,14 @@ class NewCalibrationTest : public testing::Test {
 
   /// `in_use`: date of the calibration that was given at the start; empty: none.
   void Start(const NodeConfig& config, const std::string& in_use = {}) {
-    node_ = std::make_unique<ForceEstimationNode>(
-        config, NodeTestRobot(), 0.0, static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
-        dds::NodeLog::ProcessLog(), script_.Maker());
     robot::CalibrationFile given;
     given.date_utc = in_use;
-    if (!in_use.empty()) node_->SetCalibrationInUse(given);
+    node_ = std::make_unique<ForceEstimationNode>(
+        config, NodeTestRobot(), given, static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
+        dds::NodeLog::ProcessLog(), script_.Maker());
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] {
-      return clouds_.matched() == 1 && reports_.matched() == 1 && contacts_.matched() == 1 &&
-             joint_states_.matched() == 1 && calibrations_.matched() == 1 &&
+      return perception_.IsMatched(true) && calibrations_.matched() == 1 &&
              forces_.matched() == 1 && log_.matched() >= 1;
     }));
   }
@@ -80,6 +74,7 @@ class NewCalibrationTest : public testing::Test {
     double z_m = 0.75;
     std::string date_utc = "2026-01-31T12:00:00Z";
     std::string robot = {}, mesh = {}, element = {};  ///< empty: as the node has it
+    int depth_bias_width_px = 0;                      ///< of its images; 0: it holds none
   };
   void Send(const Sent& sent) {
     const robot::CalibrationFile present = robot::DescribeForCalibration(*robot_);
@@ -98,6 +93,7 @@ class NewCalibrationTest : public testing::Test {
     message->has_camera = true;
     message->camera_in_robot =
         dds::ToPose(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, sent.z_m)));
+    if (sent.depth_bias_width_px > 0) SetDepthBias(sent.depth_bias_width_px, &*message);
     dds::Resize(message->drives, 1);
     dds::SetText(message->drives._buffer[0].cable, "top");
     message->drives._buffer[0].offset_m = 1e-3;
@@ -107,27 +103,25 @@ class NewCalibrationTest : public testing::Test {
     ASSERT_TRUE(calibrations_.Write(message));
   }
 
+  static geometry::DepthPicture PictureOfWidth(int width_px) {
+    return {width_px, 480, 425.0, 425.0, 423.5, 239.5};
+  }
+  static void SetDepthBias(int width_px, idl::palpate_msgs::Calibration* message) {
+    message->has_depth_bias = true;
+    auto& bias = message->depth_bias;
+    dds::SetPicture(bias.picture, PictureOfWidth(width_px));
+    bias.span = 0.25;
+    const double coefficient = 1e-3;
+    dds::SetNumbers(bias.coefficients, &coefficient, 1);
+    const std::vector<double> covariance(49, 0.0);
+    dds::SetNumbers(bias.covariance, covariance.data(), covariance.size());
+  }
+
   /// Sends a frame with its cable input and waits for the answer; the frame as the estimator saw it
   /// is the last call of the script.
-  void Ask(std::int64_t stamp_ns) {
-    dds::Message<idl::sensor_msgs::JointState> joint;
-    dds::SetHeader(joint->header, stamp_ns, "robot");
-    dds::Resize(joint->name, 1);
-    dds::SetText(joint->name._buffer[0], "top");
-    dds::SetNumbers(joint->position, &kTold_m, 1);
-    ASSERT_TRUE(joint_states_.Write(joint));
-    rgbd::SensedCloud cloud;
-    cloud.points_m = Eigen::Matrix3Xf::Constant(3, 1, 0.25f);
-    cloud.sigma_m = Eigen::VectorXf::Ones(1);
-    cloud.colors_rgb.assign(3, 9);
-    ASSERT_TRUE(clouds_.Write(dds::ToPointCloud2(cloud, stamp_ns, kFrame)));
-    dds::Message<idl::palpate_msgs::PerceptionReport> report;
-    dds::SetHeader(report->header, stamp_ns, kFrame);
-    dds::SetText(report->status, "ok");
-    ASSERT_TRUE(reports_.Write(report));
-    dds::Message<idl::palpate_msgs::ContactArray> contacts;
-    dds::SetHeader(contacts->header, stamp_ns, kFrame);
-    ASSERT_TRUE(contacts_.Write(contacts));
+  void Ask(std::int64_t stamp_ns, int width_px = 0) {
+    perception_.SendCable(stamp_ns, kTold_m);
+    perception_.Send({.stamp_ns = stamp_ns, .picture = PictureOfWidth(width_px)});
     ASSERT_TRUE(test_.WaitFor([&] { return answered_ns_ == stamp_ns; })) << stamp_ns;
   }
   bool WaitUntilSaid(const std::string& text) {
@@ -144,10 +138,7 @@ class NewCalibrationTest : public testing::Test {
   Script script_;
   std::unique_ptr<robot::RobotModel> robot_ = NodeTestRobot();
   dds::TestNode test_;
-  dds::Writer<idl::sensor_msgs::PointCloud2> clouds_;
-  dds::Writer<idl::palpate_msgs::PerceptionReport> reports_;
-  dds::Writer<idl::palpate_msgs::ContactArray> contacts_;
-  dds::Writer<idl::sensor_msgs::JointState> joint_states_;
+  test_support::PerceptionSender perception_;
   dds::Writer<idl::palpate_msgs::Calibration> calibrations_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;
   dds::Reader<idl::rcl_interfaces::Log> log_;
@@ -199,6 +190,23 @@ TEST_F(NewCalibrationTest, IsRefusedWhereItIsOlderThanTheOneInUse) {
   EXPECT_TRUE(WaitUntilSaid("takes the calibration"));
   Ask(20);
   EXPECT_EQ(LastCameraZ_m(), 0.7);
+}
+
+TEST_F(NewCalibrationTest, ItsDepthBiasIsForImagesOfItsCameraOnly) {
+  Start(Config());
+  Ask(10, 640);
+  EXPECT_EQ(status_, "ok");
+  Send({.depth_bias_width_px = 848});
+  ASSERT_TRUE(WaitUntilSaid("takes the calibration"));
+  Ask(20, 640);
+  EXPECT_EQ(status_, "invalid_input");
+  EXPECT_THAT(reason_, HasSubstr("depth bias is for images {width_px: 848"));
+  Ask(30, 848);
+  EXPECT_EQ(status_, "ok");
+  Send({.date_utc = "2026-02-01T12:00:00Z"});
+  ASSERT_TRUE(WaitUntilSaid("takes the calibration of 2026-02-01"));
+  Ask(40, 640);
+  EXPECT_EQ(status_, "ok");
 }
 
 TEST_F(NewCalibrationTest, SaysWhereTheCameraStandsToANodeThatDidNotKnow) {

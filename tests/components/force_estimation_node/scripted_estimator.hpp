@@ -31,6 +31,11 @@ class Script {
     const std::lock_guard lock(mutex_);
     return calls_;
   }
+  /// What comes with the next answers.
+  void SetDrift(const DriftReport& drift) {
+    const std::lock_guard lock(mutex_);
+    drift_ = drift;
+  }
   FrameEstimatorMaker Maker() {
     return [this](robot::RobotModel& model) { return std::make_unique<Scripted>(*this, model); };
   }
@@ -48,7 +53,7 @@ class Script {
       const auto& seen = std::get<SeenShape>(input.frame);
       script_.calls_.push_back({number_, seen, model_.body().materials.front().youngs_modulus_Pa});
       script_.changed_.wait(lock, [this] { return !script_.hold_; });
-      FrameResult result{input.head, {}, {}, true, Status::Ok()};
+      FrameResult result{input.head, {}, {}, true, Status::Ok(), script_.drift_};
       result.estimate.status = Status::Ok();
       result.estimate.x_m = model_.RestState().x_m;
       ContactForce contact;
@@ -68,6 +73,7 @@ class Script {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool hold_ = false;
+  DriftReport drift_;
   int made_ = 0;
   std::vector<Call> calls_;
 };

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/shape/row_responses.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "libs/core/check.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// The taut cables: their gradients, what they do to the body, and how to hold their length.
+struct TautCables {
+  Eigen::MatrixXd pull;    ///< [reduced x taut] rows of H_a
+  Eigen::MatrixXd motion;  ///< K^-1 pull
+  Eigen::LLT<Eigen::MatrixXd> compliance;
+
+  Status Solve(robot::RobotModel& model, const Eigen::VectorXd& x_m,
+               const std::vector<robot::CableCommand>& commands,
+               const Eigen::VectorXd& lambda_a_N) {
+    std::vector<int> taut;
+    for (int c = 0; c < model.CableCount(); ++c) {
+      const bool driven =
+          commands[static_cast<size_t>(c)].kind == robot::CableCommand::Kind::kDisplacement;
+      if (driven && lambda_a_N[c] > 0.0) taut.push_back(c);
+    }
+    fem::Linearisation& linearisation = model.linearisation();
+    pull.setZero(linearisation.Size(), static_cast<Eigen::Index>(taut.size()));
+    if (taut.empty()) return Status::Ok();
+    Eigen::VectorXd nodal(x_m.size());
+    for (size_t t = 0; t < taut.size(); ++t) {
+      nodal.setZero();
+      model.cable(taut[t]).AddGradient(x_m, -1.0, nodal);
+      linearisation.matrix().Reduce(nodal, pull.col(static_cast<Eigen::Index>(t)));
+    }
+    motion = pull;
+    linearisation.Solve(motion);
+    compliance.compute(pull.transpose() * motion);
+    if (compliance.info() != Eigen::Success) {
+      return {StatusCode::kUnobservable, "two taut cables act alike"};
+    }
+    return Status::Ok();
+  }
+
+  /// Adds to each column the motion by which the cables keep their length.
+  void Hold(Eigen::Ref<Eigen::MatrixXd> columns) const {
+    if (pull.cols() == 0) return;
+    const Eigen::MatrixXd tension = compliance.solve(pull.transpose() * columns);
+    columns.noalias() -= motion * tension;
+  }
+};
+
+}  // namespace
+
+Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::EffectorRow>& rows,
+                         const Eigen::VectorXd& x_m,
+                         const std::vector<robot::CableCommand>& commands,
+                         const Eigen::VectorXd& lambda_a_N) {
+  PALPATE_CHECK(static_cast<int>(commands.size()) == model.CableCount(), commands.size());
+  PALPATE_CHECK(lambda_a_N.size() == model.CableCount(), lambda_a_N.size());
+  fem::Linearisation& linearisation = model.linearisation();
+  const fem::StiffnessMatrix& matrix = linearisation.matrix();
+  TautCables cables;
+  Status status = cables.Solve(model, x_m, commands, lambda_a_N);
+  if (!status.ok()) return status;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd columns(linearisation.Size(), count);
+  Eigen::VectorXd nodal(x_m.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const robot::EffectorRow& row = rows[static_cast<size_t>(i)];
+    nodal.setZero();
+    for (size_t k = 0; k < row.nodes.size(); ++k) {
+      nodal.segment<3>(3 * row.nodes[k]) += row.coefficients[k];
+    }
+    matrix.Reduce(nodal, columns.col(i));
+  }
+  linearisation.Solve(columns);
+  cables.Hold(columns);
+  if (!columns.allFinite()) return {StatusCode::kInvalidInput, "a response is not finite"};
+  free_index_.resize(static_cast<size_t>(matrix.NodeCount()));
+  for (int node = 0; node < matrix.NodeCount(); ++node) {
+    free_index_[static_cast<size_t>(node)] = matrix.FreeIndex(node);
+  }
+  columns_.conservativeResize(columns.rows(), columns_.cols() + count);
+  columns_.rightCols(count) = columns;
+  ++version_;
+  return status;
+}
+
+void RowResponses::Clear() {
+  columns_.resize(0, 0);
+  ++version_;
+}
+
+Eigen::Matrix3Xd RowResponses::To(const fem::NodeWeights& place) const {
+  Eigen::Matrix3Xd response = Eigen::Matrix3Xd::Zero(3, columns_.cols());
+  for (size_t k = 0; k < place.nodes.size(); ++k) {
+    const int free = free_index_[static_cast<size_t>(place.nodes[k])];
+    if (free >= 0) response += place.weights[k] * columns_.middleRows<3>(3 * free);
+  }
+  return response;
+}
+
+}  // namespace palpate::force_estimation
