@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -13,12 +12,10 @@
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_moments.hpp"
-#include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
-#include "libs/app/settings.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
-#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::command {
 
@@ -28,61 +25,17 @@ using calibration::CloudCalibration;
 using calibration::CloudFrame;
 using experiment::Recording;
 
-struct Settings {
-  perception::Config perception;
-
-  template <typename Visitor>
-  void Visit(Visitor&& v) {
-    v("perception", perception, "From images to clouds");
-  }
-};
-
-Settings ReadSettings(const CalibrateOptions& options, const experiment::Experiment& experiment) {
-  Settings settings;
-  if (experiment.depth_noise && experiment.depth_noise->subpixel_px > 0.0) {
-    settings.perception.depth_subpixel_px = experiment.depth_noise->subpixel_px;
-  }
-  const std::vector<app::Setting> list = app::ListSettings(settings);
-  for (const std::string& assignment : options.overrides) app::ApplyOverride(assignment, list);
-  return settings;
-}
-
 Eigen::Isometry3d StartOf(const CalibrateOptions& options,
                           const experiment::Experiment& experiment) {
-  if (!options.camera_pose.empty()) {
-    return geometry::ReadPose(app::ParseYaml(options.camera_pose, "--camera-pose"));
-  }
-  if (experiment.T_robot_camera) return *experiment.T_robot_camera;
-  throw InputError("clouds need to know roughly where the camera stands: --camera-pose");
-}
-
-geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {
-  return {Eigen::Quaterniond(T.linear()), T.translation()};
+  const std::optional<Eigen::Isometry3d> rough = RoughPose(options, experiment);
+  if (rough) return *rough;
+  throw InputError(
+      "clouds need to know roughly where the camera stands: --camera-pose; coloured markers do "
+      "not: --set perception.markers.color_rgb=[r, g, b]");
 }
 
 Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
   return Eigen::Translation3d(T.translation_m()) * T.rotation();
-}
-
-/// With the camera where it always stood, and without unknown contacts.
-bool Serves(const Recording& recording) {
-  return recording.camera_file && !recording.depth_images.empty() && !recording.T_robot_camera &&
-         recording.kind != experiment::RecordingKind::kFree &&
-         recording.kind != experiment::RecordingKind::kCameraMoved &&
-         (recording.camera_on_base || !recording.base_tilt_deg);
-}
-
-std::vector<const Recording*> RecordingsWithImages(const experiment::Experiment& experiment) {
-  std::vector<const Recording*> chosen;
-  for (const Recording& recording : experiment.recordings) {
-    if (Serves(recording)) chosen.push_back(&recording);
-  }
-  if (chosen.empty()) {
-    throw InputError(experiment.folder.string() +
-                     ": no recording serves to find the camera: it needs depth images and a kind "
-                     "other than 'free' and 'camera_moved'");
-  }
-  return chosen;
 }
 
 /// The robot's shapes as the model has them before anything is fitted.
@@ -110,12 +63,12 @@ struct Pass {
   CloudCalibration fit;
 };
 
-Pass Run(const std::vector<ImageMoment>& moments, const Settings& settings,
+Pass Run(const std::vector<ImageMoment>& moments, const perception::Config& perception,
          const std::vector<ExpectedShape>& expected, const Eigen::Isometry3d& start,
          const calibration::CloudSettings& clouds, robot::RobotModel* model) {
   Pass pass;
   std::vector<std::string> left_out;
-  pass.frames = SeeClouds(moments, settings.perception, model->body(), expected, &left_out);
+  pass.frames = SeeClouds(moments, perception, model->body(), expected, &left_out);
   if (pass.frames.empty()) {
     throw RunError("perception sees the robot in no picture (" + left_out.front() +
                    "): --camera-pose nearer to the truth, or the robot's colour, --set "
@@ -140,20 +93,22 @@ void PrintPass(const Pass& pass) {
              pass.fit.joint.chi_squared, pass.fit.joint.degrees_of_freedom, pass.fit.rounds);
 }
 
-}  // namespace
-
-bool HasImagesOfTheCamera(const experiment::Experiment& experiment) {
-  return std::any_of(experiment.recordings.begin(), experiment.recordings.end(), Serves);
+/// A depth bias is that of one camera.
+bool AreOfOneCamera(const std::vector<experiment::RgbdSequence>& sequences) {
+  return std::all_of(sequences.begin(), sequences.end(), [&](const auto& sequence) {
+    return sequence.camera.depth == sequences.front().camera.depth;
+  });
 }
+
+}  // namespace
 
 robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model) {
-  const Settings settings = ReadSettings(options, experiment);
+  const perception::Config perception = PerceptionOf(options, experiment);
   const Eigen::Isometry3d start = StartOf(options, experiment);
-  const auto chosen = options.recordings.empty() ? RecordingsWithImages(experiment)
-                                                 : ChooseRecordings(experiment, options.recordings);
+  const auto chosen = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
   sequences.reserve(chosen.size());
   std::vector<ImageMoment> moments;
@@ -165,20 +120,25 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
     }
   }
   calibration::CloudSettings clouds;
+  clouds.fit_depth_bias = options.fit_depth_bias;
   clouds.request = {.drive_offset_sigma_m = options.drive_offset_sigma_m,
                     .drive_gains = options.drive_gains,
                     .moduli = materials};
   const calibration::KeptModel kept(*model);
   // A rough pose misplaces the predicted surface; the robot's colour, where it is told, does not.
-  const bool by_color = !settings.perception.robot_color_rgb.empty();
-  const Pass rough = Run(moments, settings,
+  const bool by_color = !perception.robot_color_rgb.empty();
+  const Pass rough = Run(moments, perception,
                          by_color ? std::vector<ExpectedShape>() : ShapesOf(moments, start, model),
                          start, clouds, model);
   kept.Restore();
   const Eigen::Isometry3d found = ToIsometry(rough.fit.joint.T_robot_camera);
-  const Pass pass = Run(moments, settings, ShapesOf(moments, found, model), found, clouds, model);
+  const Pass pass = Run(moments, perception, ShapesOf(moments, found, model), found, clouds, model);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   calibration::TakeFit(pass.fit.joint, *model, &file);
+  if (AreOfOneCamera(sequences)) {
+    calibration::TakeDepthBias(pass.fit.joint, rgbd::PictureOf(sequences.front().camera.depth),
+                               &file);
+  }
   if (!options.json) PrintPass(pass);
   return file;
 }

@@ -9,6 +9,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 #include "components/calibration/joint/recording_frames.hpp"
+#include "components/palpate/calibrate/assignment_picture.hpp"
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/convergence_plot.hpp"
@@ -47,15 +48,21 @@ std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment
   return chosen;
 }
 
+/// The others are printed alone: they belong into the robot file.
+bool IsInFile(const std::string& name) {
+  const auto outside = {"input:", "marker_offset:", "geometry_scale",
+                        "cable_route:", "depth_scale"};
+  return std::none_of(outside.begin(), outside.end(),
+                      [&](const char* start) { return name.starts_with(start); });
+}
+
 void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frames) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
     fmt::print("{}: markers off by {:.3f} mm RMS\n", frames[f],
                1e3 * fit.residual_rms_of_frame_m[f]);
   }
   for (const FittedValue& value : fit.values) {
-    const bool in_file =
-        !value.name.starts_with("input:") && !value.name.starts_with("marker_offset:");
-    if (in_file || !value.determined) continue;
+    if (IsInFile(value.name) || !value.determined) continue;
     const bool length = value.unit == "m";
     const double factor = length ? 1e3 : 1.0;
     const std::string unit = length ? "mm" : value.unit;
@@ -65,6 +72,8 @@ void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frame
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,
              fit.degrees_of_freedom, fit.iterations);
 }
+
+}  // namespace
 
 std::vector<const Recording*> ChosenRecordings(const CalibrateOptions& options,
                                                const experiment::Experiment& experiment,
@@ -83,10 +92,11 @@ calibration::JointRequest RequestOf(const CalibrateOptions& options,
           .poissons_ratio_sigma = options.poissons_ratio_sigma,
           .gravity_tilt_sigma_rad = kRadians * options.gravity_tilt_sigma_deg,
           .mass_relative_sigma = options.mass_relative_sigma,
+          .geometry_scale_sigma = options.geometry_scale_sigma,
+          .cable_route_sigma_m = options.cable_route_sigma_m,
+          .depth_scale_sigma = camera ? options.depth_scale_sigma : 0.0,
           .marker_offset_sigma_m = options.marker_offset_sigma_m};
 }
-
-}  // namespace
 
 bool HasMarkersOfTheCamera(const experiment::Experiment& experiment) {
   return std::any_of(
@@ -126,8 +136,9 @@ robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
   }
   const geometry::RigidTransform here;
   const JointCalibration fit = calibration::CalibrateFrames(
-      *model, std::move(frames), camera ? nullptr : &here, RequestOf(options, materials, camera));
+      *model, frames, camera ? nullptr : &here, RequestOf(options, materials, camera));
   RequireFit(fit.status);
+  if (!options.assignment.empty()) DrawFrames(options.assignment, frames, fit, *model);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   calibration::TakeFit(fit, *model, &file);
   if (!options.json) PrintFit(fit, names);

@@ -11,6 +11,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
+#include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
@@ -50,11 +51,15 @@ bool HasMarkers(const experiment::Experiment& experiment) {
 robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* model) {
   const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const std::vector<int> materials = MaterialsOf(options.parts, model->body());
-  if (options.from == "markers" && !options.camera_pose.empty()) {
+  const bool unlabelled = AreUnlabelled(options, experiment);
+  if (options.from == "markers" && !options.camera_pose.empty() && !unlabelled) {
     throw InputError("--camera-pose is for images; --from markers needs none");
   }
   const bool joint = options.what == "joint";
-  const bool images_are_meant = options.from == "images" || !options.camera_pose.empty();
+  const bool fiducials = !PerceptionOf(options, experiment).markers.color_rgb.empty();
+  const bool images_are_meant =
+      options.from == "images" ||
+      (options.from.empty() && (fiducials || (!options.camera_pose.empty() && !unlabelled)));
   const bool camera =
       options.what == "camera" ||
       (options.what != "material" && (images_are_meant || NeedsCameraPose(experiment)));
@@ -63,8 +68,34 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   const bool has_markers = camera ? HasMarkersOfTheCamera(experiment) : HasMarkers(experiment);
   const bool from_images = images_are_meant || (options.from.empty() && !has_markers &&
                                                 HasImagesOfTheCamera(experiment));
+  if (from_images && options.unlabelled) {
+    throw InputError("--unlabelled is for markers.csv; markers in images have no names anyway");
+  }
+  if (from_images && fiducials) return CalibrateFromFiducials(options, experiment, wanted, model);
   if (from_images) return CalibrateFromImages(options, experiment, wanted, model);
+  if (unlabelled) return CalibrateFromUnlabelled(options, experiment, wanted, model);
   return CalibrateJointly(options, experiment, wanted, camera, model);
+}
+
+/// How far what is not looked for, or looked for, may be off.
+void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
+  arguments.Option("--marker-bias-m", &options->marker_bias_m,
+                   "constant error of each marker, one sigma, that averaging does not remove");
+  arguments.Option("--drive-offset-sigma-m", &options->drive_offset_sigma_m,
+                   "how far a drive's zero may be off, one sigma");
+  arguments.Flag("--drive-gains", &options->drive_gains,
+                 "find the gains of the drives' displacements, too");
+  arguments.Option("--marker-offset-sigma-m", &options->marker_offset_sigma_m,
+                   "how far a marker may sit from its place in the robot file, one sigma; "
+                   "joint: looked for where not 0");
+  arguments.Option("--gravity-tilt-sigma-deg", &options->gravity_tilt_sigma_deg,
+                   "how far gravity may lean, one sigma; joint: looked for where not 0");
+  arguments.Option("--mass-relative-sigma", &options->mass_relative_sigma,
+                   "how far the body's weight may be off, one sigma, 0.1: 10 %; joint: "
+                   "looked for where not 0");
+  arguments.Option("--poissons-ratio-sigma", &options->poissons_ratio_sigma,
+                   "how far Poisson's ratio may be off, one sigma; joint: looked for where "
+                   "not 0, of the parts whose modulus is");
 }
 
 }  // namespace
@@ -83,6 +114,24 @@ int Calibrate(const CalibrateOptions& options) {
   return app::kExitDone;
 }
 
+namespace {
+
+void DeclareGeometryOptions(app::Arguments& arguments, CalibrateOptions* options) {
+  arguments.Option("--geometry-scale-sigma", &options->geometry_scale_sigma,
+                   "how far the robot's size may be off, one sigma, 0.01: 1 %; joint: looked for "
+                   "where not 0");
+  arguments.Option("--cable-route-sigma-m", &options->cable_route_sigma_m,
+                   "how far the points that cables are pulled from may sit off the robot file's, "
+                   "across the cables, one sigma; joint: looked for where not 0");
+  arguments.Option("--depth-scale-sigma", &options->depth_scale_sigma,
+                   "how far the distances of markers from the camera may be off, one sigma, 0.003: "
+                   "0.3 %; joint: looked for where not 0");
+  arguments.Flag("--fit-depth-bias", &options->fit_depth_bias,
+                 "depth without markers: look for the smooth error of the depth image, too");
+}
+
+}  // namespace
+
 app::Verb CalibrateVerb() {
   return {
       "calibrate", "Find camera pose, drives and material from measured markers",
@@ -100,12 +149,20 @@ app::Verb CalibrateVerb() {
                          "else material");
         arguments.Choice("--from", &options->from, {"markers", "images"},
                          "what the camera is found from; else from markers in its frame where a "
-                         "recording has them, and without them from depth and colour");
+                         "recording has them, and without them from depth and colour: by coloured "
+                         "markers where --set perception.markers.color_rgb=[r, g, b] says which, "
+                         "else by the robot's shape");
+        arguments.Flag("--unlabelled", &options->unlabelled,
+                       "tell by where they are which markers the points in markers.csv are, "
+                       "whatever they are called; without this only where none has a name");
+        arguments.Option("--assignment", &options->assignment,
+                         "draw which point was taken for which marker (SVG); camera's pose only");
         arguments.Option(
             "--camera-pose", &options->camera_pose,
             "roughly where the camera stands, \"{translation_m: [x, y, z], "
-            "rotation_xyzw: [x, y, z, w]}\" (50 mm, 20 degrees): images start from it; "
-            "else from the experiment's");
+            "rotation_xyzw: [x, y, z, w]}\" (50 mm, 20 degrees): images without coloured markers "
+            "start from it; of markers without names on a robot that looks the same after a turn "
+            "it tells which is which; else the experiment's");
         arguments.Repeated("--set", &options->overrides,
                            "a setting perception.* for images, KEY=VALUE");
         arguments.Repeated("--recording", &options->recordings,
@@ -115,24 +172,8 @@ app::Verb CalibrateVerb() {
         DeclareSolverOptions(arguments, &options->solver);
         arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
                          "what is imposed on a cable where both were measured");
-        arguments.Option(
-            "--marker-bias-m", &options->marker_bias_m,
-            "constant error of each marker, one sigma, that averaging does not remove");
-        arguments.Option("--drive-offset-sigma-m", &options->drive_offset_sigma_m,
-                         "how far a drive's zero may be off, one sigma");
-        arguments.Flag("--drive-gains", &options->drive_gains,
-                       "find the gains of the drives' displacements, too");
-        arguments.Option("--marker-offset-sigma-m", &options->marker_offset_sigma_m,
-                         "how far a marker may sit from its place in the robot file, one sigma; "
-                         "joint: looked for where not 0");
-        arguments.Option("--gravity-tilt-sigma-deg", &options->gravity_tilt_sigma_deg,
-                         "how far gravity may lean, one sigma; joint: looked for where not 0");
-        arguments.Option("--mass-relative-sigma", &options->mass_relative_sigma,
-                         "how far the body's weight may be off, one sigma, 0.1: 10 %; joint: "
-                         "looked for where not 0");
-        arguments.Option("--poissons-ratio-sigma", &options->poissons_ratio_sigma,
-                         "how far Poisson's ratio may be off, one sigma; joint: looked for where "
-                         "not 0, of the parts whose modulus is");
+        DeclareBeliefs(arguments, options.get());
+        DeclareGeometryOptions(arguments, options.get());
         arguments.Option(
             "--convergence", &options->convergence,
             "draw how the residual of the first frame falls, by the paper's Algorithm 1 "

@@ -26,11 +26,17 @@ struct CalibrateOptions {
   double marker_bias_m = 0.0;          ///< constant error of each marker, one sigma
   double drive_offset_sigma_m = 2e-3;  ///< how far a drive's zero may be off, one sigma
   bool drive_gains = false;
+  bool fit_depth_bias = false;
   double marker_offset_sigma_m = 0.0;  ///< of these four 0: not looked for
   double gravity_tilt_sigma_deg = 0.0;
   double mass_relative_sigma = 0.0;
   double poissons_ratio_sigma = 0.0;
+  double geometry_scale_sigma = 0.0;  ///< of these three, too
+  double cable_route_sigma_m = 0.0;
+  double depth_scale_sigma = 0.0;
   std::filesystem::path out;
+  bool unlabelled = false;            ///< names in markers.csv mean nothing
+  std::filesystem::path assignment;   ///< SVG to draw (assignment_picture.hpp); empty: none
   std::filesystem::path convergence;  ///< SVG to draw (convergence_plot.hpp); empty: none
   bool json = false;
 };

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "components/calibration/joint/joint_request.hpp"
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -40,5 +41,30 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model);
+
+/// Whether nobody says which markers the points in the recordings are, or what is said is not to
+/// count (--unlabelled).
+bool AreUnlabelled(const CalibrateOptions& options, const experiment::Experiment& experiment);
+
+/// As CalibrateJointly in the camera's frame, from points whose names mean nothing.
+robot::CalibrationFile CalibrateFromUnlabelled(const CalibrateOptions& options,
+                                               const experiment::Experiment& experiment,
+                                               const std::vector<int>& materials,
+                                               robot::RobotModel* model);
+
+/// The same from the coloured markers that depth and colour show.
+robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
+                                              const experiment::Experiment& experiment,
+                                              const std::vector<int>& materials,
+                                              robot::RobotModel* model);
+
+/// What the options ask of a joint calibration; `camera`: for the camera's pose, too.
+calibration::JointRequest RequestOf(const CalibrateOptions& options,
+                                    const std::vector<int>& materials, bool camera);
+
+/// The recordings that are named, or all that serve. Throws InputError where none does.
+std::vector<const experiment::Recording*> ChosenRecordings(const CalibrateOptions& options,
+                                                           const experiment::Experiment& experiment,
+                                                           bool camera);
 
 }  // namespace palpate::command

@@ -19,20 +19,19 @@ namespace palpate::command {
 
 namespace {
 
-/// Gives the model and the experiment what was calibrated; returns the moduli's relative standard
-/// error.
-double ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
-                        experiment::Experiment* experiment) {
+/// Gives the model and the experiment what was calibrated, and returns it.
+robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
+                                        experiment::Experiment* experiment) {
   if (file.empty()) {
     fmt::print(stderr,
                "palpate estimate: no --calibration: the moduli of the robot file are "
                "taken as they are\n");
-    return 0.0;
+    return {};
   }
-  const auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
+  auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
   if (calibration.pose) experiment->T_robot_camera = calibration.pose->T_robot_camera;
-  return robot::RelativeModulusError(calibration);
+  return calibration;
 }
 
 bool IsResult(const Status& status) {
@@ -47,7 +46,7 @@ EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings&
       settings_(settings),
       experiment_(*experiment),
       model_(*model),
-      modulus_error_(ApplyCalibration(options.calibration, model, experiment)),
+      calibration_(ApplyCalibration(options.calibration, model, experiment)),
       json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {}
 
 EstimateRun::~EstimateRun() = default;
@@ -68,8 +67,7 @@ ShapeWay& EstimateRun::Shape() {
       if (site.direction.isZero(0.0)) continue;
       Say("the direction of contact '" + site.name + "' counts for markers only");
     }
-    shape_ =
-        std::make_unique<ShapeWay>(inputs, MakeShapeSenses(settings_, &model_, modulus_error_));
+    shape_ = std::make_unique<ShapeWay>(inputs, MakeShapeSenses(settings_, &model_, calibration_));
   }
   return *shape_;
 }
@@ -100,7 +98,7 @@ void EstimateRun::Estimate(const PlannedRecording& planned) {
     Shape().Estimate(recording, take);
   } else {
     MarkerWay(settings_.forces, ParseCableInput(options_.cable_input), experiment_, &model_,
-              modulus_error_)
+              robot::RelativeModulusError(calibration_))
         .Estimate(recording, take);
   }
   nlohmann::ordered_json json = summary.ToJson();

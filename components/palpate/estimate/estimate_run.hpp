@@ -42,8 +42,8 @@ class EstimateRun {
   const EstimateSettings& settings_;
   const experiment::Experiment& experiment_;
   robot::RobotModel& model_;
-  double modulus_error_;
-  std::unique_ptr<ShapeWay> shape_;  ///< from the first need on
+  robot::CalibrationFile calibration_;  ///< empty where none is given
+  std::unique_ptr<ShapeWay> shape_;     ///< from the first need on
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   int with_result_ = 0;

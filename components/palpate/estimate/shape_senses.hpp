@@ -11,6 +11,7 @@
 #include "components/perception/observation.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
+#include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
@@ -28,9 +29,10 @@ struct ShapeSenses {
 };
 
 /// The algorithms of palpate-perception and palpate-force-estimation. `model` must outlive them;
-/// `modulus_error`: relative, one sigma. Throws InputError for settings that do not go together and
-/// for a robot without feature points.
+/// of `calibration`, which `model` has been given, the moduli's errors and the depth bias count.
+/// Throws InputError for settings that do not go together and for a robot without feature points;
+/// open_camera for images of another size or lens than the depth bias is for.
 ShapeSenses MakeShapeSenses(const EstimateSettings& settings, robot::RobotModel* model,
-                            double modulus_error);
+                            const robot::CalibrationFile& calibration = {});
 
 }  // namespace palpate::command

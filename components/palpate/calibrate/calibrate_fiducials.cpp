@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "components/palpate/calibrate/calibrate_points.hpp"
+#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/image_moments.hpp"
+#include "components/palpate/calibrate/image_settings.hpp"
+#include "components/palpate/find_robot.hpp"
+#include "components/perception/markers/fiducial_detector.hpp"
+#include "components/perception/registered_frame.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/images/rgbd_sequence.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using calibration::UnlabelledFrame;
+using perception::FiducialFrame;
+
+/// Index of the robot's marker; -1 for no name.
+int IndexOf(const std::string& name, const std::vector<std::string>& markers) {
+  if (name.empty()) return -1;
+  const auto found = std::find(markers.begin(), markers.end(), name);
+  if (found != markers.end()) return static_cast<int>(found - markers.begin());
+  throw InputError("perception.markers.names: the robot has no marker '" + name + "'" +
+                   DidYouMean(name, markers));
+}
+
+std::vector<calibration::MarkerSighting> PointsOf(const FiducialFrame& seen,
+                                                  const std::vector<std::string>& markers) {
+  std::vector<calibration::MarkerSighting> points;
+  for (const perception::Fiducial& fiducial : seen.fiducials) {
+    points.push_back({.marker = IndexOf(fiducial.name, markers),
+                      .position_m = fiducial.position_m,
+                      .covariance_m2 = fiducial.covariance_m2});
+  }
+  return points;
+}
+
+std::string Rejected(const perception::FiducialRejections& rejected) {
+  return fmt::format(
+      "{} spots of their colour are none: {} too small, {} too large, {} not round, {} without "
+      "depth, {} at an edge, {} hardly of another colour than what is round them",
+      rejected.Count(), rejected.too_small, rejected.too_large, rejected.not_round,
+      rejected.no_depth, rejected.at_edge, rejected.wrong_color);
+}
+
+/// Pictures of one recording.
+void Look(const std::vector<ImageMoment>& moments, const perception::FiducialConfig& config,
+          const std::vector<std::string>& markers, bool with_pictures, PointsWithoutNames* points) {
+  perception::FiducialDetector detector(config);
+  detector.SetCamera(moments.front().images->camera);
+  perception::Registration registration(moments.front().images->camera);
+  perception::RegisteredFrame registered;
+  rgbd::RgbdFrame images;
+  for (const ImageMoment& moment : moments) {
+    moment.images->Read(moment.index, &images);
+    const FiducialFrame& seen = detector.Detect(images);
+    if (!seen.status.ok()) throw InputError(moment.frame.name + ": " + seen.status.message());
+    if (seen.fiducials.empty()) {
+      fmt::print(stderr, "left out: {}: no marker is seen; {}\n", moment.frame.name,
+                 Rejected(seen.rejected));
+      continue;
+    }
+    points->frames.push_back({.frame = {.name = moment.frame.name,
+                                        .cables = moment.frame.cables,
+                                        .loads = moment.frame.loads,
+                                        .gravity_m_s2 = moment.frame.gravity_m_s2},
+                              .points = PointsOf(seen, markers)});
+    if (!with_pictures || !registration.Register(images, &registered).ok()) continue;
+    points->grounds.push_back({registered.color, moment.images->camera.depth});
+  }
+}
+
+}  // namespace
+
+robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
+                                              const experiment::Experiment& experiment,
+                                              const std::vector<int>& materials,
+                                              robot::RobotModel* model) {
+  perception::FiducialConfig config = perception::FiducialsOf(PerceptionOf(options, experiment));
+  PointsWithoutNames points;
+  points.settings.request = RequestOf(options, materials, true);
+  // What all points of a picture err by alike is no noise of each.
+  points.settings.depth_bias_sigma = std::exchange(config.depth_bias, 0.0);
+  points.settings.named = !config.names.empty();
+  const std::vector<std::string> markers = model->MarkerNames();
+  for (const std::string& name : config.names) IndexOf(name, markers);
+  points.recordings = RecordingsWithImages(options, experiment);
+  for (const experiment::Recording* recording : points.recordings) {
+    const auto images = experiment::OpenRecordingImages(*recording, app::LoadYaml);
+    Look(MomentsOf(*recording, images, *model, ParseCableInput(options.cable_input)), config,
+         markers, !options.assignment.empty(), &points);
+  }
+  if (points.frames.empty()) {
+    throw RunError(
+        "no picture shows a marker: is their colour right (--set "
+        "perception.markers.color_rgb=[r, g, b]) and their size (perception.markers.min_radius_m, "
+        "max_radius_m)?");
+  }
+  return CalibrateFromPoints(options, experiment, points, model);
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/calibrate/image_settings.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/choose_recordings.hpp"
+#include "libs/app/settings.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/geometry/pose_text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::Recording;
+
+struct Settings {
+  perception::Config perception;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    v("perception", perception, "From images to clouds and markers");
+  }
+};
+
+bool Serves(const Recording& recording) {
+  return recording.camera_file && !recording.depth_images.empty() && !recording.T_robot_camera &&
+         recording.kind != experiment::RecordingKind::kFree &&
+         recording.kind != experiment::RecordingKind::kCameraMoved &&
+         (recording.camera_on_base || !recording.base_tilt_deg);
+}
+
+}  // namespace
+
+perception::Config PerceptionOf(const CalibrateOptions& options,
+                                const experiment::Experiment& experiment) {
+  Settings settings;
+  if (experiment.depth_noise && experiment.depth_noise->subpixel_px > 0.0) {
+    settings.perception.depth_subpixel_px = experiment.depth_noise->subpixel_px;
+  }
+  const std::vector<app::Setting> list = app::ListSettings(settings);
+  for (const std::string& assignment : options.overrides) app::ApplyOverride(assignment, list);
+  return settings.perception;
+}
+
+std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
+                                           const experiment::Experiment& experiment) {
+  if (options.camera_pose.empty()) return experiment.T_robot_camera;
+  return geometry::ReadPose(app::ParseYaml(options.camera_pose, "--camera-pose"));
+}
+
+geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {
+  return {Eigen::Quaterniond(T.linear()), T.translation()};
+}
+
+std::vector<const Recording*> RecordingsWithImages(const CalibrateOptions& options,
+                                                   const experiment::Experiment& experiment) {
+  if (!options.recordings.empty()) return ChooseRecordings(experiment, options.recordings);
+  std::vector<const Recording*> chosen;
+  for (const Recording& recording : experiment.recordings) {
+    if (Serves(recording)) chosen.push_back(&recording);
+  }
+  if (chosen.empty()) {
+    throw InputError(experiment.folder.string() +
+                     ": no recording serves to find the camera: it needs depth images and a kind "
+                     "other than 'free' and 'camera_moved'");
+  }
+  return chosen;
+}
+
+bool HasImagesOfTheCamera(const experiment::Experiment& experiment) {
+  return std::any_of(experiment.recordings.begin(), experiment.recordings.end(), Serves);
+}
+
+}  // namespace palpate::command

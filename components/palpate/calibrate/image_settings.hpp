@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "components/palpate/calibrate/calibrate_verb.hpp"
+#include "components/perception/config.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/geometry/rigid_transform.hpp"
+
+namespace palpate::command {
+
+/// perception.* as --set has it; the depth noise is the experiment's where that says one. Throws
+/// InputError for a setting that is not there.
+perception::Config PerceptionOf(const CalibrateOptions& options,
+                                const experiment::Experiment& experiment);
+
+/// Where the camera stands, roughly: --camera-pose, else the experiment's; nothing where neither
+/// says it.
+std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
+                                           const experiment::Experiment& experiment);
+
+geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T);
+
+/// The recordings whose images serve to find the camera: those that are named, or all with depth,
+/// the camera where it always stood, and without unknown contacts. Throws InputError where there is
+/// none.
+std::vector<const experiment::Recording*> RecordingsWithImages(
+    const CalibrateOptions& options, const experiment::Experiment& experiment);
+
+}  // namespace palpate::command
