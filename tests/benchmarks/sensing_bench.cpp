@@ -26,6 +26,8 @@ using test_support::AccuracySummary;
 using test_support::ContactWish;
 using Eyes = SensingSets::Eyes;
 
+constexpr double kWantedError = 0.1;  ///< of a hidden force
+
 int NumberFrom(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
   if (text == nullptr) return otherwise;
@@ -99,6 +101,35 @@ Benchmark OfTouches(const SharedSets& sets, Eyes eyes, const std::string& name,
           .max_repetitions = 1};
 }
 
+/// What the frames could tell of forces at best, as shares of them.
+Benchmark OfBounds(const SharedSets& sets, const std::string& name, const ContactWish& wish,
+                   int contacts) {
+  return {.name = "sensing/bound/" + name,
+          .measure =
+              [sets, wish, contacts](benchmark::State& state) {
+                std::vector<test_support::ForceBound> bounds;
+                for ([[maybe_unused]] auto iteration : state) {
+                  bounds = sets->Get().Bounds(wish, contacts);
+                }
+                std::vector<double> noise, whole, at_place;
+                double beyond = 0.0;
+                for (const test_support::ForceBound& bound : bounds) {
+                  noise.push_back(100.0 * bound.noise);
+                  whole.push_back(100.0 * bound.whole);
+                  at_place.push_back(100.0 * bound.at_place);
+                  beyond += bound.whole > kWantedError ? 1.0 : 0.0;
+                }
+                state.counters["contacts"] = static_cast<double>(bounds.size());
+                state.counters["noise_median_percent"] = test_support::Median(noise);
+                state.counters["whole_median_percent"] = test_support::Median(whole);
+                state.counters["whole_mean_percent"] = test_support::Mean(whole);
+                state.counters["whole_largest_percent"] = test_support::Largest(whole);
+                state.counters["at_place_median_percent"] = test_support::Median(at_place);
+                state.counters["beyond_10_percent"] = beyond;
+              },
+          .max_repetitions = 1};
+}
+
 Benchmark OfNobody(const SharedSets& sets, Eyes eyes) {
   return {.name = NameOf(eyes) + "nobody_touches",
           .measure =
@@ -150,6 +181,8 @@ std::vector<Block> SensingBlocks() {
     add(OfWeights(sets, eyes, "weights_searched", false));
   }
   add(OfWeights(sets, Eyes::kIdeal, "weights_given", true));
+  add(OfBounds(sets, "one_visible", {.where = Where::kVisible}, size.contacts));
+  add(OfBounds(sets, "one_hidden", {.where = Where::kHidden}, half));
   return blocks;
 }
 

@@ -154,8 +154,7 @@ void MeasureCosts(benchmark::State& state, const std::vector<PhaseFrame>& frames
   for (const PhaseFrame& frame : frames) {
     const ForceEstimate& estimate = watcher.See(frame.frame);
     if (frame.phase == Phase::kHeld) held.Add(watcher, estimate);
-    const bool first = &frame == &frames[kUntouchedFrames];  // prepares the search, once
-    if (frame.phase == Phase::kMoving && !first) moving.Add(watcher, estimate);
+    if (frame.phase == Phase::kMoving) moving.Add(watcher, estimate);
   }
   ShapeFrame rest = frames.front().frame;
   rest.untouched = false;

@@ -8,6 +8,7 @@
 
 #include "libs/core/error.hpp"
 #include "tests/support/sensing/accuracy.hpp"
+#include "tests/support/sensing/ideal_perception.hpp"
 #include "tests/support/sensing/paths.hpp"
 
 namespace palpate::benchmarks {
@@ -88,6 +89,30 @@ Watched SensingSets::Touches(Eyes eyes, const ContactWish& wish, int count) {
   Watched watched;
   for (const Path& path : paths) test_support::Watch(path, {}, scene_, chain, &watched);
   return watched;
+}
+
+std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wish, int count) {
+  const std::vector<Path>& paths = PathsOf(wish, count);
+  robot::RobotModel model(robot::BuildRobotBody(FourLeg()));
+  test_support::ForceBounds bounds(model, force_estimation::ShapeConfig());
+  test_support::IdealPerception ideal(scene_);
+  const auto take = [&] {
+    scene_.TakeFrame();
+    force_estimation::ShapeFrame frame = ideal.Frame({});
+    frame.cables = scene_.Cables();
+    return frame;
+  };
+  if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
+  std::vector<force_estimation::ShapeFrame> untouched;
+  for (int k = 0; k < kLearningFrames; ++k) untouched.push_back(take());
+  bounds.Learn(untouched);
+  const test_support::WatchPlan plan;
+  std::vector<test_support::ForceBound> all;
+  for (const Path& path : paths) {
+    scene_.Show(path.back());
+    all.push_back(bounds.Of(path.back().forces.front(), take(), plan.settle + plan.measured));
+  }
+  return all;
 }
 
 SensingSets::Untouched SensingSets::NobodyTouches(Eyes eyes) {

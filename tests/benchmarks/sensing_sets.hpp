@@ -13,6 +13,7 @@
 
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
+#include "tests/support/sensing/force_bound.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
 #include "tests/support/sensing/watch.hpp"
 
@@ -52,6 +53,10 @@ class SensingSets {
 
   /// `count` of them, with cables pulled in by up to 3 mm. Throws RunError where there are none.
   test_support::Watched Touches(Eyes eyes, const test_support::ContactWish& wish, int count);
+
+  /// What can be told at best of each of these contacts' forces, held as long as Touches holds
+  /// them.
+  std::vector<test_support::ForceBound> Bounds(const test_support::ContactWish& wish, int count);
 
   struct Untouched {
     test_support::Accuracy alarms{1e9};

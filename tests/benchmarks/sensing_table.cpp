@@ -142,11 +142,27 @@ contact         median ms    mean ms   worst ms   linearisations
       << Figure(*result, "jumps_without_estimate", 0) << " of the four\n";
 }
 
+void PrintBounds(std::ostream& out, const Results& results) {
+  for (const std::string set : {"one_visible", "one_hidden"}) {
+    const Result* result = results.Find("sensing/bound/" + set);
+    if (result == nullptr || !result->ok()) continue;
+    out << "\nBound of |F| (Cramer-Rao, one sigma, % of |F|), " << set << ", "
+        << Figure(*result, "contacts", 0) << " contacts: median "
+        << Figure(*result, "whole_median_percent", 1) << ", mean "
+        << Figure(*result, "whole_mean_percent", 1) << ", largest "
+        << Figure(*result, "whole_largest_percent", 1)
+        << "; above 10 %: " << Figure(*result, "beyond_10_percent", 0) << "; median by noise alone "
+        << Figure(*result, "noise_median_percent", 1) << ", with the place known "
+        << Figure(*result, "at_place_median_percent", 1) << '\n';
+  }
+}
+
 }  // namespace
 
 void PrintSensing(std::ostream& out, const Results& results) {
   PrintCosts(out, results);
   PrintAccuracy(out, results);
+  PrintBounds(out, results);
   PrintWeights(out, results);
 }
 

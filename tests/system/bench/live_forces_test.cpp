@@ -19,8 +19,8 @@
 #include "libs/geometry/pose_text.hpp"
 #include "libs/scenario/scenario.hpp"
 #include "tests/libs/dds/test_participant.hpp"
-#include "tests/system/bench/virtual_bench.hpp"
 #include "tests/system/small_camera.hpp"
+#include "tests/system/virtual_bench.hpp"
 
 /// The whole system as processes: a push from the camera's frames over GigE Vision to /forces,
 /// perception that dies, joint states that stop.

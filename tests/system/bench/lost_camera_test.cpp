@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "tests/system/bench/frame_listener.hpp"
-#include "tests/system/bench/virtual_bench.hpp"
+#include "tests/system/virtual_bench.hpp"
 
 /// A camera, or the process that reads it, dies and comes back.
 namespace palpate::system_test {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/system/bench/frame_listener.hpp"
-#include "tests/system/bench/virtual_bench.hpp"
+#include "tests/system/virtual_bench.hpp"
 
 namespace palpate::system_test {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "tests/system/bench/virtual_bench.hpp"
+#include "tests/system/virtual_bench.hpp"
 
 #include <signal.h>
 

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/force_estimation/shape/depth_bias.hpp"
+#include "components/force_estimation/shape/shape_config.hpp"
+#include "components/force_estimation/shape/shape_frame.hpp"
+#include "components/force_estimation/shape/surface_features.hpp"
+#include "components/force_estimation/shape/surface_map.hpp"
+#include "components/force_estimation/shape/surface_matching.hpp"
+#include "components/virtual_robot/virtual_robot.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::test_support {
+
+/// Smallest standard deviation that an unbiased estimate of |F| can have, as a share of |F|
+/// (Cramer-Rao), of one contact whose place on the surface and force in space are unknown, friction
+/// known to a sigma of 0.3 of the push.
+struct ForceBound {
+  double noise = 0.0;     ///< by the depth noise alone
+  double whole = 0.0;     ///< with what is left of the depth bias, and with the model's error
+  double at_place = 0.0;  ///< the same where the place is known
+};
+
+/// What the robot file's features tell of a force at best, to first order about the true one.
+class ForceBounds {
+ public:
+  /// `model` must outlive this.
+  ForceBounds(robot::RobotModel& model, const force_estimation::ShapeConfig& shape);
+
+  /// Frames of a robot that nobody touches, with all cables alike, which tell the depth bias.
+  /// Throws RunError where the model has no equilibrium or nothing is seen.
+  void Learn(const std::vector<force_estimation::ShapeFrame>& frames);
+  /// Of a force that is held in `frames` frames like `frame`. Throws RunError.
+  ForceBound Of(const virtual_robot::TrueForce& truth, const force_estimation::ShapeFrame& frame,
+                int frames);
+
+ private:
+  struct Rows;
+  Rows RowsOf(const force_estimation::ShapeFrame& frame, const Eigen::VectorXd& x_m, int frames);
+  Eigen::MatrixXd Jacobian(const virtual_robot::TrueForce& truth,
+                           const force_estimation::SkinPoint& place,
+                           const force_estimation::ShapeFrame& frame, const fem::StaticState& state,
+                           const std::vector<robot::EffectorRow>& rows);
+
+  robot::RobotModel& model_;
+  force_estimation::ShapeConfig shape_;
+  force_estimation::SurfaceFeatures features_;
+  force_estimation::SurfaceMatching matching_;
+  force_estimation::SurfaceMap map_;
+  force_estimation::DepthBias bias_;
+  fem::StaticState untouched_;
+};
+
+}  // namespace palpate::test_support
