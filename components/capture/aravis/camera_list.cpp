@@ -11,6 +11,7 @@
 #include "components/capture/aravis/aravis_camera.hpp"
 #include "components/capture/aravis/find_device.hpp"
 #include "components/capture/genicam/device_setup.hpp"
+#include "components/capture/network/packet_size.hpp"
 
 namespace palpate::capture {
 
@@ -35,8 +36,12 @@ void Describe(Features& features, CameraDescription* camera) {
   }
 }
 
-void OpenAndDescribe(const CameraTarget& target, CameraDescription* camera) {
-  const auto device = AravisCamera::Open(target, "", &camera->trouble);
+/// At its address where it has one: ids need not be unique, as of two simulated cameras.
+void OpenAndDescribe(const std::string& id, CameraDescription* camera) {
+  const CameraTarget target = {
+      .id = id, .interface_address = "", .fake = false, .fake_description = ""};
+  const std::string address = IsIpv4Address(camera->address) ? camera->address : "";
+  const auto device = AravisCamera::Open(target, address, &camera->trouble);
   if (device) Describe(device->features(), camera);
 }
 
@@ -57,8 +62,7 @@ std::vector<CameraDescription> ListCameras(const std::vector<std::string>& addre
     camera.serial = device.serial;
     camera.address = device.address;
     camera.protocol = device.protocol;
-    OpenAndDescribe(
-        {.id = device.id, .interface_address = "", .fake = false, .fake_description = ""}, &camera);
+    OpenAndDescribe(device.id, &camera);
     cameras.push_back(std::move(camera));
   }
   for (const std::string& address : addresses) {
@@ -68,8 +72,7 @@ std::vector<CameraDescription> ListCameras(const std::vector<std::string>& addre
     CameraDescription camera;
     camera.address = address;
     camera.protocol = "GigEVision";
-    OpenAndDescribe({.id = address, .interface_address = "", .fake = false, .fake_description = ""},
-                    &camera);
+    OpenAndDescribe(address, &camera);
     cameras.push_back(std::move(camera));
   }
   return cameras;
