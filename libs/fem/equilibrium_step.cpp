@@ -65,10 +65,8 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
 
 Status EquilibriumStep::ComputeChord(const LoadState& loads, const Eigen::VectorXd& x_m,
                                      const Eigen::VectorXd& multipliers_N) {
-  auto column = columns_.rightCols(1);  // not used by the others where all are bounded
-  column.col(0) = linearisation_.residual_N();
-  linearisation_.Solve(column);
-  step_ = column.col(0);
+  step_ = linearisation_.residual_N();
+  linearisation_.SolveRounded(step_);
   return SolveMultipliers(loads, x_m, multipliers_N);
 }
 
@@ -134,7 +132,7 @@ double ForceScale_N(const Linearisation& linearisation, const LoadState& loads,
 
 double RoundingForce_N(const Linearisation& linearisation, const Eigen::VectorXd& x_m) {
   return 4.0 * std::numeric_limits<double>::epsilon() * x_m.cwiseAbs().maxCoeff() *
-         linearisation.matrix().MeanDiagonal() * std::sqrt(static_cast<double>(x_m.size()));
+         linearisation.mean_diagonal_N_m() * std::sqrt(static_cast<double>(x_m.size()));
 }
 
 Status CheckLargestMultipliers(const Linearisation& linearisation, const LoadState& loads,

@@ -51,9 +51,14 @@ class Linearisation {
   double internal_force_norm_N() const { return internal_norm_; }
   double min_J() const { return min_J_; }
   bool shifted() const { return shifted_; }
+  /// Of K's diagonal at the last Update, N/m.
+  double mean_diagonal_N_m() const { return mean_diagonal_; }
 
   /// Overwrites each column [Size()] of `columns` with K^-1 column. After a successful Update.
   void Solve(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->Solve(columns); }
+  /// SparseSolver::KeepRounded, and by it one column for a step that the next residual corrects.
+  void KeepRounded() { solver_->KeepRounded(); }
+  void SolveRounded(Eigen::Ref<Eigen::VectorXd> column) { solver_->SolveRounded(column); }
 
  private:
   Status Check() const;
@@ -68,6 +73,7 @@ class Linearisation {
   Eigen::VectorXd residual_;
   double internal_norm_ = 0.0;
   double min_J_ = 0.0;
+  double mean_diagonal_ = 0.0;
   bool shifted_ = false;
 };
 

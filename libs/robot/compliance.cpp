@@ -71,7 +71,7 @@ void Compliance::ComputeChord(const Eigen::VectorXd& x_m,
   lambda_a_ = lambda_a_N;
   lambda_f_ = lambda_f_N;
   columns_.col(0) = linearisation_.residual_N();
-  linearisation_.Solve(columns_.leftCols(1));
+  linearisation_.SolveRounded(columns_.col(0));
   ObserveResponse(x_m, cable_rest_length_m);
 }
 

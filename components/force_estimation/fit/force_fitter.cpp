@@ -66,6 +66,11 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
   SetSites({});
 }
 
+void ForceFitter::KeepFactor(bool keep) {
+  keep_factor_ = keep;
+  if (keep) model_.linearisation().KeepRounded();
+}
+
 void ForceFitter::SetRows(std::vector<robot::EffectorRow> rows) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   compliance_.SetEffectors(std::move(rows));

@@ -72,7 +72,7 @@ class ForceFitter final : private fem::FrameProblem {
 
   /// The last linearisation's factor serves for the next fits as long as they converge with it
   /// (frame_loop.hpp): for large bodies, of which it is most of the cost.
-  void KeepFactor(bool keep) { keep_factor_ = keep; }
+  void KeepFactor(bool keep);
 
   void SetSites(const std::vector<FitSite>& sites);
   /// Prior knowledge about lambda_f: mean zero with this inverse covariance [3k x 3k], 1/N^2. None

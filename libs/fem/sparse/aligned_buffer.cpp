@@ -13,19 +13,23 @@
 
 namespace palpate::fem::internal {
 
-AlignedBuffer::AlignedBuffer(size_t size) : size_(size) {
+template <typename Value>
+AlignedBufferOf<Value>::AlignedBufferOf(size_t size) : size_(size) {
   constexpr size_t kLargePage = size_t{1} << 21;
   constexpr size_t kCacheLine = 64;
   const size_t unit = bytes() >= kLargePage ? kLargePage : kCacheLine;
   const size_t allocated = (bytes() + unit - 1) / unit * unit;
   if (allocated == 0) return;
-  data_.reset(static_cast<double*>(std::aligned_alloc(unit, allocated)));
+  data_.reset(static_cast<Value*>(std::aligned_alloc(unit, allocated)));
   if (data_ == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
   // Advice only: where the system does not follow it, nothing but speed is lost.
   if (unit == kLargePage) static_cast<void>(madvise(data_.get(), allocated, MADV_HUGEPAGE));
 #endif
-  std::fill_n(data_.get(), allocated / sizeof(double), std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(data_.get(), allocated / sizeof(Value), std::numeric_limits<Value>::quiet_NaN());
 }
+
+template class AlignedBufferOf<double>;
+template class AlignedBufferOf<float>;
 
 }  // namespace palpate::fem::internal

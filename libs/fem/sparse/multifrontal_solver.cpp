@@ -12,6 +12,7 @@
 #include "libs/fem/sparse/front_schedule.hpp"
 #include "libs/fem/sparse/front_tree.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
+#include "libs/fem/sparse/substitution_plan.hpp"
 
 namespace palpate::fem {
 
@@ -34,6 +35,7 @@ class MultifrontalSolver final : public SparseSolver {
   MultifrontalSolver(const BlockPattern& pattern, ThreadTeam& team, InstructionSet instruction_set)
       : tree_(pattern),
         schedule_(internal::ScheduleFronts(tree_, team.Size())),
+        plan_(internal::PlanSubstitution(tree_, schedule_, pattern.Size())),
         kernels_(dense::SelectFrontKernels(instruction_set)),
         team_(team),
         instruction_set_(instruction_set),
@@ -50,7 +52,12 @@ class MultifrontalSolver final : public SparseSolver {
     shared_panel_ = RoomForPanels(schedule_.together);
     updates_ = internal::AlignedBuffer(schedule_.update_size);
     inverse_.resize(At(size_ + kTile));
-    PlanSubstitution();
+    const auto shares = static_cast<long>(plan_.shared_rows.size());
+    rows_ = internal::AlignedBuffer(At(static_cast<int>(size_ + team.Size() * shares + kTile)) * 2 *
+                                    kTile);
+    for (int thread = 0; thread < team.Size(); ++thread) {
+      below_.emplace_back(At(dense::PaddedRows(plan_.most_below)));
+    }
   }
 
   Status Factorize(std::span<const double> values) override {
@@ -64,6 +71,7 @@ class MultifrontalSolver final : public SparseSolver {
       for (const int f : schedule_.together) FactorFrontTogether(f, values.data(), thread);
     });
     has_factor_ = positive_.load(std::memory_order_relaxed);
+    has_rounded_ = has_factor_ && rounded_.size() > 0;
     if (has_factor_) return Status::Ok();
     const bool finite =
         std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -76,8 +84,22 @@ class MultifrontalSolver final : public SparseSolver {
     PALPATE_CHECK(columns.rows() == size_, columns.rows(), size_);
     for (Eigen::Index first = 0; first < columns.cols(); first += 2 * kTile) {
       SolveColumns(
-          columns.middleCols(first, std::min<Eigen::Index>(2 * kTile, columns.cols() - first)));
+          columns.middleCols(first, std::min<Eigen::Index>(2 * kTile, columns.cols() - first)),
+          false);
     }
+  }
+
+  void KeepRounded() override {
+    if (rounded_.size() == 0) {
+      rounded_ = internal::AlignedBufferOf<float>(factor_.size());
+      has_rounded_ = false;
+    }
+  }
+
+  void SolveRounded(Eigen::Ref<Eigen::VectorXd> column) override {
+    PALPATE_CHECK(has_factor_);
+    PALPATE_CHECK(column.size() == size_, column.size(), size_);
+    SolveColumns(column, has_rounded_);
   }
 
   std::string Name() const override {
@@ -91,7 +113,8 @@ class MultifrontalSolver final : public SparseSolver {
     return nonzeros;
   }
   size_t MemoryBytes() const override {
-    size_t bytes = factor_.bytes() + updates_.bytes() + rows_.bytes() + shared_panel_.bytes();
+    size_t bytes = factor_.bytes() + rounded_.bytes() + updates_.bytes() + rows_.bytes() +
+                   shared_panel_.bytes();
     for (const internal::AlignedBuffer& panel : panels_) bytes += panel.bytes();
     return bytes + sizeof(double) * inverse_.size();
   }
@@ -116,6 +139,9 @@ class MultifrontalSolver final : public SparseSolver {
   dense::FactorPanel FactorOf(int f) {
     return {factor_.data() + factor_offset_[At(f)], FrontOf(f).Pivots(), FrontOf(f).Below()};
   }
+  dense::RoundedPanel RoundedOf(int f) {
+    return {rounded_.data() + factor_offset_[At(f)], FrontOf(f).Pivots(), FrontOf(f).Below()};
+  }
   Update UpdateOf(int f) {
     return {updates_.data() + schedule_.update_offset[At(f)], FrontOf(f).UpdateStride()};
   }
@@ -126,13 +152,14 @@ class MultifrontalSolver final : public SparseSolver {
                      int column_end);
   void AddChildren(int f, const Panel& panel, int column_begin, int column_end);
   bool FactorPass(const Panel& panel, int begin, int end, double* inverse);
-  void PlanSubstitution();
-  void SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns);
-  void SubstituteForward(int f, int width);
-  void SubstituteBackward(int f, int width, int thread);
+  void Store(int f, const Panel& panel, int tile_begin, int tile_end);
+  void SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded);
+  void SubstituteForward(int f, int width, bool rounded);
+  void SubstituteBackward(int f, int width, int thread, bool rounded);
 
   internal::FrontTree tree_;
   internal::FrontSchedule schedule_;
+  internal::SubstitutionPlan plan_;
   const dense::FrontKernels& kernels_;
   ThreadTeam& team_;
   InstructionSet instruction_set_;
@@ -140,6 +167,7 @@ class MultifrontalSolver final : public SparseSolver {
   size_t block_entries_;
   std::vector<size_t> factor_offset_;  ///< [fronts]
   internal::AlignedBuffer factor_;
+  internal::AlignedBufferOf<float> rounded_;  ///< the same numbers; empty where nobody wants them
   /// Room for the front that is worked on: small enough to stay in the cache, which the whole
   /// factor is not.
   std::vector<internal::AlignedBuffer> panels_;  ///< [threads]
@@ -148,12 +176,10 @@ class MultifrontalSolver final : public SparseSolver {
   std::vector<double> inverse_;  ///< [Size()] reciprocals of the factor's diagonal
   std::atomic<bool> positive_{false};
   bool has_factor_ = false;
+  bool has_rounded_ = false;
 
-  /// Right-hand sides, row after row: those of the matrix, then each thread's share of what its
-  /// subtrees subtract from the rows of fronts worked on together.
+  /// Right-hand sides, row after row: those of the matrix, then each thread's share.
   internal::AlignedBuffer rows_;
-  std::vector<std::vector<int>> forward_rows_;  ///< [fronts] rows of rows_ below the pivots
-  std::vector<int> shared_rows_;                ///< rows of the matrix that have such shares
   std::vector<internal::AlignedBuffer> below_;  ///< [threads] a single column's rows below a front
 };
 
@@ -212,7 +238,12 @@ void MultifrontalSolver::FactorFront(int f, const double* values, internal::Alig
   }
   kernels_.update_below(panel, UpdateOf(f), 0, dense::PaddedRows(panel.below));
   AddChildren(f, panel, panel.PivotRows(), panel.Rows());
-  kernels_.store(panel, FactorOf(f), 0, panel.Rows() / kTile);
+  Store(f, panel, 0, panel.Rows() / kTile);
+}
+
+void MultifrontalSolver::Store(int f, const Panel& panel, int tile_begin, int tile_end) {
+  kernels_.store(panel, FactorOf(f), tile_begin, tile_end);
+  if (rounded_.size() > 0) kernels_.store_rounded(panel, RoundedOf(f), tile_begin, tile_end);
 }
 
 /// The same steps in the same order on each entry, the rows shared among the threads.
@@ -257,55 +288,38 @@ void MultifrontalSolver::FactorFrontTogether(int f, const double* values, int th
     kernels_.update_below(panel, UpdateOf(f), row, std::min(row + kSharedRows, update_rows));
   }
   const int tiles = rows / kTile;
-  kernels_.store(panel, FactorOf(f), tiles * thread / threads, tiles * (thread + 1) / threads);
+  Store(f, panel, tiles * thread / threads, tiles * (thread + 1) / threads);
   team_.Barrier();
   AddChildren(f, panel, panel.PivotRows() + part(panel.below, thread),
               panel.PivotRows() + part(panel.below, thread + 1));
   team_.Barrier();
 }
 
-void MultifrontalSolver::PlanSubstitution() {
-  std::vector<int> share(At(size_), -1);  // place among shared_rows_
-  for (const int f : schedule_.together) {
-    for (int k = 0; k < FrontOf(f).Pivots(); ++k) {
-      const int row = 3 * FrontOf(f).first_node + k;
-      share[At(row)] = static_cast<int>(shared_rows_.size());
-      shared_rows_.push_back(row);
-    }
-  }
-  forward_rows_.resize(tree_.fronts().size());
-  const int shares = static_cast<int>(shared_rows_.size());
-  for (int thread = 0; thread < team_.Size(); ++thread) {
-    for (const int f : schedule_.own[At(thread)]) {
-      forward_rows_[At(f)] = FrontOf(f).below_rows;
-      for (int& row : forward_rows_[At(f)]) {
-        if (share[At(row)] >= 0) row = size_ + thread * shares + share[At(row)];
-      }
-    }
-  }
-  for (const int f : schedule_.together) forward_rows_[At(f)] = FrontOf(f).below_rows;
-  rows_ = internal::AlignedBuffer(At(size_ + team_.Size() * shares + kTile) * 2 * kTile);
-  int below = 0;
-  for (const Front& front : tree_.fronts()) below = std::max(below, front.Below());
-  for (int thread = 0; thread < team_.Size(); ++thread) {
-    below_.emplace_back(At(dense::PaddedRows(below)));
-  }
-}
-
-void MultifrontalSolver::SubstituteForward(int f, int width) {
+void MultifrontalSolver::SubstituteForward(int f, int width, bool rounded) {
   const int first = 3 * FrontOf(f).first_node;
+  if (rounded) {
+    kernels_.solve_forward_rounded(RoundedOf(f), inverse_.data() + first, rows_.data() + first,
+                                   plan_.forward_rows[At(f)].data(), rows_.data());
+    return;
+  }
   if (width == 1) {
     kernels_.solve_forward_one(FactorOf(f), inverse_.data() + first, rows_.data() + first,
-                               forward_rows_[At(f)].data(), rows_.data());
+                               plan_.forward_rows[At(f)].data(), rows_.data());
     return;
   }
   kernels_.solve_forward(FactorOf(f), inverse_.data() + first, width,
                          rows_.data() + static_cast<long>(first) * width,
-                         forward_rows_[At(f)].data(), rows_.data());
+                         plan_.forward_rows[At(f)].data(), rows_.data());
 }
 
-void MultifrontalSolver::SubstituteBackward(int f, int width, int thread) {
+void MultifrontalSolver::SubstituteBackward(int f, int width, int thread, bool rounded) {
   const int first = 3 * FrontOf(f).first_node;
+  if (rounded) {
+    kernels_.solve_backward_rounded(RoundedOf(f), inverse_.data() + first, rows_.data() + first,
+                                    FrontOf(f).below_rows.data(), rows_.data(),
+                                    below_[At(thread)].data());
+    return;
+  }
   if (width == 1) {
     kernels_.solve_backward_one(FactorOf(f), inverse_.data() + first, rows_.data() + first,
                                 FrontOf(f).below_rows.data(), rows_.data(),
@@ -317,13 +331,14 @@ void MultifrontalSolver::SubstituteBackward(int f, int width, int thread) {
                           FrontOf(f).below_rows.data(), rows_.data());
 }
 
-void MultifrontalSolver::SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns) {
+/// At most 2 kTile columns; `rounded`: one, by the rounded factor.
+void MultifrontalSolver::SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded) {
   const int count = static_cast<int>(columns.cols());
   const int width = count == 1 ? 1 : count <= kTile ? kTile : 2 * kTile;
   const auto& tree_order = tree_.fronts();
   team_.Run([&](int thread) {
     const std::vector<int>& own = schedule_.own[At(thread)];
-    const auto shares = static_cast<long>(shared_rows_.size());
+    const auto shares = static_cast<long>(plan_.shared_rows.size());
     const auto read = [&](int f) {
       const Front& front = tree_order[At(f)];
       for (int row = 3 * front.first_node; row < 3 * front.first_node + front.Pivots(); ++row) {
@@ -345,26 +360,26 @@ void MultifrontalSolver::SolveColumns(Eigen::Ref<Eigen::MatrixXd> columns) {
     if (thread == 0) {
       for (const int f : schedule_.together) read(f);
     }
-    for (const int f : own) SubstituteForward(f, width);
+    for (const int f : own) SubstituteForward(f, width, rounded);
     team_.Barrier();
     if (thread == 0) {
       for (long k = 0; k < shares; ++k) {
         double* target =
-            rows_.data() + static_cast<long>(shared_rows_[static_cast<size_t>(k)]) * width;
+            rows_.data() + static_cast<long>(plan_.shared_rows[static_cast<size_t>(k)]) * width;
         for (int t = 0; t < team_.Size(); ++t) {
           const double* source = rows_.data() + (size_ + t * shares + k) * width;
           for (int c = 0; c < width; ++c) target[c] += source[c];
         }
       }
-      for (const int f : schedule_.together) SubstituteForward(f, width);
+      for (const int f : schedule_.together) SubstituteForward(f, width, rounded);
       for (auto f = schedule_.together.rbegin(); f != schedule_.together.rend(); ++f) {
-        SubstituteBackward(*f, width, thread);
+        SubstituteBackward(*f, width, thread, rounded);
         write(*f);
       }
     }
     team_.Barrier();
     for (auto f = own.rbegin(); f != own.rend(); ++f) {
-      SubstituteBackward(*f, width, thread);
+      SubstituteBackward(*f, width, thread, rounded);
       write(*f);
     }
   });

@@ -28,8 +28,9 @@ struct Panel {
 
 /// The pivot columns of a factorised front as substitution reads them, from the first to the last
 /// or back: tiles of kTile rows; in each, column after column, the columns up to its diagonal.
-struct FactorPanel {
-  double* values = nullptr;
+template <typename Value>
+struct FactorPanelOf {
+  Value* values = nullptr;
   int pivots = 0;
   int below = 0;
 
@@ -40,6 +41,9 @@ struct FactorPanel {
     return kTile * (triangle + columns * static_cast<size_t>(PaddedRows(below) / kTile));
   }
 };
+
+using FactorPanel = FactorPanelOf<double>;
+using RoundedPanel = FactorPanelOf<float>;
 
 /// The contribution of a front to its parent, below x below, lower triangle; above the diagonal
 /// there may be anything.
@@ -84,6 +88,8 @@ struct FrontKernels {
 
   /// Stores the tiles of rows [tile_begin, tile_end) of a panel that is done.
   void (*store)(const Panel& panel, const FactorPanel& factor, int tile_begin, int tile_end);
+  void (*store_rounded)(const Panel& panel, const RoundedPanel& factor, int tile_begin,
+                        int tile_end);
 
   /// Forward substitution: overwrites `pivot_rows` [pivots][width] and subtracts from row
   /// `below_rows[i]` of `all_rows` [..][width], for each row i below the pivots. width is kTile or
@@ -100,6 +106,12 @@ struct FrontKernels {
   /// `below` [PaddedRows(below)] is room to work in, aligned like a panel.
   void (*solve_backward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
                              const int* below_rows, const double* all_rows, double* below);
+  /// Both in double precision with a rounded factor, of which half the memory is read.
+  void (*solve_forward_rounded)(const RoundedPanel& factor, const double* inverse,
+                                double* pivot_rows, const int* below_rows, double* all_rows);
+  void (*solve_backward_rounded)(const RoundedPanel& factor, const double* inverse,
+                                 double* pivot_rows, const int* below_rows, const double* all_rows,
+                                 double* below);
 };
 
 const FrontKernels& SelectFrontKernels(InstructionSet set);

@@ -15,6 +15,7 @@
 namespace {
 
 using palpate::fem::dense::FactorPanel;
+using palpate::fem::dense::FactorPanelOf;
 using palpate::fem::dense::FrontKernels;
 using palpate::fem::dense::kTile;
 using palpate::fem::dense::Panel;
@@ -28,6 +29,14 @@ typedef double Pack __attribute__((vector_size(8 * kLanes)));
 
 PALPATE_INLINE Pack Load(const double* p) { return *reinterpret_cast<const Pack*>(p); }
 PALPATE_INLINE void Store(double* p, const Pack& v) { *reinterpret_cast<Pack*>(p) = v; }
+
+typedef float RoundedPack __attribute__((vector_size(4 * kLanes), may_alias));
+PALPATE_INLINE Pack Load(const float* p) {
+  return __builtin_convertvector(*reinterpret_cast<const RoundedPack*>(p), Pack);
+}
+PALPATE_INLINE void Store(float* p, const Pack& v) {
+  *reinterpret_cast<RoundedPack*>(p) = __builtin_convertvector(v, RoundedPack);
+}
 
 constexpr int kTilePacks = kTile / kLanes;
 /// Packs of rows in the largest register tile of kTile columns.
@@ -291,13 +300,16 @@ void ExtendAdd(const Update& child, const Run* runs, int run_count, const Panel&
 /// Columns of the tile of rows that starts at `row`, of a factor with so many pivots.
 PALPATE_INLINE int TileColumns(int row, int pivots) { return std::min(row + kTile, pivots); }
 
-void StoreFactor(const Panel& panel, const FactorPanel& factor, int tile_begin, int tile_end) {
+template <typename Value>
+void StoreFactor(const Panel& panel, const FactorPanelOf<Value>& factor, int tile_begin,
+                 int tile_end) {
+  using Factor = FactorPanelOf<Value>;
   const int begin = kTile * tile_begin;
   const int pivot_rows = panel.PivotRows();
-  double* target = factor.values + FactorPanel::Size(std::min(begin, panel.pivots),
-                                                     std::max(0, begin - pivot_rows));
+  Value* target =
+      factor.values + Factor::Size(std::min(begin, panel.pivots), std::max(0, begin - pivot_rows));
   if (begin > pivot_rows) {
-    target = factor.values + FactorPanel::Size(panel.pivots, begin - pivot_rows);
+    target = factor.values + Factor::Size(panel.pivots, begin - pivot_rows);
   }
   for (int row = begin; row < kTile * tile_end; row += kTile) {
     const int columns = TileColumns(row, panel.pivots);
@@ -316,8 +328,19 @@ void StoreFactor(const Panel& panel, const FactorPanel& factor, int tile_begin, 
 
 namespace {
 
-constexpr FrontKernels kKernels{
-    Clear,       ExtendAdd,       FactorAnyTile,    EliminateAnyRows, UpdatePivots,    UpdateBelow,
-    StoreFactor, SolveForwardAny, SolveBackwardAny, SolveForwardOne,  SolveBackwardOne};
+constexpr FrontKernels kKernels{.clear = Clear,
+                                .extend_add = ExtendAdd,
+                                .factor_tile = FactorAnyTile,
+                                .eliminate_rows = EliminateAnyRows,
+                                .update_pivots = UpdatePivots,
+                                .update_below = UpdateBelow,
+                                .store = StoreFactor<double>,
+                                .store_rounded = StoreFactor<float>,
+                                .solve_forward = SolveForwardAny,
+                                .solve_backward = SolveBackwardAny,
+                                .solve_forward_one = SolveForwardOne<double>,
+                                .solve_backward_one = SolveBackwardOne<double>,
+                                .solve_forward_rounded = SolveForwardOne<float>,
+                                .solve_backward_rounded = SolveBackwardOne<float>};
 
 }  // namespace

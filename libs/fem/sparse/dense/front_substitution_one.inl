@@ -23,7 +23,8 @@ PALPATE_INLINE void LoadRows(const double* source, int count, Pack (&rows)[kTile
 }
 
 /// sum -= L y over `count` columns of a tile, in chains that do not wait for one another.
-PALPATE_INLINE void SubtractColumn(const double* tile, int count, const double* y,
+template <typename Value>
+PALPATE_INLINE void SubtractColumn(const Value* tile, int count, const double* y,
                                    Pack (&sum)[kTilePacks]) {
   constexpr int kChains = 4;
   Pack chain[kChains][kTilePacks] = {};
@@ -43,9 +44,10 @@ PALPATE_INLINE void SubtractColumn(const double* tile, int count, const double* 
   }
 }
 
-void SolveForwardOne(const FactorPanel& factor, const double* inverse, double* pivot_rows,
+template <typename Value>
+void SolveForwardOne(const FactorPanelOf<Value>& factor, const double* inverse, double* pivot_rows,
                      const int* below_rows, double* all_rows) {
-  const double* tile = factor.values;
+  const Value* tile = factor.values;
   for (int first = 0; first < factor.pivots; first += kTile) {
     const int rows = std::min(kTile, factor.pivots - first);
     Pack sum[kTilePacks];
@@ -76,7 +78,8 @@ constexpr int kColumnGroup = kTilePacks == 1 ? kTile : kTile / 2;
 using ColumnSums = Pack[kColumnGroup][kTilePacks];
 
 /// sum[c] += L[., c] known, lane by lane.
-PALPATE_INLINE void AddProducts(const double* tile, const Pack (&known)[kTilePacks],
+template <typename Value>
+PALPATE_INLINE void AddProducts(const Value* tile, const Pack (&known)[kTilePacks],
                                 ColumnSums& sum) {
   for (int c = 0; c < kColumnGroup; ++c) {
     for (int i = 0; i < kTilePacks; ++i)
@@ -97,17 +100,19 @@ PALPATE_INLINE void AddLanesUp(const ColumnSums& sum, double* total) {
 /// What the rows behind the tile of columns that starts at `first`, already solved, have in it. A
 /// tile with fewer columns is computed whole: what lies behind them is some other number, which
 /// goes nowhere.
-void MultiplyTransposed(const FactorPanel& factor, int first, const double* pivot_rows,
+template <typename Value>
+void MultiplyTransposed(const FactorPanelOf<Value>& factor, int first, const double* pivot_rows,
                         const double* below, double* total) {
-  const double* below_tiles = factor.values + FactorPanel::Size(factor.pivots, 0);
+  using Factor = FactorPanelOf<Value>;
+  const Value* below_tiles = factor.values + Factor::Size(factor.pivots, 0);
   for (int column = first; column < first + kTile; column += kColumnGroup) {
     ColumnSums sum = {};
     Pack known[kTilePacks];
     for (int row = first + kTile; row < factor.pivots; row += kTile) {
       LoadRows(pivot_rows + row, std::min(kTile, factor.pivots - row), known);
-      AddProducts(factor.values + FactorPanel::Size(row, 0) + column * kTile, known, sum);
+      AddProducts(factor.values + Factor::Size(row, 0) + column * kTile, known, sum);
     }
-    const double* tile = below_tiles + column * kTile;
+    const Value* tile = below_tiles + column * kTile;
     for (int row = 0; row < factor.below; row += kTile, tile += factor.pivots * kTile) {
       for (int i = 0; i < kTilePacks; ++i) known[i] = Load(below + row + i * kLanes);
       AddProducts(tile, known, sum);
@@ -116,7 +121,8 @@ void MultiplyTransposed(const FactorPanel& factor, int first, const double* pivo
   }
 }
 
-void SolveBackwardOne(const FactorPanel& factor, const double* inverse, double* pivot_rows,
+template <typename Value>
+void SolveBackwardOne(const FactorPanelOf<Value>& factor, const double* inverse, double* pivot_rows,
                       const int* below_rows, const double* all_rows, double* below) {
   for (int r = 0; r < factor.below; ++r) below[r] = all_rows[below_rows[r]];
   for (int r = factor.below; r % kTile != 0; ++r) below[r] = 0.0;
@@ -124,12 +130,12 @@ void SolveBackwardOne(const FactorPanel& factor, const double* inverse, double* 
     const int columns = std::min(kTile, factor.pivots - first);
     double y[kTile];
     MultiplyTransposed(factor, first, pivot_rows, below, y);
-    const double* diagonal = factor.values + FactorPanel::Size(first, 0) + first * kTile;
+    const Value* diagonal = factor.values + FactorPanelOf<Value>::Size(first, 0) + first * kTile;
     for (int c = 0; c < columns; ++c) y[c] = pivot_rows[first + c] - y[c];
     for (int c = columns - 1; c >= 0; --c) {
       y[c] *= inverse[first + c];
       pivot_rows[first + c] = y[c];
-      for (int b = 0; b < c; ++b) y[b] -= diagonal[b * kTile + c] * y[c];
+      for (int b = 0; b < c; ++b) y[b] -= double{diagonal[b * kTile + c]} * y[c];
     }
   }
 }

@@ -93,6 +93,43 @@ TEST_P(MultifrontalSolver, SolvesWithAFrontOfAnySize) {
       solver->Solve(x);
       EXPECT_LE((dense * x - b).norm(), 1e-12 * b.norm()) << nodes << " nodes, " << columns;
     }
+    solver->KeepRounded();
+    ASSERT_TRUE(solver->Factorize(values).ok());
+    const Eigen::VectorXd b = RandomColumns(3 * nodes, 1);
+    Eigen::VectorXd x = b;
+    solver->SolveRounded(x);
+    EXPECT_LE((dense * x - b).norm(), 1e-4 * b.norm()) << nodes << " nodes, rounded";
+  }
+}
+
+/// To what single precision of the factor leaves, and exactly where the residual corrects it.
+TEST_P(MultifrontalSolver, SolvesByARoundedFactor) {
+  for (const int threads : {1, 2}) {
+    const StiffnessMatrix matrix = MakeGridMatrix(25.0, 1);
+    ThreadTeam team(threads);
+    const auto solver = MakeMultifrontalSolver(matrix.Pattern(), team, GetParam());
+    const Eigen::VectorXd b = RandomColumns(matrix.Size(), 1);
+    ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
+    Eigen::VectorXd exact = b;
+    solver->Solve(exact);
+    solver->KeepRounded();
+    Eigen::VectorXd x = b;
+    solver->SolveRounded(x);
+    EXPECT_EQ(x, exact) << "rounded from the next factorisation on";
+    ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
+    x = b;
+    solver->SolveRounded(x);
+    EXPECT_LE((x - exact).norm(), 1e-6 * exact.norm());
+    EXPECT_GE((x - exact).norm(), 1e-12 * exact.norm()) << "not rounded";
+    for (int step = 0; step < 2; ++step) {
+      Eigen::VectorXd left = b - matrix.Times(x);
+      solver->SolveRounded(left);
+      x += left;
+    }
+    EXPECT_LE((x - exact).norm(), 1e-13 * exact.norm());
+    Eigen::VectorXd again = b;
+    solver->Solve(again);
+    EXPECT_EQ(again, exact);
   }
 }
 
