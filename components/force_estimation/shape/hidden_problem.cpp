@@ -50,18 +50,35 @@ void HiddenProblem::Ignore(Eigen::MatrixXd columns) {
 }
 
 Eigen::MatrixX3d HiddenProblem::Place(int place) const {
-  return whitening_ * responses_->To(places_->Patch(place))(Eigen::all, row_).transpose();
+  return whitening_ * responses_->To(places_->Patch(place))(row_, Eigen::all);
 }
 
 Eigen::MatrixXd HiddenProblem::Whitened(const Eigen::MatrixXd& motion_m) const {
   return whitening_ * motion_m(row_, Eigen::all);
 }
 
-PlaceFit HiddenProblem::Fit(const Eigen::Ref<const Eigen::MatrixX3d>& columns,
-                            const Eigen::Vector3d& normal, double friction) const {
-  const Eigen::VectorXd push = -columns * normal;
-  const double push_push = push.squaredNorm();
-  const double push_rest = push.dot(residual_);
+std::vector<PlaceEquations> HiddenProblem::EquationsAt(const std::vector<int>& places) const {
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd motion_m(responses_->Count(), 3 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int place = places[static_cast<size_t>(k)];
+    motion_m.middleCols<3>(3 * k) = responses_->To(places_->Patch(place));
+  }
+  const Eigen::MatrixXd columns = Whitened(motion_m);
+  const Eigen::VectorXd pull = columns.transpose() * residual_;
+  std::vector<PlaceEquations> equations(places.size());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto of_place = columns.middleCols<3>(3 * k);
+    equations[static_cast<size_t>(k)] = {of_place.transpose() * of_place, pull.segment<3>(3 * k)};
+  }
+  return equations;
+}
+
+PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction) {
+  const auto& [gram, pull] = equations;
+  const Eigen::Vector3d push = -gram * normal;
+  const double push_push = -normal.dot(push);
+  const double push_rest = -normal.dot(pull);
   if (!(push_push > 0.0) || !(push_rest > 0.0)) return {};
   PlaceFit fit{.force_N = push_rest / push_push,
                .tangential_N = Eigen::Vector3d::Zero(),
@@ -71,10 +88,9 @@ PlaceFit HiddenProblem::Fit(const Eigen::Ref<const Eigen::MatrixX3d>& columns,
   const Eigen::Vector3d first = normal.unitOrthogonal();
   const Eigen::Matrix<double, 3, 2> tangents =
       (Eigen::Matrix<double, 3, 2>() << first, normal.cross(first)).finished();
-  const Eigen::MatrixX2d slide = columns * tangents;
-  const Eigen::Matrix2d slide_slide = slide.transpose() * slide;
-  const Eigen::Vector2d slide_push = slide.transpose() * push;
-  const Eigen::Vector2d slide_rest = slide.transpose() * residual_;
+  const Eigen::Matrix2d slide_slide = tangents.transpose() * gram * tangents;
+  const Eigen::Vector2d slide_push = tangents.transpose() * push;
+  const Eigen::Vector2d slide_rest = tangents.transpose() * pull;
   for (int round = 0; round < kFrictionRounds; ++round) {
     const double variance_N2 = std::pow(friction * fit.force_N, 2);
     const Eigen::Matrix2d noise = Eigen::Matrix2d::Identity() + variance_N2 * slide_slide;

@@ -19,6 +19,16 @@ struct PlaceFit {
   double evidence = 0.0;  ///< twice the log of the likelihood over that without the contact
 };
 
+/// All that the fit of a push at one place goes by.
+struct PlaceEquations {
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();  ///< C' C, C: what unit forces along x, y, z do
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();  ///< C' residual
+};
+
+/// Fits a push along the inward normal with friction beside it: tangential components of normal
+/// distribution about 0 with a sigma of `friction` times the push.
+PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction);
+
 /// The residual in units of its noise and what unit forces on the candidates do to it. Whatever
 /// else may have caused it (forces refitted along, each with its prior) is absorbed into the noise,
 /// so that all that follows is least squares with unit weights.
@@ -42,10 +52,9 @@ class HiddenProblem {
   /// and, of what it does to all rows of the responses [r x k], m, what this problem sees [m x k].
   Eigen::MatrixXd Whitened(const Eigen::MatrixXd& motion_m) const;
 
-  /// Fits a push along the inward normal with friction beside it: tangential components of normal
-  /// distribution about 0 with a sigma of `friction` times the push. `columns` as Place gives them.
-  PlaceFit Fit(const Eigen::Ref<const Eigen::MatrixX3d>& columns, const Eigen::Vector3d& normal,
-               double friction) const;
+  /// For FitPush at each of these places. Many together cost little more than the responses.
+  std::vector<PlaceEquations> EquationsAt(const std::vector<int>& places) const;
+  PlaceEquations EquationsAt(int place) const { return EquationsAt(std::vector{place}).front(); }
 
  private:
   const SearchPlaces* places_;

@@ -138,7 +138,7 @@ void HiddenSearch::Parts::PushAt(const RowResponses& responses) {
   pushes_m.resize(responses.Count(), places.CandidateCount());
   for (int c = 0; c < places.CandidateCount(); ++c) {
     const int place = places.PlaceOfCandidate(c);
-    pushes_m.col(c).noalias() = -responses.To(places.Patch(place)).transpose() * normals.col(place);
+    pushes_m.col(c).noalias() = -responses.To(places.Patch(place)) * normals.col(place);
   }
 }
 
@@ -192,7 +192,7 @@ HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
 
 /// Without friction.
 PlaceFit HiddenSearch::Parts::FitAt(const HiddenProblem& problem, int place) const {
-  return problem.Fit(problem.Place(place), normals.col(place), 0.0);
+  return FitPush(problem.EquationsAt(place), normals.col(place), 0.0);
 }
 
 /// Starts from the best pair of candidates, and places each in turn while the other is free.
@@ -226,16 +226,16 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
       const int other = contacts[j].place;
       if (j != k) rest.Ignore(rest.Place(other) * normals.col(other));
     }
-    const Eigen::MatrixX3d columns = rest.Place(contact.place);
-    found.push_back(
-        {.rest_position_m = contact.mean_m,
-         .normal = normals.col(contact.place),
-         .force_N = contact.fit.force_N,
-         .tangential_N = contact.fit.tangential_N,
-         .chi_squared_gain = rest.Fit(columns, normals.col(contact.place), kFriction).gain,
-         .location_covariance_m2 = contact.covariance_m2,
-         .location_ci95_m = contact.ci95_m,
-         .force_covariance_N2 = contact.force_covariance_N2});
+    const PlaceFit fit =
+        FitPush(rest.EquationsAt(contact.place), normals.col(contact.place), kFriction);
+    found.push_back({.rest_position_m = contact.mean_m,
+                     .normal = normals.col(contact.place),
+                     .force_N = contact.fit.force_N,
+                     .tangential_N = contact.fit.tangential_N,
+                     .chi_squared_gain = fit.gain,
+                     .location_covariance_m2 = contact.covariance_m2,
+                     .location_ci95_m = contact.ci95_m,
+                     .force_covariance_N2 = contact.force_covariance_N2});
   }
 }
 

@@ -50,22 +50,24 @@ class Locator {
 
   std::vector<Look> LookAround() const {
     const std::vector<int> plausible = PlausiblePlaces();
+    if (plausible.empty()) return {};
     const size_t stride = (plausible.size() + kFirstLook - 1) / kFirstLook;
-    std::vector<Look> looks;
-    if (plausible.empty()) return looks;
-    for (size_t k = 0; k < plausible.size(); k += stride) looks.push_back(LookAt(plausible[k]));
+    std::vector<int> first;
+    for (size_t k = 0; k < plausible.size(); k += stride) first.push_back(plausible[k]);
+    std::vector<Look> looks = LookAt(first);
     if (stride == 1) return looks;
     const Eigen::Vector3d best_m = places_.positions_m().col(Best(looks).place);
     const double reach_m =
         kSecondLook * places_.spacing_m() * std::sqrt(static_cast<double>(stride));
-    const auto near = [&](int place) {
-      return (places_.positions_m().col(place) - best_m).norm() <= reach_m;
+    const auto is_far = [&](int place) {
+      return (places_.positions_m().col(place) - best_m).norm() > reach_m;
     };
-    std::erase_if(looks, [&](const Look& look) { return near(look.place); });
+    std::erase_if(looks, [&](const Look& look) { return !is_far(look.place); });
     for (Look& look : looks) look.share = static_cast<double>(stride);
-    for (const int place : plausible) {
-      if (near(place)) looks.push_back(LookAt(place));
-    }
+    std::vector<int> near = plausible;
+    std::erase_if(near, is_far);
+    const std::vector<Look> second = LookAt(near);
+    looks.insert(looks.end(), second.begin(), second.end());
     return looks;
   }
 
@@ -76,11 +78,16 @@ class Locator {
   }
 
  private:
-  Look LookAt(int place) const {
-    Look look{.place = place, .share = 1.0, .fit = {}, .unlikely = Unlikely(place)};
-    look.fit = problem_.Fit(problem_.Place(place), normals_.col(place), settings_.friction);
-    look.unlikely += std::pow(look.fit.force_N / kUsualForce_N, 2);
-    return look;
+  std::vector<Look> LookAt(const std::vector<int>& places) const {
+    const std::vector<PlaceEquations> equations = problem_.EquationsAt(places);
+    std::vector<Look> looks;
+    for (size_t k = 0; k < places.size(); ++k) {
+      Look look{.place = places[k], .share = 1.0, .fit = {}, .unlikely = Unlikely(places[k])};
+      look.fit = FitPush(equations[k], normals_.col(look.place), settings_.friction);
+      look.unlikely += std::pow(look.fit.force_N / kUsualForce_N, 2);
+      looks.push_back(look);
+    }
+    return looks;
   }
 
   /// Squared distance from what was known before, in its sigmas; what was known may be wrong.
@@ -90,11 +97,19 @@ class Locator {
   }
 
   std::vector<int> PlausiblePlaces() const {
-    std::vector<double> evidence;
-    for (int c = 0; c < places_.CandidateCount(); ++c) {
+    const int count = places_.CandidateCount();
+    std::vector<int> candidates;
+    std::vector<int> usable;
+    for (int c = 0; c < count; ++c) {
       const int place = places_.PlaceOfCandidate(c);
-      const bool usable = usable_[static_cast<size_t>(place)];
-      evidence.push_back(usable ? LookAt(place).evidence() : 0.0);
+      if (!usable_[static_cast<size_t>(place)]) continue;
+      candidates.push_back(c);
+      usable.push_back(place);
+    }
+    const std::vector<Look> looks = LookAt(usable);
+    std::vector<double> evidence(static_cast<size_t>(count), 0.0);
+    for (size_t k = 0; k < looks.size(); ++k) {
+      evidence[static_cast<size_t>(candidates[k])] = looks[k].evidence();
     }
     const double best = *std::max_element(evidence.begin(), evidence.end());
     const double least = best - std::max(kPlausibleFall, kPlausiblePart * best);

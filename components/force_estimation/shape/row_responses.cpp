@@ -94,11 +94,12 @@ void RowResponses::Clear() {
   ++version_;
 }
 
-Eigen::Matrix3Xd RowResponses::To(const fem::NodeWeights& place) const {
-  Eigen::Matrix3Xd response = Eigen::Matrix3Xd::Zero(3, columns_.cols());
+Eigen::MatrixX3d RowResponses::To(const fem::NodeWeights& place) const {
+  Eigen::MatrixX3d response = Eigen::MatrixX3d::Zero(columns_.cols(), 3);
   for (size_t k = 0; k < place.nodes.size(); ++k) {
     const int free = free_index_[static_cast<size_t>(place.nodes[k])];
-    if (free >= 0) response += place.weights[k] * columns_.middleRows<3>(3 * free);
+    if (free < 0) continue;
+    response.noalias() += place.weights[k] * columns_.middleRows<3>(3 * free).transpose();
   }
   return response;
 }

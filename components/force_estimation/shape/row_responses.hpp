@@ -31,8 +31,8 @@ class RowResponses {
   /// Another number after each change.
   int version() const { return version_; }
 
-  /// [3 x rows] what unit forces along x, y and z on these nodes do, m/N.
-  Eigen::Matrix3Xd To(const fem::NodeWeights& place) const;
+  /// [rows x 3] what unit forces along x, y and z on these nodes do, m/N.
+  Eigen::MatrixX3d To(const fem::NodeWeights& place) const;
 
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -46,8 +46,7 @@ geometry::TriangleSurface HeldSurface(const robot::RobotBody& body) {
 
 }  // namespace
 
-SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m)
-    : model_(model), patch_radius_m_(patch_radius_m) {
+SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m) {
   PALPATE_CHECK(patch_radius_m > 0.0, patch_radius_m);
   const robot::RobotBody& body = model.body();
   const double area_m2 = geometry::SurfaceArea_m2(fem::RestSurface(body.mesh, body.boundary));
@@ -58,8 +57,8 @@ SearchPlaces::SearchPlaces(const robot::RobotModel& model, double patch_radius_m
   place_of_candidate_ = geometry::FarthestPoints(positions_m_, std::min(wanted, Count()));
   for (const auto& position_m : positions_m_.colwise()) {
     nearest_candidates_.push_back(CandidatesNear(position_m));
+    patches_.push_back(model.Patch(position_m, patch_radius_m).weights);
   }
-  patches_.resize(static_cast<size_t>(Count()));
   spacing_m_ = std::sqrt(area_m2 / (kPlacesPerCandidate * wanted));
 }
 
@@ -109,12 +108,6 @@ std::array<int, SearchPlaces::kNearest> SearchPlaces::CandidatesNear(
         order[static_cast<size_t>(std::min<std::ptrdiff_t>(k, used - 1))];
   }
   return nearest;
-}
-
-const fem::NodeWeights& SearchPlaces::Patch(int place) const {
-  std::optional<fem::NodeWeights>& patch = patches_[static_cast<size_t>(place)];
-  if (!patch) patch = model_.Patch(positions_m_.col(place), patch_radius_m_).weights;
-  return *patch;
 }
 
 int SearchPlaces::Nearest(const Eigen::Vector3d& rest_position_m) const {

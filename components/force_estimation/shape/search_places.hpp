@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "libs/fem/surface_patch.hpp"
@@ -20,8 +19,8 @@ class SearchPlaces {
  public:
   static constexpr int kNearest = 4;
 
-  /// `model` must outlive this. `patch_radius_m` > 0. Throws InputError where the whole surface is
-  /// held.
+  /// Makes all patches, in about 0.1 ms each. `patch_radius_m` > 0. Throws InputError where the
+  /// whole surface is held.
   SearchPlaces(const robot::RobotModel& model, double patch_radius_m);
 
   int CandidateCount() const { return static_cast<int>(place_of_candidate_.size()); }
@@ -31,8 +30,8 @@ class SearchPlaces {
     return place_of_candidate_[static_cast<size_t>(candidate)];
   }
   const Eigen::Matrix3Xd& positions_m() const { return positions_m_; }  ///< [3 x places] at rest
-  /// What a contact there pushes on. Made when it is first asked for, in 0.1 ms.
-  const fem::NodeWeights& Patch(int place) const;
+  /// What a contact there pushes on.
+  const fem::NodeWeights& Patch(int place) const { return patches_[static_cast<size_t>(place)]; }
   /// Candidates nearest to a place, the nearest first; the last is repeated where there are fewer.
   const std::array<int, kNearest>& NearestCandidates(int place) const {
     return nearest_candidates_[static_cast<size_t>(place)];
@@ -47,15 +46,13 @@ class SearchPlaces {
   void SpreadOver(const robot::RobotModel& model, double clearance_m, int count);
   std::array<int, kNearest> CandidatesNear(const Eigen::Vector3d& position_m) const;
 
-  const robot::RobotModel& model_;
-  double patch_radius_m_;
   Eigen::Matrix3Xi surface_triangles_;
   Eigen::Matrix3Xd positions_m_;
   std::vector<int> triangles_;    ///< [places] of the surface
   Eigen::Matrix3Xd barycentric_;  ///< [3 x places]
   std::vector<int> place_of_candidate_;
   std::vector<std::array<int, kNearest>> nearest_candidates_;
-  mutable std::vector<std::optional<fem::NodeWeights>> patches_;  ///< [places]
+  std::vector<fem::NodeWeights> patches_;  ///< [places]
   double spacing_m_ = 0.0;
 };
 

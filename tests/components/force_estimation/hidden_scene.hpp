@@ -88,7 +88,7 @@ class HiddenScene {
 
   /// [rows x 3] of unit forces there, m/N, about what Respond or MoveTo came to.
   Eigen::MatrixX3d ResponseAt(const Eigen::Vector3d& place_m) const {
-    return responses.To(model.Patch(place_m, kRadius_m).weights).transpose();
+    return responses.To(model.Patch(place_m, kRadius_m).weights);
   }
 
   /// What the features show of the pushes, with noise.

@@ -63,7 +63,7 @@ TEST(RowResponses, AreTheDerivativesOfEquilibriaWithCablesHeld) {
     const fem::StaticState minus = SolveTruth(*model, cables, {{patch.weights, -force_N}});
     const Eigen::VectorXd derivative =
         (ValuesOf(rows, plus.x_m) - ValuesOf(rows, minus.x_m)) / 2e-3;
-    const Eigen::VectorXd response = responses.To(patch.weights).row(column % 3);
+    const Eigen::VectorXd response = responses.To(patch.weights).col(column % 3);
     EXPECT_LT((response - derivative).norm(), 1e-3 * derivative.norm()) << column;
   }
 }
