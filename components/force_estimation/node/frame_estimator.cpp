@@ -14,6 +14,9 @@ namespace palpate::force_estimation {
 
 namespace {
 
+/// What drifts does so slowly; each look costs as much as a chord step of the model.
+constexpr double kBetweenWatches_s = 0.1;
+
 class FromMarkers : public FrameEstimator {
  public:
   FromMarkers(robot::RobotModel& model, const NodeConfig& config,
@@ -67,10 +70,16 @@ class FromShape : public FrameEstimator {
     const bool stands = IsUsable(status) || status.code() == StatusCode::kNoCalibration;
     result.state = result.state_is_known && stands ? Status::Ok() : status;
     if (!seen.looked.ok() && status.code() == StatusCode::kNoRobotSeen) status = seen.looked;
-    drift_.Add(seen.frame.t_s,
-               SeeMotion(held_skin_, seen.frame.cloud, seen.frame.T_robot_camera, nodes_m_));
     result.drift = drift_.report();
     return result;
+  }
+
+  void AfterUpdate(const FrameInput& input) override {
+    const ShapeFrame& frame = std::get<SeenShape>(input.frame).frame;
+    const double since_s = frame.t_s - watched_s_;
+    if (since_s >= 0.0 && since_s < kBetweenWatches_s) return;
+    watched_s_ = frame.t_s;
+    drift_.Add(frame.t_s, SeeMotion(held_skin_, frame.cloud, frame.T_robot_camera, nodes_m_));
   }
 
  private:
@@ -83,6 +92,7 @@ class FromShape : public FrameEstimator {
   FeatureGapMeter gap_;
   HeldSkin held_skin_;
   DriftWatch drift_;
+  double watched_s_ = -kBetweenWatches_s;
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ class FrameEstimator {
  public:
   virtual ~FrameEstimator() = default;
   virtual FrameResult Update(FrameInput& input) = 0;
+  /// What can wait until the result of `input` is out; its results go out with the next one.
+  virtual void AfterUpdate(const FrameInput& /*input*/) {}
 };
 
 using FrameEstimatorMaker = std::function<std::unique_ptr<FrameEstimator>(robot::RobotModel&)>;

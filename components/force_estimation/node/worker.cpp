@@ -39,6 +39,7 @@ void Worker::Run() {
     if (input->new_sequence) estimator_ = maker_(*model_);
     results_.Push(estimator_->Update(*input), false);
     on_result_();
+    estimator_->AfterUpdate(*input);
   }
 }
 
