@@ -4,12 +4,14 @@
 #include "components/palpate/find_robot.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -72,10 +74,13 @@ std::filesystem::path FindRobotFile(const std::filesystem::path& robot) {
 }
 
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
-                                             const fem::SolverSettings& solver) {
-  const auto description = robot::ReadRobotFile(FindRobotFile(robot), app::LoadYaml);
-  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description),
-                                             fem::StaticSettings{}, solver);
+                                             const fem::SolverSettings& solver,
+                                             const std::filesystem::path& calibration) {
+  auto body = robot::BuildRobotBody(robot::ReadRobotFile(FindRobotFile(robot), app::LoadYaml));
+  if (!calibration.empty()) {
+    robot::ApplySize(robot::ReadCalibrationFile(calibration, app::LoadYaml), &body);
+  }
+  return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
 void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver) {

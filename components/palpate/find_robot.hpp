@@ -24,9 +24,11 @@ std::filesystem::path FindProjectFile(const std::filesystem::path& relative);
 /// ("four_leg"). Throws InputError where neither is there, with "did you mean".
 std::filesystem::path FindRobotFile(const std::filesystem::path& robot);
 
-/// Reads the robot file and its mesh and makes the model ready to solve. Throws InputError.
+/// Reads the robot file and its mesh and makes the model ready to solve, as large as the
+/// calibration file (empty: none) says; nothing else of it is applied. Throws InputError.
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
-                                             const fem::SolverSettings& solver = {});
+                                             const fem::SolverSettings& solver = {},
+                                             const std::filesystem::path& calibration = {});
 
 /// The options --solver and --threads.
 void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver);

@@ -76,6 +76,10 @@ Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile
   return Status::Ok();
 }
 
+void ApplySize(const CalibrationFile& calibration, RobotBody* body) {
+  if (calibration.geometry_scale) ScaleBody(calibration.geometry_scale->scale, body);
+}
+
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model) {
   if (Status status = CheckCalibrated(calibration, DescribeForCalibration(model)); !status.ok()) {
     return status;
@@ -93,7 +97,18 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
                    "', which the robot file does not have" +
                    DidYouMean(poissons.part, body.region_names));
   }
+  const double scale = calibration.geometry_scale ? calibration.geometry_scale->scale : 1.0;
+  if (scale != body.scale) {
+    return Foreign("the calibration is for a robot " + FormatNumber(scale) +
+                   " times as large as its file says, the model is " + FormatNumber(body.scale) +
+                   " times: start again with the calibration as a file, or calibrate again");
+  }
   const std::vector<std::string> cables = model.CableNames();
+  for (const CalibratedRoute& route : calibration.cable_routes) {
+    if (IndexOf(cables, route.cable)) continue;
+    return Foreign("the calibration holds the route of cable '" + route.cable +
+                   "', which the robot file does not have" + DidYouMean(route.cable, cables));
+  }
   for (const CalibratedDrive& drive : calibration.drives) {
     if (IndexOf(cables, drive.cable)) continue;
     return Foreign("the calibration holds the drive of cable '" + drive.cable +
@@ -108,6 +123,12 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
   const std::vector<std::string> cables = model->CableNames();
   for (const CalibratedDrive& drive : calibration.drives) {
     model->SetDrive(IndexOf(cables, drive.cable).value(), drive.drive);
+  }
+  for (const CalibratedRoute& route : calibration.cable_routes) {
+    const int cable = IndexOf(cables, route.cable).value();
+    const RobotBody& body = model->body();
+    model->SetPullPoint(
+        cable, body.cables[static_cast<size_t>(cable)].pull_point_m + body.scale * route.moved_m);
   }
   for (const CalibratedModulus& modulus : calibration.moduli) {
     model->SetYoungsModulus(MaterialIndex(model->body(), modulus.part).value(),

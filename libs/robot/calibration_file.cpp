@@ -166,12 +166,18 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
     calibration.depth_bias = ReadDepthBias(*bias);
   }
   calibration.drives = ReadItems(&map, "drives", ReadDrive);
+  if (const ConfigNode* scale = map.Optional("geometry_scale")) {
+    calibration.geometry_scale = ReadGeometryScale(*scale);
+  }
+  calibration.cable_routes = ReadItems(&map, "cable_routes", ReadCableRoute);
   calibration.undetermined = ReadItems(&map, "undetermined", ReadUndetermined);
   if (calibration.moduli.empty() && calibration.poissons_ratios.empty() && !calibration.gravity &&
-      !calibration.pose && calibration.drives.empty()) {
-    Refuse(root,
-           "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera or drives: what was "
-           "calibrated");
+      !calibration.pose && calibration.drives.empty() && !calibration.geometry_scale &&
+      calibration.cable_routes.empty()) {
+    Refuse(
+        root,
+        "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera, drives, geometry_scale "
+        "or cable_routes: what was calibrated");
   }
   calibration.residual_rms_m = ReadNumber(map.Require("residual_rms_m"), kNonNegative);
   calibration.chi_squared = ReadNumber(map.Require("chi_squared"), kNonNegative);
@@ -200,6 +206,7 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
   if (calibration.pose) text += FormatPoseAndErrors(*calibration.pose);
   if (calibration.depth_bias) text += FormatDepthBias(*calibration.depth_bias);
   text += FormatDrives(calibration.drives);
+  text += FormatGeometry(calibration.geometry_scale, calibration.cable_routes);
   text += FormatUndetermined(calibration.undetermined);
   text += "residual_rms_m: " + FormatNumber(calibration.residual_rms_m) + "\n";
   text += "chi_squared: " + FormatNumber(calibration.chi_squared) + "\n";

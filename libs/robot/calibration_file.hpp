@@ -13,6 +13,7 @@
 #include "libs/core/config_node.hpp"
 #include "libs/core/status.hpp"
 #include "libs/robot/calibrated_depth_bias.hpp"
+#include "libs/robot/calibrated_geometry.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::robot {
@@ -80,6 +81,8 @@ struct CalibrationFile {
   std::optional<CalibratedPose> pose;
   std::optional<CalibratedDepthBias> depth_bias;  ///< only where there is a pose
   std::vector<CalibratedDrive> drives;
+  std::optional<CalibratedScale> geometry_scale;  ///< absent: as large as the robot file says
+  std::vector<CalibratedRoute> cable_routes;
   std::vector<Undetermined> undetermined;
   double residual_rms_m = 0.0;
   double chi_squared = 0.0;
@@ -99,11 +102,17 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
 /// element's or material's than `present` (DescribeForCalibration) says.
 Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile& present);
 
-/// The same, and where it names a region or a cable that the robot does not have.
+/// Makes a body, which is as the robot file has it, as large as the calibration found it; to be
+/// done before a model is made of it.
+void ApplySize(const CalibrationFile& calibration, RobotBody* body);
+
+/// The same, and where it names a region or a cable that the robot does not have, or found another
+/// size than the model's (ApplySize).
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model);
 
-/// Gives the model the calibrated moduli, Poisson's ratios, gravity and drives; where the camera
-/// stands is the caller's business. Throws InputError where CheckCalibration is not ok.
+/// Gives the model the calibrated moduli, Poisson's ratios, gravity, drives and guides of the
+/// cables; where the camera stands is the caller's business. Throws InputError where
+/// CheckCalibration is not ok.
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
 
 /// Largest relative standard error of the moduli; 0 without moduli.

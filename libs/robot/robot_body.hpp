@@ -53,6 +53,7 @@ struct RobotBody {
   Eigen::VectorXd node_mass_kg;
   Eigen::Vector3d gravity_m_s2;
 
+  double scale = 1.0;  ///< how much larger all of it is than the robot file says (ScaleBody)
   std::vector<BodyCable> cables;
   std::vector<BodyMarker> markers;
   std::vector<fem::BodyPoint> feature_points;

@@ -88,6 +88,27 @@ void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s
       robot::CalibratedGravity{(has_mass ? mass->value : 1.0) * turned_m_s2, variance.cwiseSqrt()};
 }
 
+void TakeGeometry(const JointCalibration& fit, const robot::RobotBody& body,
+                  robot::CalibrationFile* file) {
+  const FittedValue* scale = FindValue(fit, "geometry_scale");
+  if (scale != nullptr && scale->determined) {
+    file->geometry_scale = robot::CalibratedScale{scale->value, scale->standard_error};
+  }
+  for (const robot::BodyCable& cable : body.cables) {
+    robot::CalibratedRoute route{.cable = cable.name};
+    Eigen::Vector3d variance_m2 = Eigen::Vector3d::Zero();
+    for (const TiltAxis& axis : AcrossCable(cable)) {
+      const FittedValue* off = FindValue(fit, "cable_route:" + cable.name + ":" + axis.name);
+      if (off == nullptr || !off->determined) continue;
+      route.moved_m += off->value * axis.direction;
+      variance_m2 += (off->standard_error * axis.direction).cwiseAbs2();
+    }
+    if (variance_m2.isZero(0.0)) continue;
+    route.standard_error_m = variance_m2.cwiseSqrt();
+    file->cable_routes.push_back(route);
+  }
+}
+
 }  // namespace
 
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
@@ -96,6 +117,7 @@ void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
   TakeDrives(fit, model, file);
   TakeMaterials(fit, PartNames(model.body()), file);
   TakeGravity(fit, model.gravity_m_s2(), file);
+  TakeGeometry(fit, model.body(), file);
   for (const FittedValue& value : fit.values) {
     if (!value.determined) file->undetermined.push_back({value.name, value.what_would_tell});
   }

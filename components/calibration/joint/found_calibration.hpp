@@ -18,9 +18,9 @@ const FittedValue* FindValue(const JointCalibration& fit, const std::string& nam
 /// Names of the materials (RobotBody::materials) in calibration files: "body", then the regions'.
 std::vector<std::string> PartNames(const robot::RobotBody& body);
 
-/// Puts into the file what a joint calibration that succeeded found: the pose, drives, materials
-/// and gravity that its data determine, the names of what they do not, and how well it fits. Marker
-/// offsets are no part of a calibration file. `model`'s gravity is the nominal one.
+/// Puts into the file what a joint calibration that succeeded found: the pose, drives, materials,
+/// gravity, size and guides that its data determine, the names of what they do not, and how well it
+/// fits. Marker offsets are no part of a calibration file. `model`'s gravity is the nominal one.
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file);
 

@@ -323,4 +323,8 @@ std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along) {
   return axes;
 }
 
+std::array<TiltAxis, 2> AcrossCable(const robot::BodyCable& cable) {
+  return AcrossCable(Eigen::Vector3d(cable.eyelets.front().rest_m - cable.pull_point_m));
+}
+
 }  // namespace palpate::calibration

@@ -58,5 +58,7 @@ std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2);
 
 /// Two directions across a cable and square to each other, near TiltAxes of it.
 std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along);
+/// The same of its piece from the guide to the body, as the robot file has them.
+std::array<TiltAxis, 2> AcrossCable(const robot::BodyCable& cable);
 
 }  // namespace palpate::calibration

@@ -3,6 +3,7 @@
 
 #include "components/calibration/node/command_line.hpp"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,10 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
 
 std::unique_ptr<CalibrationNode> MakeNode(const Command& command) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(command.robot, app::LoadYaml));
+  if (const std::filesystem::path last = command.config.calibration_file;
+      !last.empty() && std::filesystem::exists(last)) {
+    robot::ApplySize(robot::ReadCalibrationFile(last, app::LoadYaml), &body);
+  }
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
   auto model = std::make_unique<robot::RobotModel>(
       std::move(body), fem::StaticSettings{},

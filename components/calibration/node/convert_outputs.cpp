@@ -76,6 +76,20 @@ void SetMaterials(const robot::CalibrationFile& file, idl::palpate_msgs::Calibra
   dds::SetVector(message->gravity_standard_error_m_s2, file.gravity->standard_error_m_s2);
 }
 
+void SetGeometry(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
+  message->has_geometry_scale = file.geometry_scale.has_value();
+  const robot::CalibratedScale scale = file.geometry_scale.value_or(robot::CalibratedScale());
+  message->geometry_scale = scale.scale;
+  message->geometry_scale_standard_error = scale.standard_error;
+  dds::Resize(message->cable_routes, file.cable_routes.size());
+  for (std::size_t k = 0; k < file.cable_routes.size(); ++k) {
+    auto& route = message->cable_routes._buffer[k];
+    dds::SetText(route.cable, file.cable_routes[k].cable);
+    dds::SetVector(route.moved_m, file.cable_routes[k].moved_m);
+    dds::SetVector(route.standard_error_m, file.cable_routes[k].standard_error_m);
+  }
+}
+
 void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
   dds::Resize(message->drives, file.drives.size());
   for (std::size_t k = 0; k < file.drives.size(); ++k) {
@@ -88,6 +102,7 @@ void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Cali
   }
   SetDepthBias(file, message);
   SetMaterials(file, message);
+  SetGeometry(file, message);
   dds::Resize(message->undetermined, file.undetermined.size());
   for (std::size_t k = 0; k < file.undetermined.size(); ++k) {
     auto& number = message->undetermined._buffer[k];

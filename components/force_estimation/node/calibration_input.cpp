@@ -103,6 +103,20 @@ Status ReadGravity(const idl::palpate_msgs::Calibration& message, robot::Calibra
   return Status::Ok();
 }
 
+Status ReadGeometry(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
+  file->geometry_scale.reset();
+  if (message.has_geometry_scale) {
+    file->geometry_scale =
+        robot::CalibratedScale{message.geometry_scale, message.geometry_scale_standard_error};
+  }
+  file->cable_routes.clear();
+  for (const auto& route : dds::Elements(message.cable_routes)) {
+    file->cable_routes.push_back({std::string(dds::Text(route.cable)), dds::ToVector(route.moved_m),
+                                  dds::ToVector(route.standard_error_m)});
+  }
+  return robot::CheckGeometry(file->geometry_scale, file->cable_routes);
+}
+
 Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::CalibrationFile* file) {
   file->drives.clear();
   for (const auto& drive : dds::Elements(message.drives)) {
@@ -132,6 +146,7 @@ Status FromCalibration(const idl::palpate_msgs::Calibration& message,
   if (Status status = ReadDepthBias(message, calibration); !status.ok()) return status;
   if (Status status = ReadMaterials(message, calibration); !status.ok()) return status;
   if (Status status = ReadGravity(message, calibration); !status.ok()) return status;
+  if (Status status = ReadGeometry(message, calibration); !status.ok()) return status;
   return ReadNumbers(message, calibration);
 }
 

@@ -18,10 +18,13 @@ namespace palpate::force_estimation {
 
 namespace {
 
+/// As large as the calibration (nullptr: none) found it.
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
-                                             const fem::SolverSettings& solver) {
+                                             const fem::SolverSettings& solver,
+                                             const robot::CalibrationFile* calibration) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(file, app::LoadYaml));
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
+  if (calibration != nullptr) robot::ApplySize(*calibration, &body);
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
@@ -73,13 +76,16 @@ std::unique_ptr<ForceEstimationNode> MakeNode(const Command& command) {
     if (site.direction.isZero(0.0) || !IsFromShape(command.config)) continue;
     app::LogWarning("the direction of contact '{}' counts for markers only", site.name);
   }
-  auto model = LoadRobot(command.robot, {command.config.solver, command.config.threads});
   NodeConfig config = command.config;
+  const fem::SolverSettings solver{config.solver, config.threads};
   robot::CalibrationFile calibration;
+  std::unique_ptr<robot::RobotModel> model;
   if (command.calibration.empty()) {
     app::LogWarning("no --calibration: the moduli of the robot file are taken as they are");
+    model = LoadRobot(command.robot, solver, nullptr);
   } else {
     calibration = robot::ReadCalibrationFile(command.calibration, app::LoadYaml);
+    model = LoadRobot(command.robot, solver, &calibration);
     Calibrate(&calibration, model.get(), &config);
   }
   return std::make_unique<ForceEstimationNode>(

@@ -48,10 +48,9 @@ std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment
   return chosen;
 }
 
-/// The others are printed alone: they belong into the robot file.
+/// The others are printed alone.
 bool IsInFile(const std::string& name) {
-  const auto outside = {"input:", "marker_offset:", "geometry_scale",
-                        "cable_route:", "depth_scale"};
+  const auto outside = {"input:", "marker_offset:", "depth_scale"};
   return std::none_of(outside.begin(), outside.end(),
                       [&](const char* start) { return name.starts_with(start); });
 }

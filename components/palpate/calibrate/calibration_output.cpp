@@ -21,6 +21,30 @@ std::vector<double> ToList(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
+void PrintGeometry(const robot::CalibrationFile& file) {
+  if (file.geometry_scale) {
+    fmt::print("size: {:.4f} of the robot file's (standard error {:.4f})\n",
+               file.geometry_scale->scale, file.geometry_scale->standard_error);
+  }
+  for (const robot::CalibratedRoute& route : file.cable_routes) {
+    fmt::print("guide of {}: off by {} m (standard error {} m)\n", route.cable,
+               geometry::FormatVector(route.moved_m),
+               geometry::FormatVector(route.standard_error_m));
+  }
+}
+
+void AddGeometry(const robot::CalibrationFile& file, nlohmann::ordered_json* json) {
+  if (file.geometry_scale) {
+    (*json)["geometry_scale"] = {{"scale", file.geometry_scale->scale},
+                                 {"standard_error", file.geometry_scale->standard_error}};
+  }
+  for (const robot::CalibratedRoute& route : file.cable_routes) {
+    (*json)["cable_routes"].push_back({{"cable", route.cable},
+                                       {"moved_m", ToList(route.moved_m)},
+                                       {"standard_error_m", ToList(route.standard_error_m)}});
+  }
+}
+
 }  // namespace
 
 robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
@@ -70,6 +94,7 @@ void PrintCalibration(const robot::CalibrationFile& file) {
         drive.cable, 1e3 * drive.drive.offset_m, 1e3 * drive.standard_error.offset_m,
         100.0 * drive.drive.gain, 100.0 * drive.standard_error.gain);
   }
+  PrintGeometry(file);
   for (const robot::Undetermined& number : file.undetermined) {
     fmt::print("{} is not determined by these data, and stays as it was; it takes {}\n",
                number.name, number.what_would_tell);
@@ -118,6 +143,7 @@ void PrintCalibrationJson(const robot::CalibrationFile& file) {
                               {"gain", drive.drive.gain},
                               {"gain_standard_error", drive.standard_error.gain}});
   }
+  AddGeometry(file, &json);
   for (const robot::Undetermined& number : file.undetermined) {
     json["undetermined"].push_back(
         {{"name", number.name}, {"what_would_tell", number.what_would_tell}});

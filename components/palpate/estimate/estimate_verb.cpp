@@ -16,7 +16,8 @@ int Estimate(const EstimateOptions& options) {
   const EstimateSettings settings =
       ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts);
   const auto plan = PlanEstimates(experiment, options.recordings, options.from);
-  const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads});
+  const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
+                               options.calibration);
   EstimateRun run(options, settings, &experiment, model.get());
   run.Teach(plan);
   for (const PlannedRecording& planned : plan) run.Estimate(planned);

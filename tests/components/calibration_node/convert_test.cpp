@@ -47,6 +47,8 @@ robot::CalibrationFile SomeCalibration() {
                                          .coefficients = Eigen::Vector3d(1e-3, 2e-3, -3e-3),
                                          .covariance = 1e-6 * root * root.transpose()}};
   file.drives = {{"top", {1e-3, 0.02}, {2e-4, 0.01}}};
+  file.geometry_scale = robot::CalibratedScale{1.02, 1e-3};
+  file.cable_routes = {{"top", {1e-3, 2e-3, 3e-3}, {1e-4, 2e-4, 3e-4}}};
   file.undetermined = {{"cable_gain:top", "a longer pull"}};
   file.residual_rms_m = 1e-4;
   file.chi_squared = 12.5;
@@ -104,6 +106,13 @@ TEST(ConvertCalibration, ComesOutAtTheOtherEndAsItWentIn) {
   ASSERT_TRUE(got.gravity);
   EXPECT_EQ(got.gravity->gravity_m_s2, sent.gravity->gravity_m_s2);
   EXPECT_EQ(got.gravity->standard_error_m_s2, sent.gravity->standard_error_m_s2);
+  ASSERT_TRUE(got.geometry_scale);
+  EXPECT_EQ(got.geometry_scale->scale, 1.02);
+  EXPECT_EQ(got.geometry_scale->standard_error, 1e-3);
+  ASSERT_EQ(got.cable_routes.size(), 1u);
+  EXPECT_EQ(got.cable_routes[0].cable, "top");
+  EXPECT_EQ(got.cable_routes[0].moved_m, sent.cable_routes[0].moved_m);
+  EXPECT_EQ(got.cable_routes[0].standard_error_m, sent.cable_routes[0].standard_error_m);
   ASSERT_EQ(got.undetermined.size(), 1u);
   EXPECT_EQ(got.undetermined[0].name, "cable_gain:top");
   EXPECT_EQ(got.undetermined[0].what_would_tell, "a longer pull");
@@ -118,7 +127,8 @@ TEST(ConvertCalibration, WhatIsNotInItDoesNotComeOut) {
   bare.robot = "beam";
   const auto message = ToCalibration(bare, Eigen::Matrix<double, 6, 6>::Zero(), 5);
   ASSERT_TRUE(force_estimation::FromCalibration(*message, &got).ok());
-  EXPECT_FALSE(got.pose || got.gravity || got.depth_bias);
+  EXPECT_FALSE(got.pose || got.gravity || got.depth_bias || got.geometry_scale);
+  EXPECT_TRUE(got.cable_routes.empty());
   EXPECT_TRUE(got.moduli.empty() && got.poissons_ratios.empty() && got.drives.empty());
   EXPECT_TRUE(got.undetermined.empty());
 }
@@ -172,6 +182,14 @@ TEST(ConvertCalibration, RefusesNumbersThatAreNone) {
   EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
               HasSubstr("Poisson's ratio of 'tip'"));
   message = SomeMessage();
+  message->geometry_scale = 0.0;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
+              HasSubstr("geometry_scale 0"));
+  message = SomeMessage();
+  message->cable_routes._buffer[0].moved_m.y = kNaN;
+  EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(),
+              HasSubstr("route of cable 'top'"));
+  message = SomeMessage();
   message->gravity_m_s2.y = kNaN;
   EXPECT_THAT(force_estimation::FromCalibration(*message, &got).message(), HasSubstr("gravity"));
   message = SomeMessage();
@@ -198,6 +216,18 @@ TEST(ConvertMarkers, KeepsThoseThatWereSeenWithTheNoiseOfTheSettingsWhereTheyHav
   EXPECT_EQ(seen.markers[0].marker, 1);
   EXPECT_EQ(seen.markers[0].position_m, Eigen::Vector3d(0.1, 0.2, 0.3));
   EXPECT_TRUE(seen.markers[0].covariance_m2.isApprox(1e-6 * Eigen::Matrix3d::Identity(), 1e-12));
+}
+
+TEST(ConvertMarkers, KeepsTheirCovarianceAndThoseWithoutANameAsNobody) {
+  auto message = Markers("", 0.1);
+  Eigen::Matrix3d covariance_m2;
+  covariance_m2 << 4e-8, 1e-8, -2e-8, 1e-8, 9e-8, 3e-8, -2e-8, 3e-8, 25e-8;
+  Eigen::Map<Eigen::Matrix3d>(message->markers._buffer[0].covariance_m2) = covariance_m2;
+  SeenMarkers seen;
+  ASSERT_TRUE(FromMarkerArray(*message, {"b", "c"}, 1e-3, &seen).ok());
+  ASSERT_EQ(seen.markers.size(), 1u);
+  EXPECT_EQ(seen.markers[0].marker, -1);
+  EXPECT_EQ(seen.markers[0].covariance_m2, covariance_m2);
 }
 
 TEST(ConvertMarkers, RefusesThoseThatAreNotTheRobots) {

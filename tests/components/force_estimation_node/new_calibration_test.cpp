@@ -75,6 +75,7 @@ class NewCalibrationTest : public testing::Test {
     std::string date_utc = "2026-01-31T12:00:00Z";
     std::string robot = {}, mesh = {}, element = {};  ///< empty: as the node has it
     int depth_bias_width_px = 0;                      ///< of its images; 0: it holds none
+    double scale = 1.0;                               ///< of the robot; 1: not said
   };
   void Send(const Sent& sent) {
     const robot::CalibrationFile present = robot::DescribeForCalibration(*robot_);
@@ -93,6 +94,8 @@ class NewCalibrationTest : public testing::Test {
     message->has_camera = true;
     message->camera_in_robot =
         dds::ToPose(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, sent.z_m)));
+    message->has_geometry_scale = sent.scale != 1.0;
+    message->geometry_scale = sent.scale;
     if (sent.depth_bias_width_px > 0) SetDepthBias(sent.depth_bias_width_px, &*message);
     dds::Resize(message->drives, 1);
     dds::SetText(message->drives._buffer[0].cable, "top");
@@ -175,6 +178,8 @@ TEST_F(NewCalibrationTest, IsRefusedWhereItIsForeignAndThatIsSaid) {
   EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for mesh 'another'"));
   Send({.element = "tet10"});
   EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for element 'tet10'"));
+  Send({.scale = 1.02});
+  EXPECT_TRUE(WaitUntilSaid("refused: the calibration is for a robot 1.02 times as large"));
   Ask(10);
   EXPECT_EQ(LastCameraZ_m(), 0.5);
   EXPECT_EQ(script_.calls().back().youngs_modulus_Pa, 250e3);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 #include "components/calibration/joint/kept_model.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
@@ -59,6 +62,12 @@ TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   ExpectFound(fit, "geometry_scale", 1.02, 1e-3);
   ExpectPose(fit.T_robot_camera, TableOnePose(), 1e-3, 5e-4);
+  robot::CalibrationFile file = robot::DescribeForCalibration(*model_);
+  TakeFit(fit, *model_, &file);
+  ASSERT_TRUE(file.geometry_scale);
+  EXPECT_EQ(file.geometry_scale->scale, ValueNamed(fit, "geometry_scale")->value);
+  EXPECT_EQ(file.geometry_scale->standard_error, ValueNamed(fit, "geometry_scale")->standard_error);
+  EXPECT_TRUE(file.cable_routes.empty()) << "nobody looked for them";
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
 }
 
@@ -90,9 +99,7 @@ TEST_F(GeometryOfOurRobot, SizeAndDepthAreToldByTheCablesAloneAndNamedWhereTheyA
 
 TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
   const Eigen::Vector3d guide_m = model_->cable(1).pull_point_m();
-  const Eigen::Map<const Eigen::VectorXd> rest_m(model_->body().mesh.nodes_m.data(),
-                                                 model_->body().mesh.nodes_m.size());
-  const auto across = AcrossCable(model_->cable(1).eyelets().front().Position(rest_m) - guide_m);
+  const auto across = AcrossCable(model_->body().cables[1]);
   truth_->SetPullPoint(1, guide_m + 1.5e-3 * across[0].direction - 1e-3 * across[1].direction);
   const JointCalibration fit = CalibrateFrames(
       *model_, See(*truth_), nullptr,
@@ -101,6 +108,17 @@ TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
   const std::string name = "cable_route:" + model_->CableNames()[1] + ":";
   ExpectFound(fit, name + across[0].name, 1.5e-3, 5e-4);
   ExpectFound(fit, name + across[1].name, -1e-3, 5e-4);
+  robot::CalibrationFile file = robot::DescribeForCalibration(*model_);
+  TakeFit(fit, *model_, &file);
+  const auto route = std::find_if(
+      file.cable_routes.begin(), file.cable_routes.end(),
+      [&](const robot::CalibratedRoute& one) { return one.cable == model_->CableNames()[1]; });
+  ASSERT_NE(route, file.cable_routes.end());
+  const auto calibrated = Build(QuickFourLegs());
+  robot::ApplyCalibration(file, calibrated.get());
+  EXPECT_LT((calibrated->cable(1).pull_point_m() - truth_->cable(1).pull_point_m()).norm(),
+            4.0 * route->standard_error_m.norm());
+  EXPECT_FALSE(file.geometry_scale);
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
 }
 

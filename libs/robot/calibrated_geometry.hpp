@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/core/config_node.hpp"
+#include "libs/core/status.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::robot {
+
+/// A robot that differs more from its file is another one.
+inline constexpr double kSmallestScale = 0.5;
+inline constexpr double kLargestScale = 2.0;
+
+/// How much larger the robot is than its file says, guides of its cables and all, about the robot
+/// frame's origin, at the file's density.
+struct CalibratedScale {
+  double scale = 1.0;
+  double standard_error = 0.0;
+};
+
+/// How far the guide that a cable is pulled from sits off its place in the robot file; robot frame,
+/// of a robot of scale 1. Along the cable nothing shows of it.
+struct CalibratedRoute {
+  std::string cable;
+  Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d standard_error_m = Eigen::Vector3d::Zero();
+};
+
+/// Throw InputError with file:line:column for what is none.
+CalibratedScale ReadGeometryScale(const ConfigNode& node);
+CalibratedRoute ReadCableRoute(const ConfigNode& node);
+/// As ReadGeometryScale and ReadCableRoute read it: the keys `geometry_scale` and `cable_routes`
+/// of what there is.
+std::string FormatGeometry(const std::optional<CalibratedScale>& scale,
+                           const std::vector<CalibratedRoute>& routes);
+
+/// kInvalidInput: numbers that are not finite, a scale out of bounds, standard errors below 0.
+Status CheckGeometry(const std::optional<CalibratedScale>& scale,
+                     const std::vector<CalibratedRoute>& routes);
+
+/// Makes a body of the robot file's size `scale` times as large (RobotBody::scale): nodes, guides,
+/// masses at the same density. Limits of tensions stay.
+void ScaleBody(double scale, RobotBody* body);
+
+}  // namespace palpate::robot

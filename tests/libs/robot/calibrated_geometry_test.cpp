@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/calibrated_geometry.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "tests/libs/robot/beam_model.hpp"
+
+namespace palpate::robot {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kScale = 1.07;
+
+class CalibratedGeometryTest : public BeamModelTest {
+ protected:
+  CalibrationFile Example() const {
+    CalibrationFile calibration = DescribeForCalibration(*model_);
+    calibration.date_utc = "2026-01-31T12:00:00Z";
+    calibration.data = "some";
+    calibration.data_hash = "sha256-00ff";
+    calibration.geometry_scale = CalibratedScale{kScale, 1.25e-3};
+    calibration.cable_routes = {{Cable(), {1e-3, -2e-3, 0.5e-3}, {1e-4, 2e-4, 3e-4}}};
+    return calibration;
+  }
+  std::string Cable() const { return model_->CableNames().front(); }
+
+  RobotBody Scaled() const {
+    RobotBody body = model_->body();
+    ApplySize(Example(), &body);
+    return body;
+  }
+
+  std::string ReadRefusal(const std::string& old_text, const std::string& new_text) {
+    WriteCalibrationFile(Example(), file_);
+    std::string text = ReadFile(file_);
+    EXPECT_NE(text.find(old_text), std::string::npos) << old_text;
+    WriteFile(file_, text.replace(text.find(old_text), old_text.size(), new_text));
+    try {
+      ReadCalibrationFile(file_, app::LoadYaml);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return {};
+  }
+
+  std::unique_ptr<RobotModel> model_ = Build(FullRobotText());
+  std::filesystem::path file_ = folder_ / "calibration.yaml";
+};
+
+TEST_F(CalibratedGeometryTest, IsReadAsItWasWritten) {
+  const CalibrationFile written = Example();
+  WriteCalibrationFile(written, file_);
+  const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
+  ASSERT_TRUE(read.geometry_scale);
+  EXPECT_EQ(read.geometry_scale->scale, kScale);
+  EXPECT_EQ(read.geometry_scale->standard_error, 1.25e-3);
+  ASSERT_EQ(read.cable_routes.size(), 1u);
+  EXPECT_EQ(read.cable_routes[0].cable, Cable());
+  EXPECT_EQ(read.cable_routes[0].moved_m, written.cable_routes[0].moved_m);
+  EXPECT_EQ(read.cable_routes[0].standard_error_m, written.cable_routes[0].standard_error_m);
+}
+
+TEST_F(CalibratedGeometryTest, IsRefusedWithItsPlaceInTheFile) {
+  const std::string scale = "geometry_scale: {scale: 1.07, ";
+  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scale: 2.5, "),
+              AllOf(HasSubstr(file_.string() + ":11:25"), HasSubstr("2.5")));
+  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scale: .nan, "), HasSubstr("scale"));
+  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scales: 1.07, "), HasSubstr(":11:"));
+  EXPECT_THAT(ReadRefusal("standard_error: 0.00125", "standard_error: -1"),
+              HasSubstr("standard_error"));
+  EXPECT_THAT(ReadRefusal("moved_m: [", "moved_m: [.inf, "), HasSubstr(":13:")) << "four numbers";
+  EXPECT_THAT(ReadRefusal("standard_error_m", "standard_errors_m"), HasSubstr(":13:"));
+}
+
+/// ToModel of the calibration says what a robot of another size does: at the same stress, its
+/// tensions are as the square of the size, its weight in the robot's frame as the cube.
+TEST_F(CalibratedGeometryTest, ARobotOfThatSizeIsTheModelEnlarged) {
+  RobotModel large(Scaled());
+  EXPECT_EQ(large.body().scale, kScale);
+  EXPECT_NEAR(large.body().node_mass_kg.sum(),
+              std::pow(kScale, 3) * model_->body().node_mass_kg.sum(), 1e-12);
+  model_->SetGravity(kScale * large.gravity_m_s2());
+  const double tension_N = 0.5;
+  fem::StaticState small_state = model_->RestState(), large_state = large.RestState();
+  std::vector<CableCommand> commands(static_cast<std::size_t>(model_->CableCount()));
+  commands[0] = {CableCommand::Kind::kTension, tension_N};
+  const Status solved = model_->Solve(commands, {}, &small_state).status;
+  ASSERT_TRUE(solved.ok()) << solved.message();
+  commands[0].value *= kScale * kScale;
+  ASSERT_TRUE(large.Solve(commands, {}, &large_state).status.ok());
+  EXPECT_GT((small_state.x_m - model_->RestState().x_m).norm(), 1e-3);
+  EXPECT_LT((large_state.x_m - kScale * small_state.x_m).lpNorm<Eigen::Infinity>(), 1e-8);
+  EXPECT_NEAR(large.StateOfCable(0, large_state).displacement_m,
+              kScale * model_->StateOfCable(0, small_state).displacement_m, 1e-9);
+  for (std::size_t m = 0; m < large.body().markers.size(); ++m) {
+    const fem::BodyPoint& marker = large.body().markers[m].point;
+    EXPECT_TRUE(marker.weights.Position(large.RestState().x_m).isApprox(marker.rest_m, 1e-9));
+  }
+}
+
+TEST_F(CalibratedGeometryTest, GuidesAreMovedAsMuchAsTheRobotIsLarger) {
+  const Eigen::Vector3d guide_m = model_->cable(0).pull_point_m();
+  RobotModel large(Scaled());
+  ApplyCalibration(Example(), &large);
+  EXPECT_TRUE(large.cable(0).pull_point_m().isApprox(
+      kScale * (guide_m + Eigen::Vector3d(1e-3, -2e-3, 0.5e-3)), 1e-12));
+  EXPECT_NEAR(large.cable_rest_length_m()[0], large.cable(0).rest_length_m(), 1e-15);
+}
+
+TEST_F(CalibratedGeometryTest, AModelOfAnotherSizeOrWithoutTheCableRefusesIt) {
+  EXPECT_THAT(CheckCalibration(Example(), *model_).message(),
+              AllOf(HasSubstr("1.07 times as large"), HasSubstr("the model is 1 times")));
+  RobotModel large(Scaled());
+  EXPECT_TRUE(CheckCalibration(Example(), large).ok());
+  CalibrationFile other = Example();
+  other.geometry_scale.reset();
+  EXPECT_THAT(CheckCalibration(other, large).message(), HasSubstr("the model is 1.07 times"));
+  other = Example();
+  other.cable_routes[0].cable += "x";
+  EXPECT_THAT(CheckCalibration(other, large).message(), HasSubstr("did you mean '" + Cable()));
+}
+
+TEST_F(CalibratedGeometryTest, NumbersThatAreNoneAreRefused) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const CalibrationFile good = Example();
+  EXPECT_TRUE(CheckGeometry(good.geometry_scale, good.cable_routes).ok());
+  for (const double scale : {kNaN, 0.0, 0.49, 2.01}) {
+    EXPECT_FALSE(CheckGeometry(CalibratedScale{scale, 0.0}, {}).ok()) << scale;
+  }
+  EXPECT_FALSE(CheckGeometry(CalibratedScale{1.0, -1.0}, {}).ok());
+  std::vector<CalibratedRoute> routes = good.cable_routes;
+  routes[0].moved_m.y() = kNaN;
+  EXPECT_THAT(CheckGeometry({}, routes).message(), HasSubstr("'" + Cable() + "'"));
+  routes = good.cable_routes;
+  routes[0].standard_error_m.z() = -1e-9;
+  EXPECT_FALSE(CheckGeometry({}, routes).ok());
+}
+
+}  // namespace
+}  // namespace palpate::robot
