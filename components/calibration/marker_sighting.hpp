@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 namespace palpate::calibration {
 
@@ -14,5 +16,17 @@ struct MarkerSighting {
   /// Of the position and of the model there, camera frame; positive definite.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
+
+/// A marker of a robot at rest trembles by less from picture to picture.
+inline constexpr double kStillMarker_m = 3e-3;
+
+/// [3 x n]
+inline Eigen::Matrix3Xd PositionsOf(const std::vector<MarkerSighting>& sightings) {
+  Eigen::Matrix3Xd positions_m(3, static_cast<Eigen::Index>(sightings.size()));
+  for (std::size_t k = 0; k < sightings.size(); ++k) {
+    positions_m.col(static_cast<Eigen::Index>(k)) = sightings[k].position_m;
+  }
+  return positions_m;
+}
 
 }  // namespace palpate::calibration

@@ -31,6 +31,10 @@ struct JointRequest {
   double geometry_scale_sigma = 0.0;
   double cable_route_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
+  /// Smooth error of the depth that all of a camera's markers have in common, one sigma as a share
+  /// of z: counts in the standard errors (DepthBiasBelief) where no scale of it is looked for; 0:
+  /// it has none.
+  double depth_bias_sigma = 0.0;
   /// How far a marker may sit from its place in the robot file: looked for where it is not 0; else
   /// it counts in the standard errors as `marker_placement_sigma_m`, of what mesh and embedding
   /// leave.

@@ -12,26 +12,25 @@ namespace {
 using Kind = robot::CableCommand::Kind;
 
 template <typename Frame>
-void ReadFrames(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
-                std::vector<Frame>* frames) {
-  for (Frame& frame : *frames) {
-    if (before.gravity) frame.gravity_m_s2 = before.gravity->gravity_m_s2;
-    for (const robot::CalibratedDrive& drive : before.drives) {
-      const auto name = std::find(cable_names.begin(), cable_names.end(), drive.cable);
-      if (name == cable_names.end()) continue;
-      robot::CableCommand& cable =
-          frame.cables.at(static_cast<std::size_t>(name - cable_names.begin()));
-      if (cable.kind == Kind::kDisplacement) cable.value = drive.drive.TakenIn_m(cable.value);
-    }
+void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+               Frame* frame) {
+  if (before.gravity) frame->gravity_m_s2 = before.gravity->gravity_m_s2;
+  for (const robot::CalibratedDrive& drive : before.drives) {
+    const auto name = std::find(cable_names.begin(), cable_names.end(), drive.cable);
+    if (name == cable_names.end()) continue;
+    robot::CableCommand& cable =
+        frame->cables.at(static_cast<std::size_t>(name - cable_names.begin()));
+    if (cable.kind == Kind::kDisplacement) cable.value = drive.drive.TakenIn_m(cable.value);
   }
 }
 
-/// Of parts that were not found anew.
+/// Of parts (or cables) that were not found anew.
 template <typename Number>
-void KeepParts(const std::vector<Number>& before, std::vector<Number>* found) {
+void KeepParts(const std::vector<Number>& before, std::string Number::*part,
+               std::vector<Number>* found) {
   for (const Number& number : before) {
     const bool found_anew = std::any_of(found->begin(), found->end(), [&](const Number& other) {
-      return other.part == number.part;
+      return other.*part == number.*part;
     });
     if (!found_anew) found->push_back(number);
   }
@@ -54,17 +53,24 @@ robot::CalibratedDrive Compose(const robot::CalibratedDrive& before,
 
 void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
                   std::vector<CloudFrame>* frames) {
-  ReadFrames(before, cable_names, frames);
+  for (auto& frame : *frames) ReadFrame(before, cable_names, &frame);
 }
 
 void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
                   std::vector<CalibrationFrame>* frames) {
-  ReadFrames(before, cable_names, frames);
+  for (auto& frame : *frames) ReadFrame(before, cable_names, &frame);
+}
+
+void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
+                  std::vector<UnlabelledFrame>* frames) {
+  for (UnlabelledFrame& frame : *frames) ReadFrame(before, cable_names, &frame.frame);
 }
 
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
-  KeepParts(before.moduli, &file->moduli);
-  KeepParts(before.poissons_ratios, &file->poissons_ratios);
+  KeepParts(before.moduli, &robot::CalibratedModulus::part, &file->moduli);
+  KeepParts(before.poissons_ratios, &robot::CalibratedPoissonsRatio::part, &file->poissons_ratios);
+  KeepParts(before.cable_routes, &robot::CalibratedRoute::cable, &file->cable_routes);
+  if (!file->geometry_scale) file->geometry_scale = before.geometry_scale;
   if (!file->gravity) file->gravity = before.gravity;
   if (!file->pose) {
     file->pose = before.pose;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
 #include "libs/core/text.hpp"
@@ -38,6 +37,7 @@ void FrameCollector::Begin(int count) {
   clouds_.clear();
   pictures_.clear();
   markers_.clear();
+  points_.clear();
   waits_for_ = "nothing of the robot has been seen yet";
 }
 
@@ -121,51 +121,28 @@ void FrameCollector::Take(SeenMarkers seen, Setting setting) {
                  " pictures of the markers is being taken";
     return;
   }
-  CalibrationFrame frame{.name = NextName(),
-                         .markers = MeanOfGroup(),
-                         .cables = setting.cables,
-                         .gravity_m_s2 = gravity_m_s2_};
+  std::vector<MarkerSighting> means = MeanMarkers(group_, settings_.marker_bias_m);
   group_.clear();
-  if (frame.markers.empty()) {
+  if (means.empty()) {
     waits_for_ = "no marker of the robot is seen";
     return;
   }
-  markers_.push_back(std::move(frame));
+  const bool named = HaveNames(means);
+  if (named ? !points_.empty() : !markers_.empty()) {
+    waits_for_ = named ? "these markers have names, those of the frames before had none"
+                       : "these markers have no names, those of the frames before had";
+    return;
+  }
+  CalibrationFrame frame{
+      .name = NextName(), .cables = setting.cables, .gravity_m_s2 = gravity_m_s2_};
+  if (named) {
+    frame.markers = std::move(means);
+    markers_.push_back(std::move(frame));
+  } else {
+    points_.push_back({std::move(frame), std::move(means)});
+  }
   settings_taken_.push_back(std::move(setting));
   waits_for_.clear();
-}
-
-/// Of each marker the mean over the pictures that show it. What they vary by counts as the noise of
-/// one picture where it is more than that picture said.
-std::vector<MarkerSighting> FrameCollector::MeanOfGroup() const {
-  std::map<int, std::vector<const MarkerSighting*>> sightings;
-  for (const SeenMarkers& seen : group_) {
-    for (const MarkerSighting& sighting : seen.markers) {
-      sightings[sighting.marker].push_back(&sighting);
-    }
-  }
-  std::vector<MarkerSighting> means;
-  for (const auto& [marker, seen] : sightings) {
-    const auto count = static_cast<double>(seen.size());
-    MarkerSighting mean{.marker = marker};
-    for (const MarkerSighting* one : seen) {
-      mean.position_m += one->position_m / count;
-      mean.covariance_m2 += one->covariance_m2 / count;
-    }
-    Eigen::Vector3d squares_m2 = Eigen::Vector3d::Zero();
-    for (const MarkerSighting* one : seen) {
-      squares_m2 += (one->position_m - mean.position_m).cwiseAbs2();
-    }
-    if (seen.size() > 2) {
-      const Eigen::Vector3d said_m2 = mean.covariance_m2.diagonal();
-      const Eigen::Vector3d varies_m2 = squares_m2 / (count - 1.0);
-      mean.covariance_m2.diagonal() += (varies_m2 - said_m2).cwiseMax(0.0);
-    }
-    mean.covariance_m2 /= count;
-    mean.covariance_m2.diagonal().array() += settings_.marker_bias_m * settings_.marker_bias_m;
-    means.push_back(mean);
-  }
-  return means;
 }
 
 std::optional<geometry::DepthPicture> FrameCollector::picture() const {

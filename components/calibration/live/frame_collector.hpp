@@ -13,6 +13,8 @@
 #include "components/calibration/cloud/cloud_frame.hpp"
 #include "components/calibration/joint/calibration_frame.hpp"
 #include "components/calibration/live/cable_watch.hpp"
+#include "components/calibration/live/marker_means.hpp"
+#include "components/calibration/pose/frame_assignment.hpp"
 #include "libs/geometry/depth_picture.hpp"
 
 namespace palpate::calibration {
@@ -22,12 +24,6 @@ struct SeenCloud {
   std::int64_t stamp_ns = 0;
   rgbd::SensedCloud cloud;         ///< camera frame
   geometry::DepthPicture picture;  ///< that it was made from
-};
-
-/// Its markers; covariances are of one picture's noise.
-struct SeenMarkers {
-  std::int64_t stamp_ns = 0;
-  std::vector<MarkerSighting> markers;  ///< camera frame
 };
 
 struct CollectorSettings {
@@ -59,6 +55,8 @@ class FrameCollector {
   /// What was taken: of one kind.
   const std::vector<CloudFrame>& clouds() const { return clouds_; }
   const std::vector<CalibrationFrame>& markers() const { return markers_; }
+  /// Markers without names: where the first picture that was taken had none.
+  const std::vector<UnlabelledFrame>& points() const { return points_; }
   /// That all clouds were made from; nullopt where it is not one.
   std::optional<geometry::DepthPicture> picture() const;
 
@@ -75,7 +73,6 @@ class FrameCollector {
   bool IsNew(const Setting& setting) const;
   void Take(SeenCloud seen, Setting setting);
   void Take(SeenMarkers seen, Setting setting);
-  std::vector<MarkerSighting> MeanOfGroup() const;
   std::string NextName() const;
 
   static constexpr std::size_t kMostWaiting = 256;
@@ -91,6 +88,7 @@ class FrameCollector {
   std::vector<CloudFrame> clouds_;
   std::vector<geometry::DepthPicture> pictures_;  ///< [clouds]
   std::vector<CalibrationFrame> markers_;
+  std::vector<UnlabelledFrame> points_;
   std::string waits_for_;
 };
 

@@ -9,6 +9,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/kept_model.hpp"
 #include "components/calibration/live/earlier_calibration.hpp"
+#include "components/calibration/pose/unlabelled_calibration.hpp"
 #include "libs/core/sha256.hpp"
 #include "libs/core/utc_text.hpp"
 
@@ -30,6 +31,14 @@ void AppendCables(const std::vector<robot::CableCommand>& cables, std::string* b
   }
 }
 
+void AppendSightings(const std::vector<MarkerSighting>& sightings, std::string* bytes) {
+  for (const MarkerSighting& sighting : sightings) {
+    AppendBytes(Eigen::Matrix<double, 1, 1>(sighting.marker), bytes);
+    AppendBytes(sighting.position_m, bytes);
+    AppendBytes(sighting.covariance_m2, bytes);
+  }
+}
+
 /// Over all numbers of the frames.
 std::string HashOf(const LiveJob& job) {
   std::string bytes;
@@ -39,23 +48,30 @@ std::string HashOf(const LiveJob& job) {
     AppendCables(frame.cables, &bytes);
   }
   for (const CalibrationFrame& frame : job.markers) {
-    for (const MarkerSighting& sighting : frame.markers) {
-      AppendBytes(Eigen::Matrix<double, 1, 1>(sighting.marker), &bytes);
-      AppendBytes(sighting.position_m, &bytes);
-      AppendBytes(sighting.covariance_m2, &bytes);
-    }
+    AppendSightings(frame.markers, &bytes);
     AppendCables(frame.cables, &bytes);
+  }
+  for (const UnlabelledFrame& frame : job.points) {
+    AppendSightings(frame.points, &bytes);
+    AppendCables(frame.frame.cables, &bytes);
   }
   return "sha256-" + Sha256Hex(bytes);
 }
 
-JointCalibration Fit(robot::RobotModel& model, const LiveJob& job) {
-  if (job.clouds.empty()) {
-    return CalibrateFrames(model, job.markers,
-                           job.T_robot_camera_start ? &*job.T_robot_camera_start : nullptr,
-                           job.request);
+JointCalibration Fit(robot::RobotModel& model, const LiveJob& job,
+                     std::vector<std::string>* left_out) {
+  const geometry::RigidTransform* start =
+      job.T_robot_camera_start ? &*job.T_robot_camera_start : nullptr;
+  if (!job.points.empty()) {
+    UnlabelledSettings settings;
+    settings.request = job.request;
+    UnlabelledCalibration fit = CalibrateUnlabelled(model, job.points, start, settings);
+    fit.joint.status = fit.status;
+    *left_out = std::move(fit.left_out);
+    return std::move(fit.joint);
   }
-  if (!job.T_robot_camera_start) {
+  if (job.clouds.empty()) return CalibrateFrames(model, job.markers, start, job.request);
+  if (start == nullptr) {
     JointCalibration refused;
     refused.status = {StatusCode::kNoCalibration,
                       "clouds need to know roughly where the camera stands"};
@@ -65,8 +81,7 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job) {
   settings.request = job.request;
   settings.fit_depth_bias = job.fit_depth_bias;
   settings.search.stop = job.request.stop;
-  CloudCalibration fit =
-      CalibrateFromClouds(model, job.clouds, *job.T_robot_camera_start, settings);
+  CloudCalibration fit = CalibrateFromClouds(model, job.clouds, *start, settings);
   fit.joint.status = fit.status;
   return std::move(fit.joint);
 }
@@ -82,12 +97,13 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
     if (!result.status.ok()) return result;
     ReadAsBefore(*job.before, model.CableNames(), &read.clouds);
     ReadAsBefore(*job.before, model.CableNames(), &read.markers);
+    ReadAsBefore(*job.before, model.CableNames(), &read.points);
     robot::CalibrationFile body = *job.before;
     body.drives.clear();  // the frames are read so already
     robot::ApplyCalibration(body, &model);
   }
   const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
-  const JointCalibration fit = Fit(model, read);
+  const JointCalibration fit = Fit(model, read, &result.left_out);
   kept.Restore();
   result.status = fit.status;
   if (!fit.status.ok()) return result;

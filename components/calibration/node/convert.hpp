@@ -31,9 +31,10 @@ struct Request {
 Status FromRequest(const idl::palpate_msgs::CalibrationRequest& message, const Request& defaults,
                    Request* request);
 
-/// Markers of the robot (`names`) in the camera's frame, those that were seen; `sigma_m` where a
-/// marker has none. kInvalidInput, with the reason, for another frame, a marker that is not among
-/// `names` (with "did you mean") or comes twice, a number that is not finite.
+/// Markers of the robot (`names`) in the camera's frame, those that were seen, with their
+/// covariances, of `sigma_m` where a marker has none; -1 for one without a name. kInvalidInput,
+/// with the reason, for another frame, a marker that is not among `names` (with "did you mean") or
+/// comes twice, a number that is not finite.
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, double sigma_m, SeenMarkers* seen);
 

@@ -57,12 +57,15 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
   seen->stamp_ns = dds::StampNs(message.header.stamp);
   seen->markers.clear();
   std::vector<dds::NamedMarker> markers;
-  if (Status status = dds::FromMarkers(message, names, &markers); !status.ok()) return status;
+  if (Status status = dds::FromMarkersWithOrWithoutNames(message, names, &markers); !status.ok()) {
+    return status;
+  }
   for (dds::NamedMarker& marker : markers) {
-    if (marker.sigma_m.minCoeff() == 0.0) marker.sigma_m.setConstant(sigma_m);
-    seen->markers.push_back({.marker = static_cast<int>(marker.index),
+    const bool has_errors = marker.sigma_m.minCoeff() > 0.0;
+    if (!has_errors) marker.covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+    seen->markers.push_back({.marker = marker.index ? static_cast<int>(*marker.index) : -1,
                              .position_m = marker.position_m,
-                             .covariance_m2 = marker.sigma_m.cwiseAbs2().asDiagonal()});
+                             .covariance_m2 = marker.covariance_m2});
   }
   return Status::Ok();
 }

@@ -46,6 +46,15 @@ Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibrationFile& file) {
 
 Status NotOk(StatusCode code, std::string reason) { return {code, std::move(reason)}; }
 
+/// "without frame 2: ..."; empty where all frames are in it.
+std::string LeftOut(const LiveResult& result) {
+  std::string text;
+  for (const std::string& frame : result.left_out) {
+    text += (text.empty() ? "without " : ", without ") + frame;
+  }
+  return text;
+}
+
 }  // namespace
 
 CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
@@ -276,9 +285,14 @@ LiveJob CalibrationNode::MakeJob() const {
   }
   job.clouds = collector_.clouds();
   job.markers = collector_.markers();
+  job.points = collector_.points();
+  if (request_.source == "markers") job.request.depth_bias_sigma = config_.marker_depth_bias;
   job.picture = collector_.picture();
   job.fit_depth_bias = config_.fit_depth_bias;
-  if (!job.clouds.empty()) job.T_robot_camera_start = T_robot_camera_;
+  // A camera that nobody says stands where it did may have been moved to another side of a robot
+  // that looks the same from there.
+  const bool pose_is_told = !config_.camera_pose.empty() && !job.points.empty();
+  if (!job.clouds.empty() || pose_is_told) job.T_robot_camera_start = T_robot_camera_;
   job.before = last_;
   job.data = std::to_string(collector_.taken()) + " frames of " + request_.source + ", live";
   job.found_ns_since_1970 = dds::WallClockNs();
@@ -297,13 +311,14 @@ void CalibrationNode::Adopt(const LiveResult& result) {
   last_ = result.file;
   if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
   Publish(*last_, result.pose_covariance);
-  std::string reason;
+  std::string reason = LeftOut(result);
   if (!config_.calibration_file.empty()) {
     try {
       robot::WriteCalibrationFile(*last_, config_.calibration_file);
     } catch (const RunError& error) {
-      reason = std::string("published, but not written: ") + error.what();
-      log_.Write(Severity::kError, reason);
+      const std::string trouble = std::string("published, but not written: ") + error.what();
+      log_.Write(Severity::kError, trouble);
+      reason = trouble + (reason.empty() ? "" : "; ") + reason;
     }
   }
   End("done", Status::Ok(), reason);

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "components/calibration/cloud/cloud_calibration.hpp"
 #include "libs/core/config_reader.hpp"
 #include "libs/dds/node_settings.hpp"
 #include "libs/fem/sparse/solver_settings.hpp"
@@ -29,6 +30,7 @@ struct NodeConfig {
   int marker_pictures = 20;
   double marker_sigma_m = 3e-4;
   double marker_bias_m = 0.0;
+  double marker_depth_bias = CloudSettings().depth_bias_sigma;
   std::string cable_input = "displacement";
   double drive_offset_sigma_m = 2e-3;
   double drive_gain_sigma = 0.05;
@@ -48,7 +50,8 @@ struct NodeConfig {
       "/perception/markers in the camera's frame");
     v("camera_pose", camera_pose,
       "Roughly where the depth camera stands in the robot's frame, \"{translation_m: [x, y, z], "
-      "rotation_xyzw: [x, y, z, w]}\": clouds start from it; empty: from the last calibration");
+      "rotation_xyzw: [x, y, z, w]}\": clouds start from it; empty: from the last calibration; of "
+      "markers without names on a robot that looks the same after a turn it tells which is which");
     v("frames", frames, {.min = 1.0, .max = 100.0},
       "Frames of a calibration where the request does not say, each of another setting of the "
       "cables");
@@ -70,6 +73,9 @@ struct NodeConfig {
       "Marker noise where /perception/markers has none");
     v("marker_bias_m", marker_bias_m, {.min = 0.0},
       "Constant error of each marker that averaging does not remove, one sigma");
+    v("marker_depth_bias", marker_depth_bias, {.min = 0.0, .max = 0.1},
+      "Sigma, as a share of z, of the smooth error that the depths of all markers have in common; "
+      "0 where they do not go by a depth image");
     v("cable_input", cable_input, {"displacement", "tension"},
       "Which input of a cable counts where both are known");
     v("drive_offset_sigma_m", drive_offset_sigma_m, positive,

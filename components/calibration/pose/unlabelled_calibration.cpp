@@ -32,21 +32,6 @@ struct Attempt {
   }
 };
 
-JointCalibration Fit(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
-                     const UnlabelledSettings& settings) {
-  JointSetup setup;
-  JointCalibration fit;
-  fit.status = MakeJointSetup(model, frames, nullptr, settings.request, &setup);
-  if (!fit.status.ok()) return fit;
-  if (const double sigma = settings.depth_bias_sigma; sigma > 0.0) {
-    setup.depth_bias =
-        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .estimated = false};
-  }
-  JointSettings joint;
-  joint.solver.huber_threshold = settings.request.huber_threshold;
-  return CalibrateJointly(model, setup, joint);
-}
-
 /// Points that have a name already.
 FrameAssignment TakeNames(const std::vector<UnlabelledFrame>& frames) {
   FrameAssignment assignment;
@@ -143,7 +128,7 @@ UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
     Attempt& attempt = attempts.emplace_back();
     attempt.frames = LabelledFrames(frames, labels);
     attempt.labels = std::move(labels);
-    attempt.joint = Fit(model, attempt.frames, settings);
+    attempt.joint = CalibrateFrames(model, attempt.frames, nullptr, settings.request);
     kept.Restore();
   }
   const auto best =

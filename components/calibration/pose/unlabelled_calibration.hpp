@@ -18,9 +18,6 @@ struct UnlabelledSettings {
   /// How far the model's markers may lie from the real ones when points are told apart, m, one
   /// sigma: of material, mesh, and where the markers sit.
   double model_sigma_m = 1e-3;
-  /// Smooth error of the depth that all points of a camera have in common, one sigma as a share of
-  /// z: counts in the standard errors (DepthBiasBelief); 0: it has none.
-  double depth_bias_sigma = 0.0;
   /// Choices whose DriveMisfit, with errors of `model_sigma_m`, is larger than the least by more
   /// than this are not calibrated from.
   double most_drive_misfit = 50.0;

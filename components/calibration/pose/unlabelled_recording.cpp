@@ -19,8 +19,6 @@ namespace {
 using Eigen::Index;
 using experiment::TimeWindow;
 
-/// A still marker trembles by less.
-constexpr double kSame_m = 3e-3;
 /// Rounding of the file bounds what any mean can be known to.
 constexpr double kFloor_m2 = 1e-14;
 
@@ -42,7 +40,7 @@ struct Means {
         count(Eigen::VectorXd::Zero(points.cols())) {}
 
   void Add(const Eigen::Matrix3Xd& points_m) {
-    const std::vector<int> of_point = MatchNearest(points_m, first_m, kSame_m);
+    const std::vector<int> of_point = MatchNearest(points_m, first_m, kStillMarker_m);
     for (Index p = 0; p < points_m.cols(); ++p) {
       const int mean = of_point[static_cast<std::size_t>(p)];
       if (mean < 0) continue;

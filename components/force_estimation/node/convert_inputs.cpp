@@ -51,7 +51,7 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
   std::vector<dds::NamedMarker> seen;
   if (Status status = dds::FromMarkers(message, names, &seen); !status.ok()) return status;
   for (const dds::NamedMarker& marker : seen) {
-    frame->markers[marker.index] = {true, marker.position_m, marker.sigma_m};
+    frame->markers[marker.index.value()] = {true, marker.position_m, marker.sigma_m};
   }
   return Status::Ok();
 }

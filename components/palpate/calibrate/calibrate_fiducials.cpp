@@ -91,7 +91,7 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   PointsWithoutNames points;
   points.settings.request = RequestOf(options, materials, true);
   // What all points of a picture err by alike is no noise of each.
-  points.settings.depth_bias_sigma = std::exchange(config.depth_bias, 0.0);
+  points.settings.request.depth_bias_sigma = std::exchange(config.depth_bias, 0.0);
   points.settings.named = !config.names.empty();
   const std::vector<std::string> markers = model->MarkerNames();
   for (const std::string& name : config.names) IndexOf(name, markers);

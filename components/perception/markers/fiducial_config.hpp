@@ -40,7 +40,7 @@ struct FiducialConfig {
       "has none, and they are not looked for");
     v("names", names,
       "The robot's marker of each of these colours, where no two have the same; empty: who is who "
-      "is told by where they are (palpate calibrate)");
+      "is told by where they are (palpate calibrate, palpate-calibration)");
     v("color_tolerance", color_tolerance, {.min = 0.0, .max = 1.0, .min_open = true},
       "A pixel differs so little from that colour; colours as directions, so that shading does "
       "not count");

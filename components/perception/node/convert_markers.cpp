@@ -21,6 +21,7 @@ dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const FiducialFrame&
     dds::SetText(marker.name, fiducial.name);
     dds::SetVector(marker.position_m, fiducial.position_m);
     dds::SetVector(marker.sigma_m, fiducial.covariance_m2.diagonal().cwiseSqrt());
+    Eigen::Map<Eigen::Matrix3d>(marker.covariance_m2) = fiducial.covariance_m2;  // symmetric
     marker.valid = true;
   }
   return message;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -23,6 +24,9 @@
 namespace palpate::calibration {
 
 inline constexpr auto kCameraFrame = "camera_depth_optical_frame";
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+using RobotMaker = std::function<std::unique_ptr<robot::RobotModel>()>;
 
 /// Stands in for the fit: remembers its jobs, and does not return while it is held, but where it is
 /// stopped and heeds that.
@@ -76,8 +80,9 @@ class CalibrationNodeTest : public testing::Test {
     std::uint32_t taken = 0, wanted = 0;
   };
 
-  CalibrationNodeTest()
-      : test_("test"),
+  explicit CalibrationNodeTest(RobotMaker make_robot = force_estimation::NodeTestRobot)
+      : make_robot_(std::move(make_robot)),
+        test_("test"),
         perception_(test_),
         markers_(test_.participant.CreateWriter(dds::kMarkersTopic, test_.Waker())),
         requests_(test_.participant.CreateWriter(dds::kCalibrationRequestTopic, test_.Waker())),
@@ -114,8 +119,8 @@ class CalibrationNodeTest : public testing::Test {
 
   void StartNode(const NodeConfig& config, Worker::Fit fit) {
     node_ = std::make_unique<CalibrationNode>(
-        config, force_estimation::NodeTestRobot(), static_cast<int>(dds::TestDomain()),
-        dds::BuiltInTable(), dds::NodeLog::ProcessLog(), std::move(fit));
+        config, make_robot_(), static_cast<int>(dds::TestDomain()), dds::BuiltInTable(),
+        dds::NodeLog::ProcessLog(), std::move(fit));
     thread_ = std::thread([this] { node_->Run(); });
     ASSERT_TRUE(test_.WaitFor([this] {
       return perception_.IsMatched(false) && markers_.matched() == 1 && requests_.matched() == 1 &&
@@ -157,24 +162,40 @@ class CalibrationNodeTest : public testing::Test {
     return found;
   }
 
+  /// The robot's markers with a drive that counts from kOffset_m, as the camera sees them.
+  Eigen::Matrix3Xd MarkersSeen(double told_m) {
+    fem::StaticState state = robot_->RestState();
+    const auto result =
+        robot_->Solve({{robot::CableCommand::Kind::kDisplacement, told_m + kOffset_m}}, {}, &state);
+    EXPECT_TRUE(result.status.ok()) << result.status.message();
+    const auto& markers = robot_->body().markers;
+    Eigen::Matrix3Xd seen_m(3, std::ssize(markers));
+    for (std::size_t k = 0; k < markers.size(); ++k) {
+      seen_m.col(static_cast<Eigen::Index>(k)) =
+          TruePose().inverse() * markers[k].point.weights.Position(state.x_m);
+    }
+    return seen_m;
+  }
+
   /// The cable at rest at `taken_in_m` over 0.2 s before `stamp_ns` and at it.
   void SendRest(std::int64_t stamp_ns, double taken_in_m, const std::string& cable = "top") {
     for (std::int64_t back_ns = 200'000'000; back_ns >= 0; back_ns -= 20'000'000) {
       perception_.SendCable(stamp_ns - back_ns, taken_in_m, cable);
     }
   }
-  /// `seen_m` [3 x markers], camera frame.
+  /// `seen_m` [3 x markers], camera frame; any number of them where they have no names.
   void SendMarkers(std::int64_t stamp_ns, const Eigen::Matrix3Xd& seen_m,
                    const std::string& frame = kCameraFrame) {
     const auto names = robot_->MarkerNames();
     dds::Message<idl::palpate_msgs::MarkerArray3> message;
     dds::SetHeader(message->header, stamp_ns, frame);
-    dds::Resize(message->markers, names.size());
-    for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto count = static_cast<std::size_t>(seen_m.cols());
+    dds::Resize(message->markers, count);
+    for (std::size_t k = 0; k < count; ++k) {
       auto& marker = message->markers._buffer[k];
-      dds::SetText(marker.name, names[k]);
+      if (send_names_) dds::SetText(marker.name, names.at(k));
       dds::SetVector(marker.position_m, seen_m.col(static_cast<Eigen::Index>(k)));
-      dds::SetVector(marker.sigma_m, Eigen::Vector3d::Constant(1e-5));
+      dds::SetVector(marker.sigma_m, Eigen::Vector3d::Constant(marker_sigma_m_));
       marker.valid = true;
     }
     ASSERT_TRUE(markers_.Write(message));
@@ -198,9 +219,18 @@ class CalibrationNodeTest : public testing::Test {
     }
   }
 
+  static Eigen::Isometry3d TruePose() {
+    return Eigen::Translation3d(0.3, -0.2, 0.4) *
+           Eigen::AngleAxisd(2.0, Eigen::Vector3d(0.3, -0.8, 0.5).normalized());
+  }
+  static constexpr double kOffset_m = 4e-4;
+
   test_support::TestFolder folder_;
   ScriptedFit fit_;
-  std::unique_ptr<robot::RobotModel> robot_ = force_estimation::NodeTestRobot();
+  RobotMaker make_robot_;
+  std::unique_ptr<robot::RobotModel> robot_ = make_robot_();
+  bool send_names_ = true;        ///< of the markers
+  double marker_sigma_m_ = 1e-5;  ///< that they are said to have
   dds::TestNode test_;
   test_support::PerceptionSender perception_;
   dds::Writer<idl::palpate_msgs::MarkerArray3> markers_;

@@ -14,7 +14,7 @@
 namespace palpate::force_estimation {
 
 /// The beam of config/robots with linear elements, and one cable along its top: quick to solve.
-inline std::unique_ptr<robot::RobotModel> NodeTestRobot() {
+inline robot::RobotDescription NodeTestDescription() {
   auto description = robot::ReadRobotFile(
       std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/beam.yaml", app::LoadYaml);
   description.element = fem::ElementType::kTet4;
@@ -24,7 +24,11 @@ inline std::unique_ptr<robot::RobotModel> NodeTestRobot() {
   cable.path_m.resize(3, 2);
   cable.path_m << -0.15, 0.0, 0.015, 0.015, 0.03, 0.03;
   description.cables.push_back(cable);
-  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description));
+  return description;
+}
+
+inline std::unique_ptr<robot::RobotModel> NodeTestRobot() {
+  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(NodeTestDescription()));
 }
 
 }  // namespace palpate::force_estimation

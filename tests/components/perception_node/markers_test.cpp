@@ -27,6 +27,8 @@ TEST(ToMarkerArray, GivesEachFiducialItsPlaceSigmasAndNameWhereItHasOne) {
   EXPECT_NEAR(first.sigma_m.x, 2e-3, 1e-12);
   EXPECT_NEAR(first.sigma_m.y, 3e-3, 1e-12);
   EXPECT_NEAR(first.sigma_m.z, 4e-3, 1e-12);
+  EXPECT_EQ(Eigen::Map<const Eigen::Matrix3d>(first.covariance_m2),
+            frame.fiducials[0].covariance_m2);
   EXPECT_TRUE(first.valid);
   EXPECT_EQ(dds::Text(message->markers._buffer[1].name), "tip");
 }

@@ -48,6 +48,39 @@ TEST(NamedMarkers, AreThoseThatWereSeen) {
   EXPECT_EQ(markers[0].index, 2u);
   EXPECT_EQ(markers[0].position_m, Eigen::Vector3d(0.1, 0.2, 0.3));
   EXPECT_EQ(markers[0].sigma_m, Eigen::Vector3d(1e-4, 2e-4, 3e-4));
+  EXPECT_TRUE(markers[0].covariance_m2.isApprox(
+      Eigen::Matrix3d(Eigen::Vector3d(1e-8, 4e-8, 9e-8).asDiagonal()), 1e-12));
+}
+
+TEST(NamedMarkers, HaveTheCovarianceThatComesWithThem) {
+  auto message = TwoMarkers();
+  Eigen::Matrix3d covariance_m2;
+  covariance_m2 << 4e-8, 1e-8, -2e-8, 1e-8, 9e-8, 3e-8, -2e-8, 3e-8, 25e-8;
+  Eigen::Map<Eigen::Matrix3d>(message->markers._buffer[0].covariance_m2) = covariance_m2;
+  std::vector<NamedMarker> markers;
+  ASSERT_TRUE(FromMarkers(*message, kNames, &markers).ok());
+  EXPECT_EQ(markers[0].covariance_m2, covariance_m2);
+  EXPECT_TRUE(markers[0].sigma_m.isApprox(Eigen::Vector3d(2e-4, 3e-4, 5e-4), 1e-12));
+}
+
+TEST(NamedMarkers, MayBeWithoutANameWhereThatIsAllowed) {
+  auto message = TwoMarkers();
+  for (int k : {0, 1}) SetText(message->markers._buffer[k].name, "");
+  message->markers._buffer[1].position_m.x = 0.4;
+  message->markers._buffer[1].valid = true;
+  std::vector<NamedMarker> markers;
+  EXPECT_THAT(FromMarkers(*message, kNames, &markers).message(), HasSubstr("unknown marker ''"));
+  ASSERT_TRUE(FromMarkersWithOrWithoutNames(*message, kNames, &markers).ok());
+  ASSERT_EQ(markers.size(), 2u);
+  EXPECT_FALSE(markers[0].index || markers[1].index);
+  EXPECT_EQ(markers[1].position_m.x(), 0.4);
+  SetText(message->markers._buffer[1].name, "m33");
+  EXPECT_THAT(FromMarkersWithOrWithoutNames(*message, kNames, &markers).message(),
+              HasSubstr("did you mean 'm3'"));
+  SetText(message->markers._buffer[1].name, "m2");
+  ASSERT_TRUE(FromMarkersWithOrWithoutNames(*message, kNames, &markers).ok());
+  EXPECT_FALSE(markers[0].index);
+  EXPECT_EQ(markers[1].index, 1u);
 }
 
 TEST(NamedMarkers, AreRefusedWhereTheyCannotBeUsed) {
@@ -61,6 +94,12 @@ TEST(NamedMarkers, AreRefusedWhereTheyCannotBeUsed) {
               HasSubstr("'m3' is not finite"));
   EXPECT_THAT(RefusalAfter([](Marker& m) { m.sigma_m.y = kNan; }), HasSubstr("'m3' is not finite"));
   EXPECT_THAT(RefusalAfter([](Marker& m) { m.sigma_m.y = -1.0; }), HasSubstr("'m3' is not finite"));
+  for (const double off : {kNan, 1e-3}) {  // of no symmetric matrix
+    EXPECT_THAT(RefusalAfter([&](Marker& m) { m.covariance_m2[1] = off; }),
+                HasSubstr("covariance_m2 of marker 'm3' is no covariance"));
+  }
+  EXPECT_THAT(RefusalAfter([](Marker& m) { m.covariance_m2[0] = 1e-6; }),
+              HasSubstr("no covariance"));
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ class FrameCollectorTest : public testing::Test {
       collector_.Add(CableReading{t_ms * kMs_ns, {{displacement_m, std::nullopt}}});
     }
   }
-  void SeeMarker(int t_ms, double x_m, double sigma_m = 1e-3) {
+  void SeeMarker(int t_ms, double x_m, double sigma_m = 1e-3, int marker = 1) {
     SeenMarkers seen{t_ms * kMs_ns, {}};
-    seen.markers.push_back({.marker = 1,
+    seen.markers.push_back({.marker = marker,
                             .position_m = {x_m, 0.0, 0.0},
                             .covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity()});
     collector_.Add(std::move(seen));
@@ -82,6 +82,24 @@ TEST_F(FrameCollectorTest, MarkersThatVaryByMoreThanTheySayAreKnownTheWorse) {
   const Eigen::Matrix3d& covariance_m2 = collector_.markers()[0].markers[0].covariance_m2;
   EXPECT_NEAR(covariance_m2(0, 0), 36e-6 / 3.0 + 4e-6, 1e-12);
   EXPECT_NEAR(covariance_m2(1, 1), 1e-6 / 4.0 + 4e-6, 1e-12);
+}
+
+TEST_F(FrameCollectorTest, MarkersWithoutNamesAreKeptApartAndNotMixedWithOthers) {
+  Read(0, 300, 1e-3);
+  Read(400, 700, 5e-3);
+  collector_.Begin(2);
+  for (const int k : {0, 1, 2, 3}) SeeMarker(200 + k, 0.1, 1e-3, -1);
+  ASSERT_EQ(collector_.points().size(), 1u);
+  EXPECT_EQ(collector_.points()[0].points.at(0).marker, -1);
+  EXPECT_NEAR(collector_.points()[0].frame.cables.at(0).value, 1e-3, 1e-15);
+  for (const int k : {0, 1, 2, 3}) SeeMarker(600 + k, 0.1);
+  EXPECT_EQ(collector_.taken(), 1);
+  EXPECT_NE(collector_.waits_for().find("those of the frames before had none"), std::string::npos);
+  for (const int k : {4, 5, 6, 7}) SeeMarker(600 + k, 0.1, 1e-3, -1);
+  EXPECT_TRUE(collector_.IsComplete());
+  EXPECT_TRUE(collector_.markers().empty());
+  collector_.Begin(1);
+  EXPECT_TRUE(collector_.points().empty());
 }
 
 TEST_F(FrameCollectorTest, AMotionBeginsTheMeanAnew) {

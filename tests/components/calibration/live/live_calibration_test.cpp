@@ -35,8 +35,9 @@ robot::CalibrationFile Earlier(const robot::RobotModel& robot) {
 
 /// What the camera sees of a robot as `before` has it but for the zero of its drive, as its drive
 /// tells it.
-CalibrationFrame Frame(const robot::CalibrationFile& before, double told_m) {
-  const auto robot = force_estimation::NodeTestRobot();
+CalibrationFrame Frame(
+    const robot::CalibrationFile& before, double told_m,
+    const std::unique_ptr<robot::RobotModel>& robot = force_estimation::NodeTestRobot()) {
   robot::ApplyCalibration(before, robot.get());
   fem::StaticState state = robot->RestState();
   const auto result =
@@ -87,6 +88,31 @@ TEST(LiveCalibration, KeepsWhatItDoesNotFindAnewAndFitsWithIt) {
             force_estimation::NodeTestRobot()->body().materials[0].poissons_ratio);
 }
 
+/// A robot of another size than its file's, whose guide sits elsewhere: with the earlier file that
+/// says so its markers leave no residual.
+TEST(LiveCalibration, TakesTheSizeAndTheGuidesOfTheEarlierOne) {
+  robot::CalibrationFile before = Earlier(*force_estimation::NodeTestRobot());
+  before.geometry_scale = robot::CalibratedScale{1.05, 1e-3};
+  before.cable_routes = {{"top", {0.0, 2e-3, 3e-3}, {0.0, 1e-4, 1e-4}}};
+  robot::RobotBody body = robot::BuildRobotBody(force_estimation::NodeTestDescription());
+  robot::ApplySize(before, &body);
+  robot::RobotModel large(body);
+  LiveJob job;
+  job.before = before;
+  for (const double told_m : {0.0, 2e-3, 4e-3}) {
+    job.markers.push_back(Frame(before, told_m, std::make_unique<robot::RobotModel>(body)));
+  }
+  const LiveResult result = CalibrateLive(large, job);
+  ASSERT_TRUE(result.status.ok()) << result.status.message();
+  EXPECT_LT(result.file.residual_rms_m, 1e-7);
+  EXPECT_EQ(result.file.geometry_scale->scale, 1.05);
+  EXPECT_EQ(result.file.cable_routes.at(0).moved_m, before.cable_routes[0].moved_m);
+  EXPECT_TRUE(robot::CheckCalibration(result.file, large).ok());
+  EXPECT_EQ(large.cable(0).pull_point_m(), body.cables[0].pull_point_m) << "left as it was";
+  const auto small = force_estimation::NodeTestRobot();
+  EXPECT_EQ(CalibrateLive(*small, job).status.code(), StatusCode::kInvalidInput);
+}
+
 TEST(LiveCalibration, EndsWhenItIsToldToAndLeavesTheModelAsItWas) {
   const auto robot = force_estimation::NodeTestRobot();
   const double modulus_Pa = robot->body().materials[0].youngs_modulus_Pa;
@@ -109,6 +135,9 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   before.poissons_ratios = {{"body", 0.4, 0.01}};
   before.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.0}, {0.1, 0.1, 0.1}};
   before.pose.emplace().T_robot_camera.translation().x() = 1.0;
+  before.geometry_scale = robot::CalibratedScale{1.02, 1e-3};
+  before.cable_routes = {{"a", {1e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}},
+                         {"b", {2e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
   before.drives = {{"a", {1e-3, 0.1}, {1e-4, 0.01}}, {"b", {2e-3, 0.2}, {2e-4, 0.02}}};
   robot::CalibrationFile found;
   found.moduli = {{"tip", 3e5, 3e3}};
@@ -116,7 +145,12 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   found.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.5}, {0.2, 0.2, 0.2}};
   found.pose.emplace().T_robot_camera.translation().x() = 2.0;
   found.drives = {{"b", {1e-4, 0.1}, {3e-4, 0.03}}};
+  found.cable_routes = {{"b", {3e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
   KeepFromBefore(before, &found);
+  EXPECT_EQ(found.geometry_scale->scale, 1.02);
+  ASSERT_EQ(found.cable_routes.size(), 2u);
+  EXPECT_EQ(found.cable_routes[0].moved_m.x(), 3e-3);
+  EXPECT_EQ(found.cable_routes[1].cable, "a");
   ASSERT_EQ(found.moduli.size(), 2u);
   EXPECT_EQ(found.moduli[0].youngs_modulus_Pa, 3e5);
   EXPECT_EQ(found.moduli[1].part, "body");

@@ -129,7 +129,7 @@ TEST_F(FourLegsWithoutNames, WhatAllDepthsHaveInCommonWidensTheErrors) {
                                                Take("b", {0.002, 0.009, 0.002, 0.004})};
   const auto rough = TableOnePose();
   const auto error = [&](double sigma) {
-    settings_.depth_bias_sigma = sigma;
+    settings_.request.depth_bias_sigma = sigma;
     return Calibrate(frames, &rough).joint.pose_covariance.diagonal().cwiseSqrt().eval();
   };
   EXPECT_GT(error(0.003).head<3>().norm(), 2.0 * error(0.0).head<3>().norm());
