@@ -11,9 +11,11 @@
 #include "components/calibration/joint/kept_model.hpp"
 #include "components/calibration/joint/models_like.hpp"
 #include "components/calibration/joint/unknowns.hpp"
+#include "components/calibration/size_comparison.hpp"
 #include "libs/core/text.hpp"
 #include "libs/core/thread_team.hpp"
 #include "libs/geometry/rigid_registration.hpp"
+#include "libs/robot/calibrated_geometry.hpp"
 
 namespace palpate::calibration {
 
@@ -25,8 +27,6 @@ constexpr double kWrongRobotShare = 0.1;
 constexpr double kFirstTension_N = 0.5;
 constexpr double kLeastPoissonsRatio = 0.0;
 constexpr double kMostPoissonsRatio = 0.4999;
-constexpr double kSmallestScale = 0.5;
-constexpr double kLargestScale = 2.0;
 
 /// The frames' equilibria under what is believed of their inputs.
 Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
@@ -145,12 +145,6 @@ void AddPoissonsRatios(const robot::RobotModel& model, const JointRequest& reque
   }
 }
 
-Eigen::Vector3d FirstEyelet_m(const robot::RobotModel& model, int cable) {
-  const Eigen::Map<const Eigen::VectorXd> rest_m(model.body().mesh.nodes_m.data(),
-                                                 model.body().mesh.nodes_m.size());
-  return model.cable(cable).eyelets().front().Position(rest_m);
-}
-
 /// Turns of gravity, and a factor on it.
 void AddWeight(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   const double tilt_sigma = std::tan(request.gravity_tilt_sigma_rad);
@@ -173,36 +167,36 @@ void AddGeometry(const robot::RobotModel& model, const JointRequest& request, Jo
   if (scale_sigma > 0.0) {
     setup->unknowns.push_back(GeometryScaleOf({.mean = 1.0,
                                                .sigma = scale_sigma,
-                                               .lower = kSmallestScale,
-                                               .upper = kLargestScale,
+                                               .lower = robot::kSmallestScale,
+                                               .upper = robot::kLargestScale,
                                                .plausible = scale_sigma}));
   }
   const double route_sigma_m = request.cable_route_sigma_m;
   if (route_sigma_m <= 0.0) return;
   for (int c = 0; c < model.CableCount(); ++c) {
     const robot::BodyCable& cable = model.body().cables[static_cast<size_t>(c)];
-    const Eigen::Vector3d& guide_m = model.cable(c).pull_point_m();
-    for (const TiltAxis& direction : AcrossCable(FirstEyelet_m(model, c) - guide_m)) {
-      setup->unknowns.push_back(RouteOf(c, cable.name, guide_m, direction,
+    for (const TiltAxis& direction : AcrossCable(cable)) {
+      setup->unknowns.push_back(RouteOf(c, cable.name, cable.pull_point_m, direction,
                                         {.sigma = route_sigma_m, .plausible = route_sigma_m}));
     }
   }
 }
 
-/// RMS distance of all sightings from their frame's centre.
-double SpreadOf(const std::vector<CalibrationFrame>& frames) {
-  double squares_m2 = 0.0;
-  double count = 0.0;
-  for (const CalibrationFrame& frame : frames) {
-    Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
-    for (const MarkerSighting& sighting : frame.markers) centre_m += sighting.position_m;
-    centre_m /= std::max<double>(1.0, static_cast<double>(frame.markers.size()));
-    for (const MarkerSighting& sighting : frame.markers) {
-      squares_m2 += (sighting.position_m - centre_m).squaredNorm();
+/// Of the markers that were seen and the model's in the shapes that were found.
+SizeComparison CompareSizes(const robot::RobotModel& model,
+                            const std::vector<CalibrationFrame>& frames,
+                            const std::vector<Eigen::VectorXd>& x_m) {
+  SizeComparison sizes;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const std::vector<MarkerSighting>& seen = frames[f].markers;
+    Eigen::Matrix3Xd model_m(3, static_cast<Eigen::Index>(seen.size()));
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const auto& marker = model.body().markers.at(static_cast<std::size_t>(seen[k].marker));
+      model_m.col(static_cast<Eigen::Index>(k)) = marker.point.weights.Position(x_m[f]);
     }
-    count += static_cast<double>(frame.markers.size());
+    sizes.Add(PositionsOf(seen), model_m);
   }
-  return std::sqrt(squares_m2 / std::max(1.0, count));
+  return sizes;
 }
 
 }  // namespace
@@ -232,6 +226,10 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
     const double sigma = request.depth_scale_sigma;
     setup->depth_bias =
         DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .basis = {.order = 0}};
+  } else if (request.depth_bias_sigma > 0.0) {
+    const double sigma = request.depth_bias_sigma;
+    setup->depth_bias =
+        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .estimated = false};
   }
   return Status::Ok();
 }
@@ -248,13 +246,17 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   settings.solver.huber_threshold = request.huber_threshold;
   settings.solver.stop = request.stop;
   result = CalibrateJointly(model, setup, settings);
-  const double spread_m = SpreadOf(setup.frames);
-  if (result.status.ok() && result.residual_rms_m > kWrongRobotShare * spread_m) {
+  if (!result.status.ok()) return result;
+  const SizeComparison sizes = CompareSizes(model, setup.frames, result.x_m);
+  if (result.residual_rms_m > kWrongRobotShare * sizes.seen_m()) {
     kept.Restore();
+    const std::string off =
+        "the markers lie " + FormatNumber(result.residual_rms_m) + " m from the model's (RMS)";
     result.status = Status(StatusCode::kInvalidInput,
-                           "the markers lie " + FormatNumber(result.residual_rms_m) +
-                               " m from the model's (RMS), of " + FormatNumber(spread_m) +
-                               " m that they are apart: another robot, or other markers");
+                           sizes.Explains(result.residual_rms_m)
+                               ? off + "; " + sizes.Text()
+                               : off + ", of " + FormatNumber(sizes.seen_m()) +
+                                     " m that they are apart: another robot, or other markers");
   }
   return result;
 }

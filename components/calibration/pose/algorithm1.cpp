@@ -14,6 +14,7 @@
 #include "components/calibration/pose/marker_follower.hpp"
 #include "components/calibration/pose/pose_information.hpp"
 #include "components/calibration/pose/sighting_check.hpp"
+#include "components/calibration/size_comparison.hpp"
 #include "libs/core/check.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
@@ -292,9 +293,13 @@ void Alternation::JudgeResult() {
   }
   if (!(ratio <= settings_.wrong_robot_ratio)) {
     const double rms_m = result_.residual_rms_m;
+    SizeComparison sizes;
+    sizes.Add(camera_m_, follower_.Markers_m());
     Fail(PoseFinding::kWrongRobot, StatusCode::kInvalidInput,
          "the residual of " + Short(1e3 * rms_m) + " mm RMS is " + Short(ratio) +
-             " times what the markers' errors explain: another robot, or markers assigned wrongly");
+             " times what the markers' errors explain" +
+             (sizes.Explains(rms_m) ? "; " + sizes.Text()
+                                    : ": another robot, or markers assigned wrongly"));
     return;
   }
   if (!IsWithinTolerance()) {

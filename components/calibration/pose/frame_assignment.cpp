@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "components/calibration/pose/other_size.hpp"
 
 namespace palpate::calibration {
 
@@ -24,14 +27,6 @@ struct Picture {
   MarkerAssignment assignment;
 };
 
-Eigen::Matrix3Xd PointsOf(const UnlabelledFrame& frame) {
-  Eigen::Matrix3Xd points_m(3, static_cast<Eigen::Index>(frame.points.size()));
-  for (std::size_t p = 0; p < frame.points.size(); ++p) {
-    points_m.col(static_cast<Eigen::Index>(p)) = frame.points[p].position_m;
-  }
-  return points_m;
-}
-
 double SigmaOf(const UnlabelledFrame& frame, double model_sigma_m) {
   double variance_m2 = 0.0;
   for (const MarkerSighting& point : frame.points) variance_m2 += point.covariance_m2.trace() / 3.0;
@@ -39,20 +34,36 @@ double SigmaOf(const UnlabelledFrame& frame, double model_sigma_m) {
   return std::sqrt(variance_m2 + model_sigma_m * model_sigma_m);
 }
 
-Picture Look(const MarkerShapes& shapes, const UnlabelledFrame& frame, double model_sigma_m) {
-  Picture picture;
-  picture.points_m = PointsOf(frame);
+AssignmentSettings SettingsFor(const UnlabelledFrame& frame, double model_sigma_m) {
   AssignmentSettings settings;
   if (const double sigma_m = SigmaOf(frame, model_sigma_m); std::isfinite(sigma_m)) {
     settings.sigma_m = sigma_m;
   }
-  picture.assignment = AssignMarkers(shapes, picture.points_m, settings);
+  return settings;
+}
+
+Picture Look(const MarkerShapes& shapes, const UnlabelledFrame& frame, double model_sigma_m) {
+  Picture picture;
+  picture.points_m = PositionsOf(frame.points);
+  picture.assignment = AssignMarkers(shapes, picture.points_m, SettingsFor(frame, model_sigma_m));
   if (picture.points_m.cols() > 0) {
     const Eigen::Vector3d middle_m = picture.points_m.rowwise().mean();
     const auto off_m = picture.points_m.colwise() - middle_m;
     picture.spread_m = std::sqrt(off_m.colwise().squaredNorm().mean());
   }
   return picture;
+}
+
+/// Where no picture can be the robot's: whether the one with most points is that of a larger or a
+/// smaller one.
+std::optional<SizeComparison> SizeOfFullest(const MarkerShapes& shapes,
+                                            const std::vector<UnlabelledFrame>& frames,
+                                            double model_sigma_m) {
+  const auto fullest = std::max_element(frames.begin(), frames.end(), [](auto& a, auto& b) {
+    return a.points.size() < b.points.size();
+  });
+  if (fullest == frames.end()) return std::nullopt;
+  return FindOtherSize(shapes, PositionsOf(fullest->points), SettingsFor(*fullest, model_sigma_m));
 }
 
 /// RMS distance between where two poses take a picture's points.
@@ -133,7 +144,12 @@ FrameAssignment AssignFrames(const MarkerShapes& shapes, const std::vector<Unlab
     result.status = picture.assignment.status;
     result.left_out.push_back(frames[f].frame.name + ": " + picture.assignment.status.message());
   }
-  if (pictures.empty()) return result;
+  if (pictures.empty()) {
+    if (const auto sizes = SizeOfFullest(shapes, frames, model_sigma_m)) {
+      result.status = Status(StatusCode::kInvalidInput, sizes->Text());
+    }
+    return result;
+  }
   result.choices = ChoicesOf(pictures);
   Narrow(pictures, T_rough, &result.choices);
   const std::vector<std::size_t>& kept = result.choices.front().frames;

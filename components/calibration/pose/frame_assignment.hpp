@@ -29,7 +29,8 @@ struct FrameLabels {
 };
 
 struct FrameAssignment {
-  /// kUnobservable: no picture tells which marker is which. kInvalidInput: not finite.
+  /// kUnobservable: no picture tells which marker is which. kInvalidInput: not finite, or of a
+  /// robot of another size.
   Status status;
   std::vector<FrameLabels> choices;   ///< several: the pictures alone do not tell which holds
   std::vector<std::string> left_out;  ///< pictures without an assignment, and why

@@ -100,10 +100,10 @@ TEST_F(Algorithm1Refusals, MirroredMarkersThatOnlyTheirDeformationTells) {
   ExpectRefusal(sightings, PoseFinding::kMirroredMarkers, "they fit as a mirror shows them");
 }
 
-TEST_F(Algorithm1Refusals, AnotherRobot) {
+TEST_F(Algorithm1Refusals, AnotherRobotWhichIsLarger) {
   std::vector<MarkerSighting> sightings = Seen();
   for (MarkerSighting& sighting : sightings) sighting.position_m *= 1.1;
-  ExpectRefusal(sightings, PoseFinding::kWrongRobot, "times what the markers' errors explain");
+  ExpectRefusal(sightings, PoseFinding::kWrongRobot, "the sizes disagree: markers lie ");
 }
 
 TEST_F(Algorithm1Refusals, AMarkerTakenForSomethingElse) {

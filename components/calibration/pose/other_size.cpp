@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/pose/other_size.hpp"
+
+#include <vector>
+
+namespace palpate::calibration {
+
+namespace {
+
+/// Sizes that are tried lie so near to each other that distances of half the robot's differ by
+/// less than hypotheses allow for.
+constexpr double kStep = 1.04;
+constexpr int kSteps = 13;  // each way: 0.6 to 1.7
+/// Of fewer of the points a size says little: some five always lie somehow.
+constexpr double kLeastShare = 0.8;
+
+/// The points and markers that were matched.
+SizeComparison Compare(const MarkerShapes& shapes, const Eigen::Matrix3Xd& points_m,
+                       const MarkerAssignment& found) {
+  std::vector<int> points, markers;
+  for (std::size_t p = 0; p < found.marker_of_point.size(); ++p) {
+    if (found.marker_of_point[p] < 0) continue;
+    points.push_back(static_cast<int>(p));
+    markers.push_back(found.marker_of_point[p]);
+  }
+  SizeComparison sizes;
+  sizes.Add(points_m(Eigen::all, points), shapes.Positions_m(found.tension_N)(Eigen::all, markers));
+  return sizes;
+}
+
+}  // namespace
+
+std::optional<SizeComparison> FindOtherSize(const MarkerShapes& shapes,
+                                            const Eigen::Matrix3Xd& points_m,
+                                            const AssignmentSettings& settings) {
+  double scale = 1.0;
+  for (int step = 1; step <= kSteps; ++step) {
+    scale *= kStep;
+    for (const double larger : {scale, 1.0 / scale}) {
+      const MarkerAssignment found = AssignMarkers(shapes, points_m / larger, settings);
+      const bool fits = found.status.ok() || found.ambiguous;
+      if (!fits || found.matches < kLeastShare * static_cast<double>(points_m.cols())) continue;
+      const SizeComparison sizes = Compare(shapes, points_m, found);
+      if (sizes.Disagrees()) return sizes;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace palpate::calibration
