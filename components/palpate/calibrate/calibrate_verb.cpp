@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "components/calibration/joint/found_calibration.hpp"
@@ -77,6 +78,29 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   return CalibrateJointly(options, experiment, wanted, camera, model);
 }
 
+/// A number that is looked for jointly where how far it may be off is not 0.
+struct Belief {
+  const char* option;
+  double CalibrateOptions::*sigma;
+  const char* how_far;
+};
+constexpr std::array kBeliefs = {
+    Belief{"--marker-offset-sigma-m", &CalibrateOptions::marker_offset_sigma_m,
+           "a marker may sit from its place in the robot file"},
+    Belief{"--gravity-tilt-sigma-deg", &CalibrateOptions::gravity_tilt_sigma_deg,
+           "gravity may lean"},
+    Belief{"--mass-relative-sigma", &CalibrateOptions::mass_relative_sigma,
+           "the body's weight may be off (0.1: 10 %)"},
+    Belief{"--poissons-ratio-sigma", &CalibrateOptions::poissons_ratio_sigma,
+           "Poisson's ratio may be off, of the parts whose modulus is looked for"},
+    Belief{"--geometry-scale-sigma", &CalibrateOptions::geometry_scale_sigma,
+           "the robot's size may be off (0.01: 1 %)"},
+    Belief{
+        "--cable-route-sigma-m", &CalibrateOptions::cable_route_sigma_m,
+        "the points that cables are pulled from may sit off the robot file's, across the cables"},
+    Belief{"--depth-scale-sigma", &CalibrateOptions::depth_scale_sigma,
+           "the distances of markers from the camera may be off (0.003: 0.3 %)"}};
+
 /// How far what is not looked for, or looked for, may be off.
 void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
   arguments.Option("--marker-bias-m", &options->marker_bias_m,
@@ -85,17 +109,13 @@ void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
                    "how far a drive's zero may be off, one sigma");
   arguments.Flag("--drive-gains", &options->drive_gains,
                  "find the gains of the drives' displacements, too");
-  arguments.Option("--marker-offset-sigma-m", &options->marker_offset_sigma_m,
-                   "how far a marker may sit from its place in the robot file, one sigma; "
-                   "joint: looked for where not 0");
-  arguments.Option("--gravity-tilt-sigma-deg", &options->gravity_tilt_sigma_deg,
-                   "how far gravity may lean, one sigma; joint: looked for where not 0");
-  arguments.Option("--mass-relative-sigma", &options->mass_relative_sigma,
-                   "how far the body's weight may be off, one sigma, 0.1: 10 %; joint: "
-                   "looked for where not 0");
-  arguments.Option("--poissons-ratio-sigma", &options->poissons_ratio_sigma,
-                   "how far Poisson's ratio may be off, one sigma; joint: looked for where "
-                   "not 0, of the parts whose modulus is");
+  for (const Belief& belief : kBeliefs) {
+    arguments.Option(
+        belief.option, &(options->*belief.sigma),
+        "how far " + std::string(belief.how_far) + ", one sigma; joint: looked for where not 0");
+  }
+  arguments.Flag("--fit-depth-bias", &options->fit_depth_bias,
+                 "depth without markers: look for the smooth error of the depth image, too");
 }
 
 }  // namespace
@@ -113,24 +133,6 @@ int Calibrate(const CalibrateOptions& options) {
   }
   return app::kExitDone;
 }
-
-namespace {
-
-void DeclareGeometryOptions(app::Arguments& arguments, CalibrateOptions* options) {
-  arguments.Option("--geometry-scale-sigma", &options->geometry_scale_sigma,
-                   "how far the robot's size may be off, one sigma, 0.01: 1 %; joint: looked for "
-                   "where not 0");
-  arguments.Option("--cable-route-sigma-m", &options->cable_route_sigma_m,
-                   "how far the points that cables are pulled from may sit off the robot file's, "
-                   "across the cables, one sigma; joint: looked for where not 0");
-  arguments.Option("--depth-scale-sigma", &options->depth_scale_sigma,
-                   "how far the distances of markers from the camera may be off, one sigma, 0.003: "
-                   "0.3 %; joint: looked for where not 0");
-  arguments.Flag("--fit-depth-bias", &options->fit_depth_bias,
-                 "depth without markers: look for the smooth error of the depth image, too");
-}
-
-}  // namespace
 
 app::Verb CalibrateVerb() {
   return {
@@ -173,7 +175,6 @@ app::Verb CalibrateVerb() {
         arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
                          "what is imposed on a cable where both were measured");
         DeclareBeliefs(arguments, options.get());
-        DeclareGeometryOptions(arguments, options.get());
         arguments.Option(
             "--convergence", &options->convergence,
             "draw how the residual of the first frame falls, by the paper's Algorithm 1 "

@@ -1,19 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-
-#include "components/palpate/calibrate/calibrate_verb.hpp"
-#include "components/palpate/simulate_verb.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
-#include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario_sections.hpp"
-#include "tests/components/palpate/test_robot.hpp"
+#include "tests/components/palpate/look_fixture.hpp"
 
 /// `palpate calibrate` over depth and colour that show coloured markers.
 namespace palpate::command {
@@ -21,7 +11,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kMesh = PALPATE_SOURCE_DIR "/config/scenarios/four_leg_coarse.msh";
 const std::string kGreen = "perception.markers.color_rgb=[0.15, 0.65, 0.3]";
 const std::string kLens =
     "{width_px: 640, height_px: 480, fx_px: 425, fy_px: 425, cx_px: 319.5, cy_px: 239.5";
@@ -41,57 +30,25 @@ const std::string kMarkers = R"(markers:
   - {name: m12, position_m: [0.06, 0.003, 0.085]}
   - {name: m13, position_m: [0.079, -0.003, 0.06]}
 )";
-const std::string kRecordings = R"(rest_between_s: 0.5
-recordings:
-  - name: a_hold
-    kind: hold
-    duration_s: 0.1
-    commands: [{t_s: 0, north.displacement_m: 0.004, west.displacement_m: 0.006, south.displacement_m: 0.008, east.displacement_m: 0.004}]
-  - name: b_hold
-    kind: hold
-    duration_s: 0.1
-    commands: [{t_s: 0, north.displacement_m: 0.008, west.displacement_m: 0.004, south.displacement_m: 0.004, east.displacement_m: 0.006}]
-)";
-
-class CalibrateFromFiducials : public testing::Test {
+class CalibrateFromFiducials : public LookTest {
  protected:
   CalibrateFromFiducials() {
-    std::string robot = ReadFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml");
-    Replace("file: four_leg.msh", "file: " + kMesh, &robot);
-    Replace("element: tet10", "element: tet4", &robot);
-    const std::size_t begin = robot.find("markers:"), end = robot.find("feature_points");
-    robot.replace(begin, end - begin, kMarkers);
-    options_.robot = folder_.Write("robot.yaml", robot);
-    options_.data = folder_ / "exp";
-    options_.out = folder_ / "calibration.yaml";
-    options_.what = "camera";
+    const std::size_t begin = robot_text_.find("markers:");
+    robot_text_.replace(begin, robot_text_.find("feature_points") - begin, kMarkers);
+    options_.robot = folder_.Write("robot.yaml", robot_text_);
     options_.overrides = {kGreen};
   }
 
-  static void Replace(const std::string& old, const std::string& by, std::string* text) {
-    ASSERT_NE(text->find(old), std::string::npos) << old;
-    text->replace(text->find(old), old.size(), by);
-  }
-
   void Simulate() const {
-    SimulateOptions simulate;
-    simulate.robot = options_.robot;
-    simulate.scenario = folder_.Write(
-        "s.yaml",
-        "name: look\nbody: {mesh_file: " + kMesh +
-            ", refine: 0, element: tet4}\nmotion: {mode: quasi_static, time_step_s: "
-            "0.1}\nclutter: 0\nstage: {marker_color_rgb: [0.15, 0.65, 0.3]}\ncamera:\n  depth: " +
-            kLens + ", unit_m: 0.0001, baseline_m: 0.05}\n  color: " + kLens +
-            ", registered_to_depth: true}\n  eye_m: [0.12, -0.1, 0.5]\n  target_m: [0, "
-            "0, 0.065]\n  rate_hz: 10\n  noise: {sensor: stereo}\n" +
-            kRecordings);
-    simulate.seed = 3;
-    simulate.out = options_.data;
-    ASSERT_EQ(SimulateOrCheck(simulate), 0);
+    SimulateScene("stage: {marker_color_rgb: [0.15, 0.65, 0.3]}\ncamera:\n  depth: " + kLens +
+                  ", unit_m: 0.0001, baseline_m: 0.05}\n  color: " + kLens +
+                  ", registered_to_depth: true}\n  eye_m: [0.12, -0.1, 0.5]\n  target_m: [0, 0, "
+                  "0.065]\n  rate_hz: 10\n  noise: {sensor: stereo}\n" +
+                  kTwoHolds);
   }
 
   void ExpectPose() const {
-    const auto file = robot::ReadCalibrationFile(options_.out, app::LoadYaml);
+    const robot::CalibrationFile file = Found();
     ASSERT_TRUE(file.pose);
     const Eigen::Vector3d middle_m(0.0, 0.0, 0.065);
     const Eigen::Isometry3d truth = scenario::LookAt({0.12, -0.1, 0.5}, middle_m);
@@ -105,20 +62,6 @@ class CalibrateFromFiducials : public testing::Test {
       EXPECT_LE(std::abs(drive.drive.offset_m), 4.0 * drive.standard_error.offset_m) << drive.cable;
     }
   }
-
-  template <typename Error>
-  std::string Refusal() const {
-    try {
-      Calibrate(options_);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return {};
-  }
-
-  TestFolder folder_;
-  CalibrateOptions options_;
 };
 
 TEST_F(CalibrateFromFiducials, OfOneColourFindTheCameraWithoutARoughPose) {
