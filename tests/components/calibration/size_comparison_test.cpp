@@ -16,7 +16,7 @@ using testing::HasSubstr;
 /// Corners of a cube of 20 mm: 17.32 mm from their middle.
 Eigen::Matrix3Xd Corners() {
   Eigen::Matrix3Xd corners_m(3, 8);
-  for (int k = 0; k < 8; ++k) corners_m.col(k) << k & 1, (k >> 1) & 1, (k >> 2) & 1;
+  for (int k = 0; k < 8; ++k) corners_m.col(k) << (k & 1), ((k >> 1) & 1), ((k >> 2) & 1);
   return 0.02 * corners_m;
 }
 
