@@ -3,13 +3,19 @@
 
 #include "components/force_estimation/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libs/core/check.hpp"
 
 namespace palpate::force_estimation {
 
 namespace {
+
+/// What rounding made 0 or 1, as 1 - 1e-17, counts as the nearest number that is neither.
+constexpr double kNearestToZero = std::numeric_limits<double>::min();
+constexpr double kNearestToOne = 1.0 - 0.5 * std::numeric_limits<double>::epsilon();
 
 double Tail(double q) {
   return (((((-7.784894002430293e-03 * q - 3.223964580411365e-01) * q - 2.400758277161838e+00) * q -
@@ -44,7 +50,8 @@ double Centre(double q) {
 }  // namespace
 
 double NormalQuantile(double probability) {
-  PALPATE_CHECK(probability > 0.0 && probability < 1.0, probability);
+  PALPATE_CHECK(probability >= 0.0 && probability <= 1.0, probability);
+  probability = std::clamp(probability, kNearestToZero, kNearestToOne);
   constexpr double kLow = 0.02425;
   if (probability < kLow) return Tail(std::sqrt(-2.0 * std::log(probability)));
   if (probability > 1.0 - kLow) return -Tail(std::sqrt(-2.0 * std::log1p(-probability)));
@@ -53,6 +60,8 @@ double NormalQuantile(double probability) {
 
 double ChiSquaredQuantile(double probability, int degrees) {
   PALPATE_CHECK(degrees >= 1, degrees);
+  PALPATE_CHECK(probability >= 0.0 && probability <= 1.0, probability);
+  probability = std::min(probability, kNearestToOne);
   if (degrees == 1) return std::pow(NormalQuantile(0.5 * (1.0 + probability)), 2);
   if (degrees == 2) return -2.0 * std::log1p(-probability);
   const double variance = 2.0 / (9.0 * degrees);

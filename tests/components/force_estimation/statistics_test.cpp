@@ -21,6 +21,26 @@ TEST(Statistics, NormalQuantileInvertsTheDistribution) {
   EXPECT_NEAR(NormalQuantile(0.025), -kSigmas95, 1e-8);
 }
 
+/// Chances that the settings permit, of which 1 - chance is 1.
+TEST(Statistics, QuantilesOfTheSmallestChancesAreFiniteAndNoSmallerThanThoseOfLarger) {
+  double normal = 0.0;
+  std::array<double, 4> chi_squared = {};
+  for (const double chance : {1e-6, 1e-12, 1e-15, 1e-17, 1e-300}) {
+    const double next = NormalQuantile(1.0 - chance);
+    EXPECT_TRUE(std::isfinite(next)) << chance;
+    EXPECT_GE(next, normal) << chance;
+    normal = next;
+    for (int degrees = 1; degrees <= 4; ++degrees) {
+      double& before = chi_squared[static_cast<std::size_t>(degrees - 1)];
+      const double of_these = ChiSquaredQuantile(1.0 - chance, degrees);
+      EXPECT_TRUE(std::isfinite(of_these)) << chance << ' ' << degrees;
+      EXPECT_GE(of_these, before) << chance << ' ' << degrees;
+      before = of_these;
+    }
+  }
+  EXPECT_TRUE(std::isfinite(NormalQuantile(0.0)));
+}
+
 TEST(Statistics, ChiSquaredQuantileIsGoodToTwoPerCent) {
   struct Entry {
     double probability;
