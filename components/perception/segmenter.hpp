@@ -22,8 +22,9 @@ class Segmenter {
   virtual const SegmentedFrame& Segment(const rgbd::RgbdFrame& frame,
                                         const PredictedSurface* predicted) = 0;
 
-  /// What was predicted of the robot's surface for the last frame, moved onto what was measured;
-  /// nullptr where that was not done. Holds until the next call of Segment.
+  /// What was predicted of the robot's surface for the last frame, moved onto what was measured,
+  /// with the sides that the camera does not see; nullptr where that was not done. Holds until the
+  /// next call of Segment.
   virtual const PredictedSurface* FittedSurface() const { return nullptr; }
 };
 

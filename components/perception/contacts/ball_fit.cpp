@@ -62,10 +62,9 @@ std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m) {
   ball.covered_m = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
   const double variance_m2 =
       std::max(sigma_m, ball.residual_m) * std::max(sigma_m, ball.residual_m);
-  ball.center_covariance_m2 =
-      variance_m2 * information.ldlt().solve(Eigen::Matrix4d::Identity()).topLeftCorner<3, 3>();
+  ball.covariance_m2 = variance_m2 * information.ldlt().solve(Eigen::Matrix4d::Identity());
   const bool from_outside = ball.center_m.dot(ball.center_m - middle_m) > 0.0;
-  if (!from_outside || !ball.center_covariance_m2.allFinite()) return std::nullopt;
+  if (!from_outside || !ball.covariance_m2.allFinite()) return std::nullopt;
   return ball;
 }
 

@@ -14,7 +14,9 @@ struct Ball {
   double radius_m = 0.0;
   double residual_m = 0.0;  ///< RMS distance of the points from its surface
   double covered_m = 0.0;   ///< standard deviation of the points along their second longest axis
-  Eigen::Matrix3d center_covariance_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix4d covariance_m2 = Eigen::Matrix4d::Zero();  ///< of centre and radius
+
+  Eigen::Matrix3d CenterCovariance_m2() const { return covariance_m2.topLeftCorner<3, 3>(); }
 };
 
 /// Least squares of the distances from the ball's surface (Gauss-Newton from the algebraic fit).

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "components/perception/contacts/hidden_contact.hpp"
+#include "components/perception/contacts/unseen_skin.hpp"
 #include "libs/core/check.hpp"
 
 namespace palpate::perception {
@@ -28,9 +28,6 @@ constexpr double kHiddenRim = 8.0 / (std::numbers::pi * std::numbers::pi);
 
 /// Of the gap between a rim and the robot, as the variance of the contact's place across it.
 constexpr double kOfGap = 1.0 / 3.0;
-/// A round object whose far side stays farther from the robot than so many times the resolution of
-/// the clouds does not touch.
-constexpr double kLargestGap = 1.5;
 
 double MedianSigma_m(const Eigen::VectorXf& sigma_m, std::vector<float>* buffer) {
   buffer->assign(sigma_m.begin(), sigma_m.end());
@@ -54,7 +51,7 @@ const std::vector<DetectedContact>& ContactLocator::Locate(const rgbd::SensedClo
   for (const std::vector<int>& members : clusters_) {
     if (static_cast<int>(members.size()) < config_.min_points) continue;
     DetectedContact contact = Summarise(robot, object, members);
-    if (!LookBehind(robot, object, members, &contact)) continue;
+    if (!LookBehind(robot, object, members, surface, &contact)) continue;
     contacts_.push_back(std::move(contact));
     for (const int k : members) {
       in_contact_[static_cast<std::size_t>(touching_[static_cast<std::size_t>(k)].object)] = 1;
@@ -203,7 +200,7 @@ DetectedContact ContactLocator::Summarise(const rgbd::SensedCloud& robot,
   const Eigen::Vector3d gap_m = contact.position_m - rim_m;
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   contact.covariance_m2 = noise_m2 + kHiddenRim * (scatter_m2.trace() * identity - scatter_m2) +
-                          kOfGap * gap_m * gap_m.transpose() + ResolutionVariance_m2() * identity;
+                          kOfGap * gap_m * gap_m.transpose() + Known().Variance_m2() * identity;
   return contact;
 }
 
@@ -211,18 +208,42 @@ Eigen::Vector3d ContactLocator::RimOf(const std::vector<int>& members) const {
   return touching_m_(Eigen::all, members).cast<double>().rowwise().mean();
 }
 
-double ContactLocator::ResolutionVariance_m2() const {
-  return thresholds_.resolution_m * thresholds_.resolution_m / 12.0;
+Resolution ContactLocator::Known() const {
+  return {.noise_m = thresholds_.noise_m, .resolution_m = thresholds_.resolution_m};
 }
 
 bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
-                                const std::vector<int>& members, DetectedContact* contact) const {
-  const auto hidden = FindHiddenContact(robot, object, RimOf(members), thresholds_.noise_m);
-  if (!hidden) return true;
+                                const std::vector<int>& members, const PredictedSurface* surface,
+                                DetectedContact* contact) const {
+  const auto hidden = FindHiddenContact(robot, object, RimOf(members), surface, Known());
+  if (!hidden) {
+    if (surface != nullptr) PlaceOnUnseenSkin(robot, members, *surface, contact);
+    return true;
+  }
   contact->position_m = hidden->position_m;
+  const double air_m = std::max(0.0, hidden->gap_m);
   contact->covariance_m2 =
-      hidden->covariance_m2 + ResolutionVariance_m2() * Eigen::Matrix3d::Identity();
-  return hidden->gap_m <= kLargestGap * thresholds_.resolution_m;
+      hidden->covariance_m2 + kOfGap * air_m * air_m * Eigen::Matrix3d::Identity();
+  return hidden->touches;
+}
+
+/// The hidden part of the object is taken to reach as far as its rim is wide, and as far as the air
+/// between rim and robot.
+void ContactLocator::PlaceOnUnseenSkin(const rgbd::SensedCloud& robot,
+                                       const std::vector<int>& members,
+                                       const PredictedSurface& surface,
+                                       DetectedContact* contact) const {
+  const Eigen::Matrix3Xd rim_m = touching_m_(Eigen::all, members).cast<double>();
+  const Eigen::Vector3d middle_m = RimOf(members);
+  const double width_m2 = 2.0 * (rim_m.colwise() - middle_m).colwise().squaredNorm().mean();
+  const double air_m2 = (contact->position_m - middle_m).squaredNorm();
+  const double known_m2 = thresholds_.resolution_m * thresholds_.resolution_m;
+  const auto unseen = FindUnseenSkin(surface, robot, rim_m, std::sqrt(width_m2 + air_m2 + known_m2),
+                                     0.5 * thresholds_.resolution_m);
+  if (!unseen) return;
+  contact->position_m = unseen->middle_m;
+  contact->covariance_m2 = unseen->covariance_m2 +
+                           (Known().Variance_m2() + kOfGap * air_m2) * Eigen::Matrix3d::Identity();
 }
 
 }  // namespace palpate::perception

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/perception/contacts/contact_config.hpp"
+#include "components/perception/contacts/hidden_contact.hpp"
 #include "components/perception/contacts/point_grid.hpp"
 #include "components/perception/observation.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
@@ -22,7 +23,11 @@ namespace palpate::perception {
 /// resolution of the clouds: a pixel of the object that was taken for the robot makes no rim. A
 /// mean of what is seen would lie before the contact by most of the object's radius:
 /// - where the object is round next to its rim, the contact is where its hidden side meets the
-///   robot (FindHiddenContact), or there is none where it does not;
+///   robot's surface, be that in view or not (FindHiddenContact), or there is none where it does
+///   not;
+/// - else, where the robot's surface is known, it is on the part of it near the rim that is not
+/// seen
+///   (FindUnseenSkin), and as uncertain as that part is large;
 /// - else it is at the mean of the robot's points nearest to the rim. Its covariance then has three
 ///   parts: depth noise along the view rays; the gap between rim and robot and the resolution of
 ///   the clouds; and the hidden part: where the rim is an arc of radius a about the contact's
@@ -42,8 +47,9 @@ class ContactLocator {
   explicit ContactLocator(const ContactConfig& config) : config_(config) {}
 
   /// Contacts without names, those of most points first. Camera frame, z > 0. `surface`: where the
-  /// robot's surface is known to be, seen or not; then round objects are found that are so large
-  /// that they hide all of the robot within r_search. Holds until the next call.
+  /// robot's surface is known to be, all round it; then contacts are found on the sides that the
+  /// camera does not see, and round objects that are so large that they hide all of the robot
+  /// within r_search. Holds until the next call.
   const std::vector<DetectedContact>& Locate(const rgbd::SensedCloud& robot,
                                              const rgbd::SensedCloud& object,
                                              const PredictedSurface* surface = nullptr);
@@ -68,9 +74,12 @@ class ContactLocator {
                             const std::vector<int>& members) const;
   /// False where the object's far side does not reach the robot.
   bool LookBehind(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
-                  const std::vector<int>& members, DetectedContact* contact) const;
+                  const std::vector<int>& members, const PredictedSurface* surface,
+                  DetectedContact* contact) const;
+  void PlaceOnUnseenSkin(const rgbd::SensedCloud& robot, const std::vector<int>& members,
+                         const PredictedSurface& surface, DetectedContact* contact) const;
   Eigen::Vector3d RimOf(const std::vector<int>& members) const;
-  double ResolutionVariance_m2() const;
+  Resolution Known() const;
 
   ContactConfig config_;
   Thresholds thresholds_;

@@ -4,12 +4,13 @@
 #include "components/perception/contacts/hidden_contact.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "components/perception/contacts/ball_fit.hpp"
-#include "libs/geometry/closest_point.hpp"
+#include "components/perception/contacts/skin_around.hpp"
 
 namespace palpate::perception {
 
@@ -31,7 +32,15 @@ constexpr Eigen::Index kFewestBelow = 8;
 constexpr double kTurnSigma = 0.2;
 /// The predicted surface, once it is fitted to the frame, is known to about this.
 constexpr double kSurfaceSigma_m = 1.2e-3;
+/// Within a ball's width most of that error is the same: its shape there is known better.
+constexpr double kShapeSigma_m = 0.6e-3;
+constexpr double kFarthestInSigmas = 5.0;
 constexpr double kGapSigmas = 3.0;
+/// Without the predicted surface: a round object whose far side stays farther from the robot than
+/// so many times the resolution of the clouds does not touch.
+constexpr double kLargestGap = 1.5;
+constexpr double kSkinReach_m = 0.02;
+constexpr int kTouchRounds = 4;
 
 Eigen::Matrix3Xd Near(const rgbd::SensedCloud& cloud, const Eigen::Vector3d& place_m,
                       double radius_m) {
@@ -48,7 +57,7 @@ bool IsRound(const Ball& ball, double noise_m) {
   const double largest_m = kLargestSigma * ball.radius_m;
   return ball.residual_m <= kNoises * noise_m + kOutOfRound * ball.radius_m &&
          ball.covered_m >= kLeastCovered * ball.radius_m &&
-         ball.center_covariance_m2.trace() <= largest_m * largest_m;
+         ball.CenterCovariance_m2().trace() <= largest_m * largest_m;
 }
 
 struct Plane {
@@ -72,39 +81,119 @@ Plane FitPlane(const Eigen::Matrix3Xd& points_m, const Ball& ball) {
   return plane;
 }
 
-Eigen::Vector3d NearestOn(const PredictedSurface& surface, const Eigen::Vector3d& place_m) {
-  Eigen::Vector3d nearest_m = Eigen::Vector3d::Constant(1e3);
-  for (const auto& corners : surface.triangles.colwise()) {
-    const Eigen::Matrix3d triangle_m = surface.vertices_m(Eigen::all, corners);
-    const Eigen::Vector3d point_m =
-        triangle_m * geometry::ClosestPointOnTriangle(triangle_m.col(0), triangle_m.col(1),
-                                                      triangle_m.col(2), place_m);
-    if ((point_m - place_m).squaredNorm() < (nearest_m - place_m).squaredNorm()) {
-      nearest_m = point_m;
-    }
+/// One sigma of the gap between ball and skin.
+double GapSigma_m(const Ball& ball, const NearestSkin& nearest) {
+  Eigen::Vector4d gradient;
+  gradient << nearest.outward, -1.0;
+  return std::sqrt(gradient.dot(ball.covariance_m2 * gradient) + kSurfaceSigma_m * kSurfaceSigma_m);
+}
+
+/// What is known of the ball once it is taken to touch: of a small cap neither how large the ball
+/// is nor how far behind the cap its middle lies, but for the skin that stops it. Gauss-Newton from
+/// the ball as it was seen (iterated Kalman update).
+Ball Touching(const Ball& seen, const SkinAround& skin) {
+  Ball ball = seen;
+  for (int round = 0; round < kTouchRounds; ++round) {
+    const NearestSkin nearest = skin.Nearest(ball.center_m);
+    Eigen::Vector4d gradient;
+    gradient << nearest.outward, -1.0;
+    const double gap_m = nearest.height_m - ball.radius_m;
+    Eigen::Vector4d from_seen;
+    from_seen << ball.center_m - seen.center_m, ball.radius_m - seen.radius_m;
+    const Eigen::Vector4d spread = seen.covariance_m2 * gradient;
+    const Eigen::Vector4d gain =
+        spread / (gradient.dot(spread) + kSurfaceSigma_m * kSurfaceSigma_m);
+    const Eigen::Vector4d step = gain * (gradient.dot(from_seen) - gap_m);
+    ball.center_m = seen.center_m + step.head<3>();
+    ball.radius_m = seen.radius_m + step[3];
+    ball.covariance_m2 = seen.covariance_m2 - gain * spread.transpose();
   }
-  return nearest_m;
+  return ball;
+}
+
+struct Place {
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
+};
+
+/// Where a ball touches: the skin that is as near to its middle as any, to what the shape of the
+/// skin is known to, for each of the sigma points of what is known of the middle. So it is wide
+/// along a flat skin, narrow across a limb, and holds both sides of a corner that a ball lies in.
+Place TouchingPlace(const Ball& ball, const SkinAround& skin) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ball.CenterCovariance_m2());
+  Place place;
+  Eigen::Matrix3d squares_m2 = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    const double sigma_m = std::sqrt(3.0 * std::max(0.0, axes.eigenvalues()[k / 2]));
+    const Eigen::Vector3d center_m =
+        ball.center_m + (k % 2 == 0 ? sigma_m : -sigma_m) * axes.eigenvectors().col(k / 2);
+    const double least_m = std::abs(skin.Nearest(center_m).height_m);
+    double sum_m2 = 0.0;
+    Eigen::Vector3d first_m = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d second_m2 = Eigen::Matrix3d::Zero();
+    skin.ForEachPart([&](const Eigen::Vector3d& part_m, double area_m2) {
+      const double off = ((part_m - center_m).norm() - least_m) / kShapeSigma_m;
+      if (off > kFarthestInSigmas) return;
+      const double weight_m2 = area_m2 * std::exp(-0.5 * off * off);
+      const Eigen::Vector3d from_center_m = part_m - ball.center_m;
+      sum_m2 += weight_m2;
+      first_m += weight_m2 * from_center_m;
+      second_m2 += weight_m2 * from_center_m * from_center_m.transpose();
+    });
+    if (!(sum_m2 > 0.0)) continue;
+    place.middle_m += first_m / (6.0 * sum_m2);
+    squares_m2 += second_m2 / (6.0 * sum_m2);
+  }
+  place.covariance_m2 = squares_m2 - place.middle_m * place.middle_m.transpose();
+  place.middle_m += ball.center_m;
+  return place;
+}
+
+std::optional<HiddenContact> TouchOnPlane(const Ball& ball, const rgbd::SensedCloud& robot,
+                                          const Resolution& known) {
+  const Eigen::Matrix3Xd below_m = Near(robot, ball.center_m, ball.radius_m + kAround_m);
+  if (below_m.cols() < kFewestBelow) return std::nullopt;
+  const Plane plane = FitPlane(below_m, ball);
+  const double turn_m = kTurnSigma * ball.radius_m;
+  const double gap_m = plane.normal.dot(ball.center_m - plane.point_m) - ball.radius_m;
+  return HiddenContact{
+      .position_m = ball.center_m - ball.radius_m * plane.normal,
+      .covariance_m2 = ball.CenterCovariance_m2() +
+                       (turn_m * turn_m + known.Variance_m2()) * Eigen::Matrix3d::Identity(),
+      .radius_m = ball.radius_m,
+      .gap_m = gap_m,
+      .touches = gap_m <= kLargestGap * known.resolution_m};
+}
+
+std::optional<HiddenContact> TouchOnSkin(const Ball& seen, const PredictedSurface& surface) {
+  const SkinAround skin(surface, seen.center_m, seen.radius_m + kSkinReach_m);
+  if (skin.empty()) return std::nullopt;
+  const NearestSkin below = skin.Nearest(seen.center_m);
+  const double gap_m = below.height_m - seen.radius_m;
+  const Ball ball = Touching(seen, skin);
+  if (!(ball.radius_m > 0.0) || !ball.center_m.allFinite()) return std::nullopt;
+  const Place place = TouchingPlace(ball, skin);
+  const Eigen::Vector3d across_m = kSurfaceSigma_m * skin.Nearest(place.middle_m).outward;
+  return HiddenContact{.position_m = place.middle_m,
+                       .covariance_m2 = place.covariance_m2 + across_m * across_m.transpose(),
+                       .radius_m = ball.radius_m,
+                       .gap_m = gap_m,
+                       .touches = gap_m <= kGapSigmas * GapSigma_m(seen, below)};
 }
 
 }  // namespace
 
 std::optional<HiddenContact> FindHiddenContact(const rgbd::SensedCloud& robot,
                                                const rgbd::SensedCloud& object,
-                                               const Eigen::Vector3d& rim_m, double noise_m) {
+                                               const Eigen::Vector3d& rim_m,
+                                               const PredictedSurface* surface,
+                                               const Resolution& known) {
   for (const double reach_m : kReaches_m) {
-    const std::optional<Ball> ball = FitBall(Near(object, rim_m, reach_m), noise_m);
-    if (!ball || !IsRound(*ball, noise_m)) continue;
-    const Eigen::Matrix3Xd below_m = Near(robot, ball->center_m, ball->radius_m + kAround_m);
-    if (below_m.cols() < kFewestBelow) continue;
-    const Plane plane = FitPlane(below_m, *ball);
-    const double turn_m = kTurnSigma * ball->radius_m;
-    HiddenContact contact;
-    contact.radius_m = ball->radius_m;
-    contact.position_m = ball->center_m - ball->radius_m * plane.normal;
-    contact.covariance_m2 =
-        ball->center_covariance_m2 + turn_m * turn_m * Eigen::Matrix3d::Identity();
-    contact.gap_m = plane.normal.dot(ball->center_m - plane.point_m) - ball->radius_m;
-    return contact;
+    const std::optional<Ball> ball = FitBall(Near(object, rim_m, reach_m), known.noise_m);
+    if (!ball || !IsRound(*ball, known.noise_m)) continue;
+    const auto contact =
+        surface != nullptr ? TouchOnSkin(*ball, *surface) : TouchOnPlane(*ball, robot, known);
+    if (contact) return contact;
   }
   return std::nullopt;
 }
@@ -113,20 +202,8 @@ std::optional<HiddenContact> FindContactUnder(const Eigen::Matrix3Xd& points_m,
                                               const PredictedSurface& surface, double noise_m) {
   const std::optional<Ball> ball = FitBall(points_m, noise_m);
   if (!ball || !IsRound(*ball, noise_m)) return std::nullopt;
-  const Eigen::Vector3d nearest_m = NearestOn(surface, ball->center_m);
-  const double distance_m = (nearest_m - ball->center_m).norm();
-  if (!(distance_m > 0.0)) return std::nullopt;
-  const Eigen::Vector3d down = (nearest_m - ball->center_m) / distance_m;
-  HiddenContact contact;
-  contact.radius_m = ball->radius_m;
-  contact.position_m = ball->center_m + ball->radius_m * down;
-  contact.gap_m = distance_m - ball->radius_m;
-  const double turn_m = kTurnSigma * ball->radius_m;
-  contact.covariance_m2 =
-      ball->center_covariance_m2 + turn_m * turn_m * Eigen::Matrix3d::Identity();
-  const double along_m2 = down.dot(ball->center_covariance_m2 * down);
-  const double sigma_m = std::sqrt(along_m2 + kSurfaceSigma_m * kSurfaceSigma_m);
-  if (contact.gap_m > kGapSigmas * sigma_m) return std::nullopt;
+  auto contact = TouchOnSkin(*ball, surface);
+  if (contact && !contact->touches) contact.reset();
   return contact;
 }
 

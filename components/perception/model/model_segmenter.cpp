@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/cloud_builder.hpp"
@@ -71,7 +72,7 @@ struct ModelSegmenter::Parts {
   std::vector<Eigen::Vector3f> robot_m;
   SampleGrid color_sites;
   SegmentedFrame result;
-  bool fitted = false;  ///< the prediction, to this frame
+  std::optional<PredictedSurface> fitted;  ///< the prediction, to this frame
 };
 
 ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& camera,
@@ -155,7 +156,7 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
             judge.IsForeign(judge.BinOf(frame.color.Pixel(u, v))));
   };
   prediction.FitTo(registration, region, is_foreign, judge.Sigma_m(mean_z_m));
-  fitted = true;
+  fitted = prediction.WholeSurface();
   prediction.Measure(registration, &region);
   judge.JudgeDistances(registration, background, &region);
   status = judge.CheckAgreement(prediction, region);
@@ -316,7 +317,7 @@ const PixelRegion& ModelSegmenter::region() const {
 
 const PredictedSurface* ModelSegmenter::FittedSurface() const {
   PALPATE_CHECK(parts_ != nullptr);
-  return parts_->fitted ? &parts_->prediction.surface() : nullptr;
+  return parts_->fitted ? &*parts_->fitted : nullptr;
 }
 
 const SegmentedFrame& ModelSegmenter::Segment(const rgbd::RgbdFrame& frame,
@@ -325,7 +326,7 @@ const SegmentedFrame& ModelSegmenter::Segment(const rgbd::RgbdFrame& frame,
   Parts& parts = *parts_;
   SegmentedFrame& result = parts.result;
   result = {};
-  parts.fitted = false;
+  parts.fitted.reset();
   parts.region.Place(0, 0, 0, 0);
   result.status = parts.registration.RegisterDepth(frame, &parts.frame);
   if (!result.status.ok()) return result;

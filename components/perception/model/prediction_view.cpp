@@ -35,6 +35,7 @@ Status PredictionView::Look(const PredictedSurface& predicted) {
     return Status(StatusCode::kInvalidInput, "the predicted surface is empty or has no numbers");
   }
   surface_.vertices_m = predicted.vertices_m;
+  all_triangles_ = predicted.triangles;
   surface_.triangles.resize(3, predicted.triangles.cols());
   Eigen::Index facing = 0;
   for (Eigen::Index t = 0; t < predicted.triangles.cols(); ++t) {
@@ -63,6 +64,10 @@ void PredictionView::Redraw() {
                                      .cross(surface_.vertices_m.col(surface_.triangles(2, t)) - a);
     normals_.col(t) = area.normalized().cast<float>();
   }
+}
+
+PredictedSurface PredictionView::WholeSurface() const {
+  return {surface_.vertices_m, all_triangles_};
 }
 
 void PredictionView::Place(PixelRegion* region) const {

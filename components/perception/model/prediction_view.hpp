@@ -42,6 +42,8 @@ class PredictionView {
   float Z_m(int u_px, int v_px) const { return view_.Z_m(u_px, v_px); }
   /// The fitted surface: all vertices, the triangles that face the camera.
   const PredictedSurface& surface() const { return surface_; }
+  /// The same with the triangles that face away from it.
+  PredictedSurface WholeSurface() const;
 
  private:
   struct Distance {
@@ -62,6 +64,7 @@ class PredictionView {
   float nearest_z_m_ = 0.0f;
   SampleGrid grid_;
   SurfaceFit fit_;
+  Eigen::Matrix3Xi all_triangles_;  ///< of the prediction
 };
 
 }  // namespace palpate::perception

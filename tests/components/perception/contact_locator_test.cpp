@@ -215,7 +215,9 @@ struct Tally {
   }
 };
 
-Tally LookAtMany(double post_height_m, double radius_from_m, double radius_to_m) {
+/// `predicted`: the locator knows where the plate is, seen or not.
+Tally LookAtMany(double post_height_m, double radius_from_m, double radius_to_m,
+                 bool predicted = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   Tally tally;
@@ -227,7 +229,10 @@ Tally LookAtMany(double post_height_m, double radius_from_m, double radius_to_m)
     const View view{.tilt_rad = 0.7 + 0.6 * any(random), .turn_rad = 6.0 * any(random)};
     std::vector<Eigen::Vector3d> touch_m;
     const Clouds clouds = Look(scene, view, &random, &touch_m);
-    tally.Add(Locate(clouds), touch_m[0]);
+    const PredictedSurface plate = test::PlateSeenBy(view, scene.plate_half_m);
+    ContactLocator locator({});
+    tally.Add(locator.Locate(clouds.robot, clouds.object, predicted ? &plate : nullptr),
+              touch_m[0]);
   }
   return tally;
 }
@@ -246,13 +251,35 @@ TEST(ContactLocator, WhatAPostHidesStandsInTheCovariance) {
   EXPECT_GT(tally.chi_squared, 0.5 * tally.found);  // nor is it much too large
 }
 
+TEST(ContactLocator, WhatABallHidesIsFoundOnTheSkin) {
+  const Tally tally = LookAtMany(0.0, 0.005, 0.018, true);
+  EXPECT_EQ(tally.found, tally.trials);
+  EXPECT_GE(tally.held, tally.found * 9 / 10);
+  EXPECT_LT(tally.error_m, 1e-3 * tally.found);
+}
+
+TEST(ContactLocator, WhatAPostHidesIsFoundBetterOnTheSkin) {
+  const Tally tally = LookAtMany(0.06, 0.003, 0.012, true);
+  EXPECT_EQ(tally.found, tally.trials);
+  EXPECT_GE(tally.held, tally.found * 9 / 10);
+  EXPECT_GT(tally.chi_squared, 0.3 * tally.found);  // nor is it much too large
+  EXPECT_LT(tally.error_m, 0.7 * LookAtMany(0.06, 0.003, 0.012).error_m);
+}
+
 TEST(ContactLocator, ABallThatHoversIsNoContact) {
   std::mt19937 random(8);
   std::vector<Eigen::Vector3d> unused;
   for (const double gap_m : {0.0, 0.008}) {
     const BallsOnPlate scene{.radius_m = 0.01, .touch_m = {{0.0, 0.0}}, .gap_m = gap_m};
-    const Clouds clouds = Look(scene, {.tilt_rad = 1.2}, &random, &unused);
+    const View view{.tilt_rad = 1.2};
+    const Clouds clouds = Look(scene, view, &random, &unused);
     EXPECT_EQ(Locate(clouds).size(), gap_m > 0.0 ? 0u : 1u);
+    // Where the plate is known, less air is told from none.
+    const PredictedSurface plate = test::PlateSeenBy(view, scene.plate_half_m);
+    const Clouds nearer = Look({.radius_m = 0.01, .touch_m = {{0.0, 0.0}}, .gap_m = 0.6 * gap_m},
+                               view, &random, &unused);
+    ContactLocator locator({});
+    EXPECT_EQ(locator.Locate(nearer.robot, nearer.object, &plate).size(), gap_m > 0.0 ? 0u : 1u);
   }
 }
 

@@ -32,7 +32,7 @@ double HitPost(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& ray,
   if (root < 0.0) return std::numeric_limits<double>::infinity();
   const double distance_m = (-b - std::sqrt(root)) / a;
   const double height_m = eye_m.z() + distance_m * ray.z();
-  const bool hit = height_m >= 0.0 && height_m <= scene.post_height_m;
+  const bool hit = height_m >= scene.gap_m && height_m <= scene.gap_m + scene.post_height_m;
   return hit ? distance_m : std::numeric_limits<double>::infinity();
 }
 
@@ -56,7 +56,32 @@ double HitPlate(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& ray, double
   return hit ? distance_m : std::numeric_limits<double>::infinity();
 }
 
+Eigen::Isometry3d PoseOf(const View& view) {
+  Eigen::Isometry3d T_plate_camera = Eigen::Isometry3d::Identity();
+  T_plate_camera.rotate(
+      Eigen::AngleAxisd(view.turn_rad, Eigen::Vector3d::UnitZ()) *
+      Eigen::AngleAxisd(std::numbers::pi - view.tilt_rad, Eigen::Vector3d::UnitX()));
+  T_plate_camera.translate(Eigen::Vector3d(0.0, 0.0, -view.distance_m));
+  return T_plate_camera;
+}
+
 }  // namespace
+
+PredictedSurface PlateSeenBy(const View& view, double plate_half_m) {
+  constexpr double kThick_m = 0.02;
+  const double h = plate_half_m;
+  Eigen::Matrix3Xd corners_m(3, 8);
+  corners_m << -h, h, h, -h, -h, h, h, -h,  //
+      -h, -h, h, h, -h, -h, h, h,           //
+      0, 0, 0, 0, -kThick_m, -kThick_m, -kThick_m, -kThick_m;
+  PredictedSurface surface;
+  surface.vertices_m = PoseOf(view).inverse() * corners_m;
+  surface.triangles.resize(3, 4);
+  surface.triangles << 0, 0, 4, 4,  //
+      1, 2, 6, 7,                   //
+      2, 3, 5, 6;
+  return surface;
+}
 
 rgbd::SensedCloud CloudOf(const std::vector<Eigen::Vector3d>& points_m, double sigma_m) {
   rgbd::SensedCloud cloud;
@@ -98,11 +123,7 @@ Clouds SampleAll(const BallsOnPlate& scene, double spacing_m, double distance_m)
 
 Clouds Look(const BallsOnPlate& scene, const View& view, std::mt19937* random,
             std::vector<Eigen::Vector3d>* touch_camera_m) {
-  Eigen::Isometry3d T_plate_camera = Eigen::Isometry3d::Identity();
-  T_plate_camera.rotate(
-      Eigen::AngleAxisd(view.turn_rad, Eigen::Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(std::numbers::pi - view.tilt_rad, Eigen::Vector3d::UnitX()));
-  T_plate_camera.translate(Eigen::Vector3d(0.0, 0.0, -view.distance_m));
+  const Eigen::Isometry3d T_plate_camera = PoseOf(view);
   const Eigen::Vector3d eye_m = T_plate_camera.translation();
   std::normal_distribution<double> noise_m(0.0, view.sigma_m);
   std::vector<Eigen::Vector3d> robot;

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "components/perception/observation.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
 
 namespace palpate::perception::test {
@@ -17,7 +18,7 @@ struct BallsOnPlate {
   double radius_m = 0.015;
   double plate_half_m = 0.1;
   std::vector<Eigen::Vector2d> touch_m;  ///< where each ball touches
-  double gap_m = 0.0;                    ///< air under the balls
+  double gap_m = 0.0;                    ///< air under the balls, or posts
   double post_height_m = 0.0;            ///< > 0: posts instead of balls (for Look)
 };
 
@@ -44,6 +45,9 @@ struct View {
 };
 Clouds Look(const BallsOnPlate& scene, const View& view, std::mt19937* random,
             std::vector<Eigen::Vector3d>* touch_camera_m);
+
+/// The plate as a predicted surface in that camera's frame, its underside too.
+PredictedSurface PlateSeenBy(const View& view, double plate_half_m);
 
 /// `points_m` with the same sigma each.
 rgbd::SensedCloud CloudOf(const std::vector<Eigen::Vector3d>& points_m, double sigma_m);
