@@ -14,6 +14,7 @@
 #include "libs/core/error.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/robots.hpp"
+#include "tests/support/paper_robot.hpp"
 
 namespace palpate::benchmarks {
 
@@ -38,7 +39,8 @@ geometry::RigidTransform CameraPose() {
 /// A robot as its file says, and what a camera saw of the true one.
 class CalibrationScene {
  public:
-  explicit CalibrationScene(int frames) : model_(Body()), truth_(Body()) {
+  CalibrationScene(const robot::RobotDescription& robot, int frames)
+      : model_(robot::BuildRobotBody(robot)), truth_(robot::BuildRobotBody(robot)) {
     if (frames == 1) {
       See("table_1",
           {{Kind::kTension, 1.2},
@@ -69,10 +71,6 @@ class CalibrationScene {
   }
 
  private:
-  static robot::RobotBody Body() {
-    return BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10));
-  }
-
   void SeePulled(int frame) {
     std::vector<robot::CableCommand> cables;
     for (int c = 0; c < truth_.CableCount(); ++c) {
@@ -114,9 +112,9 @@ class CalibrationScene {
   calibration::JointRequest request_;
 };
 
-Benchmark MakeBenchmark(const std::string& name, int frames) {
-  const auto scene =
-      MakeLazy<CalibrationScene>([frames] { return std::make_unique<CalibrationScene>(frames); });
+Benchmark MakeBenchmark(const std::string& name, const robot::RobotDescription& robot, int frames) {
+  const auto scene = MakeLazy<CalibrationScene>(
+      [robot, frames] { return std::make_unique<CalibrationScene>(robot, frames); });
   return {.name = "calibration/" + name,
           .measure =
               [scene](benchmark::State& state) {
@@ -133,9 +131,18 @@ Benchmark MakeBenchmark(const std::string& name, int frames) {
 }  // namespace
 
 Block CalibrationBlock() {
-  return {.heading = "joint calibration of four_leg, tet10, nine markers",
-          .benchmarks = {MakeBenchmark("one_frame", 1),
-                         MakeBenchmark("ten_frames_three_moduli", kManyFrames)}};
+  const robot::RobotDescription tet10 =
+      OwnRobot("four_leg", fem::ElementType::kTet10).description;
+  const robot::RobotDescription tet4 = OwnRobot("four_leg", fem::ElementType::kTet4).description;
+  Block block{.heading = "joint calibration, nine markers",
+              .benchmarks = {MakeBenchmark("four_leg_tet10/one_frame", tet10, 1),
+                             MakeBenchmark("four_leg_tet10/ten_frames_three_moduli", tet10,
+                                           kManyFrames),
+                             MakeBenchmark("four_leg_tet4/one_frame", tet4, 1)}};
+  if (const auto diamond = test_support::DiamondWithMarkers()) {
+    block.benchmarks.push_back(MakeBenchmark("diamond_tet4/one_frame", *diamond, 1));
+  }
+  return block;
 }
 
 }  // namespace palpate::benchmarks

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
@@ -40,6 +42,25 @@ cables:
   return robot::ReadRobotFile(folder / "robot.yaml", [](const std::filesystem::path& file) {
     return app::ParseYaml(kText, file.string());
   });
+}
+
+/// The paper's robot with markers on the tip, the upper legs and the knees; none where its mesh is
+/// not among the data.
+inline std::optional<robot::RobotDescription> DiamondWithMarkers() {
+  std::optional<robot::RobotDescription> robot = DiamondRobot();
+  if (!robot) return robot;
+  const auto add = [&](const std::string& name, double x_m, double y_m, double z_m) {
+    robot->markers.push_back({name, {x_m, y_m, z_m}, {}});
+  };
+  add("tip", 0.0, 0.0, 0.1255);
+  for (const auto& [name, away_m, z_m] :
+       {std::tuple("leg", 0.049, 0.091), std::tuple("knee", 0.097, 0.0466)}) {
+    add(std::string(name) + "_north", 0.0, away_m, z_m);
+    add(std::string(name) + "_west", -away_m, 0.0, z_m);
+    add(std::string(name) + "_south", 0.0, -away_m, z_m);
+    add(std::string(name) + "_east", away_m, 0.0, z_m);
+  }
+  return robot;
 }
 
 }  // namespace palpate::test_support

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "components/calibration/joint/robust_loss.hpp"
+
 namespace palpate::calibration {
 
 namespace {
@@ -68,11 +70,8 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
 
 WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
                   double huber_threshold) {
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(point.residual.size());
-  for (const RobustBlock& block : problem.RobustBlocks()) {
-    const double norm = point.residual.segment(block.first_row, block.rows).norm();
-    weight.segment(block.first_row, block.rows).setConstant(HuberWeight(norm, huber_threshold));
-  }
+  const Eigen::VectorXd weight =
+      LossOf(point.residual, problem.RobustBlocks(), huber_threshold).weights;
   WeightedFit fit;
   fit.information = point.jacobian.transpose() * weight.asDiagonal() * point.jacobian;
   const Eigen::Index rows = problem.DataRows();

@@ -10,13 +10,10 @@
 #include <limits>
 #include <string>
 
+#include "components/calibration/joint/robust_loss.hpp"
 #include "libs/core/check.hpp"
 
 namespace palpate::calibration {
-
-double HuberWeight(double norm, double threshold) {
-  return threshold > 0.0 && norm > threshold ? threshold / norm : 1.0;
-}
 
 namespace {
 
@@ -32,6 +29,8 @@ constexpr double kNoGradient = 1e-12;
 constexpr double kNoGain = 1e-5;
 constexpr double kNoGainShare = 1e-6;
 constexpr int kPatience = 3;
+/// The barrier, and the distance from the bounds, of a search that starts at its solution.
+constexpr double kNoBarrier = 1e-10;
 
 /// The problem in Ipopt's words. Values and derivatives are worked out together, once for each
 /// point that Ipopt asks about.
@@ -74,14 +73,14 @@ class Nlp final : public Ipopt::TNLP {
 
   bool eval_f(Index n, const Number* x, bool, Number& value) override {
     if (!Visit(VectorMap(x, n))) return false;
-    value = objective_;
+    value = loss_.objective;
     return true;
   }
 
   bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
     if (!Visit(VectorMap(x, n))) return false;
     Eigen::Map<Eigen::VectorXd>(gradient, n) =
-        point_.jacobian.transpose() * (weights_.array() * point_.residual.array()).matrix();
+        point_.jacobian.transpose() * loss_.weights.cwiseProduct(point_.residual);
     return true;
   }
 
@@ -114,7 +113,7 @@ class Nlp final : public Ipopt::TNLP {
               Index* rows, Index* columns, Number* values) override {
     if (values != nullptr) {
       if (!Visit(VectorMap(x, n))) return false;
-      hessian_ = point_.jacobian.transpose() * weights_.asDiagonal() * point_.jacobian;
+      hessian_ = point_.jacobian.transpose() * loss_.weights.asDiagonal() * point_.jacobian;
     }
     for (Index i = 0, k = 0; i < n; ++i) {
       for (Index j = 0; j <= i; ++j, ++k) {
@@ -171,24 +170,11 @@ class Nlp final : public Ipopt::TNLP {
     const Status status = problem_.Evaluate(x, &point_);
     has_value_ = status.ok() && point_.residual.allFinite() && point_.jacobian.allFinite();
     if (has_value_) {
-      Weigh();
+      loss_ = LossOf(point_.residual, blocks_, settings_.huber_threshold);
     } else {
       solution_.failed_evaluation = status.message();
     }
     return has_value_;
-  }
-
-  void Weigh() {
-    weights_.setOnes(point_.residual.size());
-    objective_ = 0.5 * point_.residual.squaredNorm();
-    const double threshold = settings_.huber_threshold;
-    for (const RobustBlock& block : blocks_) {
-      const double norm = point_.residual.segment(block.first_row, block.rows).norm();
-      const double weight = HuberWeight(norm, threshold);
-      if (weight == 1.0) continue;
-      weights_.segment(block.first_row, block.rows).setConstant(weight);
-      objective_ += threshold * (norm - 0.5 * threshold) - 0.5 * norm * norm;
-    }
   }
 
   LeastSquaresProblem& problem_;
@@ -204,9 +190,8 @@ class Nlp final : public Ipopt::TNLP {
   Eigen::VectorXd visited_;
   bool has_value_ = false;
   LeastSquaresPoint point_;
-  Eigen::VectorXd weights_;
+  RobustLoss loss_;
   Eigen::MatrixXd hessian_;
-  double objective_ = 0.0;
   LeastSquaresSolution solution_;
 };
 
@@ -218,7 +203,14 @@ void SetOptions(const LeastSquaresSettings& settings, Ipopt::OptionsList* option
   options->SetNumericValue("acceptable_tol", kNoGradient);
   // Variables come scaled, residuals in sigmas.
   options->SetStringValue("nlp_scaling_method", "none");
-  options->SetStringValue("mu_strategy", "adaptive");
+  if (settings.starts_there) {
+    options->SetNumericValue("mu_init", kNoBarrier);
+    options->SetNumericValue("bound_push", kNoBarrier);
+    options->SetNumericValue("bound_frac", kNoBarrier);
+    options->SetStringValue("bound_mult_init_method", "mu-based");
+  } else {
+    options->SetStringValue("mu_strategy", "adaptive");
+  }
   // Nothing outside the bounds: no cable pushes.
   options->SetNumericValue("bound_relax_factor", 0.0);
 }

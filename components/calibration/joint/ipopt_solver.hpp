@@ -20,6 +20,8 @@ struct LeastSquaresSettings {
   double step_tolerance = 1e-8;
   /// Blocks weigh less beyond so many sigmas; <= 0: all weigh alike.
   double huber_threshold = 0.0;
+  /// The start is the solution but for tiny steps: it is not pushed away from its bounds.
+  bool starts_there = false;
   /// Asked after each iteration: it then ends there, kNotConverged.
   std::stop_token stop = {};
 };

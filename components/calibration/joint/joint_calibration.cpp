@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "components/calibration/joint/approach.hpp"
 #include "components/calibration/joint/determination.hpp"
 #include "components/calibration/joint/kept_model.hpp"
 
@@ -35,25 +36,49 @@ Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& set
   }
 }
 
-Status Solve(JointProblem* problem, const JointSettings& settings, LeastSquaresSolution* solution) {
+/// The next search starts there, with what is held back at its mean.
+void StartWithHeld(Eigen::VectorXd from, JointProblem* problem) {
+  for (int v = 0; v < static_cast<int>(from.size()); ++v) {
+    if (problem->IsHeld(v)) from[v] = 0.0;
+  }
+  problem->StartAt(from);
+}
+
+/// Where the search starts, and what these data do not determine there. `starts_there`: it is the
+/// solution but for what Ipopt makes sure of.
+Status FindStart(JointProblem* problem, const JointSettings& settings, Approach* approach,
+                 bool* starts_there) {
+  if (problem->CanBeApproached()) {
+    *approach = ApproachSolution(problem, settings.solver);
+    if (approach->status.ok()) problem->StartAt(approach->variables);
+  }
   LeastSquaresPoint start;
   if (Status status = problem->Evaluate(problem->Start(), &start); !status.ok()) return status;
   problem->Accept();
   bool held_more = false;
-  if (Status status = HoldUndetermined(start, settings, problem, &held_more); !status.ok()) {
-    return status;
-  }
+  Status status = HoldUndetermined(start, settings, problem, &held_more);
+  *starts_there = approach->status.ok() && !held_more;
+  if (held_more) StartWithHeld(problem->Start(), problem);
+  return status;
+}
+
+Status Solve(JointProblem* problem, const JointSettings& settings, Approach* approach,
+             LeastSquaresSolution* solution) {
+  LeastSquaresSettings solver = settings.solver;
+  Status status = FindStart(problem, settings, approach, &solver.starts_there);
+  if (!status.ok()) return status;
   for (;;) {
-    *solution = SolveLeastSquares(*problem, settings.solver);
-    if (!solution->status.ok()) return solution->status;
-    Status status = HoldUndetermined(solution->point, settings, problem, &held_more);
-    if (!status.ok() || !held_more) return status;
-    // Once more from there, with what is held back at its mean.
-    Eigen::VectorXd from = solution->variables;
-    for (int v = 0; v < static_cast<int>(from.size()); ++v) {
-      if (problem->IsHeld(v)) from[v] = 0.0;
+    *solution = SolveLeastSquares(*problem, solver);
+    if (!solution->status.ok()) {
+      if (!solver.starts_there || solver.stop.stop_requested()) return solution->status;
+      solver.starts_there = false;
+      continue;
     }
-    problem->StartAt(from);
+    bool held_more = false;
+    status = HoldUndetermined(solution->point, settings, problem, &held_more);
+    if (!status.ok() || !held_more) return status;
+    StartWithHeld(solution->variables, problem);
+    solver.starts_there = false;
   }
 }
 
@@ -111,15 +136,24 @@ void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& so
   map.covariance = per_variable * covariance * per_variable.transpose();
 }
 
+/// The way that the search took. An approach ended where Ipopt started.
+void ReportWay(const JointProblem& problem, const Approach& approach,
+               const LeastSquaresSolution& solution, JointCalibration* result) {
+  result->iterations = approach.steps + solution.iterations;
+  result->objectives = approach.objectives;
+  result->residual_rms_after_m = approach.residual_rms_after_m;
+  const std::vector<double>& accepted_m = problem.residual_rms_after_m();
+  const std::size_t told = approach.steps > 0 ? 1 : 0;
+  const auto since = std::min(accepted_m.size(), solution.objectives.size()) - told;
+  for (std::size_t k = since; k > 0; --k) {
+    result->objectives.push_back(solution.objectives[solution.objectives.size() - k]);
+    result->residual_rms_after_m.push_back(accepted_m[accepted_m.size() - k]);
+  }
+}
+
 void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
               const JointSettings& settings, JointCalibration* result) {
   const Eigen::Index rows = problem.DataRows();
-  result->objectives = solution.objectives;
-  result->iterations = solution.iterations;
-  const std::vector<double>& accepted_m = problem.residual_rms_after_m();
-  const auto last_solve = std::min(accepted_m.size(), solution.objectives.size());
-  result->residual_rms_after_m.assign(accepted_m.end() - static_cast<std::ptrdiff_t>(last_solve),
-                                      accepted_m.end());
   result->residual_rms_of_frame_m = problem.residual_rms_m();
   double squares_m2 = 0.0;
   for (const double rms_m : result->residual_rms_of_frame_m) squares_m2 += rms_m * rms_m;
@@ -158,11 +192,13 @@ JointCalibration CalibrateJointly(robot::RobotModel& model, const JointSetup& se
   JointCalibration result;
   JointProblem problem(model, setup);
   LeastSquaresSolution solution;
-  result.status = Solve(&problem, settings, &solution);
+  Approach approach;
+  result.status = Solve(&problem, settings, &approach, &solution);
   if (!result.status.ok()) {
     kept.Restore();
     return result;
   }
+  ReportWay(problem, approach, solution, &result);
   Conclude(problem, solution, settings, &result);
   kept.RestoreGravity();
   return result;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "libs/core/check.hpp"
 
@@ -23,17 +22,8 @@ Eigen::Index At(std::size_t i) { return static_cast<Eigen::Index>(i); }
 JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
     : model_(model),
       setup_(setup),
-      team_(1 + static_cast<int>(setup.helpers.size())),
-      accepted_(setup.states.empty()
-                    ? std::vector<fem::StaticState>(setup.frames.size(), model.RestState())
-                    : setup.states),
-      states_(accepted_),
-      accepted_solved_(setup.frames.size()),
-      solved_(setup.frames.size()),
+      shapes_(model, setup, AddVariables()),
       residual_rms_m_(setup.frames.size(), 0.0) {
-  workers_.push_back(std::make_unique<Worker>(model));
-  for (const auto& helper : setup.helpers) workers_.push_back(std::make_unique<Worker>(*helper));
-  AddVariables();
   for (const Variable& variable : variables_) held_.push_back(variable.considered);
   start_ = Eigen::VectorXd::Zero(At(variables_.size()));
   for (const CalibrationFrame& frame : setup.frames) {
@@ -41,7 +31,8 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
   }
 }
 
-void JointProblem::AddVariables() {
+/// Gives the column of the first unknown.
+int JointProblem::AddVariables() {
   if (setup_.fit_pose) AddPoseVariables();
   if (setup_.depth_bias) {
     depth_bias_column_ = static_cast<int>(variables_.size());
@@ -56,7 +47,7 @@ void JointProblem::AddVariables() {
     motion_column_ = static_cast<int>(variables_.size());
     variables_.push_back({"model_motion", "", {.sigma = sigma, .plausible = sigma}, "", {}, true});
   }
-  unknown_column_ = static_cast<int>(variables_.size());
+  const int first_unknown = static_cast<int>(variables_.size());
   for (const UnknownPtr& unknown : setup_.unknowns) {
     if (unknown->ScalesTheRobot()) {
       PALPATE_CHECK(setup_.conditions.empty(), setup_.conditions.size());
@@ -65,6 +56,7 @@ void JointProblem::AddVariables() {
     variables_.push_back({unknown->name(), unknown->unit(), unknown->belief(),
                           unknown->what_would_tell(), unknown.get()});
   }
+  return first_unknown;
 }
 
 void JointProblem::AddPoseVariables() {
@@ -97,8 +89,7 @@ void JointProblem::AddMarkerOffsets() {
 }
 
 double JointProblem::Scale(int variable) const {
-  const Belief& belief = variables_[static_cast<size_t>(variable)].belief;
-  return std::min(belief.plausible, belief.sigma);
+  return ScaleOf(variables_[static_cast<size_t>(variable)].belief);
 }
 
 double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) const {
@@ -132,7 +123,7 @@ double JointProblem::DepthScaleAt(const Eigen::VectorXd& basis,
 std::vector<Eigen::VectorXd> JointProblem::ShapesAt(const Eigen::VectorXd& variables) const {
   const double scale = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
   std::vector<Eigen::VectorXd> shapes_m;
-  for (const fem::StaticState& state : states_) shapes_m.emplace_back(scale * state.x_m);
+  for (const fem::StaticState& state : states()) shapes_m.emplace_back(scale * state.x_m);
   return shapes_m;
 }
 
@@ -150,12 +141,14 @@ Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variab
 }
 
 void JointProblem::Accept() {
-  accepted_ = states_;
-  accepted_solved_ = solved_;
+  shapes_.Keep();
+  residual_rms_after_m_.push_back(ResidualRms_m());
+}
+
+double JointProblem::ResidualRms_m() const {
   double squares_m2 = 0.0;
   for (const double rms_m : residual_rms_m_) squares_m2 += rms_m * rms_m;
-  residual_rms_after_m_.push_back(
-      std::sqrt(squares_m2 / static_cast<double>(residual_rms_m_.size())));
+  return std::sqrt(squares_m2 / static_cast<double>(residual_rms_m_.size()));
 }
 
 Eigen::MatrixX2d JointProblem::Bounds() const {
@@ -187,6 +180,18 @@ std::vector<RobustBlock> JointProblem::RobustBlocks() const {
 }
 
 Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
+  Clear(point);
+  if (Status status = shapes_.Balance(variables, point); !status.ok()) return status;
+  SeeAll(variables, point);
+  return Status::Ok();
+}
+
+void JointProblem::See(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
+  Clear(point);
+  SeeAll(variables, point);
+}
+
+void JointProblem::Clear(LeastSquaresPoint* point) const {
   const auto columns = At(variables_.size());
   const auto beliefs = std::count_if(variables_.begin(), variables_.end(), [](const Variable& v) {
     return std::isfinite(v.belief.sigma);
@@ -195,8 +200,9 @@ Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoin
   point->jacobian.setZero(data_rows_ + beliefs, columns);
   point->constraint.setZero(At(setup_.conditions.size()));
   point->constraint_jacobian.setZero(At(setup_.conditions.size()), columns);
-  ApplyToModels(variables);
-  if (Status status = BalanceAll(variables, point); !status.ok()) return status;
+}
+
+void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
   const CameraView view = ViewAt(variables);
   scale_ = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
   Eigen::Index row = 0;
@@ -205,90 +211,12 @@ Status JointProblem::Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoin
     SeeSurface(frame, view, variables, &row, point);
   }
   AddBeliefs(variables, point);
-  return Status::Ok();
 }
 
-FrameInputs JointProblem::InputsOf(int frame, const Eigen::VectorXd& variables) const {
-  const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
-  FrameInputs inputs{.cables = given.cables,
-                     .loads = given.loads,
-                     .nominal_gravity_m_s2 = given.gravity_m_s2,
-                     .gravity_m_s2 = given.gravity_m_s2};
-  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
-    setup_.unknowns[u]->ApplyToFrame(ValueOf(unknown_column_ + static_cast<int>(u), variables),
-                                     frame, &inputs);
-  }
-  return inputs;
-}
-
-void JointProblem::ApplyToModels(const Eigen::VectorXd& variables) {
-  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
-    const double value = ValueOf(unknown_column_ + static_cast<int>(u), variables);
-    for (const auto& worker : workers_) setup_.unknowns[u]->ApplyToModel(value, &worker->model);
-  }
-}
-
-/// Of the first frame that fails, whoever finishes first.
-Status JointProblem::BalanceAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
-  std::vector<Status> status(setup_.frames.size(), Status::Ok());
-  const std::size_t step = workers_.size();
-  team_.Run([&](int index) {
-    const auto first = static_cast<std::size_t>(index);
-    for (std::size_t f = first; f < status.size(); f += step) {
-      status[f] = Balance(static_cast<int>(f), variables, workers_[first].get());
-      if (status[f].ok()) CheckConditions(static_cast<int>(f), *workers_[first], point);
-    }
-  });
-  for (std::size_t f = 0; f < status.size(); ++f) {
-    if (status[f].ok()) continue;
-    return {status[f].code(), setup_.frames[f].name + ": " + status[f].message()};
-  }
-  return Status::Ok();
-}
-
-/// The frame's equilibrium, from the last accepted one, and how it depends on the variables.
-Status JointProblem::Balance(int frame, const Eigen::VectorXd& variables, Worker* worker) {
-  const auto f = static_cast<size_t>(frame);
-  const FrameInputs inputs = InputsOf(frame, variables);
-  const FrameInputs acting = ToModel(inputs);
-  worker->model.SetGravity(acting.mass_factor * acting.gravity_m_s2);
-  states_[f] = accepted_[f];
-  const SolvedState::Move move = accepted_solved_[f].MoveTo(variables, &states_[f].x_m);
-  if (move == SolvedState::Move::kTiny && !HasCondition(frame)) {
-    solved_[f] = accepted_solved_[f];
-    return Status::Ok();
-  }
-  const fem::StaticResult result = worker->model.Solve(acting.cables, acting.loads, &states_[f]);
-  if (!result.status.ok()) return result.status;
-  DescribeInfluences(frame, inputs, variables, worker);
-  Status status = worker->sensitivity.Compute(acting.cables, states_[f], worker->parameters,
-                                              robot::Factor::kPresent);
-  if (status.ok()) {
-    solved_[f].Keep(states_[f].x_m, variables, worker->column_of, worker->factor_of,
-                    worker->sensitivity);
-  }
-  return status;
-}
-
-void JointProblem::DescribeInfluences(int frame, const FrameInputs& inputs,
-                                      const Eigen::VectorXd& variables, Worker* worker) const {
-  worker->parameters.clear();
-  worker->column_of.clear();
-  worker->factor_of.clear();
-  for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
-    const int column = unknown_column_ + static_cast<int>(u);
-    for (Influence& influence :
-         setup_.unknowns[u]->InfluencesOn(ValueOf(column, variables), frame, inputs)) {
-      worker->parameters.push_back(std::move(influence.parameter));
-      worker->column_of.push_back(column);
-      worker->factor_of.push_back(influence.per_value * Scale(column));
-    }
-  }
-}
-
-bool JointProblem::HasCondition(int frame) const {
-  return std::any_of(setup_.conditions.begin(), setup_.conditions.end(),
-                     [&](const ConditionPtr& condition) { return condition->frame() == frame; });
+JointProblem::PlaceInFrame JointProblem::PlaceOf(std::size_t frame, const fem::NodeWeights& point,
+                                                 const Eigen::VectorXd& variables) const {
+  const SolvedState& solved = shapes_.solved(frame);
+  return {point, solved.column(), solved.PlaceOf(point, variables)};
 }
 
 void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
@@ -299,12 +227,13 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
   for (const MarkerSighting& sighting : frame.markers) {
     const fem::NodeWeights& weights =
         model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
+    const PlaceInFrame seen = PlaceOf(index, weights, variables);
     const Eigen::Vector3d place_m =
-        scale_ * weights.Position(states_[index].x_m) + OffsetOf(sighting.marker, variables);
+        scale_ * seen.place.position_m + OffsetOf(sighting.marker, variables);
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
     const double depth_scale = DepthScaleAt(basis, variables);
     const SightingRows<3> rows = view.Rows(sighting, place_m, depth_scale);
-    PutRows(rows, basis, {solved_[index], weights, states_[index].x_m}, *row, point);
+    PutRows(rows, basis, seen, *row, point);
     if (marker_offset_column_ >= 0) {
       const int column = marker_offset_column_ + 3 * sighting.marker;
       point->jacobian.block<3, 3>(*row, column) = Scale(column) * rows.per_point_m;
@@ -325,10 +254,10 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   double squares_m2 = 0.0;
   for (const SurfaceSighting& sighting : frame.surface) {
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
-    const SightingRows<1> rows =
-        view.Rows(sighting, scale_ * sighting.point.Position(states_[index].x_m),
-                  DepthScaleAt(basis, variables));
-    PutRows(rows, basis, {solved_[index], sighting.point, states_[index].x_m}, *row, point);
+    const PlaceInFrame seen = PlaceOf(index, sighting.point, variables);
+    const SightingRows<1> rows = view.Rows(sighting, scale_ * seen.place.position_m,
+                                           DepthScaleAt(basis, variables));
+    PutRows(rows, basis, seen, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
     squares_m2 += off_m * off_m;
     ++*row;
@@ -340,7 +269,7 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
 
 template <int Rows>
 void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd& depth_basis,
-                           const PlaceOfState& place, Eigen::Index row,
+                           const PlaceInFrame& seen, Eigen::Index row,
                            LeastSquaresPoint* point) const {
   point->residual.segment<Rows>(row) = rows.residual;
   if (pose_column_ >= 0) {
@@ -357,31 +286,15 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
   if (motion_column_ >= 0) {
     point->jacobian.block<Rows, 1>(row, motion_column_) =
         Scale(motion_column_) * rows.per_point_m *
-        (place.point.Position(place.x_m) - place.point.Position(rest_m_));
+        (seen.place.position_m - seen.point.Position(rest_m_));
   }
-  const Eigen::Matrix3Xd motion_m = place.solved.PointMotion(place.point);
-  const std::vector<Eigen::Index>& columns = place.solved.column();
-  for (std::size_t p = 0; p < columns.size(); ++p) {
-    point->jacobian.block<Rows, 1>(row, columns[p]) +=
-        scale_ * rows.per_point_m * motion_m.col(At(p));
+  for (std::size_t p = 0; p < seen.column.size(); ++p) {
+    point->jacobian.block<Rows, 1>(row, seen.column[p]) +=
+        scale_ * rows.per_point_m * seen.place.motion_m.col(At(p));
   }
   if (scale_column_ >= 0) {
     point->jacobian.block<Rows, 1>(row, scale_column_) +=
-        Scale(scale_column_) * rows.per_point_m * place.point.Position(place.x_m);
-  }
-}
-
-void JointProblem::CheckConditions(int frame, const Worker& worker,
-                                   LeastSquaresPoint* point) const {
-  for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
-    const Condition& condition = *setup_.conditions[c];
-    if (condition.frame() != frame) continue;
-    point->constraint[At(c)] = condition.Value(worker.model, states_[static_cast<size_t>(frame)]);
-    const Eigen::RowVectorXd derivative = condition.Derivative(worker.sensitivity);
-    for (std::size_t p = 0; p < worker.column_of.size(); ++p) {
-      point->constraint_jacobian(At(c), worker.column_of[p]) +=
-          worker.factor_of[p] * derivative[At(p)];
-    }
+        Scale(scale_column_) * rows.per_point_m * seen.place.position_m;
   }
 }
 

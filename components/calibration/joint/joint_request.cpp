@@ -24,6 +24,8 @@ namespace {
 using Kind = robot::CableCommand::Kind;
 
 constexpr double kWrongRobotShare = 0.1;
+/// Share of the distances that a reflection would leave.
+constexpr double kClearlyNotMirrored = 0.5;
 constexpr double kFirstTension_N = 0.5;
 constexpr double kLeastPoissonsRatio = 0.0;
 constexpr double kMostPoissonsRatio = 0.4999;
@@ -52,15 +54,16 @@ Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
   return Status::Ok();
 }
 
-/// The pose under which all frames' markers lie nearest to the model's, and the frames' equilibria.
-Status FindStart(robot::RobotModel& model, JointSetup* setup) {
-  if (Status status = SolveStates(model, setup); !status.ok()) return status;
+/// The rigid motion under which all frames' markers lie nearest to the model's, in these shapes [3n]
+/// of each frame.
+geometry::Registration Register(const robot::RobotModel& model, const JointSetup& setup,
+                                const std::vector<Eigen::VectorXd>& x_m) {
   std::vector<Eigen::Vector3d> seen, expected;
-  for (std::size_t f = 0; f < setup->frames.size(); ++f) {
-    for (const MarkerSighting& sighting : setup->frames[f].markers) {
+  for (std::size_t f = 0; f < setup.frames.size(); ++f) {
+    for (const MarkerSighting& sighting : setup.frames[f].markers) {
       const auto& marker = model.body().markers.at(static_cast<size_t>(sighting.marker));
       seen.push_back(sighting.position_m);
-      expected.push_back(marker.point.weights.Position(setup->states[f].x_m));
+      expected.push_back(marker.point.weights.Position(x_m[f]));
     }
   }
   const auto count = static_cast<Eigen::Index>(seen.size());
@@ -69,10 +72,23 @@ Status FindStart(robot::RobotModel& model, JointSetup* setup) {
     source_m.col(k) = seen[static_cast<size_t>(k)];
     target_m.col(k) = expected[static_cast<size_t>(k)];
   }
-  const geometry::Registration registration = geometry::RegisterRigid(source_m, target_m);
-  if (!registration.status.ok()) return registration.status;
+  return geometry::RegisterRigid(source_m, target_m);
+}
+
+/// Where the camera stands, and the frames' equilibria where it takes these to tell: the shape at
+/// rest does as long as it could not be taken for its mirror image.
+Status FindStart(robot::RobotModel& model, JointSetup* setup) {
+  const std::vector<Eigen::VectorXd> at_rest(setup->frames.size(), model.RestState().x_m);
+  geometry::Registration registration = Register(model, *setup, at_rest);
+  if (!registration.status.ok() ||
+      registration.rms_m > kClearlyNotMirrored * registration.mirrored_rms_m) {
+    if (Status status = SolveStates(model, setup); !status.ok()) return status;
+    std::vector<Eigen::VectorXd> solved;
+    for (const fem::StaticState& state : setup->states) solved.push_back(state.x_m);
+    registration = Register(model, *setup, solved);
+  }
   setup->T_robot_camera = registration.T_target_source;
-  return Status::Ok();
+  return registration.status;
 }
 
 /// An unknown tension for each cable of which nothing is known in a frame.

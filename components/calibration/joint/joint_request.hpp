@@ -47,9 +47,10 @@ struct JointRequest {
 };
 
 /// The problem for these frames: where no pose is given, the search starts from the rigid motion
-/// between the model's markers under the frames' cable inputs and those that were seen. Tensions of
-/// cables of which nothing was recorded are unknowns of their own. Not ok where the model has no
-/// equilibrium under a frame's inputs, or the markers tell no pose: too few, on one line, mirrored.
+/// between the markers that were seen and the model's, of the body at rest; where that might be
+/// taken for its mirror image, under the frames' cable inputs. Tensions of cables of which nothing
+/// was recorded are unknowns of their own. Not ok where the markers tell no pose (too few, on one
+/// line, mirrored), or the model has no equilibrium under inputs that it takes to tell.
 Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                       const geometry::RigidTransform* T_robot_camera, const JointRequest& request,
                       JointSetup* setup);

@@ -42,7 +42,4 @@ class LeastSquaresProblem {
   virtual void Accept() {}
 };
 
-/// Huber's weight of a block whose residual has this norm: 1 up to `threshold`, then falling.
-double HuberWeight(double norm, double threshold);
-
 }  // namespace palpate::calibration

@@ -7,51 +7,73 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Of the body's extent. What first order leaves out of a tiny move is its square.
+/// Of the body's extent.
 constexpr double kSmallMove = 0.05;
-constexpr double kTinyMove = 1e-6;
+
+}  // namespace
 
 double ExtentOf(const Eigen::VectorXd& x_m) {
   const auto points = x_m.reshaped(3, x_m.size() / 3);
   return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
 }
 
-}  // namespace
-
-void SolvedState::Keep(const Eigen::VectorXd& x_m, const Eigen::VectorXd& variables,
+void SolvedState::Keep(const fem::StaticState& state, const Eigen::VectorXd& variables,
                        const std::vector<Eigen::Index>& column, const std::vector<double>& factor,
                        const robot::SensitivitySolver& sensitivity) {
-  x_m_ = x_m;
-  variables_ = variables;
+  MoveBase(state, variables);
   column_ = column;
-  motion_m_.resize(x_m.size(), static_cast<Eigen::Index>(column.size()));
+  const auto columns = static_cast<Eigen::Index>(column.size());
+  motion_m_.resize(x_m_.size(), columns);
+  multiplier_rise_N_ = sensitivity.tension_N();
   Eigen::VectorXd motion_m;
-  for (std::size_t p = 0; p < column.size(); ++p) {
+  for (Eigen::Index p = 0; p < columns; ++p) {
     sensitivity.NodalMotion(static_cast<int>(p), &motion_m);
-    motion_m_.col(static_cast<Eigen::Index>(p)) = factor[p] * motion_m;
+    motion_m_.col(p) = factor[static_cast<size_t>(p)] * motion_m;
+    multiplier_rise_N_.col(p) *= factor[static_cast<size_t>(p)];
   }
 }
 
-SolvedState::Move SolvedState::MoveTo(const Eigen::VectorXd& variables,
-                                      Eigen::VectorXd* x_m) const {
-  if (x_m_.size() == 0) return Move::kUnknown;
+void SolvedState::MoveBase(const fem::StaticState& state, const Eigen::VectorXd& variables) {
+  x_m_ = state.x_m;
+  multipliers_N_ = state.multipliers_N;
+  variables_ = variables;
+}
+
+Eigen::VectorXd SolvedState::ChangeTo(const Eigen::VectorXd& variables) const {
   Eigen::VectorXd change(motion_m_.cols());
   for (std::size_t p = 0; p < column_.size(); ++p) {
     change[static_cast<Eigen::Index>(p)] = variables[column_[p]] - variables_[column_[p]];
   }
+  return change;
+}
+
+SolvedState::Move SolvedState::MoveTo(const Eigen::VectorXd& variables,
+                                      fem::StaticState* state) const {
+  if (x_m_.size() == 0) return Move::kUnknown;
+  const Eigen::VectorXd change = ChangeTo(variables);
   const Eigen::VectorXd motion_m = motion_m_ * change;
   const double furthest = motion_m.lpNorm<Eigen::Infinity>() / ExtentOf(x_m_);
   if (!(furthest < kSmallMove)) return Move::kUnknown;
-  *x_m = x_m_ + motion_m;
+  Extrapolate(variables, state);
   return furthest < kTinyMove ? Move::kTiny : Move::kSmall;
 }
 
-Eigen::Matrix3Xd SolvedState::PointMotion(const fem::NodeWeights& point) const {
-  Eigen::Matrix3Xd motion_m = Eigen::Matrix3Xd::Zero(3, motion_m_.cols());
+/// No constraint's multiplier falls below 0, as no equilibrium's does.
+void SolvedState::Extrapolate(const Eigen::VectorXd& variables, fem::StaticState* state) const {
+  const Eigen::VectorXd change = ChangeTo(variables);
+  state->x_m = x_m_ + motion_m_ * change;
+  state->multipliers_N = (multipliers_N_ + multiplier_rise_N_ * change).cwiseMax(0.0);
+}
+
+SolvedState::Place SolvedState::PlaceOf(const fem::NodeWeights& point,
+                                        const Eigen::VectorXd& variables) const {
+  Place place;
+  place.motion_m.setZero(3, motion_m_.cols());
   for (std::size_t k = 0; k < point.nodes.size(); ++k) {
-    motion_m += point.weights[k] * motion_m_.middleRows<3>(3 * point.nodes[k]);
+    place.motion_m += point.weights[k] * motion_m_.middleRows<3>(3 * point.nodes[k]);
   }
-  return motion_m;
+  place.position_m = point.Position(x_m_) + place.motion_m * ChangeTo(variables);
+  return place;
 }
 
 }  // namespace palpate::calibration

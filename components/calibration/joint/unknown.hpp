@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -27,6 +28,9 @@ struct Belief {
   /// than half of min(sigma, plausible) do not determine it.
   double plausible = 1.0;
 };
+
+/// The change of a number that goes with a variable's change by 1.
+inline double ScaleOf(const Belief& belief) { return std::min(belief.plausible, belief.sigma); }
 
 /// What acts on the model in a frame, as unknowns put it together.
 struct FrameInputs {

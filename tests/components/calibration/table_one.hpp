@@ -9,9 +9,7 @@
 #include <Eigen/SVD>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "components/calibration/pose/algorithm1.hpp"
@@ -80,24 +78,7 @@ inline std::vector<MarkerSighting> Sight(const robot::RobotModel& model,
   return sightings;
 }
 
-/// The paper's robot with markers on the tip, the upper legs and the knees; none where its mesh is
-/// not among the data.
-inline std::optional<robot::RobotDescription> DiamondWithMarkers() {
-  std::optional<robot::RobotDescription> robot = test_support::DiamondRobot();
-  if (!robot) return robot;
-  const auto add = [&](const std::string& name, double x_m, double y_m, double z_m) {
-    robot->markers.push_back({name, {x_m, y_m, z_m}, {}});
-  };
-  add("tip", 0.0, 0.0, 0.1255);
-  for (const auto& [name, away_m, z_m] :
-       {std::tuple("leg", 0.049, 0.091), std::tuple("knee", 0.097, 0.0466)}) {
-    add(std::string(name) + "_north", 0.0, away_m, z_m);
-    add(std::string(name) + "_west", -away_m, 0.0, z_m);
-    add(std::string(name) + "_south", 0.0, -away_m, z_m);
-    add(std::string(name) + "_east", away_m, 0.0, z_m);
-  }
-  return robot;
-}
+using test_support::DiamondWithMarkers;
 
 /// Of the four legs: the tip and one on each leg, far apart; and all.
 inline const std::vector<int> kFiveMarkers = {0, 5, 6, 7, 8};

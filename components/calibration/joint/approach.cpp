@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/calibration/joint/approach.hpp"
+
+#include <utility>
+
+#include "components/calibration/joint/gauss_newton.hpp"
+
+namespace palpate::calibration {
+
+namespace {
+
+/// From the undeformed body it takes five to seven; more say that it wanders.
+constexpr int kMostSteps = 12;
+
+/// The problem with bodies that move as their derivatives say.
+class Predicted final : public LeastSquaresProblem {
+ public:
+  Predicted(JointProblem* problem, Eigen::VectorXd start)
+      : problem_(problem), start_(std::move(start)) {}
+
+  Eigen::VectorXd Start() const override { return start_; }
+  Eigen::MatrixX2d Bounds() const override { return problem_->Bounds(); }
+  Eigen::MatrixX2d ConstraintBounds() const override { return problem_->ConstraintBounds(); }
+  std::vector<RobustBlock> RobustBlocks() const override { return problem_->RobustBlocks(); }
+  Status Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) override {
+    problem_->See(variables, point);
+    return Status::Ok();
+  }
+
+ private:
+  JointProblem* problem_;
+  Eigen::VectorXd start_;
+};
+
+/// Until nothing moves; not ok where that does not come.
+Status StepUntilStill(JointProblem* problem, const LeastSquaresSettings& settings,
+                      Approach* approach) {
+  if (Status status = problem->shapes().ComeNear(approach->variables); !status.ok()) return status;
+  LeastSquaresPoint point;
+  while (approach->steps < kMostSteps) {
+    if (Status status = problem->shapes().Linearise(approach->variables); !status.ok()) {
+      return status;
+    }
+    if (approach->steps == 0) {
+      problem->See(approach->variables, &point);
+      approach->residual_rms_after_m.push_back(problem->ResidualRms_m());
+    }
+    Predicted predicted(problem, approach->variables);
+    const LeastSquaresSolution solution = SolveWithinBounds(predicted, settings);
+    if (!solution.status.ok()) return solution.status;
+    if (approach->steps == 0) approach->objectives.push_back(solution.objectives.front());
+    ++approach->steps;
+    approach->variables = solution.variables;
+    problem->See(approach->variables, &point);
+    approach->objectives.push_back(solution.objectives.back());
+    approach->residual_rms_after_m.push_back(problem->ResidualRms_m());
+    const double furthest = problem->shapes().StepTo(approach->variables);
+    if (furthest < SolvedState::kTinyMove &&
+        problem->shapes().AreBalanced(approach->variables)) {
+      return Status::Ok();
+    }
+  }
+  return {StatusCode::kNotConverged, "steps used up"};
+}
+
+}  // namespace
+
+Approach ApproachSolution(JointProblem* problem, const LeastSquaresSettings& settings) {
+  Approach approach;
+  approach.variables = problem->Start();
+  approach.status = StepUntilStill(problem, settings, &approach);
+  if (approach.status.ok()) {
+    problem->shapes().Keep();
+    return approach;
+  }
+  problem->shapes().Return();
+  Approach nowhere;
+  nowhere.status = approach.status;
+  return nowhere;
+}
+
+}  // namespace palpate::calibration

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "components/calibration/joint/joint_setup.hpp"
+#include "components/calibration/joint/least_squares_problem.hpp"
+#include "components/calibration/joint/solved_state.hpp"
+#include "libs/core/status.hpp"
+#include "libs/core/thread_team.hpp"
+#include "libs/fem/equilibrium_step.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/sensitivity_solver.hpp"
+
+namespace palpate::calibration {
+
+/// The body's shape in each frame of a joint calibration, and how it moves with the variables: the
+/// equilibrium itself (Balance), or a step of Newton's method towards it (Linearise, StepTo).
+/// Frames are shared by the threads of the setup's helpers.
+class BodyShapes {
+ public:
+  /// Both must outlive it; the model's moduli and gravity are changed along the way. The setup's
+  /// unknowns are the variables from `first_column` on.
+  BodyShapes(robot::RobotModel& model, const JointSetup& setup, int first_column);
+
+  /// All frames' equilibria, each from the last one that was kept; the conditions' values and
+  /// derivatives go into `point`. Not ok where there is one that is not reached.
+  Status Balance(const Eigen::VectorXd& variables, LeastSquaresPoint* point);
+  /// The last states() are what the next ones start from.
+  void Keep();
+
+  /// states() come near the equilibria under these variables, but of frames in which something acts
+  /// that is only guessed.
+  Status ComeNear(const Eigen::VectorXd& variables);
+  /// Newton's step of each frame from states() as they are, with the setting of these variables:
+  /// solved() then is where it leads, and how that moves with the variables.
+  Status Linearise(const Eigen::VectorXd& variables);
+  /// states() become what the last Linearise says of these variables, or as far that way as no
+  /// element is inverted. Gives the longest way that a node went, over the body's extent; infinite
+  /// where one could not go all the way.
+  double StepTo(const Eigen::VectorXd& variables);
+  /// Whether states() are equilibria under these variables: forces to 1e-9 of their size, lengths of
+  /// cables to the static solver's tolerance.
+  bool AreBalanced(const Eigen::VectorXd& variables);
+  /// states() are the last ones that were kept.
+  void Return();
+
+  const std::vector<fem::StaticState>& states() const { return states_; }
+  const SolvedState& solved(std::size_t frame) const { return solved_[frame]; }
+
+ private:
+  /// Who works on frames, one thread each.
+  struct Worker {
+    explicit Worker(robot::RobotModel& of)
+        : model(of), sensitivity(of), step(of.linearisation()) {}
+
+    robot::RobotModel& model;
+    robot::SensitivitySolver sensitivity;
+    fem::EquilibriumStep step;
+    std::vector<robot::ParameterPtr> parameters;  ///< of this frame
+    std::vector<Eigen::Index> column_of;          ///< [parameters]
+    std::vector<double> factor_of;                ///< [parameters] per unit of the variable
+  };
+
+  template <typename Work>
+  Status OnEachFrame(const Work& work);
+  double ValueOf(std::size_t unknown, const Eigen::VectorXd& variables) const;
+  FrameInputs InputsOf(int frame, const Eigen::VectorXd& variables) const;
+  void ApplyToModels(const Eigen::VectorXd& variables);
+  Status BalanceFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  bool IsGuessed(int frame, const Eigen::VectorXd& variables) const;
+  Status FollowFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  /// Puts what acts on the model, and its gravity, to it and to `state`.
+  static void Load(const FrameInputs& acting, fem::StaticState* state, Worker* worker);
+  Status LineariseFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  double StepFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  Status CheckFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  void DescribeInfluences(int frame, const FrameInputs& inputs, const Eigen::VectorXd& variables,
+                          Worker* worker) const;
+  bool HasCondition(int frame) const;
+  void CheckConditions(int frame, const Worker& worker, LeastSquaresPoint* point) const;
+
+  const JointSetup& setup_;
+  const int first_column_;
+  std::vector<std::unique_ptr<Worker>> workers_;  ///< frame f is that of worker f % workers
+  ThreadTeam team_;
+  std::vector<fem::StaticState> kept_, states_;
+  std::vector<SolvedState> kept_solved_, solved_;  ///< [frames]
+};
+
+}  // namespace palpate::calibration

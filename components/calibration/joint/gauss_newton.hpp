@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "components/calibration/joint/ipopt_solver.hpp"
+#include "components/calibration/joint/least_squares_problem.hpp"
+
+namespace palpate::calibration {
+
+/// Minimises a problem within its bounds, which costs next to nothing to evaluate, by Gauss-Newton
+/// steps that are projected on the bounds and halved until the objective falls (Bertsekas, SIAM J.
+/// Control Optim. 20(2), 1982). Its constraints do not count. It ends like SolveLeastSquares, or
+/// where no step gains anything; kNotConverged where neither happens, or the start has no value.
+LeastSquaresSolution SolveWithinBounds(LeastSquaresProblem& problem,
+                                       const LeastSquaresSettings& settings);
+
+}  // namespace palpate::calibration

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "components/calibration/joint/calibration_frame.hpp"
+#include "components/calibration/joint/condition.hpp"
+#include "components/calibration/joint/depth_bias_belief.hpp"
+#include "components/calibration/joint/unknown.hpp"
+#include "libs/fem/load_state.hpp"
+#include "libs/geometry/rigid_transform.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::calibration {
+
+/// Everything that one joint calibration is about.
+struct JointSetup {
+  std::vector<CalibrationFrame> frames;
+  std::vector<UnknownPtr> unknowns;
+  std::vector<ConditionPtr> conditions;  ///< none beside an unknown scale
+  std::vector<fem::StaticState> states;  ///< [frames] to start from; empty: from rest
+  /// Models like the one that is calibrated (ModelsLike): each takes a share of the frames, on a
+  /// thread of its own.
+  std::vector<std::unique_ptr<robot::RobotModel>> helpers = {};
+  geometry::RigidTransform T_robot_camera;  ///< to start from, or known
+  bool fit_pose = true;
+  std::optional<DepthBiasBelief> depth_bias;  ///< nothing: the depth is right
+  /// How far the body may move by more or less than the model says, all of it alike, as a share
+  /// (one sigma): counts in the errors of all that is estimated. 0: the model is right.
+  double motion_relative_sigma = 0.0;
+  /// How far a marker may lie from its place in the robot file, m, each axis (one sigma); 0: it
+  /// lies there. Where it is not estimated it counts in the errors of all that is.
+  double marker_offset_sigma_m = 0.0;
+  bool estimate_marker_offsets = true;
+};
+
+}  // namespace palpate::calibration
