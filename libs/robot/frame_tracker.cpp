@@ -27,7 +27,7 @@ const fem::FrameOutcome& FrameTracker::Follow(const std::vector<CableCommand>& c
   SetLoads(cables, force_N);
   fem::EquilibriumStep::ImposeMultipliers(state_.loads, &state_.multipliers_N);
   outcome_ = fem::RunFrame(*this, settings_, budget);
-  if (outcome_.converged()) {
+  if (outcome_.converged() && model_.CableCount() > 0) {
     // A cable at its largest tension balances the body, yet not with the displacement asked for.
     outcome_.status = fem::CheckLargestMultipliers(
         model_.linearisation(), state_.loads, state_.x_m, state_.multipliers_N,
