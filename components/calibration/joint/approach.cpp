@@ -34,33 +34,36 @@ class Predicted final : public LeastSquaresProblem {
   Eigen::VectorXd start_;
 };
 
+/// Variables move to where the shapes, as they are linearised, leave the least.
+Status MoveVariables(JointProblem* problem, const LeastSquaresSettings& settings,
+                     Approach* approach) {
+  LeastSquaresPoint point;
+  const auto tell = [&](double objective) {
+    problem->See(approach->variables, &point);
+    approach->objectives.push_back(objective);
+    approach->residual_rms_after_m.push_back(problem->ResidualRms_m());
+  };
+  Predicted predicted(problem, approach->variables);
+  const LeastSquaresSolution solution = SolveWithinBounds(predicted, settings);
+  if (!solution.status.ok()) return solution.status;
+  if (approach->steps == 0) tell(solution.objectives.front());
+  approach->variables = solution.variables;
+  tell(solution.objectives.back());
+  ++approach->steps;
+  return Status::Ok();
+}
+
 /// Until nothing moves; not ok where that does not come.
 Status StepUntilStill(JointProblem* problem, const LeastSquaresSettings& settings,
                       Approach* approach) {
-  if (Status status = problem->shapes().ComeNear(approach->variables); !status.ok()) return status;
-  LeastSquaresPoint point;
+  BodyShapes& shapes = problem->shapes();
+  if (Status status = shapes.ComeNear(approach->variables); !status.ok()) return status;
   while (approach->steps < kMostSteps) {
-    if (Status status = problem->shapes().Linearise(approach->variables); !status.ok()) {
-      return status;
-    }
-    if (approach->steps == 0) {
-      problem->See(approach->variables, &point);
-      approach->residual_rms_after_m.push_back(problem->ResidualRms_m());
-    }
-    Predicted predicted(problem, approach->variables);
-    const LeastSquaresSolution solution = SolveWithinBounds(predicted, settings);
-    if (!solution.status.ok()) return solution.status;
-    if (approach->steps == 0) approach->objectives.push_back(solution.objectives.front());
-    ++approach->steps;
-    approach->variables = solution.variables;
-    problem->See(approach->variables, &point);
-    approach->objectives.push_back(solution.objectives.back());
-    approach->residual_rms_after_m.push_back(problem->ResidualRms_m());
-    const double furthest = problem->shapes().StepTo(approach->variables);
-    if (furthest < SolvedState::kTinyMove &&
-        problem->shapes().AreBalanced(approach->variables)) {
-      return Status::Ok();
-    }
+    Status status = shapes.Linearise(approach->variables);
+    if (status.ok()) status = MoveVariables(problem, settings, approach);
+    if (!status.ok()) return status;
+    const bool still = shapes.StepTo(approach->variables) < SolvedState::kTinyMove;
+    if (still && shapes.AreBalanced(approach->variables)) return Status::Ok();
   }
   return {StatusCode::kNotConverged, "steps used up"};
 }
