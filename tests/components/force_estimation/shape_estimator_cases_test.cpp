@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Force estimation from the shape as a whole, in cases at the edge of what settings and frames may
+// bring.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "components/force_estimation/shape/shape_force_estimator.hpp"
+#include "tests/components/force_estimation/shape_scene.hpp"
+#include "tests/components/force_estimation/test_bodies.hpp"
+
+namespace palpate::force_estimation {
+namespace {
+
+/// The four-legged robot (tet10) before the bench's camera, pushed at some places at once.
+class ShapeEstimatorCases : public testing::Test {
+ protected:
+  static constexpr double kForce_N = 0.8;
+  static constexpr double kSeenSigma_m = 2e-3;
+  static constexpr int kUntouched = 6;
+
+  /// `places_m` on the undeformed body; the contacts that perception sees there.
+  void PushAt(const std::vector<Eigen::Vector3d>& places_m) {
+    std::vector<robot::DeadLoad> loads;
+    std::vector<fem::SurfacePatch> patches;
+    for (const Eigen::Vector3d& place_m : places_m) {
+      patches.push_back(scene_.model->Patch(place_m, shape_.contact_radius_m));
+      loads.push_back({patches.back().weights, -kForce_N * patches.back().normal});
+    }
+    state_ = scene_.model->RestState();
+    ASSERT_TRUE(scene_.model->Solve(cables_, loads, &state_).status.ok());
+    seen_.clear();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      seen_.push_back({.name = "contact_" + std::to_string(k + 1),
+                       .position_m = patches[k].weights.Position(state_.x_m),
+                       .covariance_m2 = std::pow(kSeenSigma_m, 2) * Eigen::Matrix3d::Identity(),
+                       .extent_m = Eigen::Vector3d::Constant(0.01),
+                       .point_count = 50});
+    }
+  }
+
+  ShapeFrame Frame(bool contacts_seen) {
+    ShapeFrame frame;
+    frame.t_s = (t_s_ += 0.033);
+    frame.T_robot_camera = BenchPose();
+    frame.cloud = Cast(scene_, state_.x_m, frame.T_robot_camera);
+    AddDepthNoise(random_, &frame.cloud);
+    frame.cables = cables_;
+    if (contacts_seen) frame.contacts = seen_;
+    return frame;
+  }
+
+  void Learn(ShapeForceEstimator* estimator) {
+    PushAt({});
+    for (int k = 0; k < kUntouched; ++k) {
+      ShapeFrame frame = Frame(false);
+      frame.untouched = true;
+      estimator->Update(frame);
+    }
+  }
+
+  const std::vector<Eigen::Vector3d> places_m_ = {
+      {0.0, 0.0598, 0.0858}, {0.0, -0.0598, 0.0858}, {0.0598, 0.0, 0.0858}};
+  ShapeScene scene_{51};
+  ShapeConfig shape_;
+  std::vector<robot::CableCommand> cables_{4, {.kind = Kind::kDisplacement, .value = 0.0}};
+  fem::StaticState state_;
+  std::vector<SeenContact> seen_;
+  double t_s_ = 0.0;
+  std::mt19937 random_{1};
+};
+
+/// From nothing to all three between two frames, one on each leg in view and one on the far one.
+TEST_F(ShapeEstimatorCases, ThreeContactsThatComeAtOnceAreAllReported) {
+  ShapeForceEstimator estimator(*scene_.model, Config(), shape_);
+  Learn(&estimator);
+  PushAt(places_m_);
+  ForceEstimate estimate;
+  for (int k = 0; k < 8; ++k) estimate = estimator.Update(Frame(true));
+  ASSERT_TRUE(estimate.status.ok())
+      << ToString(estimate.status.code()) << ": " << estimate.status.message();
+  ASSERT_EQ(estimate.contacts.size(), places_m_.size());
+  for (const ContactForce& contact : estimate.contacts) {
+    EXPECT_NEAR(contact.force_N.norm(), kForce_N, contact.ci95_N) << contact.name;
+    EXPECT_LT(contact.ci95_N, 0.6 * kForce_N) << contact.name;
+  }
+}
+
+/// Of which 1 - chance is 1: nothing is then significant that is not far beyond any noise, which
+/// these forces are.
+TEST_F(ShapeEstimatorCases, TheSmallestSignificancesThatAreAllowedAreFine) {
+  shape_.significance = 1e-18;
+  shape_.hidden_significance = 1e-15;
+  ShapeForceEstimator estimator(*scene_.model, Config(), shape_);
+  Learn(&estimator);
+  PushAt({places_m_.front()});
+  for (const bool is_seen : {true, false}) {
+    ForceEstimate estimate;
+    for (int k = 0; k < 8; ++k) estimate = estimator.Update(Frame(is_seen));
+    ASSERT_TRUE(estimate.status.ok()) << estimate.status.message();
+    EXPECT_EQ(estimate.contacts.size(), 1u);
+    EXPECT_GT(estimator.SmallestForce_N(places_m_.front()), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::force_estimation
