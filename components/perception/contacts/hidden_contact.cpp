@@ -119,7 +119,7 @@ struct Place {
 /// Where a ball touches: the skin that is as near to its middle as any, to what the shape of the
 /// skin is known to, for each of the sigma points of what is known of the middle. So it is wide
 /// along a flat skin, narrow across a limb, and holds both sides of a corner that a ball lies in.
-Place TouchingPlace(const Ball& ball, const SkinAround& skin) {
+std::optional<Place> TouchingPlace(const Ball& ball, const SkinAround& skin) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ball.CenterCovariance_m2());
   Place place;
   Eigen::Matrix3d squares_m2 = Eigen::Matrix3d::Zero();
@@ -140,7 +140,7 @@ Place TouchingPlace(const Ball& ball, const SkinAround& skin) {
       first_m += weight_m2 * from_center_m;
       second_m2 += weight_m2 * from_center_m * from_center_m.transpose();
     });
-    if (!(sum_m2 > 0.0)) continue;
+    if (!(sum_m2 > 0.0)) return std::nullopt;  // a ball that is known to no place at all
     place.middle_m += first_m / (6.0 * sum_m2);
     squares_m2 += second_m2 / (6.0 * sum_m2);
   }
@@ -172,10 +172,11 @@ std::optional<HiddenContact> TouchOnSkin(const Ball& seen, const PredictedSurfac
   const double gap_m = below.height_m - seen.radius_m;
   const Ball ball = Touching(seen, skin);
   if (!(ball.radius_m > 0.0) || !ball.center_m.allFinite()) return std::nullopt;
-  const Place place = TouchingPlace(ball, skin);
-  const Eigen::Vector3d across_m = kSurfaceSigma_m * skin.Nearest(place.middle_m).outward;
-  return HiddenContact{.position_m = place.middle_m,
-                       .covariance_m2 = place.covariance_m2 + across_m * across_m.transpose(),
+  const std::optional<Place> place = TouchingPlace(ball, skin);
+  if (!place) return std::nullopt;
+  const Eigen::Vector3d across_m = kSurfaceSigma_m * skin.Nearest(place->middle_m).outward;
+  return HiddenContact{.position_m = place->middle_m,
+                       .covariance_m2 = place->covariance_m2 + across_m * across_m.transpose(),
                        .radius_m = ball.radius_m,
                        .gap_m = gap_m,
                        .touches = gap_m <= kGapSigmas * GapSigma_m(seen, below)};
