@@ -131,14 +131,13 @@ Benchmark MakeBenchmark(const std::string& name, const robot::RobotDescription& 
 }  // namespace
 
 Block CalibrationBlock() {
-  const robot::RobotDescription tet10 =
-      OwnRobot("four_leg", fem::ElementType::kTet10).description;
+  const robot::RobotDescription tet10 = OwnRobot("four_leg", fem::ElementType::kTet10).description;
   const robot::RobotDescription tet4 = OwnRobot("four_leg", fem::ElementType::kTet4).description;
-  Block block{.heading = "joint calibration, nine markers",
-              .benchmarks = {MakeBenchmark("four_leg_tet10/one_frame", tet10, 1),
-                             MakeBenchmark("four_leg_tet10/ten_frames_three_moduli", tet10,
-                                           kManyFrames),
-                             MakeBenchmark("four_leg_tet4/one_frame", tet4, 1)}};
+  Block block{
+      .heading = "joint calibration, nine markers",
+      .benchmarks = {MakeBenchmark("four_leg_tet10/one_frame", tet10, 1),
+                     MakeBenchmark("four_leg_tet10/ten_frames_three_moduli", tet10, kManyFrames),
+                     MakeBenchmark("four_leg_tet4/one_frame", tet4, 1)}};
   if (const auto diamond = test_support::DiamondWithMarkers()) {
     block.benchmarks.push_back(MakeBenchmark("diamond_tet4/one_frame", *diamond, 1));
   }

@@ -172,9 +172,8 @@ Status BodyShapes::FollowFrame(int frame, const Eigen::VectorXd& variables, Work
 
 Status BodyShapes::Linearise(const Eigen::VectorXd& variables) {
   ApplyToModels(variables);
-  return OnEachFrame([&](int frame, Worker* worker) {
-    return LineariseFrame(frame, variables, worker);
-  });
+  return OnEachFrame(
+      [&](int frame, Worker* worker) { return LineariseFrame(frame, variables, worker); });
 }
 
 void BodyShapes::Load(const FrameInputs& acting, fem::StaticState* state, Worker* worker) {
@@ -238,9 +237,8 @@ double BodyShapes::StepFrame(int frame, const Eigen::VectorXd& variables, Worker
 
 bool BodyShapes::AreBalanced(const Eigen::VectorXd& variables) {
   ApplyToModels(variables);
-  return OnEachFrame([&](int frame, Worker* worker) {
-           return CheckFrame(frame, variables, worker);
-         })
+  return OnEachFrame(
+             [&](int frame, Worker* worker) { return CheckFrame(frame, variables, worker); })
       .ok();
 }
 
@@ -258,9 +256,9 @@ Status BodyShapes::CheckFrame(int frame, const Eigen::VectorXd& variables, Worke
   const double scale_N = fem::ForceScale_N(linearisation, state.loads, state.multipliers_N);
   const double missed_m =
       fem::ConstraintError_m(linearisation, state.loads, state.x_m, state.multipliers_N);
-  const bool balanced = residual_N <= std::max(kBalanced * scale_N,
-                                               fem::RoundingForce_N(linearisation, state.x_m)) &&
-                        missed_m <= kMostMissed_m;
+  const bool balanced =
+      residual_N <= std::max(kBalanced * scale_N, fem::RoundingForce_N(linearisation, state.x_m)) &&
+      missed_m <= kMostMissed_m;
   if (!balanced) return {StatusCode::kNotConverged, "not in balance"};
   for (const fem::ConstraintCommand& command : state.loads.commands) {
     const bool imposed = command.mode == fem::ConstraintCommand::Mode::kMultiplier;

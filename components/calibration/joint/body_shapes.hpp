@@ -43,8 +43,8 @@ class BodyShapes {
   /// element is inverted. Gives the longest way that a node went, over the body's extent; infinite
   /// where one could not go all the way.
   double StepTo(const Eigen::VectorXd& variables);
-  /// Whether states() are equilibria under these variables: forces to 1e-9 of their size, lengths of
-  /// cables to the static solver's tolerance.
+  /// Whether states() are equilibria under these variables: forces to 1e-9 of their size, lengths
+  /// of cables to the static solver's tolerance.
   bool AreBalanced(const Eigen::VectorXd& variables);
   /// states() are the last ones that were kept.
   void Return();
@@ -55,8 +55,7 @@ class BodyShapes {
  private:
   /// Who works on frames, one thread each.
   struct Worker {
-    explicit Worker(robot::RobotModel& of)
-        : model(of), sensitivity(of), step(of.linearisation()) {}
+    explicit Worker(robot::RobotModel& of) : model(of), sensitivity(of), step(of.linearisation()) {}
 
     robot::RobotModel& model;
     robot::SensitivitySolver sensitivity;

@@ -48,9 +48,8 @@ class Descent {
     const Eigen::VectorXd step = FullStep();
     LeastSquaresPoint point;
     for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
-      const Eigen::VectorXd variables = (solution_.variables + length * step)
-                                            .cwiseMax(bounds_.col(0))
-                                            .cwiseMin(bounds_.col(1));
+      const Eigen::VectorXd variables =
+          (solution_.variables + length * step).cwiseMax(bounds_.col(0)).cwiseMin(bounds_.col(1));
       if (!problem_.Evaluate(variables, &point).ok()) continue;
       RobustLoss loss = LossOf(point.residual, blocks_, settings_.huber_threshold);
       if (!(loss.objective < loss_.objective)) continue;

@@ -255,8 +255,8 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   for (const SurfaceSighting& sighting : frame.surface) {
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
     const PlaceInFrame seen = PlaceOf(index, sighting.point, variables);
-    const SightingRows<1> rows = view.Rows(sighting, scale_ * seen.place.position_m,
-                                           DepthScaleAt(basis, variables));
+    const SightingRows<1> rows =
+        view.Rows(sighting, scale_ * seen.place.position_m, DepthScaleAt(basis, variables));
     PutRows(rows, basis, seen, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
     squares_m2 += off_m * off_m;

@@ -54,8 +54,8 @@ Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
   return Status::Ok();
 }
 
-/// The rigid motion under which all frames' markers lie nearest to the model's, in these shapes [3n]
-/// of each frame.
+/// The rigid motion under which all frames' markers lie nearest to the model's, in these shapes
+/// [3n] of each frame.
 geometry::Registration Register(const robot::RobotModel& model, const JointSetup& setup,
                                 const std::vector<Eigen::VectorXd>& x_m) {
   std::vector<Eigen::Vector3d> seen, expected;

@@ -43,10 +43,9 @@ class ApproachToTheSolution : public testing::Test {
     const fem::NodeWeights hub = model_->body().markers.front().point.weights;
     JointSetup setup;
     for (const double pulled_m : {0.004, 0.007}) {
-      setup.frames.push_back(
-          See(*model_, TableOnePose(), "pulled",
-              Commands(Kind::kDisplacement, {pulled_m, 0.006, 0.003, pulled_m}),
-              {{hub, Eigen::Vector3d(0.3, 0.1, -0.2)}}, 3e-4, &random));
+      setup.frames.push_back(See(*model_, TableOnePose(), "pulled",
+                                 Commands(Kind::kDisplacement, {pulled_m, 0.006, 0.003, pulled_m}),
+                                 {{hub, Eigen::Vector3d(0.3, 0.1, -0.2)}}, 3e-4, &random));
       for (robot::CableCommand& cable : setup.frames.back().cables) cable.value -= 5e-4;
     }
     for (int c = 0; c < model_->CableCount(); ++c) {
