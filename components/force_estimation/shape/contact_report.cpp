@@ -53,22 +53,10 @@ Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix
 
 }  // namespace
 
-ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma,
-                             int search_places)
-    : config_(config), force_relative_sigma_(force_relative_sigma), search_places_(search_places) {}
-
-/// How surely there is a force, over what counts as significant. One-sided: contacts push. Asked at
-/// its place: without a force there would be no place to be unsure of. Where nobody sees which way
-/// the surface faces that it pushes on, all of the force counts, and its place is the best of many.
-double ContactReport::Strength(const ShapeFit& fit, std::size_t site) const {
-  const Eigen::Vector3d normal = fit.NormalAt(site);
-  const Eigen::Vector3d force_N = fit.ForceAt(site);
-  const Eigen::Matrix3d covariance_N2 = CovarianceOf(fit, site);
+double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2,
+                const Eigen::Vector3d& normal, bool hidden, double chance) {
   const double pressed_N = -normal.dot(force_N);
   const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance_N2 * normal)));
-  const bool hidden = fit.sites()[site].hidden;
-  const double chance =
-      hidden ? config_.hidden_significance / search_places_ : config_.significance;
   const double along = pressed_N / (NormalQuantile(1.0 - chance) * sigma_N);
   if (!hidden || !(pressed_N > 0.0)) return along;
   const Eigen::LLT<Eigen::Matrix3d> spread(covariance_N2);
@@ -77,9 +65,22 @@ double ContactReport::Strength(const ShapeFit& fit, std::size_t site) const {
   return std::max(along, std::sqrt(whole / ChiSquaredQuantile(1.0 - chance, 3)));
 }
 
+ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma,
+                             int search_places)
+    : config_(config), force_relative_sigma_(force_relative_sigma), search_places_(search_places) {}
+
+/// Asked at its place: without a force there would be no place to be unsure of. That of a contact
+/// that nobody sees is the best of many.
+double ContactReport::StrengthOf(const ShapeFit& fit, std::size_t site) const {
+  const bool hidden = fit.sites()[site].hidden;
+  const double chance =
+      hidden ? config_.hidden_significance / search_places_ : config_.significance;
+  return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
+}
+
 void ContactReport::Judge(double t_s, ShapeFit* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
-    const double strength = Strength(*fit, s);
+    const double strength = StrengthOf(*fit, s);
     const auto evidence = strength > kBeyondDoubt ? SiteBook::Evidence::kBeyondDoubt
                           : strength > 1.0        ? SiteBook::Evidence::kSignificant
                                                   : SiteBook::Evidence::kNone;

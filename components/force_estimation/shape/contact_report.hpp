@@ -3,11 +3,20 @@
 
 #pragma once
 
+#include <Eigen/Core>
+
 #include "components/force_estimation/force_estimate.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_fit.hpp"
 
 namespace palpate::force_estimation {
+
+/// How surely something pushes with this force, over what noise alone exceeds with a chance of
+/// `chance`: significant above 1. One-sided: a pull along `normal` (outward, unit) gives no more
+/// than 0. Of a contact that nobody sees, which way the surface faces that it pushes on is not
+/// known, so that all of the force counts where it pushes at all.
+double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2,
+                const Eigen::Vector3d& normal, bool hidden, double chance);
 
 /// What a fit says about its contacts: which act, with what force, how surely.
 class ContactReport {
@@ -22,7 +31,7 @@ class ContactReport {
   std::vector<ContactForce> Contacts(const ShapeFit& fit) const;
 
  private:
-  double Strength(const ShapeFit& fit, std::size_t site) const;
+  double StrengthOf(const ShapeFit& fit, std::size_t site) const;
   Status StatusOf(const ShapeFit& fit, std::size_t site) const;
   ContactForce ContactAt(const ShapeFit& fit, std::size_t site, double inflation) const;
 

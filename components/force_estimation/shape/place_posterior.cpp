@@ -148,30 +148,44 @@ double Radius95_m(const std::vector<Look>& looks, const std::vector<double>& pro
   return by_distance.back().first;
 }
 
-/// Means and covariances of the place and of the force that belongs to it.
+/// The mean place, and how far place and force may be from it and from the force there, which are
+/// what is reported. Along that force the covariance has the spread of the sizes: places that face
+/// another way have forces of which only a part lies along it.
 void Summarise(const std::vector<Look>& looks, const std::vector<double>& probability,
                const SearchPlaces& places, const Eigen::Matrix3Xd& normals,
                PlacePosterior* posterior) {
   const Eigen::Vector3d best_m = places.positions_m().col(posterior->place);
-  const auto force_N = [&](const Look& look) -> Eigen::Vector3d {
-    return look.fit.tangential_N - look.fit.force_N * normals.col(look.place);
-  };
   double same = 0.0;
-  Eigen::Vector3d mean_N = Eigen::Vector3d::Zero();
   for (size_t k = 0; k < looks.size(); ++k) {
     const Eigen::Vector3d place_m = places.positions_m().col(looks[k].place);
-    mean_N += probability[k] * force_N(looks[k]);
     if ((place_m - best_m).norm() > kSameContact_m) continue;
     same += probability[k];
     posterior->mean_m += probability[k] * place_m;
   }
   posterior->mean_m /= same;
+  const auto off_mean_m = [&](const Look& look) -> Eigen::Vector3d {
+    return places.positions_m().col(look.place) - posterior->mean_m;
+  };
+  const auto force_N = [&](const Look& look) -> Eigen::Vector3d {
+    return look.fit.tangential_N - look.fit.force_N * normals.col(look.place);
+  };
+  const Eigen::Vector3d there_N =
+      force_N(*std::min_element(looks.begin(), looks.end(), [&](const Look& a, const Look& b) {
+        return off_mean_m(a).squaredNorm() < off_mean_m(b).squaredNorm();
+      }));
+  double size_variance_N2 = 0.0;
   for (size_t k = 0; k < looks.size(); ++k) {
-    const Eigen::Vector3d off_m = places.positions_m().col(looks[k].place) - posterior->mean_m;
-    const Eigen::Vector3d off_N = force_N(looks[k]) - mean_N;
+    const Eigen::Vector3d off_m = off_mean_m(looks[k]);
+    const Eigen::Vector3d off_N = force_N(looks[k]) - there_N;
+    const double larger_N = force_N(looks[k]).norm() - there_N.norm();
     posterior->covariance_m2 += probability[k] * off_m * off_m.transpose();
     posterior->force_covariance_N2 += probability[k] * off_N * off_N.transpose();
+    size_variance_N2 += probability[k] * larger_N * larger_N;
   }
+  const Eigen::Vector3d along = there_N.normalized();
+  const double has_N2 = along.dot(posterior->force_covariance_N2 * along);
+  posterior->force_covariance_N2 +=
+      std::max(0.0, size_variance_N2 - has_N2) * along * along.transpose();
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct PlacePosterior {
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the mean, of all places
   double ci95_m = 0.0;  ///< radius around the mean that holds 95 %
-  /// Of the force, because the place is not known: each place has its own.
+  /// Mean square distance from the force at the mean place, because the place is not known: each
+  /// has its own. Along that force: of the size.
   Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
 };
 
