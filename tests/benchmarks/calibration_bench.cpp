@@ -62,10 +62,10 @@ class CalibrationScene {
 
   calibration::JointCalibration Calibrate() {
     // As the robot file says, whatever the last one left.
-    const auto& body = truth_.body();
     for (const auto& [material, factor] : kModuli) {
-      const double true_Pa = body.materials[static_cast<size_t>(material)].youngs_modulus_Pa;
-      model_.SetYoungsModulus(material, request_.moduli.empty() ? true_Pa : true_Pa / factor);
+      if (request_.moduli.empty()) break;
+      const auto& true_one = truth_.body().materials[static_cast<size_t>(material)];
+      model_.SetYoungsModulus(material, true_one.youngs_modulus_Pa / factor);
     }
     return calibration::CalibrateFrames(model_, frames_, nullptr, request_);
   }
