@@ -25,9 +25,8 @@ namespace palpate::perception {
 /// - where the object is round next to its rim, the contact is where its hidden side meets the
 ///   robot's surface, be that in view or not (FindHiddenContact), or there is none where it does
 ///   not;
-/// - else, where the robot's surface is known, it is on the part of it near the rim that is not
-/// seen
-///   (FindUnseenSkin), and as uncertain as that part is large;
+/// - else, where the robot's surface is known, it is on that part of it near the rim that is out of
+///   view (FindUnseenSkin), and as uncertain as that part is large;
 /// - else it is at the mean of the robot's points nearest to the rim. Its covariance then has three
 ///   parts: depth noise along the view rays; the gap between rim and robot and the resolution of
 ///   the clouds; and the hidden part: where the rim is an arc of radius a about the contact's
