@@ -9,10 +9,8 @@
 #include <limits>
 
 #include "libs/app/yaml.hpp"
-#include "libs/core/error.hpp"
-#include "libs/core/file.hpp"
 #include "libs/robot/calibration_file.hpp"
-#include "tests/libs/robot/beam_model.hpp"
+#include "tests/libs/robot/calibration_file_fixture.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -21,9 +19,9 @@ using testing::HasSubstr;
 
 constexpr double kScale = 1.07;
 
-class CalibratedGeometryTest : public BeamModelTest {
+class CalibratedGeometryTest : public CalibrationFileFixture {
  protected:
-  CalibrationFile Example() const {
+  CalibrationFile Example() const override {
     CalibrationFile calibration = DescribeForCalibration(*model_);
     calibration.date_utc = "2026-01-31T12:00:00Z";
     calibration.data = "some";
@@ -39,23 +37,6 @@ class CalibratedGeometryTest : public BeamModelTest {
     ApplySize(Example(), &body);
     return body;
   }
-
-  std::string ReadRefusal(const std::string& old_text, const std::string& new_text) {
-    WriteCalibrationFile(Example(), file_);
-    std::string text = ReadFile(file_);
-    EXPECT_NE(text.find(old_text), std::string::npos) << old_text;
-    WriteFile(file_, text.replace(text.find(old_text), old_text.size(), new_text));
-    try {
-      ReadCalibrationFile(file_, app::LoadYaml);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return {};
-  }
-
-  std::unique_ptr<RobotModel> model_ = Build(FullRobotText());
-  std::filesystem::path file_ = folder_ / "calibration.yaml";
 };
 
 TEST_F(CalibratedGeometryTest, IsReadAsItWasWritten) {
@@ -73,14 +54,15 @@ TEST_F(CalibratedGeometryTest, IsReadAsItWasWritten) {
 
 TEST_F(CalibratedGeometryTest, IsRefusedWithItsPlaceInTheFile) {
   const std::string scale = "geometry_scale: {scale: 1.07, ";
-  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scale: 2.5, "),
+  EXPECT_THAT(ReadRefusal(Altered(scale, "geometry_scale: {scale: 2.5, ")),
               AllOf(HasSubstr(file_.string() + ":11:25"), HasSubstr("2.5")));
-  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scale: .nan, "), HasSubstr("scale"));
-  EXPECT_THAT(ReadRefusal(scale, "geometry_scale: {scales: 1.07, "), HasSubstr(":11:"));
-  EXPECT_THAT(ReadRefusal("standard_error: 0.00125", "standard_error: -1"),
+  EXPECT_THAT(ReadRefusal(Altered(scale, "geometry_scale: {scale: .nan, ")), HasSubstr("scale"));
+  EXPECT_THAT(ReadRefusal(Altered(scale, "geometry_scale: {scales: 1.07, ")), HasSubstr(":11:"));
+  EXPECT_THAT(ReadRefusal(Altered("standard_error: 0.00125", "standard_error: -1")),
               HasSubstr("standard_error"));
-  EXPECT_THAT(ReadRefusal("moved_m: [", "moved_m: [.inf, "), HasSubstr(":13:")) << "four numbers";
-  EXPECT_THAT(ReadRefusal("standard_error_m", "standard_errors_m"), HasSubstr(":13:"));
+  EXPECT_THAT(ReadRefusal(Altered("moved_m: [", "moved_m: [.inf, ")), HasSubstr(":13:"))
+      << "four numbers";
+  EXPECT_THAT(ReadRefusal(Altered("standard_error_m", "standard_errors_m")), HasSubstr(":13:"));
 }
 
 /// ToModel of the calibration says what a robot of another size does: at the same stress, its

@@ -9,7 +9,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
-#include "tests/libs/robot/beam_model.hpp"
+#include "tests/libs/robot/calibration_file_fixture.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -17,9 +17,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class CalibrationFileTest : public BeamModelTest {
+class CalibrationFileTest : public CalibrationFileFixture {
  protected:
-  CalibrationFile Example() const {
+  CalibrationFile Example() const override {
     CalibrationFile calibration = DescribeForCalibration(*model_);
     calibration.date_utc = "2026-01-31T12:00:00Z";
     calibration.data = "a \"quoted\" folder\\with: signs # of YAML";
@@ -40,29 +40,6 @@ class CalibrationFileTest : public BeamModelTest {
     ADD_FAILURE() << "nothing was refused";
     return {};
   }
-
-  std::string ReadRefusal(const std::string& text) {
-    WriteFile(file_, text);
-    try {
-      ReadCalibrationFile(file_, app::LoadYaml);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return {};
-  }
-
-  /// The example's file with one text replaced.
-  std::string Altered(const std::string& old_text, const std::string& new_text) {
-    WriteCalibrationFile(Example(), file_);
-    std::string text = ReadFile(file_);
-    const size_t at = text.find(old_text);
-    EXPECT_NE(at, std::string::npos) << old_text;
-    return text.replace(at, old_text.size(), new_text);
-  }
-
-  std::unique_ptr<RobotModel> model_ = Build(FullRobotText());
-  std::filesystem::path file_ = folder_ / "calibration.yaml";
 };
 
 TEST_F(CalibrationFileTest, IsReadAsItWasWritten) {
