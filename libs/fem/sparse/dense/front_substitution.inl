@@ -91,9 +91,8 @@ template <int packs>
 void SolveBackward(const FactorPanel& factor, const double* inverse, double* pivot_rows,
                    const int* below_rows, const double* all_rows) {
   constexpr int width = packs * kLanes;
-  const double* tile = factor.values + FactorPanel::Size(factor.pivots, factor.below);
-  for (int first = (factor.below - 1) / kTile * kTile; first >= 0 && factor.below > 0;
-       first -= kTile) {
+  const double* tile = factor.values + FactorPanel::Size(factor.pivots, 0);
+  for (int first = 0; first < factor.below; first += kTile) {
     const int rows = std::min(kTile, factor.below - first);
     Pack known[kTile][packs] = {};
     Unroll<0, kTile>([&](auto r) __attribute__((always_inline)) {
@@ -101,9 +100,10 @@ void SolveBackward(const FactorPanel& factor, const double* inverse, double* piv
         LoadRow(all_rows + static_cast<long>(below_rows[first + r]) * width, known[r]);
       }
     });
-    tile -= factor.pivots * kTile;
     SubtractTransposed<packs>(tile, factor.pivots, known, pivot_rows);
+    tile += factor.pivots * kTile;
   }
+  tile = factor.values + FactorPanel::Size(factor.pivots, 0);
   for (int first = (factor.pivots - 1) / kTile * kTile; first >= 0; first -= kTile) {
     const int rows = std::min(kTile, factor.pivots - first);
     tile -= TileColumns(first, factor.pivots) * kTile;

@@ -54,7 +54,7 @@ TEST_P(MultifrontalSolver, SolvesLikeCholmod) {
   const auto reference = MakeCholmodSolver(matrix.Pattern());
   ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
   ASSERT_TRUE(reference->Factorize(matrix.Values()).ok());
-  for (const int columns : {1, 7, 8, 9, 16, 21}) {
+  for (const int columns : {1, 7, 8, 9, 16, 21, 64, 90}) {
     const Eigen::MatrixXd b = RandomColumns(matrix.Size(), columns);
     Eigen::MatrixXd x = b;
     Eigen::MatrixXd expected = b;
@@ -62,6 +62,27 @@ TEST_P(MultifrontalSolver, SolvesLikeCholmod) {
     reference->Solve(expected);
     EXPECT_LE((x - expected).norm(), 1e-12 * expected.norm()) << columns << " columns";
     EXPECT_LE((matrix.Times(x.col(0)) - b.col(0)).norm(), 1e-12 * b.col(0).norm());
+  }
+}
+
+/// Of such columns most of the fronts see nothing on the way down.
+TEST_P(MultifrontalSolver, SolvesForColumnsWithFewNonzeros) {
+  const StiffnessMatrix matrix = MakeGridMatrix(25.0, 1);
+  for (const int threads : {1, 2}) {
+    ThreadTeam team(threads);
+    const auto solver = MakeMultifrontalSolver(matrix.Pattern(), team, GetParam());
+    ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
+    for (const int step : {1, 97, 271}) {
+      constexpr int kColumns = 8;
+      Eigen::MatrixXd b = Eigen::MatrixXd::Zero(matrix.Size(), kColumns);
+      for (int c = 0; c + 1 < kColumns; ++c) b(c * step, c) = 1.0;
+      Eigen::MatrixXd x = b;
+      solver->Solve(x);
+      for (int c = 0; c < kColumns; ++c) {
+        EXPECT_LE((matrix.Times(x.col(c)) - b.col(c)).norm(), 1e-14) << c << " of step " << step;
+      }
+      EXPECT_TRUE(x.col(kColumns - 1).isZero(0.0)) << "a column of zeros";
+    }
   }
 }
 

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/fem/sparse/substitution.hpp"
+
+#include <algorithm>
+
+namespace palpate::fem::internal {
+
+namespace {
+
+using dense::kTile;
+
+/// Right-hand sides that pass a front together, and such blocks that pass it one after the other
+/// while its factor is in the cache.
+constexpr int kBlockColumns = 2 * kTile;
+constexpr int kMostBlocks = 4;
+
+size_t At(int index) { return static_cast<size_t>(index); }
+
+}  // namespace
+
+Substitution::Substitution(const FrontTree& tree, const FrontSchedule& schedule,
+                           const dense::FrontKernels& kernels, ThreadTeam& team,
+                           FactorStore& factor, int size)
+    : tree_(tree),
+      schedule_(schedule),
+      kernels_(kernels),
+      team_(team),
+      factor_(factor),
+      plan_(PlanSubstitution(tree, schedule, size)),
+      size_{size},
+      block_rows_{size + team.Size() * static_cast<long>(plan_.shared_rows.size()) + kTile} {
+  rows_ = AlignedBuffer(static_cast<size_t>(block_rows_) * kBlockColumns * kMostBlocks);
+  for (int thread = 0; thread < team.Size(); ++thread) {
+    below_.emplace_back(At(dense::PaddedRows(plan_.most_below)));
+  }
+}
+
+void Substitution::Solve(Eigen::Ref<Eigen::MatrixXd> columns) {
+  constexpr Eigen::Index kAtOnce = kBlockColumns * kMostBlocks;
+  for (Eigen::Index first = 0; first < columns.cols(); first += kAtOnce) {
+    SolveBlocks(columns.middleCols(first, std::min(kAtOnce, columns.cols() - first)), false);
+  }
+}
+
+/// A front that nothing has come to yet passes nothing on: of right-hand sides with few nonzeros
+/// only the paths from these to the root are walked.
+bool Substitution::IsZero(int f, const Block& block) const {
+  const double* row = block.rows + 3L * tree_.fronts()[At(f)].first_node * block.width;
+  return std::all_of(row, row + static_cast<long>(tree_.fronts()[At(f)].Pivots()) * block.width,
+                     [](double value) { return value == 0.0; });
+}
+
+void Substitution::Forward(int f, const Block& block) {
+  if (IsZero(f, block)) return;
+  const int first = 3 * tree_.fronts()[At(f)].first_node;
+  double* pivot_rows = block.rows + static_cast<long>(first) * block.width;
+  const double* inverse = factor_.inverse() + first;
+  const int* below_rows = plan_.forward_rows[At(f)].data();
+  if (block.rounded) {
+    kernels_.solve_forward_rounded(factor_.Rounded(f), inverse, pivot_rows, below_rows, block.rows);
+  } else if (block.width == 1) {
+    kernels_.solve_forward_one(factor_.Panel(f), inverse, pivot_rows, below_rows, block.rows);
+  } else {
+    kernels_.solve_forward(factor_.Panel(f), inverse, block.width, pivot_rows, below_rows,
+                           block.rows);
+  }
+}
+
+void Substitution::Backward(int f, const Block& block, int thread) {
+  const int first = 3 * tree_.fronts()[At(f)].first_node;
+  double* pivot_rows = block.rows + static_cast<long>(first) * block.width;
+  const double* inverse = factor_.inverse() + first;
+  const int* below_rows = tree_.fronts()[At(f)].below_rows.data();
+  if (block.rounded) {
+    kernels_.solve_backward_rounded(factor_.Rounded(f), inverse, pivot_rows, below_rows, block.rows,
+                                    below_[At(thread)].data());
+  } else if (block.width == 1) {
+    kernels_.solve_backward_one(factor_.Panel(f), inverse, pivot_rows, below_rows, block.rows,
+                                below_[At(thread)].data());
+  } else {
+    kernels_.solve_backward(factor_.Panel(f), inverse, block.width, pivot_rows, below_rows,
+                            block.rows);
+  }
+}
+
+/// The front's rows of the columns of a block, row after row.
+void Substitution::Read(int f, const Block& block,
+                        const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
+  const int first = 3 * tree_.fronts()[At(f)].first_node;
+  for (int row = first; row < first + tree_.fronts()[At(f)].Pivots(); ++row) {
+    double* target = block.rows + static_cast<long>(row) * block.width;
+    for (int c = 0; c < block.count; ++c) target[c] = columns(row, block.first + c);
+    std::fill(target + block.count, target + block.width, 0.0);
+  }
+}
+
+void Substitution::Write(int f, const Block& block, Eigen::Ref<Eigen::MatrixXd> columns) const {
+  const int first = 3 * tree_.fronts()[At(f)].first_node;
+  for (int row = first; row < first + tree_.fronts()[At(f)].Pivots(); ++row) {
+    const double* source = block.rows + static_cast<long>(row) * block.width;
+    for (int c = 0; c < block.count; ++c) columns(row, block.first + c) = source[c];
+  }
+}
+
+/// What the threads' own fronts subtract from the rows of those that all share.
+void Substitution::AddShares(const Block& block) const {
+  const auto shares = static_cast<long>(plan_.shared_rows.size());
+  for (long k = 0; k < shares; ++k) {
+    const long row = plan_.shared_rows[static_cast<size_t>(k)];
+    double* target = block.rows + row * block.width;
+    for (int t = 0; t < team_.Size(); ++t) {
+      const double* source = block.rows + (size_ + t * shares + k) * block.width;
+      for (int c = 0; c < block.width; ++c) target[c] += source[c];
+    }
+  }
+}
+
+/// At most kBlockColumns kMostBlocks columns; `rounded`: one, by the rounded factor.
+void Substitution::SolveBlocks(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded) {
+  const int count = static_cast<int>(columns.cols());
+  Block blocks[kMostBlocks];
+  int block_count = 0;
+  for (int first = 0; first < count; first += kBlockColumns) {
+    const int own = std::min(kBlockColumns, count - first);
+    blocks[block_count] = {.rows = rows_.data() + block_rows_ * kBlockColumns * block_count,
+                           .first = first,
+                           .count = own,
+                           .width = count == 1 ? 1 : dense::PaddedRows(own),
+                           .rounded = rounded};
+    ++block_count;
+  }
+  const std::span<const Block> all(blocks, static_cast<size_t>(block_count));
+  team_.Run([&](int thread) {
+    const std::vector<int>& own = schedule_.own[At(thread)];
+    const auto shares = static_cast<long>(plan_.shared_rows.size());
+    for (const Block& block : all) {
+      std::fill_n(block.rows + (size_ + thread * shares) * block.width, shares * block.width, 0.0);
+      for (const int f : own) Read(f, block, columns);
+      if (thread != 0) continue;
+      for (const int f : schedule_.together) Read(f, block, columns);
+    }
+    for (const int f : own) {
+      for (const Block& block : all) Forward(f, block);
+    }
+    team_.Barrier();
+    if (thread == 0) SolveShared(all, columns);
+    team_.Barrier();
+    for (auto f = own.rbegin(); f != own.rend(); ++f) {
+      for (const Block& block : all) {
+        Backward(*f, block, thread);
+        Write(*f, block, columns);
+      }
+    }
+  });
+}
+
+/// Down and up the fronts that all threads share, on one of them.
+void Substitution::SolveShared(std::span<const Block> blocks, Eigen::Ref<Eigen::MatrixXd> columns) {
+  for (const Block& block : blocks) AddShares(block);
+  for (const int f : schedule_.together) {
+    for (const Block& block : blocks) Forward(f, block);
+  }
+  for (auto f = schedule_.together.rbegin(); f != schedule_.together.rend(); ++f) {
+    for (const Block& block : blocks) {
+      Backward(*f, block, 0);
+      Write(*f, block, columns);
+    }
+  }
+}
+
+}  // namespace palpate::fem::internal
