@@ -74,6 +74,10 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
   if (!bias.known()) return status;
   if (HiddenSites().empty()) {
     if (fit_.IsWorkUsedUp() || fit_.book().full() || !IsTimeToSearch()) return status;
+    if (!IsMuchLeft() && LeavesToNextFrame()) {
+      frames_since_search_ = pause_;
+      return status;
+    }
     status = Search(frame, bias);
   }
   for (int round = 0; round < kFollowRounds && status.ok() && !HiddenSites().empty(); ++round) {
@@ -98,9 +102,13 @@ Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
   return status;
 }
 
+bool HiddenContacts::IsMuchLeft() const {
+  return fit_.fitter().fit().chi_squared >= kMuchLeft * fit_.targets().Count();
+}
+
 /// Each few frames, and at once where much is left over of which nothing was tried yet.
 bool HiddenContacts::IsTimeToSearch() {
-  const bool much_left = fit_.fitter().fit().chi_squared >= kMuchLeft * fit_.targets().Count();
+  const bool much_left = IsMuchLeft();
   if (!much_left) pause_ = kFramesBetweenSearches;
   const bool tried_in_vain = pause_ > kFramesBetweenSearches;
   if (++frames_since_search_ < pause_ && (!much_left || tried_in_vain)) return false;
@@ -110,7 +118,7 @@ bool HiddenContacts::IsTimeToSearch() {
 
 Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
   Remember();
-  if (!IsTimeToFollow()) return Status::Ok();
+  if (!(left_over_ || IsTimeToFollow()) || LeavesToNextFrame()) return Status::Ok();
   fit_.AddWork(kSearchWork);
   if (!Respond(frame.cables).ok()) return Status::Ok();
   const Unexplained data = OfHidden();
@@ -118,8 +126,7 @@ Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
       search_.Follow(data, priors_, SeenPlaces(), kTakenRadius_m);
   if (found.empty()) return Status::Ok();
   const Status status = MoveTo(found, frame, bias);
-  const bool much_left = fit_.fitter().fit().chi_squared >= kMuchLeft * fit_.targets().Count();
-  if (!status.ok() || !much_left || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
+  if (!status.ok() || !IsMuchLeft() || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
   return FindOthers(data, frame, bias);
 }
 
@@ -183,6 +190,14 @@ void HiddenContacts::Remember() {
     priors_.push_back(are_new_ ? PlacePrior{.mean_m = site.centre.rest_m} : PriorOf(site));
   }
   are_new_ = false;
+}
+
+/// A new factor and new responses about it in the same frame would make it late: the next one
+/// solves for the responses, whatever else it does.
+bool HiddenContacts::LeavesToNextFrame() {
+  const bool both = linearisations_ != fit_.linearisations() && fit_.IsLinearisedInFrame();
+  left_over_ = both && !left_over_;
+  return left_over_;
 }
 
 /// Responses of the features of this frame about the present shape.

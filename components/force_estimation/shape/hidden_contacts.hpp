@@ -37,8 +37,10 @@ class HiddenContacts {
   Status FindOthers(const Unexplained& data, const ShapeFrame& frame, const DepthBias& bias);
   Status MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
                 const DepthBias& bias);
+  bool IsMuchLeft() const;
   bool IsTimeToSearch();
   bool IsTimeToFollow() const;
+  bool LeavesToNextFrame();
   void Remember();
   Unexplained LeftOver() const;
   Unexplained OfHidden() const;
@@ -62,6 +64,7 @@ class HiddenContacts {
   int averaged_about_ = -1;         ///< linearisation
   std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average began
   bool are_new_ = false;            ///< the hidden sites: nothing was known before
+  bool left_over_ = false;          ///< by the last frame: what needs new responses
   int linearisations_ = -1;         ///< that the responses belong to
   RowResponses responses_;
   std::vector<int> row_of_feature_;  ///< [features] of responses_; -1: none

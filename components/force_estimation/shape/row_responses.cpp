@@ -4,6 +4,9 @@
 #include "components/force_estimation/shape/row_responses.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include "libs/core/check.hpp"
 
@@ -52,6 +55,24 @@ struct TautCables {
   }
 };
 
+/// Rows that are eliminated close to one another are solved for together: there is much of the
+/// factor that they do not touch.
+std::vector<size_t> OrderOfElimination(const std::vector<robot::EffectorRow>& rows,
+                                       const fem::StiffnessMatrix& matrix) {
+  std::vector<int> first(rows.size(), std::numeric_limits<int>::max());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (const int node : rows[i].nodes) {
+      const int free = matrix.FreeIndex(node);
+      if (free >= 0) first[i] = std::min(first[i], free);
+    }
+  }
+  std::vector<size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return first[a] < first[b]; });
+  return order;
+}
+
 }  // namespace
 
 Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::EffectorRow>& rows,
@@ -68,8 +89,9 @@ Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::Effe
   const auto count = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd columns(linearisation.Size(), count);
   Eigen::VectorXd nodal(x_m.size());
+  const std::vector<size_t> order = OrderOfElimination(rows, matrix);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const robot::EffectorRow& row = rows[static_cast<size_t>(i)];
+    const robot::EffectorRow& row = rows[order[static_cast<size_t>(i)]];
     nodal.setZero();
     for (size_t k = 0; k < row.nodes.size(); ++k) {
       nodal.segment<3>(3 * row.nodes[k]) += row.coefficients[k];
@@ -83,8 +105,14 @@ Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::Effe
   for (int node = 0; node < matrix.NodeCount(); ++node) {
     free_index_[static_cast<size_t>(node)] = matrix.FreeIndex(node);
   }
-  columns_.conservativeResize(columns.rows(), columns_.cols() + count);
-  columns_.rightCols(count) = columns;
+  const Eigen::Index before = columns_.cols();
+  columns_.conservativeResize(columns.rows(), before + count);
+  for (Eigen::Index r = 0; r < columns.rows(); ++r) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      columns_(r, before + static_cast<Eigen::Index>(order[static_cast<size_t>(i)])) =
+          columns(r, i);
+    }
+  }
   ++version_;
   return status;
 }

@@ -66,6 +66,7 @@ ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeCo
 }
 
 void ShapeFit::BeginFrame() {
+  linearisations_before_frame_ = linearisations_;
   if (shape_.frame_work == 0.0) return;
   budget_ = fitter_.BudgetOfWork(shape_.frame_work);
   fit_budget_ = fitter_.BudgetOfWork(kFitWorkShare * shape_.frame_work);

@@ -81,6 +81,7 @@ class ShapeFit {
   double Misfit() const;
   /// Of the model, since it was made.
   int linearisations() const { return linearisations_; }
+  bool IsLinearisedInFrame() const { return linearisations_ != linearisations_before_frame_; }
   /// Takes places that the book has changed, and fits about them.
   Status FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias);
   int TakeIterations() { return std::exchange(iterations_, 0); }
@@ -123,6 +124,7 @@ class ShapeFit {
   std::vector<LocatedForce> located_;
   int iterations_ = 0;
   int linearisations_ = 0;
+  int linearisations_before_frame_ = 0;
 };
 
 }  // namespace palpate::force_estimation
