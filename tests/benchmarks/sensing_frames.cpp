@@ -57,9 +57,12 @@ class Watcher {
     const double begin_ms = ThreadTime_ms();
     const ForceEstimate& estimate = estimator_.Update(seen_);
     last_ms_ = ThreadTime_ms() - begin_ms;
+    estimator_.PrepareNext();
+    last_after_ms_ = ThreadTime_ms() - begin_ms - last_ms_;
     return estimate;
   }
-  double last_ms() const { return last_ms_; }  ///< of processor time
+  double last_ms() const { return last_ms_; }  ///< of processor time, for the estimate
+  double last_after_ms() const { return last_after_ms_; }  ///< to prepare the next one
 
  private:
   robot::RobotModel model_;
@@ -67,6 +70,7 @@ class Watcher {
   ShapeFrame seen_;
   long frames_ = 0;
   double last_ms_ = 0.0;
+  double last_after_ms_ = 0.0;
 };
 
 bool IsEstimate(const ForceEstimate& estimate) {
@@ -116,20 +120,33 @@ Benchmark OfFrames(const SharedSets& sets, int feature_points) {
   });
 }
 
+/// The smallest value that no less than this share of `values` does not exceed.
+double NearestRank(std::vector<double> values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
 /// Of frames of one kind.
 struct Costs {
   std::vector<double> time_ms;
+  std::vector<double> after_ms;  ///< to prepare the next frame, once the estimate is out
   double linearisations = 0.0;
 
   void Add(const Watcher& watcher, const ForceEstimate& estimate) {
     time_ms.push_back(watcher.last_ms());
+    after_ms.push_back(watcher.last_after_ms());
     linearisations += estimate.iterations;
   }
   void Tell(benchmark::State& state, const std::string& kind) const {
     const auto count = static_cast<double>(std::max<std::size_t>(1, time_ms.size()));
+    const auto mean = [&](const std::vector<double>& values) {
+      return std::accumulate(values.begin(), values.end(), 0.0) / count;
+    };
     state.counters[kind + "_median_ms"] = test_support::Median(time_ms);
-    state.counters[kind + "_mean_ms"] =
-        std::accumulate(time_ms.begin(), time_ms.end(), 0.0) / count;
+    state.counters[kind + "_mean_ms"] = mean(time_ms);
+    state.counters[kind + "_p99_ms"] = NearestRank(time_ms, 0.99);
+    state.counters[kind + "_after_mean_ms"] = mean(after_ms);
     state.counters[kind + "_worst_ms"] = *std::max_element(time_ms.begin(), time_ms.end());
     state.counters[kind + "_linearisations"] = linearisations / count;
   }

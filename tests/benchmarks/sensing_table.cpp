@@ -124,15 +124,17 @@ void PrintCosts(std::ostream& out, const Results& results) {
   if (result == nullptr || !result->ok()) return;
   out << R"(
 Processor time of the estimator for a frame, 51 feature points, four contacts in view one after the
-other; linearisations (each with a factorisation) in a frame.
+other, and to prepare the next one once its forces are out; linearisations (each with a
+factorisation) before that.
 
-contact         median ms    mean ms   worst ms   linearisations
+contact         median ms    mean ms     p99 ms   worst ms   prepare ms   linearisations
 )";
   for (const std::string kind : {"held", "moving", "jump"}) {
     out << std::left << std::setw(14) << kind << std::right;
-    for (const char* figure : {"_median_ms", "_mean_ms", "_worst_ms"}) {
+    for (const char* figure : {"_median_ms", "_mean_ms", "_p99_ms", "_worst_ms"}) {
       out << std::setw(11) << Figure(*result, kind + figure, 1);
     }
+    out << std::setw(13) << Figure(*result, kind + "_after_mean_ms", 1);
     out << std::setw(17) << Figure(*result, kind + "_linearisations", 2) << '\n';
   }
   out << "Held, with 12 feature points: median " << Figure(*result, "held_few_points_median_ms", 1)

@@ -75,6 +75,7 @@ class FromShape : public FrameEstimator {
   }
 
   void AfterUpdate(const FrameInput& input) override {
+    estimator_.PrepareNext();
     const ShapeFrame& frame = std::get<SeenShape>(input.frame).frame;
     const double since_s = frame.t_s - watched_s_;
     if (since_s >= 0.0 && since_s < kBetweenWatches_s) return;

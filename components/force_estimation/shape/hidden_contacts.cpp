@@ -192,12 +192,15 @@ void HiddenContacts::Remember() {
   are_new_ = false;
 }
 
-/// A new factor and new responses about it in the same frame would make it late: the next one
-/// solves for the responses, whatever else it does.
+/// New responses make a frame late: they are solved for once its forces are out, and used by the
+/// next one, which waits no more.
 bool HiddenContacts::LeavesToNextFrame() {
-  const bool both = linearisations_ != fit_.linearisations() && fit_.IsLinearisedInFrame();
-  left_over_ = both && !left_over_;
+  left_over_ = linearisations_ != fit_.linearisations() && !left_over_;
   return left_over_;
+}
+
+void HiddenContacts::PrepareNext(const std::vector<robot::CableCommand>& cables) {
+  if (left_over_ && !Respond(cables).ok()) left_over_ = false;
 }
 
 /// Responses of the features of this frame about the present shape.

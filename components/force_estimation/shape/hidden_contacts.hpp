@@ -28,6 +28,8 @@ class HiddenContacts {
   /// kBudgetReached: that was while hidden contacts were tried, on which the next frame decides;
   /// else not ok: the way back failed, too.
   Status Find(const ShapeFrame& frame, const DepthBias& bias);
+  /// Solves for what the last Find left to the next one, if anything.
+  void PrepareNext(const std::vector<robot::CableCommand>& cables);
   /// No site is hidden any more.
   void Forget();
 

@@ -29,6 +29,8 @@ constexpr int kMostRestorations = 0;
 constexpr double kLongestForceStep_N = 0.5;
 constexpr double kMostPush_N = 0.15;
 constexpr double kMatchWork = 1.0;
+/// Chord steps of a frame by which its factor has aged.
+constexpr int kStepsOfAgedFactor = 4;
 /// A shape half way between two frames misleads all that looks at it: a fit that was begun may go
 /// on beyond the work of a frame as far as this times it.
 constexpr double kFitWorkShare = 4.0;
@@ -67,6 +69,7 @@ ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeCo
 
 void ShapeFit::BeginFrame() {
   linearisations_before_frame_ = linearisations_;
+  chord_steps_ = 0;
   if (shape_.frame_work == 0.0) return;
   budget_ = fitter_.BudgetOfWork(shape_.frame_work);
   fit_budget_ = fitter_.BudgetOfWork(kFitWorkShare * shape_.frame_work);
@@ -201,8 +204,7 @@ Status ShapeFit::FitRoughly(const ShapeFrame& frame) {
   SetForcePrior();
   const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_, fit_budget_);
   fitter_.SetTolerance(shape_.fit_tolerance);
-  iterations_ += fit.iterations;
-  linearisations_ += fit.iterations;
+  CountSteps(fit);
   return fit.status;
 }
 
@@ -211,11 +213,23 @@ Status ShapeFit::Fit(const ShapeFrame& frame) {
   for (int k = 0;; ++k) {
     SetForcePrior();
     const ForceFit& fit = fitter_.Fit(targets_.targets(), frame.cables, &state_, fit_budget_);
-    iterations_ += fit.iterations;
-    linearisations_ += fit.iterations;
+    CountSteps(fit);
     if (!fit.status.ok()) return fit.status;
     if (!targets_.Reweight(fit.residual_m) || k == kReweightings) return Status::Ok();
   }
+}
+
+void ShapeFit::CountSteps(const ForceFit& fit) {
+  iterations_ += fit.iterations;
+  linearisations_ += fit.iterations;
+  chord_steps_ += fit.chord_steps;
+}
+
+bool ShapeFit::RenewAgedFactor() {
+  const bool in_frame = linearisations_ != linearisations_before_frame_;
+  if (in_frame || chord_steps_ < kStepsOfAgedFactor) return false;
+  ++linearisations_;
+  return fitter_.RenewFactor(state_).ok();
 }
 
 Status ShapeFit::FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias) {

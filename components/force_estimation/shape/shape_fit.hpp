@@ -81,7 +81,9 @@ class ShapeFit {
   double Misfit() const;
   /// Of the model, since it was made.
   int linearisations() const { return linearisations_; }
-  bool IsLinearisedInFrame() const { return linearisations_ != linearisations_before_frame_; }
+  /// Linearises at the shape that was fitted, where the steps of the frame say that the factor has
+  /// aged: the next frame begins there.
+  bool RenewAgedFactor();
   /// Takes places that the book has changed, and fits about them.
   Status FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias);
   int TakeIterations() { return std::exchange(iterations_, 0); }
@@ -100,6 +102,7 @@ class ShapeFit {
   void SetForcePrior();
   Status FitRoughly(const ShapeFrame& frame);
   Status Fit(const ShapeFrame& frame);
+  void CountSteps(const ForceFit& fit);
   /// Of the features since the nodes were there.
   double LargestMotion_m(const Eigen::VectorXd& from_x_m) const;
   bool IsTimeToLocate() const;
@@ -125,6 +128,7 @@ class ShapeFit {
   int iterations_ = 0;
   int linearisations_ = 0;
   int linearisations_before_frame_ = 0;
+  int chord_steps_ = 0;  ///< in this frame
 };
 
 }  // namespace palpate::force_estimation

@@ -62,6 +62,11 @@ class ShapeForceEstimator::Impl {
     return estimate_;
   }
 
+  void PrepareNext() {
+    if (!std::exchange(fitted_, false)) return;
+    if (!fit_.RenewAgedFactor()) hidden_.PrepareNext(cables_);
+  }
+
   void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera) {
     bias_.StartFrom(map, T_robot_camera);
     learning_ = true;  // the first frame with a contact ends it
@@ -100,6 +105,8 @@ class ShapeForceEstimator::Impl {
   std::vector<FeatureReport> features_;
   ForceEstimate estimate_;
   bool published_ = false;
+  bool fitted_ = false;  ///< the last frame, and nothing was prepared since
+  std::vector<robot::CableCommand> cables_;  ///< its inputs
 };
 
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
@@ -179,6 +186,8 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     if (!status.message().empty()) return status;
     return {status.code(), "the model does not come to the shape that is seen"};
   }
+  fitted_ = true;
+  cables_ = frame.cables;
   Publish();
   return estimate_.contacts.empty() ? Status(StatusCode::kNoContact, {}) : Status::Ok();
 }
@@ -304,6 +313,8 @@ void ShapeForceEstimator::TakeDepthBias(const geometry::DepthBiasMap& map,
                                         const Eigen::Isometry3d& T_robot_camera) {
   impl_->TakeDepthBias(map, T_robot_camera);
 }
+
+void ShapeForceEstimator::PrepareNext() { impl_->PrepareNext(); }
 
 const std::vector<FeatureReport>& ShapeForceEstimator::features() const {
   return impl_->features();

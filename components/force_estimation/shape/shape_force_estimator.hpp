@@ -52,6 +52,10 @@ class ShapeForceEstimator {
   /// hidden_2 and have kHidden.
   const ForceEstimate& Update(const ShapeFrame& frame);
 
+  /// To be called after each Update, once its estimate is out: a factor and responses at the shape
+  /// that was found, where the next frame will want them. The estimate and the features stay.
+  void PrepareNext();
+
   const std::vector<FeatureReport>& features() const;  ///< of the last frame
   /// Smallest force that a contact at this place of the undeformed body could have and be found, N
   /// (normal direction, Config::significance); NaN before the bias is known.

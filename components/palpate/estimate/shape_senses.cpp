@@ -37,7 +37,11 @@ ShapeSenses MakeShapeSenses(const EstimateSettings& settings, robot::RobotModel*
                              const perception::PredictedSurface* predicted)
       -> const perception::Observation& { return perception->Update(frame, predicted); };
   senses.feel = [estimator](const force_estimation::ShapeFrame& frame)
-      -> const force_estimation::ForceEstimate& { return estimator->Update(frame); };
+      -> const force_estimation::ForceEstimate& {
+    const force_estimation::ForceEstimate& estimate = estimator->Update(frame);
+    estimator->PrepareNext();
+    return estimate;
+  };
   return senses;
 }
 

@@ -25,12 +25,12 @@ class ShapeEstimatorCases : public testing::Test {
   static constexpr int kUntouched = 6;
 
   /// `places_m` on the undeformed body; the contacts that perception sees there.
-  void PushAt(const std::vector<Eigen::Vector3d>& places_m) {
+  void PushAt(const std::vector<Eigen::Vector3d>& places_m, double force_N = kForce_N) {
     std::vector<robot::DeadLoad> loads;
     std::vector<fem::SurfacePatch> patches;
     for (const Eigen::Vector3d& place_m : places_m) {
       patches.push_back(scene_.model->Patch(place_m, shape_.contact_radius_m));
-      loads.push_back({patches.back().weights, -kForce_N * patches.back().normal});
+      loads.push_back({patches.back().weights, -force_N * patches.back().normal});
     }
     state_ = scene_.model->RestState();
     ASSERT_TRUE(scene_.model->Solve(cables_, loads, &state_).status.ok());
@@ -55,13 +55,28 @@ class ShapeEstimatorCases : public testing::Test {
     return frame;
   }
 
-  void Learn(ShapeForceEstimator* estimator) {
+  std::vector<ShapeFrame> UntouchedFrames() {
     PushAt({});
+    std::vector<ShapeFrame> frames;
     for (int k = 0; k < kUntouched; ++k) {
-      ShapeFrame frame = Frame(false);
-      frame.untouched = true;
-      estimator->Update(frame);
+      frames.push_back(Frame(false));
+      frames.back().untouched = true;
     }
+    return frames;
+  }
+
+  void Learn(ShapeForceEstimator* estimator) {
+    for (const ShapeFrame& frame : UntouchedFrames()) estimator->Update(frame);
+  }
+
+  /// A push that grows from frame to frame, after those without one.
+  std::vector<ShapeFrame> GrowingPush(double step_N, int steps) {
+    std::vector<ShapeFrame> frames = UntouchedFrames();
+    for (int k = 1; k <= steps; ++k) {
+      PushAt({places_m_.front()}, k * step_N);
+      frames.push_back(Frame(true));
+    }
+    return frames;
   }
 
   const std::vector<Eigen::Vector3d> places_m_ = {
@@ -89,6 +104,37 @@ TEST_F(ShapeEstimatorCases, ThreeContactsThatComeAtOnceAreAllReported) {
     EXPECT_NEAR(contact.force_N.norm(), kForce_N, contact.ci95_N) << contact.name;
     EXPECT_LT(contact.ci95_N, 0.6 * kForce_N) << contact.name;
   }
+}
+
+/// Time between frames saves factorisations while a frame is waited for, and changes nothing that
+/// was found.
+TEST_F(ShapeEstimatorCases, WhatIsPreparedBetweenFramesNeedNotBeDoneInThem) {
+  constexpr double kStep_N = 0.12;
+  const std::vector<ShapeFrame> frames = GrowingPush(kStep_N, 10);
+  int linearisations[2] = {};
+  ForceEstimate last[2];
+  for (const bool prepares : {false, true}) {
+    ShapeScene scene(51);  // nobody else uses its factor
+    ShapeForceEstimator estimator(*scene.model, Config(), shape_);
+    for (const ShapeFrame& frame : frames) {
+      last[prepares] = estimator.Update(frame);
+      linearisations[prepares] += last[prepares].iterations;
+      if (!prepares) continue;
+      const std::vector<FeatureReport> features = estimator.features();
+      estimator.PrepareNext();
+      ASSERT_EQ(estimator.features().size(), features.size());
+      for (std::size_t f = 0; f < features.size(); ++f) {
+        EXPECT_EQ(estimator.features()[f].residual_m, features[f].residual_m);
+      }
+    }
+    ASSERT_EQ(last[prepares].contacts.size(), 1u) << last[prepares].status.message();
+  }
+  EXPECT_GE(linearisations[false], 2) << "the push does not age the factor";
+  EXPECT_LT(linearisations[true], linearisations[false]);
+  const ContactForce& one = last[false].contacts[0];
+  const ContactForce& other = last[true].contacts[0];
+  EXPECT_NEAR(one.force_N.norm(), 10 * kStep_N, one.ci95_N);
+  EXPECT_LE((one.force_N - other.force_N).norm(), 0.5 * one.ci95_N);
 }
 
 /// Of which 1 - chance is 1: nothing is then significant that is not far beyond any noise, which

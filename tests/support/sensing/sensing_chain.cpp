@@ -112,6 +112,7 @@ const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   if (faults_.cables) faults_.cables(&frame_.cables);
   frame_.untouched = untouched;
   const force_estimation::ForceEstimate& estimate = estimator_.Update(frame_);
+  estimator_.PrepareNext();
   if (force_estimation::PredictsShape(estimate)) {
     has_prediction_ = true;
     prediction_ = perception::MakePredictedSurface(
