@@ -61,7 +61,7 @@ class Watcher {
     last_after_ms_ = ThreadTime_ms() - begin_ms - last_ms_;
     return estimate;
   }
-  double last_ms() const { return last_ms_; }  ///< of processor time, for the estimate
+  double last_ms() const { return last_ms_; }              ///< of processor time, for the estimate
   double last_after_ms() const { return last_after_ms_; }  ///< to prepare the next one
 
  private:

@@ -105,7 +105,7 @@ class ShapeForceEstimator::Impl {
   std::vector<FeatureReport> features_;
   ForceEstimate estimate_;
   bool published_ = false;
-  bool fitted_ = false;  ///< the last frame, and nothing was prepared since
+  bool fitted_ = false;                      ///< the last frame, and nothing was prepared since
   std::vector<robot::CableCommand> cables_;  ///< its inputs
 };
 

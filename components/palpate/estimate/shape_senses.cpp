@@ -36,8 +36,9 @@ ShapeSenses MakeShapeSenses(const EstimateSettings& settings, robot::RobotModel*
   senses.look = [perception](const rgbd::RgbdFrame& frame,
                              const perception::PredictedSurface* predicted)
       -> const perception::Observation& { return perception->Update(frame, predicted); };
-  senses.feel = [estimator](const force_estimation::ShapeFrame& frame)
-      -> const force_estimation::ForceEstimate& {
+  senses.feel =
+      [estimator](
+          const force_estimation::ShapeFrame& frame) -> const force_estimation::ForceEstimate& {
     const force_estimation::ForceEstimate& estimate = estimator->Update(frame);
     estimator->PrepareNext();
     return estimate;
