@@ -33,7 +33,7 @@ Substitution::Substitution(const FrontTree& tree, const FrontSchedule& schedule,
       block_rows_{size + team.Size() * static_cast<long>(plan_.shared_rows.size()) + kTile} {
   rows_ = AlignedBuffer(static_cast<size_t>(block_rows_) * kBlockColumns * kMostBlocks);
   for (int thread = 0; thread < team.Size(); ++thread) {
-    below_.emplace_back(At(dense::PaddedRows(plan_.most_below)));
+    sums_.emplace_back(At(plan_.most_pivots * kTile));
   }
 }
 
@@ -75,10 +75,10 @@ void Substitution::Backward(int f, const Block& block, int thread) {
   const int* below_rows = tree_.fronts()[At(f)].below_rows.data();
   if (block.rounded) {
     kernels_.solve_backward_rounded(factor_.Rounded(f), inverse, pivot_rows, below_rows, block.rows,
-                                    below_[At(thread)].data());
+                                    sums_[At(thread)].data());
   } else if (block.width == 1) {
     kernels_.solve_backward_one(factor_.Panel(f), inverse, pivot_rows, below_rows, block.rows,
-                                below_[At(thread)].data());
+                                sums_[At(thread)].data());
   } else {
     kernels_.solve_backward(factor_.Panel(f), inverse, block.width, pivot_rows, below_rows,
                             block.rows);

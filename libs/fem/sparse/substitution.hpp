@@ -61,7 +61,7 @@ class Substitution {
   /// thread's share.
   AlignedBuffer rows_;
   long block_rows_;
-  std::vector<AlignedBuffer> below_;  ///< [threads] a single column's rows below a front
+  std::vector<AlignedBuffer> sums_;  ///< [threads] of a single column, of each pivot of a front
 };
 
 }  // namespace palpate::fem::internal

@@ -26,7 +26,7 @@ SubstitutionPlan PlanSubstitution(const FrontTree& tree, const FrontSchedule& sc
   }
   for (const Front& front : tree.fronts()) {
     plan.forward_rows.push_back(front.below_rows);
-    plan.most_below = std::max(plan.most_below, front.Below());
+    plan.most_pivots = std::max(plan.most_pivots, front.Pivots());
   }
   const int shares = static_cast<int>(plan.shared_rows.size());
   int first = size;

@@ -16,7 +16,7 @@ namespace palpate::fem::internal {
 struct SubstitutionPlan {
   std::vector<std::vector<int>> forward_rows;  ///< [fronts] rows below the pivots, or their shares
   std::vector<int> shared_rows;                ///< rows of the matrix that have shares
-  int most_below = 0;                          ///< rows below the pivots of any front
+  int most_pivots = 0;                         ///< of any front
 };
 
 /// `size`: rows of the matrix.

@@ -103,15 +103,15 @@ struct FrontKernels {
   /// The same for a single right-hand side.
   void (*solve_forward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
                             const int* below_rows, double* all_rows);
-  /// `below` [PaddedRows(below)] is room to work in, aligned like a panel.
+  /// `sums` [pivots][kTile] is room to work in, aligned like a panel.
   void (*solve_backward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
-                             const int* below_rows, const double* all_rows, double* below);
+                             const int* below_rows, const double* all_rows, double* sums);
   /// Both in double precision with a rounded factor, of which half the memory is read.
   void (*solve_forward_rounded)(const RoundedPanel& factor, const double* inverse,
                                 double* pivot_rows, const int* below_rows, double* all_rows);
   void (*solve_backward_rounded)(const RoundedPanel& factor, const double* inverse,
                                  double* pivot_rows, const int* below_rows, const double* all_rows,
-                                 double* below);
+                                 double* sums);
 };
 
 const FrontKernels& SelectFrontKernels(InstructionSet set);

@@ -73,70 +73,55 @@ void SolveForwardOne(const FactorPanelOf<Value>& factor, const double* inverse, 
   }
 }
 
-/// Columns of a tile whose products with the rows below are summed at a time.
-constexpr int kColumnGroup = kTilePacks == 1 ? kTile : kTile / 2;
-using ColumnSums = Pack[kColumnGroup][kTilePacks];
-
-/// sum[c] += L[., c] known, lane by lane.
+/// sums[p] += L[., p] known, lane by lane, over the columns [0, count) of a tile: the factor is
+/// read as it lies in memory, and the sums stay in the nearest cache.
 template <typename Value>
-PALPATE_INLINE void AddProducts(const Value* tile, const Pack (&known)[kTilePacks],
-                                ColumnSums& sum) {
-  for (int c = 0; c < kColumnGroup; ++c) {
-    for (int i = 0; i < kTilePacks; ++i)
-      sum[c][i] += Load(tile + c * kTile + i * kLanes) * known[i];
+PALPATE_INLINE void AddProducts(const Value* tile, int count, const Pack (&known)[kTilePacks],
+                                double* sums) {
+  for (int p = 0; p < count; ++p) {
+    for (int i = 0; i < kTilePacks; ++i) {
+      double* sum = sums + p * kTile + i * kLanes;
+      Store(sum, Load(sum) + Load(tile + p * kTile + i * kLanes) * known[i]);
+    }
   }
 }
 
-/// total[c] = sum of sum[c]'s lanes.
-PALPATE_INLINE void AddLanesUp(const ColumnSums& sum, double* total) {
-  for (int c = 0; c < kColumnGroup; ++c) {
-    Pack lanes = sum[c][0];
-    for (int i = 1; i < kTilePacks; ++i) lanes += sum[c][i];
-    total[c] = 0.0;
-    for (int lane = 0; lane < kLanes; ++lane) total[c] += lanes[lane];
-  }
-}
-
-/// What the rows behind the tile of columns that starts at `first`, already solved, have in it. A
-/// tile with fewer columns is computed whole: what lies behind them is some other number, which
-/// goes nowhere.
-template <typename Value>
-void MultiplyTransposed(const FactorPanelOf<Value>& factor, int first, const double* pivot_rows,
-                        const double* below, double* total) {
-  using Factor = FactorPanelOf<Value>;
-  const Value* below_tiles = factor.values + Factor::Size(factor.pivots, 0);
-  for (int column = first; column < first + kTile; column += kColumnGroup) {
-    ColumnSums sum = {};
-    Pack known[kTilePacks];
-    for (int row = first + kTile; row < factor.pivots; row += kTile) {
-      LoadRows(pivot_rows + row, std::min(kTile, factor.pivots - row), known);
-      AddProducts(factor.values + Factor::Size(row, 0) + column * kTile, known, sum);
-    }
-    const Value* tile = below_tiles + column * kTile;
-    for (int row = 0; row < factor.below; row += kTile, tile += factor.pivots * kTile) {
-      for (int i = 0; i < kTilePacks; ++i) known[i] = Load(below + row + i * kLanes);
-      AddProducts(tile, known, sum);
-    }
-    AddLanesUp(sum, total + (column - first));
-  }
+PALPATE_INLINE double SumOfLanes(const double* lanes) {
+  double sum = 0.0;
+  for (int lane = 0; lane < kTile; ++lane) sum += lanes[lane];
+  return sum;
 }
 
 template <typename Value>
 void SolveBackwardOne(const FactorPanelOf<Value>& factor, const double* inverse, double* pivot_rows,
-                      const int* below_rows, const double* all_rows, double* below) {
-  for (int r = 0; r < factor.below; ++r) below[r] = all_rows[below_rows[r]];
-  for (int r = factor.below; r % kTile != 0; ++r) below[r] = 0.0;
+                      const int* below_rows, const double* all_rows, double* sums) {
+  using Factor = FactorPanelOf<Value>;
+  std::fill_n(sums, factor.pivots * kTile, 0.0);
+  Pack known[kTilePacks];
+  const Value* tile = factor.values + Factor::Size(factor.pivots, 0);
+  for (int first = 0; first < factor.below; first += kTile, tile += factor.pivots * kTile) {
+    alignas(64) double rows[kTile] = {};
+    for (int r = 0; r < std::min(kTile, factor.below - first); ++r) {
+      rows[r] = all_rows[below_rows[first + r]];
+    }
+    for (int i = 0; i < kTilePacks; ++i) known[i] = Load(rows + i * kLanes);
+    AddProducts(tile, factor.pivots, known, sums);
+  }
   for (int first = (factor.pivots - 1) / kTile * kTile; first >= 0; first -= kTile) {
     const int columns = std::min(kTile, factor.pivots - first);
-    double y[kTile];
-    MultiplyTransposed(factor, first, pivot_rows, below, y);
-    const Value* diagonal = factor.values + FactorPanelOf<Value>::Size(first, 0) + first * kTile;
-    for (int c = 0; c < columns; ++c) y[c] = pivot_rows[first + c] - y[c];
+    tile = factor.values + Factor::Size(first, 0);
+    const Value* diagonal = tile + first * kTile;
+    alignas(64) double y[kTile] = {};
+    for (int c = 0; c < columns; ++c) {
+      y[c] = pivot_rows[first + c] - SumOfLanes(sums + (first + c) * kTile);
+    }
     for (int c = columns - 1; c >= 0; --c) {
       y[c] *= inverse[first + c];
       pivot_rows[first + c] = y[c];
       for (int b = 0; b < c; ++b) y[b] -= double{diagonal[b * kTile + c]} * y[c];
     }
+    for (int i = 0; i < kTilePacks; ++i) known[i] = Load(y + i * kLanes);
+    AddProducts(tile, first, known, sums);
   }
 }
 
