@@ -37,6 +37,16 @@ TEST(PlayerConvert, MarkersKeepNameFramePlaceNoiseAndReference) {
   EXPECT_FALSE(markers[1].valid);
 }
 
+TEST(PlayerConvert, APointThatNobodyNamedGoesOutWithoutAName) {
+  Event event = EventWith({});
+  event.markers->markers[0].name = std::string(experiment::kUnlabelledPrefix) + "1";
+  const auto message = ToMarkerArray(event, 0);
+  ASSERT_EQ(message->markers._length, 2u);
+  EXPECT_EQ(dds::Text(message->markers._buffer[0].name), "");
+  EXPECT_TRUE(message->markers._buffer[0].valid);
+  EXPECT_EQ(dds::Text(message->markers._buffer[1].name), "m2");
+}
+
 TEST(PlayerConvert, CameraCoordinatesGoUnderTheCamerasFrame) {
   Event event = EventWith({});
   event.markers->frame = experiment::MeasurementFrame::kCamera;
