@@ -46,12 +46,12 @@ bool SizeComparison::Explains(double residual_rms_m) const {
   return Disagrees() && residual_rms_m <= kMostOfDifference * std::abs(seen_m() - model_m());
 }
 
-std::string SizeComparison::Text() const {
+std::string SizeComparison::Text(const std::string& what) const {
   std::array<char, 256> text;
   std::snprintf(text.data(), text.size(),
-                "the sizes disagree: markers lie %.2f mm from their middle (RMS), those of the "
+                "the sizes disagree: %s lie %.2f mm from their middle (RMS), those of the "
                 "model %.2f mm: another robot, or one %.2f times as large as its file says",
-                1e3 * seen_m(), 1e3 * model_m(), seen_m() / model_m());
+                what.c_str(), 1e3 * seen_m(), 1e3 * model_m(), seen_m() / model_m());
   return text.data();
 }
 

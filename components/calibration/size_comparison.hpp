@@ -21,8 +21,8 @@ class SizeComparison {
   bool Disagrees() const;
   /// And by so much that this, and not places that are wrong, left the residual (RMS distance).
   bool Explains(double residual_rms_m) const;
-  /// "the sizes disagree: ...", with both numbers.
-  std::string Text() const;
+  /// "the sizes disagree: ...", with both numbers; `what` lies there.
+  std::string Text(const std::string& what = "markers") const;
 
  private:
   double seen_squares_m2_ = 0.0, model_squares_m2_ = 0.0;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "components/calibration/cloud/cloud_matching.hpp"
+#include "components/calibration/cloud/cloud_size.hpp"
 #include "components/calibration/joint/kept_model.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/rigid_registration.hpp"
@@ -32,9 +33,13 @@ class Search {
 
   CloudCalibration Run(const geometry::RigidTransform& start) {
     result_.status = Prepare(start);
-    if (result_.status.ok()) result_.status = FindRigid(start);
+    if (!result_.status.ok()) return std::move(result_);
+    result_.status = FindRigid(start);
     if (result_.status.ok()) result_.status = FitTogether();
     if (result_.status.ok()) result_.status = CheckResult(start);
+    if (!result_.status.ok() || LeastCovered() < settings_.search.good_cover) {
+      LookForOtherSize(start);
+    }
     return std::move(result_);
   }
 
@@ -47,6 +52,8 @@ class Search {
   ThinCloud UnbiasedOf(const ThinCloud& cloud) const;
   void Match();
   Status CheckResult(const geometry::RigidTransform& start);
+  double LeastCovered() const;
+  void LookForOtherSize(const geometry::RigidTransform& start);
 
   robot::RobotModel& model_;
   const std::vector<CloudFrame>& frames_;
@@ -188,6 +195,31 @@ Status Search::CheckResult(const geometry::RigidTransform& start) {
             "the clouds fit farther from the start than it may be off: another start is needed"};
   }
   return Status::Ok();
+}
+
+/// Of a fit that was checked.
+double Search::LeastCovered() const {
+  double least = 1.0;
+  for (const CloudMatch& match : result_.matches) least = std::min(least, match.skin_covered);
+  return least;
+}
+
+/// Whatever a fit stumbled over, a robot of another size is the reason where it explains the
+/// clouds; and where one fits that covers little, where it explains them better: a small robot lies
+/// within a large one.
+void Search::LookForOtherSize(const geometry::RigidTransform& start) {
+  if (settings_.request.stop.stop_requested() || !TakeShapes().ok()) return;
+  SizeDemands demands{.most_rms_m = settings_.most_rms_m};
+  if (result_.status.ok()) {
+    demands.least_cover = LeastCovered();
+    for (const CloudMatch& match : result_.matches) {
+      demands.most_rms_m = std::min(demands.most_rms_m, match.rms_m);
+    }
+  }
+  const auto sizes = FindOtherSize(skins_, thinner_, start, settings_.search, demands);
+  if (!sizes) return;
+  const std::string stumbled = result_.status.ok() ? "" : result_.status.message() + "; ";
+  result_.status = Status(StatusCode::kInvalidInput, stumbled + sizes->Text("points of the skin"));
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "libs/core/text.hpp"
+#include "libs/robot/calibrated_geometry.hpp"
 #include "tests/components/calibration/cloud/cloud_scene.hpp"
 
 namespace palpate::calibration {
@@ -144,14 +146,33 @@ TEST_F(CloudCalibrationTest, FindsThePoseOfARobotThatIsNotQuiteTheModel) {
   EXPECT_LT((found_m - middle_m).norm(), 1.5e-3);
 }
 
-TEST_F(CloudCalibrationTest, RefusesACloudOfAnotherRobot) {
-  CloudFrame frame = See(0.0);
-  const Eigen::Vector3f middle_m = frame.cloud.points_m.rowwise().mean();
-  frame.cloud.points_m = (1.4f * (frame.cloud.points_m.colwise() - middle_m)).colwise() + middle_m;
-  const CloudCalibration fit = CalibrateFromClouds(*model_, {frame}, truth_, PoseAlone());
-  EXPECT_TRUE(fit.status.code() == StatusCode::kInvalidInput ||
-              fit.status.code() == StatusCode::kNotConverged)
-      << fit.status.message();
+TEST_F(CloudCalibrationTest, RefusesARobotOfAnotherSizeAndNamesBoth) {
+  for (const double scale : {1.4, 0.75, 1.15}) {
+    SCOPED_TRACE(scale);
+    robot::RobotBody body = robot::BuildRobotBody(QuickFourLegs());
+    robot::ScaleBody(scale, &body);
+    robot::RobotModel larger(std::move(body));
+    std::vector<double> pulls_m = kPulls_m;
+    for (double& pull_m : pulls_m) pull_m *= scale;
+    const CloudFrame frame = SeeCloud(larger, truth_, "still", pulls_m, pulls_m, kOthers, random_);
+    const CloudCalibration fit =
+        CalibrateFromClouds(*model_, {frame}, Start(10.0 * kDegree, 0.02), PoseAlone());
+    EXPECT_EQ(fit.status.code(), StatusCode::kInvalidInput);
+    const std::string& said = fit.status.message();
+    EXPECT_THAT(said, testing::HasSubstr("the sizes disagree: points of the skin lie "));
+    const std::size_t at = said.find("or one ");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NEAR(std::stod(said.substr(at + 7)), scale, 0.02 * scale) << said;
+  }
+}
+
+TEST_F(CloudCalibrationTest, SaysNothingOfSizesWhereTheRobotIsAsLargeAsItsFileSays) {
+  CloudSettings settings = PoseAlone();
+  settings.max_rounds = 1;
+  const CloudCalibration fit =
+      CalibrateFromClouds(*model_, {See(kOthers)}, Start(0.02, 0.005), settings);
+  EXPECT_EQ(fit.status.code(), StatusCode::kNotConverged);
+  EXPECT_THAT(fit.status.message(), testing::Not(testing::HasSubstr("sizes")));
 }
 
 TEST_F(CloudCalibrationTest, RefusesAStartThatIsTooFarOff) {
