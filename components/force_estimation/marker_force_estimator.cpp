@@ -81,6 +81,8 @@ class MarkerForceEstimator::Impl {
     return estimate_;
   }
 
+  MarkerMisfit Misfit();
+
   const std::vector<ContactSite>& sites() const { return sites_; }
   const ModelState& last_good() const { return fitter_.last_good(); }
 
@@ -294,6 +296,28 @@ void MarkerForceEstimator::Impl::HideContacts() {
   estimate_.contacts.clear();
 }
 
+MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
+  MarkerMisfit misfit{
+      .residual_m = estimate_.marker_residual_m, .weight = targets_.weight, .response_m = {}};
+  if (!published_) {
+    misfit.weight.setZero();
+    return misfit;
+  }
+  const std::vector<FitSite>& sites = search_ ? search_->result().fit_sites : fit_sites_;
+  const auto count = static_cast<Eigen::Index>(estimate_.contacts.size());
+  Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const fem::NodeWeights& weights = sites[static_cast<size_t>(c)].patch.weights;
+    for (size_t k = 0; k < weights.nodes.size(); ++k) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        forces_N(3 * weights.nodes[k] + i, 3 * c + i) += weights.weights[k];
+      }
+    }
+  }
+  if (count > 0) fitter_.RespondTo(forces_N, estimate_.x_m, &misfit.response_m);
+  return misfit;
+}
+
 /// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
 /// by its ratio (Birge), never narrowed.
 void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<FitSite>& fit_sites,
@@ -354,6 +378,8 @@ MarkerForceEstimator::~MarkerForceEstimator() = default;
 const ForceEstimate& MarkerForceEstimator::Update(const MarkerFrame& frame) {
   return impl_->Update(frame);
 }
+
+MarkerMisfit MarkerForceEstimator::Misfit() { return impl_->Misfit(); }
 
 const std::vector<ContactSite>& MarkerForceEstimator::sites() const { return impl_->sites(); }
 

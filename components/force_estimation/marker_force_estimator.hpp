@@ -19,6 +19,13 @@
 
 namespace palpate::force_estimation {
 
+/// What a frame's fit left of the markers, for whoever asks what else explains it.
+struct MarkerMisfit {
+  Eigen::VectorXd residual_m;  ///< [3m] observed - model; 0 where a marker was not used
+  Eigen::VectorXd weight;      ///< [3m] 1/m^2; 0: not used
+  Eigen::MatrixXd response_m;  ///< [3m x 3k] to the contacts' forces, per N, under the cable inputs
+};
+
 /// External forces from marker displacements: the QP of eqs. (11) to (14) with the cable inputs
 /// imposed as forces (13) or displacements (14), relinearised until the model is in equilibrium.
 /// Frames are taken one after the other; the state goes on from one to the next. Frames with a
@@ -36,6 +43,9 @@ class MarkerForceEstimator {
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
   /// after the first frame, as long as none needs a restoration (fit/force_fitter.hpp).
   const ForceEstimate& Update(const MarkerFrame& frame);
+
+  /// Of the last frame; nothing (weights 0) where no fit of it stands.
+  MarkerMisfit Misfit();
 
   /// The given contact sites; empty where contacts are searched.
   const std::vector<ContactSite>& sites() const;

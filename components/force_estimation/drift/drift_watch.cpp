@@ -65,7 +65,7 @@ void AppendDrift(const DriftReport& report,
 }
 
 void DriftWatch::Add(double t_s, const MotionSighting& seen) {
-  if (t_s < last_s_) *this = DriftWatch();
+  if (t_s < last_s_) *this = DriftWatch(what_);
   last_s_ = t_s;
   if (second_.frames == 0) second_.begin_s = t_s;
   if (t_s - second_.begin_s >= kSecond_s) {
@@ -155,7 +155,7 @@ void DriftWatch::Judge(const Mean& mean) {
 void DriftWatch::Say(const Motion& motion, const std::string& since) {
   const double turn_deg = motion.head<3>().norm() * 180.0 / std::numbers::pi;
   const double shift_mm = 1e3 * motion.tail<3>().norm();
-  report_.advice = "what is held of the body seems shifted by " +
+  report_.advice = what_ + " seems shifted by " +
                    FormatNumber(std::round(100.0 * shift_mm) / 100.0) + " mm and turned by " +
                    FormatNumber(std::round(100.0 * turn_deg) / 100.0) + " degrees " + since +
                    ": camera or base moved, calibrate anew";

@@ -36,14 +36,18 @@ void AppendDrift(const DriftReport& report,
                  std::vector<std::pair<std::string, std::string>>* values);
 
 /// Watches whether the calibration of the camera still holds: what is glued down should not seem to
-/// move. Frames of one second make a mean, whose covariance the scatter of the frames tells; that
-/// of the first five is the reference. It says moved after two seconds in a row that, alone or with
-/// the two before, differ from the reference by more than five standard deviations of both and of
-/// what may pass for rest (0.25 mm and 0.7 mrad: a force that acts on the held skin itself, cables
-/// that move), and holds again after two that do not; and where the reference itself is as far from
-/// the calibration, allowing for 0.8 mm and 8 mrad (the depth image's smooth error).
+/// move, nor all markers together. Frames of one second make a mean, whose covariance the scatter
+/// of the frames tells; that of the first five is the reference. It says moved after two seconds in
+/// a row that, alone or with the two before, differ from the reference by more than five standard
+/// deviations of both and of what may pass for rest (0.25 mm and 0.7 mrad: a force that acts on the
+/// held skin itself, cables that move), and holds again after two that do not; and where the
+/// reference itself is as far from the calibration, allowing for 0.8 mm and 8 mrad (the depth
+/// image's smooth error).
 class DriftWatch {
  public:
+  /// `what`: seems to move, for the advice.
+  explicit DriftWatch(std::string what = "what is held of the body") : what_(std::move(what)) {}
+
   /// `t_s` of the camera's clock; a time before the last one begins anew.
   void Add(double t_s, const MotionSighting& seen);
   const DriftReport& report() const { return report_; }
@@ -72,6 +76,7 @@ class DriftWatch {
   bool IsOff(const Mean& mean) const;
   void Say(const Motion& motion, const std::string& since);
 
+  std::string what_;
   Second second_;
   double last_s_ = 0.0;
   std::deque<Mean> seconds_;  ///< the last ones; at first those of the reference

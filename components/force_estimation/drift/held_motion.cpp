@@ -21,7 +21,6 @@ constexpr int kRounds = 3;
 constexpr int kMatches = 3;
 constexpr int kLeastPoints = 30;
 constexpr std::size_t kMostPoints = 500;
-/// What a frame that tells nothing of a direction says of it: 0.1 rad, 50 mm.
 constexpr double kUnknownTurn_rad = 0.1;
 constexpr double kUnknownShift_m = 0.05;
 
@@ -85,12 +84,9 @@ std::vector<Row> Match(const HeldSkin& skin, const std::vector<Point>& points,
 
 /// Adds to the motion what the distances ask for.
 void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
-  Motion unknown;
-  unknown << Eigen::Vector3d::Constant(kUnknownTurn_rad),
-      Eigen::Vector3d::Constant(kUnknownShift_m);
   Motion change = Motion::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    seen->information = unknown.cwiseAbs2().cwiseInverse().asDiagonal();
+    seen->information = UnknownMotion();
     Motion pull = -seen->information * seen->motion;
     for (const Row& row : rows) {
       const double left = std::abs(row.distance - row.direction.dot(change));
@@ -104,6 +100,12 @@ void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 6, 6> UnknownMotion() {
+  Motion sigma;
+  sigma << Eigen::Vector3d::Constant(kUnknownTurn_rad), Eigen::Vector3d::Constant(kUnknownShift_m);
+  return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+}
 
 MotionSighting SeeMotion(const HeldSkin& skin, const rgbd::SensedCloud& cloud,
                          const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m) {

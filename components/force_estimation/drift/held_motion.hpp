@@ -23,6 +23,9 @@ struct MotionSighting {
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
+/// What a frame that tells nothing of a direction says of it, as information: 0.1 rad, 50 mm.
+Eigen::Matrix<double, 6, 6> UnknownMotion();
+
 /// The motion that carries the skin, as the model has it (`x_m` [3n]; empty: at rest), onto the
 /// cloud (camera frame): point-to-plane, errors of a point along the normal being those of its
 /// depth and 0.3 mm of the skin, robust (Huber), on at most 500 points.

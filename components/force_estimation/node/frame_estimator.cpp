@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/force_estimation/drift/marker_motion.hpp"
 #include "components/force_estimation/node/convert.hpp"
 #include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
@@ -14,7 +15,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// What drifts does so slowly; each look costs as much as a chord step of the model.
+/// What drifts does so slowly; each look at the skin costs as much as a chord step of the model.
 constexpr double kBetweenWatches_s = 0.1;
 
 class FromMarkers : public FrameEstimator {
@@ -22,19 +23,47 @@ class FromMarkers : public FrameEstimator {
   FromMarkers(robot::RobotModel& model, const NodeConfig& config,
               const robot::CalibrationFile& calibration)
       : estimator_(model, config, robot::RelativeModulusError(calibration)),
-        gap_(model.body(), config.marker_sigma_m, config.marker_bias_m) {}
+        gap_(model.body(), config.marker_sigma_m, config.marker_bias_m) {
+    for (const robot::BodyMarker& marker : model.body().markers) points_.push_back(marker.point);
+    middle_m_ = MarkersOf(model.RestState().x_m).rowwise().mean();
+  }
 
   FrameResult Update(FrameInput& input) override {
     const MarkerFrame& frame = std::get<MarkerFrame>(input.frame);
     const ForceEstimate& estimate = estimator_.Update(frame);
     const bool usable = IsUsable(estimate.status);
-    return {input.head, estimate, gap_.Measure(frame, estimate), usable,
-            usable ? Status::Ok() : estimate.status};
+    x_m_ = estimate.x_m;
+    return {input.head,
+            estimate,
+            gap_.Measure(frame, estimate),
+            usable,
+            usable ? Status::Ok() : estimate.status,
+            drift_.report()};
+  }
+
+  /// Each frame: markers are few, and what they say of a motion is their noise over the root of
+  /// the frames.
+  void AfterUpdate(const FrameInput& input) override {
+    const MarkerFrame& frame = std::get<MarkerFrame>(input.frame);
+    if (frame.reference != ReferenceShape::kNone) return;
+    drift_.Add(frame.t_s, SeeMotion(estimator_.Misfit(), MarkersOf(x_m_), middle_m_));
   }
 
  private:
+  Eigen::Matrix3Xd MarkersOf(const Eigen::VectorXd& x_m) const {
+    Eigen::Matrix3Xd places_m(3, static_cast<Eigen::Index>(points_.size()));
+    for (std::size_t m = 0; m < points_.size(); ++m) {
+      places_m.col(static_cast<Eigen::Index>(m)) = points_[m].weights.Position(x_m);
+    }
+    return places_m;
+  }
+
   MarkerForceEstimator estimator_;
   ModelGapMeter gap_;
+  std::vector<fem::BodyPoint> points_;  ///< of the markers
+  Eigen::Vector3d middle_m_;            ///< of the markers, at rest
+  Eigen::VectorXd x_m_;                 ///< [3n] of the last frame
+  DriftWatch drift_{"what carries the markers"};
 };
 
 /// As `palpate estimate` does with recorded images: contacts that are given come before those that

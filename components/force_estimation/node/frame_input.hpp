@@ -59,7 +59,7 @@ struct FrameResult {
   ModelGapReport gap;
   bool state_is_known = false;  ///< estimate.x_m may be shown to others
   Status state;                 ///< ok: x_m is where the robot is believed to be
-  DriftReport drift = {};       ///< of the camera, before this frame; from the shape only
+  DriftReport drift = {};       ///< of the camera, before this frame
 };
 
 }  // namespace palpate::force_estimation

@@ -240,7 +240,7 @@ void ForceEstimationNode::ReportHealth() {
       {"readers_of_forces", std::to_string(outputs_.readers())},
       {"writers_of_" + source_->name(), std::to_string(source_->writers())},
       {"incompatible_qos", std::to_string(source_->incompatible_qos())}};
-  if (IsFromShape(config_)) AppendDrift(drift_, &values);
+  AppendDrift(drift_, &values);
   health_.Report(status, counts, values, Clock::now());
 }
 
