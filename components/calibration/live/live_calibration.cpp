@@ -58,16 +58,17 @@ std::string HashOf(const LiveJob& job) {
   return "sha256-" + Sha256Hex(bytes);
 }
 
-JointCalibration Fit(robot::RobotModel& model, const LiveJob& job,
-                     std::vector<std::string>* left_out) {
+JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* result) {
   const geometry::RigidTransform* start =
       job.T_robot_camera_start ? &*job.T_robot_camera_start : nullptr;
   if (!job.points.empty()) {
     UnlabelledSettings settings;
     settings.request = job.request;
+    settings.T_robot_camera_last = job.T_robot_camera_last;
     UnlabelledCalibration fit = CalibrateUnlabelled(model, job.points, start, settings);
     fit.joint.status = fit.status;
-    *left_out = std::move(fit.left_out);
+    result->left_out = std::move(fit.left_out);
+    result->told_by_last_pose = fit.told_by_last_pose;
     return std::move(fit.joint);
   }
   if (job.clouds.empty()) return CalibrateFrames(model, job.markers, start, job.request);
@@ -103,7 +104,7 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
     robot::ApplyCalibration(body, &model);
   }
   const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();
-  const JointCalibration fit = Fit(model, read, &result.left_out);
+  const JointCalibration fit = Fit(model, read, &result);
   kept.Restore();
   result.status = fit.status;
   if (!fit.status.ok()) return result;

@@ -30,6 +30,8 @@ struct LiveJob {
   /// Where the search for the pose starts; clouds need it, markers tell it. Those without names
   /// on a robot that looks the same after a turn are told apart by it.
   std::optional<geometry::RigidTransform> T_robot_camera_start;
+  /// Where it stood when it was calibrated last (UnlabelledSettings).
+  std::optional<geometry::RigidTransform> T_robot_camera_last = {};
   /// What holds where nothing else is looked for or determined: moduli, Poisson's ratios, gravity,
   /// the robot's size, which must be the model's, its guides, and how drives are read.
   std::optional<robot::CalibrationFile> before;
@@ -42,6 +44,7 @@ struct LiveResult {
   Status status;
   robot::CalibrationFile file;        ///< where it is ok
   std::vector<std::string> left_out;  ///< frames that are in none of it, and why
+  bool told_by_last_pose = false;     ///< of UnlabelledCalibration
   /// Of the pose: rotation vector (rad), translation (m), robot frame.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };

@@ -46,9 +46,11 @@ Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibrationFile& file) {
 
 Status NotOk(StatusCode code, std::string reason) { return {code, std::move(reason)}; }
 
-/// "without frame 2: ..."; empty where all frames are in it.
-std::string LeftOut(const LiveResult& result) {
-  std::string text;
+/// "without frame 2: ..."; empty where all frames are in it and tell all.
+std::string RemarksOn(const LiveResult& result) {
+  std::string text = result.told_by_last_pose
+                         ? "the pose of the last calibration tells which marker is which"
+                         : "";
   for (const std::string& frame : result.left_out) {
     text += (text.empty() ? "without " : ", without ") + frame;
   }
@@ -289,10 +291,10 @@ LiveJob CalibrationNode::MakeJob() const {
   if (request_.source == "markers") job.request.depth_bias_sigma = config_.marker_depth_bias;
   job.picture = collector_.picture();
   job.fit_depth_bias = config_.fit_depth_bias;
-  // A camera that nobody says stands where it did may have been moved to another side of a robot
-  // that looks the same from there.
   const bool pose_is_told = !config_.camera_pose.empty() && !job.points.empty();
   if (!job.clouds.empty() || pose_is_told) job.T_robot_camera_start = T_robot_camera_;
+  // That it still stands there nobody says.
+  job.T_robot_camera_last = T_robot_camera_;
   job.before = last_;
   job.data = std::to_string(collector_.taken()) + " frames of " + request_.source + ", live";
   job.found_ns_since_1970 = dds::WallClockNs();
@@ -311,7 +313,7 @@ void CalibrationNode::Adopt(const LiveResult& result) {
   last_ = result.file;
   if (last_->pose) T_robot_camera_ = ToTransform(last_->pose->T_robot_camera);
   Publish(*last_, result.pose_covariance);
-  std::string reason = LeftOut(result);
+  std::string reason = RemarksOn(result);
   if (!config_.calibration_file.empty()) {
     try {
       robot::WriteCalibrationFile(*last_, config_.calibration_file);

@@ -51,7 +51,8 @@ struct NodeConfig {
     v("camera_pose", camera_pose,
       "Roughly where the depth camera stands in the robot's frame, \"{translation_m: [x, y, z], "
       "rotation_xyzw: [x, y, z, w]}\": clouds start from it; empty: from the last calibration; of "
-      "markers without names on a robot that looks the same after a turn it tells which is which");
+      "markers without names on a robot that looks the same after a turn it tells which is which, "
+      "and so does the last calibration where cables leave it open");
     v("frames", frames, {.min = 1.0, .max = 100.0},
       "Frames of a calibration where the request does not say, each of another setting of the "
       "cables");

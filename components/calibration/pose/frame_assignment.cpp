@@ -16,10 +16,6 @@ namespace {
 
 using geometry::RigidTransform;
 
-/// Poses of one camera differ by less, as a share of how far the points are apart: those of single
-/// pictures are rough, those of a robot that looks alike after a turn differ by about all of it.
-constexpr double kSamePoseShare = 0.25;
-
 struct Picture {
   std::size_t frame = 0;
   Eigen::Matrix3Xd points_m;

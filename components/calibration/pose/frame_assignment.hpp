@@ -14,6 +14,10 @@
 
 namespace palpate::calibration {
 
+/// Poses of one camera differ by less, as a share of how far the points are apart: those of single
+/// pictures are rough, those of a robot that looks alike after a turn differ by about all of it.
+inline constexpr double kSamePoseShare = 0.25;
+
 /// Points of one picture that nobody has named, and what acted on the robot then.
 struct UnlabelledFrame {
   CalibrationFrame frame;              ///< its markers are yet to come

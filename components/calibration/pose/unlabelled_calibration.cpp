@@ -4,6 +4,7 @@
 #include "components/calibration/pose/unlabelled_calibration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -93,12 +94,40 @@ void HearDrives(robot::RobotModel& model, const std::vector<UnlabelledFrame>& fr
   *choices = std::move(kept);
 }
 
+bool FitsAsWell(const Attempt& other, const Attempt& best, const UnlabelledSettings& settings) {
+  return (other.Cost() - best.Cost()) / best.Excess() <= settings.ambiguous_below;
+}
+
+/// Whether a camera there would see the points about where the attempt's camera does.
+bool StandsAt(const geometry::RigidTransform& T_robot_camera, const Attempt& attempt) {
+  Eigen::Matrix3Xd points_m(3, 0);
+  for (const CalibrationFrame& frame : attempt.frames) {
+    Eigen::Matrix3Xd all_m(3, points_m.cols() + std::ssize(frame.markers));
+    all_m << points_m, PositionsOf(frame.markers);
+    points_m = all_m;
+  }
+  const Eigen::Vector3d middle_m = points_m.rowwise().mean();
+  const double spread_m = (points_m.colwise() - middle_m).norm();
+  const Eigen::Matrix3Xd off_m =
+      T_robot_camera.Apply(points_m) - attempt.joint.T_robot_camera.Apply(points_m);
+  return off_m.norm() <= kSamePoseShare * spread_m;
+}
+
+/// Of those that fit as well as the best: that of the last pose; nullptr where it is none of them.
+const Attempt* AtLastPose(const std::vector<Attempt>& attempts, const Attempt& best,
+                          const UnlabelledSettings& settings) {
+  if (!settings.T_robot_camera_last) return nullptr;
+  for (const Attempt& one : attempts) {
+    const bool candidate = one.joint.status.ok() && FitsAsWell(one, best, settings);
+    if (candidate && StandsAt(*settings.T_robot_camera_last, one)) return &one;
+  }
+  return nullptr;
+}
+
 Status Compare(const std::vector<Attempt>& attempts, const Attempt& best,
                const UnlabelledSettings& settings) {
   for (const Attempt& other : attempts) {
-    if (&other == &best) continue;
-    const double gap = (other.Cost() - best.Cost()) / best.Excess();
-    if (gap > settings.ambiguous_below) continue;
+    if (&other == &best || !FitsAsWell(other, best, settings)) continue;
     return {StatusCode::kUnobservable,
             "ambiguous: two ways to tell which marker is which explain all pictures alike "
             "(chi-squared " +
@@ -131,11 +160,16 @@ UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
     attempt.joint = CalibrateFrames(model, attempt.frames, nullptr, settings.request);
     kept.Restore();
   }
-  const auto best =
-      std::min_element(attempts.begin(), attempts.end(),
-                       [](const auto& a, const auto& b) { return a.Cost() < b.Cost(); });
+  auto best = std::min_element(attempts.begin(), attempts.end(),
+                               [](const auto& a, const auto& b) { return a.Cost() < b.Cost(); });
   result.status = best->joint.status;
   if (result.status.ok()) result.status = Compare(attempts, *best, settings);
+  const bool ambiguous = best->joint.status.ok() && !result.status.ok();
+  if (const Attempt* told = ambiguous ? AtLastPose(attempts, *best, settings) : nullptr) {
+    best = attempts.begin() + (told - attempts.data());
+    result.status = Status::Ok();
+    result.told_by_last_pose = true;
+  }
   result.joint = std::move(best->joint);
   result.labels = std::move(best->labels);
   result.frames = std::move(best->frames);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct UnlabelledSettings {
   /// Another assignment that fits the pictures no worse than by so much (chi-squared, over the
   /// reduced one of the best) fits as well.
   double ambiguous_below = 9.0;
+  /// Where the camera stood when it was calibrated last. It may have been moved since: of what
+  /// pictures and cables tell it takes nothing away, but of several assignments that fit alike that
+  /// holds whose camera stands there.
+  std::optional<geometry::RigidTransform> T_robot_camera_last = {};
 };
 
 struct UnlabelledCalibration {
@@ -34,6 +39,7 @@ struct UnlabelledCalibration {
   FrameLabels labels;                    ///< what it is from
   std::vector<CalibrationFrame> frames;  ///< likewise: those of `labels`, with their markers
   int choices = 0;                       ///< ways to tell the markers apart that pictures leave
+  bool told_by_last_pose = false;        ///< which of several that fit alike
   std::vector<std::string> left_out;     ///< pictures that are in none of it, and why
 };
 
@@ -41,7 +47,7 @@ struct UnlabelledCalibration {
 /// which (the robot looks the same after a turn) what is known of the cables may: choices whose
 /// cables are pulled quite otherwise than the drives say (DriveMisfit) are given up, it is
 /// calibrated with each of the others, and the one that explains all best holds, unless another
-/// does as well.
+/// does as well and the last pose does not tell.
 UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
                                           const std::vector<UnlabelledFrame>& frames,
                                           const geometry::RigidTransform* T_rough,

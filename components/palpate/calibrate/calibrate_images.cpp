@@ -25,12 +25,15 @@ using calibration::CloudCalibration;
 using calibration::CloudFrame;
 using experiment::Recording;
 
-Eigen::Isometry3d StartOf(const CalibrateOptions& options,
-                          const experiment::Experiment& experiment) {
+Eigen::Isometry3d StartOf(const CalibrateOptions& options, const experiment::Experiment& experiment,
+                          const robot::RobotModel& model) {
+  const std::optional<Eigen::Isometry3d> earlier = EarlierPose(options, model);
   const std::optional<Eigen::Isometry3d> rough = RoughPose(options, experiment);
   if (rough) return *rough;
+  if (earlier) return *earlier;
   throw InputError(
-      "clouds need to know roughly where the camera stands: --camera-pose; coloured markers do "
+      "clouds need to know roughly where the camera stands: --camera-pose or --earlier; coloured "
+      "markers do "
       "not: --set perception.markers.color_rgb=[r, g, b]");
 }
 
@@ -107,7 +110,7 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model) {
   const perception::Config perception = PerceptionOf(options, experiment);
-  const Eigen::Isometry3d start = StartOf(options, experiment);
+  const Eigen::Isometry3d start = StartOf(options, experiment, *model);
   const auto chosen = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
   sequences.reserve(chosen.size());

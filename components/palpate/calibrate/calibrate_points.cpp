@@ -35,8 +35,9 @@ void PrintAssignment(const UnlabelledCalibration& found, const PointsWithoutName
                1e3 * found.joint.residual_rms_of_frame_m[k]);
   }
   if (found.choices > 1) {
-    fmt::print("the pictures alone leave {} ways to tell the markers apart; the cables say which\n",
-               found.choices);
+    fmt::print("the pictures alone leave {} ways to tell the markers apart; {} which\n",
+               found.choices,
+               found.told_by_last_pose ? "the earlier calibration's pose says" : "the cables say");
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n",
              found.joint.chi_squared, found.joint.degrees_of_freedom, found.joint.iterations);
@@ -67,8 +68,12 @@ robot::CalibrationFile CalibrateFromPoints(const CalibrateOptions& options,
                                            robot::RobotModel* model) {
   std::optional<geometry::RigidTransform> rough;
   if (const auto pose = RoughPose(options, experiment)) rough = ToTransform(*pose);
-  const UnlabelledCalibration found = calibration::CalibrateUnlabelled(
-      *model, points.frames, rough ? &*rough : nullptr, points.settings);
+  calibration::UnlabelledSettings settings = points.settings;
+  if (const auto pose = EarlierPose(options, *model)) {
+    settings.T_robot_camera_last = ToTransform(*pose);
+  }
+  const UnlabelledCalibration found =
+      calibration::CalibrateUnlabelled(*model, points.frames, rough ? &*rough : nullptr, settings);
   for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
   RequireFit(found.status);
   if (!options.convergence.empty()) PlotConvergence(found.frames, model, options.convergence);

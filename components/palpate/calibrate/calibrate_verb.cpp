@@ -165,6 +165,10 @@ app::Verb CalibrateVerb() {
             "rotation_xyzw: [x, y, z, w]}\" (50 mm, 20 degrees): images without coloured markers "
             "start from it; of markers without names on a robot that looks the same after a turn "
             "it tells which is which; else the experiment's");
+        arguments.Option("--earlier", &options->earlier,
+                         "an earlier calibration: images without coloured markers start from its "
+                         "pose; where markers without names could be told apart in several ways, "
+                         "it tells, if the camera stands there still");
         arguments.Repeated("--set", &options->overrides,
                            "a setting perception.* for images, KEY=VALUE");
         arguments.Repeated("--recording", &options->recordings,

@@ -18,6 +18,7 @@ struct CalibrateOptions {
   std::filesystem::path data;          ///< experiment or recording folder
   std::string from;                    ///< markers, images; empty: what there is
   std::string camera_pose;             ///< of which images start; empty: the experiment's
+  std::filesystem::path earlier;       ///< a calibration file, whose pose may still hold
   std::vector<std::string> overrides;  ///< perception.*=VALUE
   std::vector<std::string> recordings;  ///< names; empty: all that serve
   std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body

@@ -12,6 +12,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/geometry/pose_text.hpp"
+#include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
@@ -52,6 +53,16 @@ std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment) {
   if (options.camera_pose.empty()) return experiment.T_robot_camera;
   return geometry::ReadPose(app::ParseYaml(options.camera_pose, "--camera-pose"));
+}
+
+std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
+                                             const robot::RobotModel& model) {
+  if (options.earlier.empty()) return std::nullopt;
+  const robot::CalibrationFile file = robot::ReadCalibrationFile(options.earlier, app::LoadYaml);
+  const Status status = robot::CheckCalibration(file, model);
+  if (!status.ok()) throw InputError(options.earlier.string() + ": " + status.message());
+  if (!file.pose) throw InputError(options.earlier.string() + ": it has no camera's pose");
+  return file.pose->T_robot_camera;
 }
 
 geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {

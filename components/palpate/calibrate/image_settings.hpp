@@ -11,6 +11,7 @@
 #include "components/perception/config.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/geometry/rigid_transform.hpp"
+#include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
 
@@ -23,6 +24,11 @@ perception::Config PerceptionOf(const CalibrateOptions& options,
 /// says it.
 std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment);
+
+/// Where it stood at the calibration of --earlier; nothing without that. Throws InputError where
+/// the file is not this robot's, or says nothing of it.
+std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
+                                             const robot::RobotModel& model);
 
 geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T);
 

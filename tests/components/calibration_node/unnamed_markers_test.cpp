@@ -133,6 +133,21 @@ TEST_F(MarkersThatLookAlike, AreRefusedWithTheReason) {
   ExpectFailure("ambiguous: two ways to tell which marker is which");
 }
 
+TEST_F(MarkersThatLookAlike, AreToldByThePoseOfTheLastCalibration) {
+  robot::CalibrationFile last = robot::DescribeForCalibration(*robot_);
+  last.date_utc = "2026-11-22T00:00:00Z";
+  last.data = "before";
+  last.pose.emplace().T_robot_camera = TruePose();
+  NodeConfig config = TestConfig();
+  robot::WriteCalibrationFile(last, config.calibration_file);
+  Begin(config);
+  SendThree();
+  EXPECT_THAT(WaitForState("one", "done").reason, HasSubstr("the pose of the last calibration"));
+  ASSERT_TRUE(test_.WaitFor([&] { return found_.size() >= 2; }));
+  const Eigen::Isometry3d& found = found_.back().pose->T_robot_camera;
+  EXPECT_LT(Eigen::AngleAxisd(found.linear() * TruePose().linear().transpose()).angle(), 0.1);
+}
+
 TEST_F(MarkersThatLookAlike, AreToldByARoughPoseOfTheCamera) {
   NodeConfig config = TestConfig();
   Eigen::Isometry3d rough = TruePose();

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include "components/calibration/pose/tension_range.hpp"
@@ -91,6 +92,30 @@ TEST_F(FourLegsWithoutNames, CablesThatAreAllSetAlikeLeaveItAmbiguousUnlessThePo
     EXPECT_EQ(told.labels.marker_of_point, truth_);
     ExpectPose(told, TableOnePose());
   }
+}
+
+TEST_F(FourLegsWithoutNames, TheLastPoseTellsWhatIsLeftAmbiguousIfTheCameraStandsThereStill) {
+  const std::vector<UnlabelledFrame> frames = {Take("a", {0.004, 0.004, 0.004, 0.004}),
+                                               Take("b", {0.008, 0.008, 0.008, 0.008})};
+  settings_.T_robot_camera_last = TurnedPose(0.1);
+  const UnlabelledCalibration told = Calibrate(frames);
+  ASSERT_TRUE(told.status.ok()) << told.status.message();
+  EXPECT_TRUE(told.told_by_last_pose);
+  EXPECT_EQ(told.labels.marker_of_point, truth_);
+  ExpectPose(told, TableOnePose());
+  settings_.T_robot_camera_last = TurnedPose(std::numbers::pi / 4.0);  // between two of them
+  EXPECT_EQ(Calibrate(frames).status.code(), StatusCode::kUnobservable);
+}
+
+TEST_F(FourLegsWithoutNames, WhatTheCablesTellGoesBeforeTheLastPose) {
+  settings_.request.drive_offset_sigma_m = 5e-4;
+  settings_.T_robot_camera_last = TurnedPose(std::numbers::pi / 2.0);
+  const UnlabelledCalibration found =
+      Calibrate({Take("a", {0.009, 0.002, 0.002, 0.002}), Take("b", {0.002, 0.009, 0.002, 0.004}),
+                 Take("c", {0.003, 0.003, 0.008, 0.008})});
+  ASSERT_TRUE(found.status.ok()) << found.status.message();
+  EXPECT_FALSE(found.told_by_last_pose);
+  EXPECT_EQ(found.labels.marker_of_point, truth_);
 }
 
 TEST_F(FourLegsWithoutNames, APictureOfAnotherPoseIsLeftOutAndSoIsOneOfNothing) {
