@@ -85,4 +85,12 @@ std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,
   return loads;
 }
 
+std::vector<LoadPlace> LoadPlacesAt(const experiment::Recording& recording, double t_s) {
+  std::vector<LoadPlace> places;
+  for (const experiment::KnownLoad& load : experiment::LoadsAt(recording.loads, t_s)) {
+    places.push_back({load.position_m, load.patch_radius_m});
+  }
+  return places;
+}
+
 }  // namespace palpate::calibration

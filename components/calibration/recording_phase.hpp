@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "components/calibration/joint/load_place.hpp"
 #include "libs/experiment/recording.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -27,5 +28,7 @@ std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording
 /// The known loads of that time. Throws InputError (file:line) where one lies off the body.
 std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,
                                      const robot::RobotModel& model, double t_s);
+/// Where these act.
+std::vector<LoadPlace> LoadPlacesAt(const experiment::Recording& recording, double t_s);
 
 }  // namespace palpate::calibration

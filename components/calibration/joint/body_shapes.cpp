@@ -33,7 +33,9 @@ BodyShapes::BodyShapes(robot::RobotModel& model, const JointSetup& setup, int fi
                 : setup.states),
       states_(kept_),
       kept_solved_(setup.frames.size()),
-      solved_(setup.frames.size()) {
+      solved_(setup.frames.size()),
+      scales_(std::any_of(setup.unknowns.begin(), setup.unknowns.end(),
+                          [](const UnknownPtr& one) { return one->ScalesTheRobot(); })) {
   workers_.push_back(std::make_unique<Worker>(model));
   for (const auto& helper : setup.helpers) workers_.push_back(std::make_unique<Worker>(*helper));
 }
@@ -60,6 +62,7 @@ FrameInputs BodyShapes::InputsOf(int frame, const Eigen::VectorXd& variables) co
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     setup_.unknowns[u]->ApplyToFrame(ValueOf(u, variables), frame, &inputs);
   }
+  if (scales_) HoldLoadsAt(given.load_places, workers_.front()->model, &inputs);
   return inputs;
 }
 

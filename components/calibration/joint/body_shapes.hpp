@@ -89,6 +89,7 @@ class BodyShapes {
   ThreadTeam team_;
   std::vector<fem::StaticState> kept_, states_;
   std::vector<SolvedState> kept_solved_, solved_;  ///< [frames]
+  const bool scales_;                              ///< the robot's size is an unknown
 };
 
 }  // namespace palpate::calibration

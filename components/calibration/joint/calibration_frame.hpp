@@ -11,6 +11,8 @@
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 
+#include "components/calibration/joint/load_place.hpp"
+
 namespace palpate::calibration {
 
 /// A point of the depth image, and the place of the model's skin that it shows.
@@ -29,6 +31,9 @@ struct CalibrationFrame {
   std::vector<SurfaceSighting> surface = {};
   std::vector<robot::CableCommand> cables = {};  ///< one for each cable
   std::vector<robot::DeadLoad> loads = {};
+  /// [loads] where the robot's size is an unknown; none: they hold on to the same part of the body
+  /// whatever its size.
+  std::vector<LoadPlace> load_places = {};
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
 };
 

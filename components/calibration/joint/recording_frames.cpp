@@ -83,6 +83,7 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
         .markers = Sightings(experiment, recording, model, window, marker_bias_m),
         .cables = CablesAt(recording, model, preferred, middle_s),
         .loads = LoadsAt(recording, model, middle_s),
+        .load_places = LoadPlacesAt(recording, middle_s),
         .gravity_m_s2 = experiment::BaseRotation(recording).transpose() * model.gravity_m_s2()};
     if (!frame.markers.empty()) frames.push_back(std::move(frame));
   }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/calibration/joint/load_place.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
 
@@ -36,6 +37,8 @@ inline double ScaleOf(const Belief& belief) { return std::min(belief.plausible, 
 struct FrameInputs {
   std::vector<robot::CableCommand> cables;
   std::vector<robot::DeadLoad> loads = {};
+  /// [loads] what the hold of each on the body changes by per unit of `scale`; none: nothing.
+  std::vector<fem::NodeWeights> hold_per_scale = {};
   Eigen::Vector3d nominal_gravity_m_s2 = Eigen::Vector3d::Zero();  ///< of the frame
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();          ///< as unknowns turn it
   double mass_factor = 1.0;  ///< a mass counts by its weight alone
@@ -48,6 +51,11 @@ struct FrameInputs {
 /// What acts on a model of scale 1 whose shape is the robot's over its scale: displacements over
 /// s, tensions and loads over s^2, weights times s. (Limits of tensions are not scaled.)
 FrameInputs ToModel(const FrameInputs& robot);
+
+/// Sets what the robot's loads at `places` [loads] hold on to in a model of scale 1: where a load
+/// is stays as the size changes.
+void HoldLoadsAt(const std::vector<LoadPlace>& places, const robot::RobotModel& model,
+                 FrameInputs* robot);
 
 /// How an equilibrium depends on an unknown: the parameter's derivative times `per_value`.
 struct Influence {

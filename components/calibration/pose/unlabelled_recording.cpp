@@ -108,6 +108,7 @@ std::vector<UnlabelledFrame> UnlabelledFramesOfRecording(const experiment::Exper
                                                                     FormatNumber(middle_s) + " s",
                                   .cables = CablesAt(recording, model, preferred, middle_s),
                                   .loads = LoadsAt(recording, model, middle_s),
+                                  .load_places = LoadPlacesAt(recording, middle_s),
                                   .gravity_m_s2 = experiment::BaseRotation(recording).transpose() *
                                                   model.gravity_m_s2()},
                         .points = PointsIn(recording, window, sigma_m, marker_bias_m)};

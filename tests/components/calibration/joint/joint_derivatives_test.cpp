@@ -63,6 +63,7 @@ class GeometryDerivatives : public JointDerivatives {
                                          {.mean = 0.011, .plausible = 1e-3}));
     setup_.frames[0].loads.push_back(
         {model_->body().markers[1].point.weights, Eigen::Vector3d(0.1, -0.2, 0.15)});
+    setup_.frames[0].load_places = {{model_->body().markers[1].point.rest_m, 0.0}};
   }
 };
 
