@@ -83,7 +83,7 @@ TEST_F(GeometryOfOurRobot, LoadsStayWhereTheyAreAsItsSizeChanges) {
   for (int f = 0; f < 3; ++f) {
     std::vector<double> pulls_m;
     for (int c = 0; c < 4; ++c) pulls_m.push_back(1e-3 * (4.0 + (5 * f + 3 * c) % 8));
-    const Eigen::Vector3d force_N(0.3 * f, -0.4, -0.8);
+    const Eigen::Vector3d force_N(0.3 * f, -1.0, -2.0);
     CalibrationFrame frame = calibration::See(
         larger, TableOnePose(), "push " + std::to_string(f), Commands(Kind::kDisplacement, pulls_m),
         {{larger.Patch(place.position_m, place.patch_radius_m).weights, force_N}}, kNoise_m,
