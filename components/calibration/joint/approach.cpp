@@ -3,6 +3,7 @@
 
 #include "components/calibration/joint/approach.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "components/calibration/joint/gauss_newton.hpp"
@@ -13,6 +14,11 @@ namespace {
 
 /// From the undeformed body it takes five to seven; more say that it wanders.
 constexpr int kMostSteps = 12;
+/// Of the body's extent: after a shorter way the next step is one with the factor that is there.
+/// The derivatives have changed by about as large a share.
+constexpr double kShortWay = 1e-4;
+/// A chord step that does not shorten the way to this share is followed by one with a new factor.
+constexpr double kShortens = 0.1;
 
 /// The problem with bodies that move as their derivatives say.
 class Predicted final : public LeastSquaresProblem {
@@ -58,11 +64,17 @@ Status StepUntilStill(JointProblem* problem, const LeastSquaresSettings& setting
                       Approach* approach) {
   BodyShapes& shapes = problem->shapes();
   if (Status status = shapes.ComeNear(approach->variables); !status.ok()) return status;
+  double way = std::numeric_limits<double>::infinity();
   while (approach->steps < kMostSteps) {
-    Status status = shapes.Linearise(approach->variables);
+    const bool keep = way < kShortWay && shapes.KeepsFactors();
+    Status status =
+        keep ? shapes.LineariseKept(approach->variables) : shapes.Linearise(approach->variables);
+    approach->factorisations += keep ? 0 : 1;
     if (status.ok()) status = MoveVariables(problem, settings, approach);
     if (!status.ok()) return status;
-    const bool still = shapes.StepTo(approach->variables) < SolvedState::kTinyMove;
+    const double last = std::exchange(way, shapes.StepTo(approach->variables));
+    const bool still = way < SolvedState::kTinyMove;
+    if (keep && way > kShortens * last) way = std::numeric_limits<double>::infinity();
     if (still && shapes.AreBalanced(approach->variables)) return Status::Ok();
   }
   return {StatusCode::kNotConverged, "steps used up"};

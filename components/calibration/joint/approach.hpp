@@ -18,7 +18,8 @@ struct Approach {
   Eigen::VectorXd variables;
   std::vector<double> objectives;            ///< of the start and after each step
   std::vector<double> residual_rms_after_m;  ///< of all frames, of the same
-  int steps = 0;                             ///< each with one factorisation for each frame
+  int steps = 0;
+  int factorisations = 0;  ///< for each frame: of the steps that were not chord steps
 };
 
 /// Shapes and variables move together: Newton's step of each frame's equilibrium and Gauss-Newton's

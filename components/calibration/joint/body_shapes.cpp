@@ -208,6 +208,28 @@ Status BodyShapes::LineariseFrame(int frame, const Eigen::VectorXd& variables, W
   return status;
 }
 
+Status BodyShapes::LineariseKept(const Eigen::VectorXd& variables) {
+  ApplyToModels(variables);
+  return OnEachFrame(
+      [&](int frame, Worker* worker) { return LineariseKeptFrame(frame, variables, worker); });
+}
+
+Status BodyShapes::LineariseKeptFrame(int frame, const Eigen::VectorXd& variables, Worker* worker) {
+  const auto f = static_cast<size_t>(frame);
+  Load(ToModel(InputsOf(frame, variables)), &states_[f], worker);
+  const fem::StaticState& state = states_[f];
+  Status status = worker->model.linearisation().UpdateResidual(state.x_m, state.multipliers_N,
+                                                               state.loads.external_force_N);
+  if (status.ok()) {
+    status = worker->step.ComputeChord(state.loads, state.x_m, state.multipliers_N);
+  }
+  if (!status.ok()) return status;
+  fem::StaticState led_to = state;
+  worker->step.Apply(1.0, state.x_m, state.multipliers_N, &led_to.x_m, &led_to.multipliers_N);
+  solved_[f].MoveBase(led_to, variables);
+  return status;
+}
+
 double BodyShapes::StepTo(const Eigen::VectorXd& variables) {
   std::vector<double> furthest(states_.size(), 0.0);
   const Status always_ok = OnEachFrame([&](int frame, Worker* worker) {

@@ -39,6 +39,11 @@ class BodyShapes {
   /// Newton's step of each frame from states() as they are, with the setting of these variables:
   /// solved() then is where it leads, and how that moves with the variables.
   Status Linearise(const Eigen::VectorXd& variables);
+  /// Whether every frame has a factor of its own.
+  bool KeepsFactors() const { return setup_.frames.size() <= workers_.size(); }
+  /// The same with factors and derivatives of the last Linearise (a chord step): for shapes that
+  /// have moved little since. Only where KeepsFactors().
+  Status LineariseKept(const Eigen::VectorXd& variables);
   /// states() become what the last Linearise says of these variables, or as far that way as no
   /// element is inverted. Gives the longest way that a node went, over the body's extent; infinite
   /// where one could not go all the way.
@@ -76,6 +81,7 @@ class BodyShapes {
   /// Puts what acts on the model, and its gravity, to it and to `state`.
   static void Load(const FrameInputs& acting, fem::StaticState* state, Worker* worker);
   Status LineariseFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
+  Status LineariseKeptFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
   double StepFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
   Status CheckFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
   void DescribeInfluences(int frame, const FrameInputs& inputs, const Eigen::VectorXd& variables,

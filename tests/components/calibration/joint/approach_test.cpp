@@ -64,6 +64,8 @@ class ApproachToTheSolution : public testing::Test {
     const Approach approach = ApproachSolution(&problem, {});
     ASSERT_TRUE(approach.status.ok()) << approach.status.message();
     EXPECT_LE(approach.steps, 8);
+    // The last step is short, and has the factor of the one before where that is the frame's own.
+    EXPECT_EQ(approach.steps - approach.factorisations, setup.frames.size() == 1 ? 1 : 0);
     EXPECT_EQ(approach.objectives.size(), static_cast<size_t>(approach.steps) + 1);
     LeastSquaresPoint arrived, solved;
     ASSERT_TRUE(problem.Evaluate(approach.variables, &arrived).ok());
