@@ -10,6 +10,7 @@
 #include "components/force_estimation/shape/location_step.hpp"
 #include "components/force_estimation/shape/row_responses.hpp"
 #include "components/force_estimation/shape/temporal_correlation.hpp"
+#include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::test_support {
@@ -100,10 +101,11 @@ Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth, con
   Expect(responses.Add(model_, rows, state.x_m, frame.cables, state.multipliers_N));
   const auto at = [&](const Eigen::Vector3d& rest_m) -> Eigen::MatrixX3d {
     const Eigen::Vector3d on_skin_m = map_.NearestAtRest(rest_m).rest_m;
-    return responses.To(model_.Patch(on_skin_m, shape_.contact_radius_m).weights).transpose();
+    return responses.To(model_.Patch(on_skin_m, shape_.contact_radius_m).weights);
   };
   const Eigen::Vector3d normal = map_.NormalNow(place);
   const Eigen::MatrixX3d here = at(place.rest_m);
+  PALPATE_CHECK(here.rows() == std::ssize(rows), here.rows(), rows.size());
   const Eigen::Matrix<double, 3, 2> at_rest = Tangents(map_.NormalAtRest(place));
   Eigen::MatrixXd jacobian(here.rows(), 5);
   jacobian.col(0) = -here * normal;
