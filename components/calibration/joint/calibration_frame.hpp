@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "components/calibration/joint/load_place.hpp"
 #include "components/calibration/marker_sighting.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_model.hpp"
-
-#include "components/calibration/joint/load_place.hpp"
 
 namespace palpate::calibration {
 
