@@ -101,8 +101,12 @@ class ForceFitter final : private fem::FrameProblem {
   void LimitRestorations(int most) { most_restorations_ = most; }
   /// Whether fits tell modulus_sensitivity_N, which costs a substitution each; at first they do.
   void TellModulusSensitivity(bool tell) { tell_modulus_sensitivity_ = tell; }
-  /// A factor at `state`, where a fit ended, for the fits that begin there.
-  Status RenewFactor(const ModelState& state) { return Linearise(state, /*allow_shift=*/false); }
+  /// A factor at `state`, where a fit ended, for the fits that begin there. Where there is none,
+  /// the next fit makes one.
+  void RenewFactor(const ModelState& state) {
+    static_cast<void>(Linearise(state, /*allow_shift=*/false));
+  }
+  bool has_factor() const { return factor_known_; }
   /// Somebody else has used the model's linearisation.
   void ForgetFactor() { factor_known_ = evaluated_.valid = false; }
   int SiteCount() const { return static_cast<int>(sites_.size()); }

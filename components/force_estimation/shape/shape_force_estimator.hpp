@@ -58,7 +58,8 @@ class ShapeForceEstimator {
 
   const std::vector<FeatureReport>& features() const;  ///< of the last frame
   /// Smallest force that a contact at this place of the undeformed body could have and be found, N
-  /// (normal direction, Config::significance); NaN before the bias is known.
+  /// (normal direction, Config::significance); NaN before the bias is known, and where the model
+  /// has no factor.
   double SmallestForce_N(const Eigen::Vector3d& rest_position_m) const;
 
  private:
