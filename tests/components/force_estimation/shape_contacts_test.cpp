@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "components/force_estimation/shape/contact_report.hpp"
@@ -181,6 +182,24 @@ TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
   EXPECT_LT(site.place_ci95_m, first_m);
   EXPECT_LE((site.centre.rest_m - place_m_).norm(), site.place_ci95_m);
   EXPECT_LT((site.centre.rest_m - place_m_).norm(), 0.01);
+}
+
+/// The responses about a new factor, which the frame after the one that found the contact wants,
+/// are solved for once that frame is done, and no more than once.
+TEST_F(Contacts, ThatNobodySeesAreFollowedByResponsesFromBetweenFrames) {
+  const fem::StaticState pushed = Solve(kForce_N);
+  for (int k = 0; k < 2; ++k) {
+    const ShapeFrame frame = FrameOf(pushed);
+    Fit(frame);
+    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
+  }
+  ASSERT_EQ(fit_.sites().size(), 1u);
+  const fem::TimeBudget work = fit_.fitter().BudgetOfWork(std::numeric_limits<double>::infinity());
+  hidden_.PrepareNext(cables_);
+  const double first = work.Elapsed_s();
+  EXPECT_GT(first, 0.0);
+  hidden_.PrepareNext(cables_);
+  EXPECT_EQ(work.Elapsed_s(), first);
 }
 
 TEST_F(Contacts, OfAnotherMakingAreNotSoughtWhereOneIsSeen) {
