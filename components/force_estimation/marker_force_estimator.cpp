@@ -303,7 +303,12 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
     misfit.weight.setZero();
     return misfit;
   }
-  const std::vector<FitSite>& sites = search_ ? search_->result().fit_sites : fit_sites_;
+  if (!search_) {
+    misfit.response_m = fitter_.Response();
+    return misfit;
+  }
+  // The search has fitted other sites after those that it chose.
+  const std::vector<FitSite>& sites = search_->result().fit_sites;
   const auto count = static_cast<Eigen::Index>(estimate_.contacts.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
   for (Eigen::Index c = 0; c < count; ++c) {

@@ -18,7 +18,6 @@ using palpate::fem::dense::FactorPanel;
 using palpate::fem::dense::FactorPanelOf;
 using palpate::fem::dense::FrontKernels;
 using palpate::fem::dense::kTile;
-using palpate::fem::dense::PaddedRows;
 using palpate::fem::dense::Panel;
 using palpate::fem::dense::Run;
 using palpate::fem::dense::Update;
