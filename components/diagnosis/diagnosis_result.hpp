@@ -40,10 +40,10 @@ struct NamedCause {
   CauseName name;
   std::string words;  ///< for people: "friction of cable north"
   std::vector<FittedParameter> parameters;
-  double probability = 0.0;       ///< in (0, 0.99]
-  double ln_bayes_factor = 0.0;   ///< against the same model without it
-  double explained_share = 0.0;   ///< of the misfit beyond the noise, in [0, 1]
-  bool cross_validated = false;   ///< it lowers the error in recordings it was not fitted to
+  double probability = 0.0;          ///< in (0, 0.99]
+  double ln_bayes_factor = 0.0;      ///< against the same model without it
+  double explained_share = 0.0;      ///< of the misfit beyond the noise, in [0, 1]
+  bool cross_validated = false;      ///< it lowers the error in recordings it was not fitted to
   std::vector<std::string> seen_in;  ///< recordings that speak for it
 };
 
@@ -61,13 +61,13 @@ struct Rival {
 struct RecordingGap {
   std::string name;
   std::string kind;
-  int samples = 0;          ///< moments that were compared
-  double before_m = 0.0;    ///< the simulation as the robot file has it
-  double healthy_m = 0.0;   ///< fitted within the building tolerances
-  double after_m = 0.0;     ///< with the causes that were named
+  int samples = 0;                ///< moments that were compared
+  double before_m = 0.0;          ///< the simulation as the robot file has it
+  double healthy_m = 0.0;         ///< fitted within the building tolerances
+  double after_m = 0.0;           ///< with the causes that were named
   double heldout_before_m = 0.0;  ///< healthy robot, fitted to the other recordings
   double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
-  double noise_m = 0.0;     ///< what measuring alone leaves
+  double noise_m = 0.0;           ///< what measuring alone leaves
 };
 
 /// RMS over all recordings, m.
@@ -90,8 +90,8 @@ struct ComparedMoment {
 
 /// What tells the causes apart that are left.
 struct ExperimentProposal {
-  std::string title;       ///< "ramp of cable north to 8 mm"
-  std::string by_hand;     ///< what a person does, empty: nothing: "hang 30 g on the tip"
+  std::string title;        ///< "ramp of cable north to 8 mm"
+  std::string by_hand;      ///< what a person does, empty: nothing: "hang 30 g on the tip"
   CauseName first, second;  ///< the pair that it separates least well of those it is to separate
   double expected_ln_bayes_factor = 0.0;
 };
@@ -114,12 +114,12 @@ struct DiagnosisResult {
   std::vector<std::string> cables;
   std::vector<std::string> cable_units;  ///< [cables] "m" or "N" of ComparedMoment::command
   std::vector<std::string> markers;
-  Eigen::Matrix3Xd marker_rest_m;               ///< [3 x markers], robot frame
-  Eigen::Matrix3Xd surface_m;                   ///< [3 x nodes] of the undeformed body
-  std::vector<std::array<int, 3>> triangles;    ///< of the surface
-  std::vector<ComparedMoment> moments;          ///< by recording and time
-  std::vector<std::string> correlation_names;   ///< causes of `correlation`
-  Eigen::MatrixXd correlation;                  ///< between the effects of the causes, in [-1, 1]
+  Eigen::Matrix3Xd marker_rest_m;              ///< [3 x markers], robot frame
+  Eigen::Matrix3Xd surface_m;                  ///< [3 x nodes] of the undeformed body
+  std::vector<std::array<int, 3>> triangles;   ///< of the surface
+  std::vector<ComparedMoment> moments;         ///< by recording and time
+  std::vector<std::string> correlation_names;  ///< causes of `correlation`
+  Eigen::MatrixXd correlation;                 ///< between the effects of the causes, in [-1, 1]
 
   // How to repeat it.
   std::string robot;      ///< name in the robot file
