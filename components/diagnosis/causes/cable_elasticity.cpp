@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// z is the compliance, m/N.
+class CableElasticity final : public Cause {
+ public:
+  CableElasticity(const std::string& cable, int index)
+      : Cause({"cable_elasticity", {"cable:" + cable}}, "stretch of cable " + cable,
+              {{.name = "k_N_m",
+                .fault = 1e-3,
+                .least = 0.0,
+                .scale = CauseParameter::Scale::kInverse}}),
+        index_(index) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->cable_compliance_m_N[index_] += std::max(0.0, z[0]);
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
+    return robot::CableCompliance(index_);
+  }
+
+ private:
+  int index_;
+};
+
+}  // namespace
+
+void MakeCableElasticity(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.observed.timeline.by_tension[c]) continue;
+    causes->push_back(
+        std::make_unique<CableElasticity>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+class CableGainCause final : public Cause {
+ public:
+  CableGainCause(const std::string& cable, int index)
+      : Cause({"cable_gain", {"cable:" + cable}}, "gain of the drive of cable " + cable,
+              {{.name = "g", .tolerance = 0.005, .fault = 0.08, .least = -0.9}}),
+        index_(index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->drives.gain[index_] += z[0];
+  }
+
+ private:
+  Eigen::Index index_;
+};
+
+}  // namespace
+
+void MakeCableGainCause(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    causes->push_back(
+        std::make_unique<CableGainCause>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+class CableOffsetCause final : public Cause {
+ public:
+  CableOffsetCause(const std::string& cable, int index)
+      : Cause({"cable_offset", {"cable:" + cable}}, "zero of the drive of cable " + cable,
+              {{.name = "offset_m", .tolerance = 3e-4, .fault = 4e-3}}),
+        index_(index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->drives.offset_m[index_] += z[0];
+  }
+
+ private:
+  Eigen::Index index_;
+};
+
+}  // namespace
+
+void MakeCableOffsetCause(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.observed.timeline.by_tension[c]) continue;
+    causes->push_back(
+        std::make_unique<CableOffsetCause>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// The point that the cable is pulled from sits elsewhere; the drive is zeroed with it there.
+class CableRouting final : public Cause {
+ public:
+  CableRouting(const std::string& cable, int index)
+      : Cause({"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
+              {{.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3},
+               {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3}}),
+        index_(index) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->body.cables[static_cast<std::size_t>(index_)].pull_point_m.tail<2>() += z;
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
+    return robot::PullPointMove(index_, Eigen::Vector3d::Unit(parameter + 1));
+  }
+
+ private:
+  int index_;
+};
+
+}  // namespace
+
+void MakeCableRouting(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    causes->push_back(
+        std::make_unique<CableRouting>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+}  // namespace palpate::diagnosis

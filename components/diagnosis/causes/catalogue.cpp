@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/catalogue.hpp"
+
+#include "components/diagnosis/causes/makers.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/names.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+struct Entry {
+  const char* id;
+  void (*make)(const CauseWorld&, std::vector<CausePtr>*);
+};
+
+constexpr Entry kCatalogue[] = {
+    {"youngs_modulus", MakeYoungsModulus},
+    {"regional_stiffness", MakeRegionalStiffness},
+    {"poissons_ratio", MakePoissonsRatio},
+    {"stiffening", MakeStiffening},
+    {"density", MakeDensity},
+    {"viscoelastic_creep", MakeViscoelasticCreep},
+    {"plastic_set", MakePlasticSet},
+    {"geometry_scale", MakeGeometryScale},
+    {"temperature", MakeTemperature},
+    {"rest_twist", MakeRestTwist},
+    {"base_compliance", MakeBaseCompliance},
+    {"gravity_direction", MakeGravityDirection},
+    {"payload", MakePayload},
+    {"permanent_force", MakePermanentForce},
+    {"cable_friction", MakeCableFriction},
+    {"cable_elasticity", MakeCableElasticity},
+    {"cable_gain", MakeCableGainCause},
+    {"cable_offset", MakeCableOffsetCause},
+    {"backlash", MakeBacklash},
+    {"cable_routing", MakeCableRouting},
+    {"swapped_cables", MakeSwappedCables},
+    {"drive_coupling", MakeDriveCoupling},
+    {"lag", MakeLag},
+    {"camera_moved", MakeCameraMoved},
+    {"marker_misplacement", MakeMarkerMisplacement},
+};
+
+}  // namespace
+
+std::vector<std::string> KnownCauses() {
+  std::vector<std::string> ids;
+  for (const Entry& entry : kCatalogue) ids.emplace_back(entry.id);
+  return ids;
+}
+
+std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without) {
+  for (const std::string& id : without) {
+    if (!IndexOf(id, KnownCauses())) throw InputError(Unknown("cause", id, KnownCauses()));
+  }
+  std::vector<CausePtr> causes;
+  for (const Entry& entry : kCatalogue) {
+    if (!IndexOf(entry.id, without)) entry.make(world, &causes);
+  }
+  MakeExtrinsics(world, &causes);
+  return causes;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/causes/cause.hpp"
+
+namespace palpate::diagnosis {
+
+/// What the causes of a robot are made from.
+struct CauseWorld {
+  const robot::RobotBody& body;
+  const ObservedExperiment& observed;
+  double extrinsics_m = 0.0;    ///< sigma of given poses, where it is known (experiment.yaml)
+  double extrinsics_rad = 0.0;
+};
+
+/// Every cause of the catalogue at every place of this robot where it can show in these data, and
+/// `extrinsics`, which is never a fault. `without`: ids that are left out. Throws InputError for one
+/// that does not exist.
+std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
+
+/// Ids of the catalogue that diagnosis knows.
+std::vector<std::string> KnownCauses();
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/cause.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr double k95 = 1.959964;  ///< of a normal distribution
+
+}  // namespace
+
+std::vector<FittedParameter> Cause::Report(const Eigen::VectorXd& z,
+                                           const Eigen::MatrixXd& covariance) const {
+  std::vector<FittedParameter> report;
+  for (std::size_t p = 0; p < parameters_.size(); ++p) {
+    const CauseParameter& parameter = parameters_[p];
+    const auto i = static_cast<Eigen::Index>(p);
+    const double half = k95 * std::sqrt(covariance(i, i));
+    const double a = parameter.ValueOf(std::max(z[i] - half, parameter.least));
+    const double b = parameter.ValueOf(std::min(z[i] + half, parameter.most));
+    report.push_back({parameter.name, parameter.ValueOf(z[i]), std::min(a, b), std::max(a, b)});
+  }
+  return report;
+}
+
+FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
+                       const Eigen::MatrixXd& covariance) {
+  const double size = z.norm();
+  const Eigen::VectorXd along =
+      size > 0.0 ? Eigen::VectorXd(z / size) : Eigen::VectorXd::Unit(z.size(), 0);
+  const double half = k95 * std::sqrt(along.dot(covariance * along));
+  return {name, size, std::max(0.0, size - half), size + half};
+}
+
+robot::ParameterPtr Cause::OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const {
+  return nullptr;
+}
+
+void Cause::OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/,
+                   Eigen::Matrix3Xd* /*motion_m*/) const {}
+
+}  // namespace palpate::diagnosis

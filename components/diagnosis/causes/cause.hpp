@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/diagnosis/diagnosis_result.hpp"
+#include "components/diagnosis/model/memory.hpp"
+#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/simulation.hpp"
+#include "components/diagnosis/model/sum_of_parameters.hpp"
+#include "libs/robot/sensitivity/parameter.hpp"
+
+namespace palpate::diagnosis {
+
+/// One number of a cause. Inside, it is counted as z, 0 for the robot as its file has it, so that
+/// every belief about it is a normal distribution of z about 0.
+struct CauseParameter {
+  /// How the value that people see follows from z.
+  enum class Scale {
+    kLinear,   ///< nominal + z
+    kFactor,   ///< nominal exp(z)
+    kInverse,  ///< 1 / z
+  };
+  std::string name;  ///< of verdict.json (DIAGNOSIS, "Conventions"), with its unit
+  double nominal = 0.0;
+  double tolerance = 0.0;  ///< sigma of z for a healthy robot; 0: a healthy robot has none of it
+  double fault = 0.0;      ///< sigma of z for a robot that has the fault, > tolerance,
+  double fault_at = 0.0;   ///< about this
+  double least = -std::numeric_limits<double>::infinity();  ///< of z: what can be
+  double most = std::numeric_limits<double>::infinity();
+  Scale scale = Scale::kLinear;
+
+  double ValueOf(double z) const {
+    switch (scale) {
+      case Scale::kFactor: return nominal * std::exp(z);
+      case Scale::kInverse: return 1.0 / z;
+      case Scale::kLinear: break;
+    }
+    return nominal + z;
+  }
+};
+
+/// A moment about which a cause is asked what it does.
+struct CauseMoment {
+  const ObservedExperiment& observed;
+  const ModelDraft& draft;
+  const Simulation& simulation;
+  const Memory& memory;
+  int sample = 0;
+  robot::RobotModel& model;  ///< its linearisation is at this moment's equilibrium
+
+  const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
+  const SimulatedSample& simulated() const {
+    return simulation.samples[static_cast<std::size_t>(sample)];
+  }
+  const ObservedRecording& recording() const {
+    return observed.recordings[static_cast<std::size_t>(seen().recording)];
+  }
+};
+
+/// Something that a simulation may get wrong, at one place of the robot (DIAGNOSIS, "Catalogue").
+/// What it does is said twice: Apply changes a draft by any z; the other functions give what a small
+/// z does at a moment of a simulation, to first order, which a test holds against Apply.
+class Cause {
+ public:
+  Cause(CauseName name, std::string words, std::vector<CauseParameter> parameters)
+      : name_(std::move(name)), words_(std::move(words)), parameters_(std::move(parameters)) {}
+  virtual ~Cause() = default;
+  Cause(const Cause&) = delete;
+  Cause& operator=(const Cause&) = delete;
+
+  const CauseName& name() const { return name_; }
+  const std::string& words() const { return words_; }  ///< "friction of cable north"
+  const std::vector<CauseParameter>& parameters() const { return parameters_; }
+
+  /// What people are told of `z` [parameters] with its covariance; by default each parameter with
+  /// its 95 % interval.
+  virtual std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
+                                              const Eigen::MatrixXd& covariance) const;
+
+  /// `z` [parameters].
+  virtual void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const = 0;
+  /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
+  virtual bool OnDrives() const { return false; }
+  /// What dz of one parameter does to the body where this cause is at `z` [parameters];
+  /// nullptr: nothing.
+  virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z, const CauseMoment& at) const;
+  /// Adds what it does to where markers are seen with the body where it is, [3 x markers], m,
+  /// frame of the robot as it is seen (ModelDraft::T_seen).
+  virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at, Eigen::Matrix3Xd* motion_m) const;
+
+ private:
+  CauseName name_;
+  std::string words_;
+  std::vector<CauseParameter> parameters_;
+};
+
+/// Of parameters that are the components of a vector, its length.
+FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
+                       const Eigen::MatrixXd& covariance);
+
+using CausePtr = std::unique_ptr<const Cause>;
+
+/// Causes together; their parameters follow each other in this order.
+using CauseList = std::vector<const Cause*>;
+
+}  // namespace palpate::diagnosis

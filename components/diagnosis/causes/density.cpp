@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Also what its gravity is larger by: weight is all that shows of both.
+class Density final : public Cause {
+ public:
+  Density()
+      : Cause({"density", {"body"}}, "density of the body",
+              {{.name = "factor",
+                .nominal = 1.0,
+                .tolerance = 0.01,
+                .fault = 0.15,
+                .scale = CauseParameter::Scale::kFactor}}) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->body.node_mass_kg *= std::exp(z[0]);
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const override {
+    return robot::MassFactor();
+  }
+};
+
+}  // namespace
+
+void MakeDensity(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+  causes->push_back(std::make_unique<Density>());
+}
+
+}  // namespace palpate::diagnosis

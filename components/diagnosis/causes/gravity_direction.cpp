@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The base stands askew by R = Ry(theta_y) Rx(theta_x).
+Eigen::Matrix3d Askew(const Eigen::Vector2d& theta_deg) {
+  return (Eigen::AngleAxisd(theta_deg.y() * kDegree, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(theta_deg.x() * kDegree, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+class GravityDirection final : public Cause {
+ public:
+  GravityDirection()
+      : Cause({"gravity_direction", {"base"}}, "direction of gravity",
+              {{.name = "theta_x_deg", .tolerance = 0.3, .fault = 4.0},
+               {.name = "theta_y_deg", .tolerance = 0.3, .fault = 4.0}}) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->R_askew = draft->R_askew * Askew(z.head<2>());
+  }
+
+  /// Weights that hang on the body turn along.
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+    const Eigen::Matrix3d& R_tilt = at.recording().base_rotation;
+    const Eigen::Matrix3d R = R_tilt * at.draft.R_askew;
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(parameter);
+    // R' v turns by -axis x R' v with a further turn of R on its right.
+    const auto turned = [&](const Eigen::Vector3d& v_world) -> Eigen::Vector3d {
+      return -kDegree * axis.cross(R.transpose() * v_world);
+    };
+    auto sum = std::make_unique<SumOfParameters>();
+    sum->Add(1.0, robot::GravityChange(turned(at.draft.body.gravity_m_s2)));
+    const Eigen::Vector3d down = at.draft.body.gravity_m_s2.normalized();
+    for (const experiment::KnownLoad& load : at.seen().loads) {
+      const Eigen::Vector3d world_N = R_tilt * load.force_N;
+      if (world_N.normalized().dot(down) < kHangs) continue;
+      sum->Add(1.0, PointForce(at.model.Patch(load.position_m, load.patch_radius_m).weights,
+                               turned(world_N)));
+    }
+    for (const CarriedMass& mass : at.draft.masses) {
+      sum->Add(1.0, PointForce(mass.weights, mass.mass_kg * turned(at.draft.body.gravity_m_s2)));
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+void MakeGravityDirection(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  if (world.body.gravity_m_s2.isZero()) return;
+  causes->push_back(std::make_unique<GravityDirection>());
+}
+
+}  // namespace palpate::diagnosis

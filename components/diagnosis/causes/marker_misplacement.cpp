@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include "libs/fem/embedding.hpp"
+#include "libs/robot/sensitivity/eyelet_gradient.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// A marker sits elsewhere on the body than its file says; it moves along with what it sits on.
+class MarkerMisplacement final : public Cause {
+ public:
+  MarkerMisplacement(const robot::BodyMarker& marker, int index, const fem::PointLocator& locator)
+      : Cause({"marker_misplacement", {"marker:" + marker.name}}, "place of marker " + marker.name,
+              {Component(), Component(), Component()}),
+        index_(index) {
+    for (int axis = 0; axis < 3; ++axis) {
+      along_.push_back(robot::EyeletWeightsAlong(locator, marker.point.rest_m, 0.0,
+                                                 Eigen::Vector3d::Unit(axis)));
+    }
+  }
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->marker_offset_m.col(index_) += z;
+  }
+
+  void OnView(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+              Eigen::Matrix3Xd* motion_m) const override {
+    const auto recording = static_cast<std::size_t>(at.seen().recording);
+    motion_m->col(index_) +=
+        at.draft.T_seen[recording].linear() *
+        along_[static_cast<std::size_t>(parameter)].Position(at.simulated().state.x_m);
+  }
+
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
+                                      const Eigen::MatrixXd& covariance) const override {
+    return {SizeOf("d_m", z, covariance)};
+  }
+
+ private:
+  /// 1 mm in all, one sigma, in any direction.
+  static CauseParameter Component() {
+    return {.name = "d_m", .tolerance = 0.58e-3, .fault = 5e-3};
+  }
+
+  Eigen::Index index_;
+  std::vector<fem::NodeWeights> along_;  ///< [axes] derivative of its weights, 1/m
+};
+
+}  // namespace
+
+void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  const fem::PointLocator locator(world.body.mesh);
+  for (std::size_t m = 0; m < world.body.markers.size(); ++m) {
+    causes->push_back(std::make_unique<MarkerMisplacement>(world.body.markers[m],
+                                                           static_cast<int>(m), locator));
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+
+#include <algorithm>
+
+#include "components/diagnosis/causes/placed_force.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+class Payload final : public Cause {
+ public:
+  Payload(const Eigen::Vector3d& near_m, std::shared_ptr<const fem::PointLocator> locator)
+      : Cause({"payload", {"body"}}, "a mass on the body",
+              {{.name = "mass_kg", .fault = 0.03, .least = 0.0},
+               {.name = "x_m", .nominal = near_m.x(), .fault = kPlaceSigma_m},
+               {.name = "y_m", .nominal = near_m.y(), .fault = kPlaceSigma_m},
+               {.name = "z_m", .nominal = near_m.z(), .fault = kPlaceSigma_m}}),
+        near_m_(near_m),
+        locator_(std::move(locator)) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->masses.push_back(
+        {locator_->Embed(near_m_ + z.tail<3>()).weights, std::max(0.0, z[0])});
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
+                             const CauseMoment& at) const override {
+    const Eigen::Vector3d gravity_m_s2 = GravityIn(at.draft, at.recording());
+    const Eigen::Vector3d point_m = near_m_ + z.tail<3>();
+    if (parameter == 0) return PointForce(locator_->Embed(point_m).weights, gravity_m_s2);
+    if (z[0] <= 0.0) return nullptr;
+    return MovedForce(*locator_, point_m, parameter - 1, z[0] * gravity_m_s2);
+  }
+
+ private:
+  Eigen::Vector3d near_m_;
+  std::shared_ptr<const fem::PointLocator> locator_;
+};
+
+}  // namespace
+
+void MakePayload(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  const PlacesToLookAt places = LookAt(world);
+  for (const Eigen::Vector3d& point_m : places.point_m) {
+    causes->push_back(std::make_unique<Payload>(point_m, places.locator));
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "components/diagnosis/causes/catalogue.hpp"
+#include "libs/fem/embedding.hpp"
+
+namespace palpate::diagnosis {
+
+/// Forces at places that nobody knows are looked for near points spread over the body, and may act
+/// up to so far from one of them, one sigma of each coordinate, m.
+inline constexpr double kPlaceSigma_m = 0.012;
+
+struct PlacesToLookAt {
+  std::vector<Eigen::Vector3d> point_m;  ///< of the undeformed body
+  std::shared_ptr<const fem::PointLocator> locator;
+};
+
+/// Up to 32 of the body's feature points that are far from the held nodes, where forces move little.
+PlacesToLookAt LookAt(const CauseWorld& world);
+
+/// What moving the point at which `force_N` acts along `axis` through the undeformed body does.
+robot::ParameterPtr MovedForce(const fem::PointLocator& locator, const Eigen::Vector3d& point_m,
+                               int axis, const Eigen::Vector3d& force_N);
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <Eigen/QR>
+
+#include "components/diagnosis/causes/makers.hpp"
+#include "libs/fem/elastic_body.hpp"
+#include "libs/fem/linearisation.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr Eigen::Index kModes = 5;
+
+/// [3n x kModes] the softest shapes of the body at rest, largest displacement 1, by subspace
+/// iteration on the inverse of its stiffness. Empty where it has none.
+Eigen::MatrixXd SoftestShapes(const robot::RobotBody& body) {
+  constexpr int kIterations = 25;
+  fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell);
+  fem::Linearisation linearisation(elastic, {}, body.fixed);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(elastic.rest_m().size());
+  if (!linearisation.Update(elastic.rest_m(), {}, none).ok()) return {};
+  Eigen::MatrixXd shapes(linearisation.Size(), kModes);
+  for (Eigen::Index k = 0; k < kModes; ++k) {
+    // Of any symmetry: no mode is left out.
+    shapes.col(k) = Eigen::VectorXd::LinSpaced(shapes.rows(), 0.0, 7.0 + 3.0 * static_cast<double>(k)).array().sin();
+  }
+  for (int i = 0; i < kIterations; ++i) {
+    linearisation.Solve(shapes);
+    shapes = Eigen::HouseholderQR<Eigen::MatrixXd>(shapes).householderQ() *
+             Eigen::MatrixXd::Identity(shapes.rows(), kModes);
+  }
+  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(none.size(), kModes);
+  for (Eigen::Index k = 0; k < kModes; ++k) {
+    linearisation.matrix().AddExpanded(shapes.col(k), 1.0, nodal.col(k));
+    nodal.col(k) /= nodal.col(k).reshaped(3, none.size() / 3).colwise().norm().maxCoeff();
+  }
+  return nodal;
+}
+
+/// The body was bent for good after the drives were zeroed, in a mixture of its softest shapes.
+class PlasticSet final : public Cause {
+ public:
+  explicit PlasticSet(Eigen::MatrixXd shapes)
+      : Cause({"plastic_set", {"body"}}, "bent rest shape of the body",
+              std::vector<CauseParameter>(
+                  kModes, {.name = "tip_m", .tolerance = 1e-4, .fault = 3e-3})),
+        shapes_(std::move(shapes)) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->body.mesh.nodes_m += (shapes_ * z).reshaped(3, draft->body.mesh.NodeCount());
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
+    return robot::RestShapeMode(shapes_.col(parameter), robot::CableZero::kKept,
+                                robot::MassRule::kNodalKept);
+  }
+
+  /// The largest displacement.
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
+                                      const Eigen::MatrixXd& covariance) const override {
+    const Eigen::Index nodes = shapes_.rows() / 3;
+    Eigen::Index most = 0;
+    (shapes_ * z).reshaped(3, nodes).colwise().norm().maxCoeff(&most);
+    const Eigen::MatrixXd there = shapes_.middleRows(3 * most, 3);
+    return {SizeOf("tip_m", there * z, there * covariance * there.transpose())};
+  }
+
+ private:
+  Eigen::MatrixXd shapes_;  ///< [3n x modes] m per z
+};
+
+}  // namespace
+
+void MakePlasticSet(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  Eigen::MatrixXd shapes = SoftestShapes(world.body);
+  if (shapes.size() == 0) return;
+  causes->push_back(std::make_unique<PlasticSet>(std::move(shapes)));
+}
+
+}  // namespace palpate::diagnosis

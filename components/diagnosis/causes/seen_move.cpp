@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/seen_move.hpp"
+
+namespace palpate::diagnosis {
+
+Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m) {
+  const double angle_rad = z.tail<3>().norm();
+  Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+  if (angle_rad > 0.0) {
+    move.linear() =
+        Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(z.tail<3>() / angle_rad)).toRotationMatrix();
+  }
+  move.translation() = middle_m - move.linear() * middle_m + z.head<3>();
+  return move;
+}
+
+void AddSeenMove(int parameter, const Eigen::Vector3d& middle_m, const CauseMoment& at,
+                 Eigen::Matrix3Xd* motion_m) {
+  const Eigen::Isometry3d T_robot_measurement = at.recording().T_measurement_robot.inverse();
+  for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
+    const Eigen::Vector3d seen_m = T_robot_measurement * at.simulated().markers_m.col(m);
+    motion_m->col(m) += parameter < 3
+                            ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
+                            : Eigen::Vector3d::Unit(parameter - 3).cross(seen_m - middle_m);
+  }
+}
+
+}  // namespace palpate::diagnosis

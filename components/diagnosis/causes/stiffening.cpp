@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <mutex>
+#include <utility>
+
+#include "components/diagnosis/causes/makers.hpp"
+#include "libs/core/error.hpp"
+#include "libs/fem/elastic_body.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+std::vector<fem::Material> AsYeoh(std::vector<fem::Material> materials, double c20_over_c10) {
+  for (fem::Material& material : materials) {
+    if (material.model != fem::MaterialModel::kYeoh) material.c30_over_c10 = 0.0;
+    material.model = fem::MaterialModel::kYeoh;
+    material.c20_over_c10 = c20_over_c10;
+  }
+  return materials;
+}
+
+/// The material stiffens with strain as Yeoh's with C20 = C2_over_C1 C10 does. With the cause a
+/// material of another kind becomes Yeoh's of the same modulus, which the derivative leaves out.
+class Stiffening final : public Cause {
+ public:
+  explicit Stiffening(const robot::RobotBody& body)
+      : Cause({"stiffening", {"body"}}, "stiffening of the material with strain",
+              {{.name = "C2_over_C1", .fault = 1.5, .least = 0.0}}),
+        without_(body.mesh, AsYeoh(body.materials, 0.0), body.material_of_cell),
+        with_(body.mesh, AsYeoh(body.materials, 1.0), body.material_of_cell) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->body.materials = AsYeoh(draft->body.materials, std::max(0.0, z[0]));
+  }
+
+  /// The forces are linear in C20.
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
+    const Eigen::VectorXd& x_m = at.simulated().state.x_m;
+    Eigen::VectorXd without_N = Eigen::VectorXd::Zero(x_m.size());
+    Eigen::VectorXd with_N = Eigen::VectorXd::Zero(x_m.size());
+    const std::scoped_lock lock(mutex_);
+    without_.AddForces(x_m, without_N);
+    with_.AddForces(x_m, with_N);
+    return robot::NodalForce(without_N - with_N);
+  }
+
+ private:
+  mutable std::mutex mutex_;  ///< bodies keep the sums of their threads
+  fem::ElasticBody without_;
+  fem::ElasticBody with_;
+};
+
+}  // namespace
+
+/// Nearly incompressible tet10 averages its dilatation, which Yeoh's material does not do here.
+void MakeStiffening(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  for (const fem::Material& material : world.body.materials) {
+    if (material.volumetric != fem::Volumetric::kPointwise) return;
+  }
+  causes->push_back(std::make_unique<Stiffening>(world.body));
+}
+
+}  // namespace palpate::diagnosis

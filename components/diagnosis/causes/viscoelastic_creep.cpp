@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/causes/makers.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// One Prony term with a relaxation time near one that it is looked for at. What it does at a
+/// moment is a force: the elastic forces of the past, as far as they have not faded
+/// (Memory::Fading), held by the body as it is. Turns of the body meanwhile are left out.
+class ViscoelasticCreep final : public Cause {
+ public:
+  ViscoelasticCreep(double tau_s, double tolerance)
+      : Cause({"viscoelastic_creep", {"body"}}, "creep of the body",
+              {{.name = "g", .tolerance = tolerance, .fault = 0.25, .least = 0.0},
+               {.name = "tau_s",
+                .nominal = tau_s,
+                .fault = 0.6,
+                .scale = CauseParameter::Scale::kFactor}}) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    if (z[0] == 0.0) return;
+    draft->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
+                             const CauseMoment& at) const override {
+    const double tau_s = parameters()[1].ValueOf(z[1]);
+    if (parameter == 0) return Force(at, -at.memory.Fading(tau_s).row(at.sample));
+    if (z[0] == 0.0) return nullptr;
+    constexpr double kStep = 1e-3;
+    return Force(at, -z[0] / kStep *
+                         (at.memory.Fading(tau_s * std::exp(kStep)).row(at.sample) -
+                          at.memory.Fading(tau_s).row(at.sample)));
+  }
+
+ private:
+  /// Sum of the elastic forces of all samples, so weighted.
+  static robot::ParameterPtr Force(const CauseMoment& at, const Eigen::RowVectorXd& weights) {
+    constexpr double kNothing = 1e-7;
+    const auto samples = std::ssize(at.simulation.samples);
+    Eigen::VectorXd force_N = weights[samples] * at.simulation.rest_elastic_N;
+    for (Eigen::Index s = 0; s < samples; ++s) {
+      if (std::abs(weights[s]) < kNothing) continue;
+      force_N += weights[s] * at.simulation.samples[static_cast<std::size_t>(s)].elastic_N;
+    }
+    return robot::NodalForce(std::move(force_N));
+  }
+};
+
+}  // namespace
+
+void MakeViscoelasticCreep(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+  constexpr double kHealthy = 0.02;
+  constexpr double kHealthyTau_s = 10.0;
+  for (const double tau_s : {1.0, 3.0, kHealthyTau_s, 30.0, 100.0}) {
+    causes->push_back(
+        std::make_unique<ViscoelasticCreep>(tau_s, tau_s == kHealthyTau_s ? kHealthy : 0.0));
+  }
+}
+
+}  // namespace palpate::diagnosis

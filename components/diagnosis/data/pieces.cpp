@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/data/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// The largest distance of a command from the straight way between two times, NaN left out.
+double Distance(const Timeline& timeline, std::size_t first, std::size_t last, std::size_t k) {
+  const double share = (timeline.t_s[k] - timeline.t_s[first]) /
+                       (timeline.t_s[last] - timeline.t_s[first]);
+  const Eigen::VectorXd straight =
+      timeline.command[first] + share * (timeline.command[last] - timeline.command[first]);
+  double distance = 0.0;
+  for (Eigen::Index c = 0; c < straight.size(); ++c) {
+    const double off = std::abs(timeline.command[k][c] - straight[c]);
+    if (!std::isnan(off)) distance = std::max(distance, off);
+  }
+  return distance;
+}
+
+void KeepKnots(const Timeline& timeline, std::size_t first, std::size_t last, double tolerance,
+               std::set<double>* knots_s) {
+  std::size_t farthest = first;
+  double distance = tolerance;
+  for (std::size_t k = first + 1; k < last; ++k) {
+    const double off = Distance(timeline, first, last, k);
+    if (off > distance) {
+      distance = off;
+      farthest = k;
+    }
+  }
+  if (farthest == first) return;
+  knots_s->insert(timeline.t_s[farthest]);
+  KeepKnots(timeline, first, farthest, tolerance, knots_s);
+  KeepKnots(timeline, farthest, last, tolerance, knots_s);
+}
+
+double Span(const Timeline& timeline) {
+  double span = 0.0;
+  for (const Eigen::VectorXd& command : timeline.command) {
+    for (const double value : command) {
+      if (!std::isnan(value)) span = std::max(span, std::abs(value));
+    }
+  }
+  return span;
+}
+
+}  // namespace
+
+std::vector<Piece> PiecesOf(const experiment::Recording& recording, const Timeline& timeline,
+                            double begin_s, double end_s) {
+  constexpr double kTolerance = 0.01;
+  const double tolerance = kTolerance * Span(timeline);
+  std::set<double> knots_s{begin_s, end_s};
+  const auto at = [&](double t_s) {
+    const auto found = std::lower_bound(timeline.t_s.begin(), timeline.t_s.end(), t_s);
+    const auto last = static_cast<std::ptrdiff_t>(timeline.t_s.size()) - 1;
+    return static_cast<std::size_t>(std::min(found - timeline.t_s.begin(), last));
+  };
+  if (at(begin_s) < at(end_s)) {
+    KeepKnots(timeline, at(begin_s), at(end_s), tolerance, &knots_s);
+  }
+  for (const experiment::KnownLoad& load : recording.loads) {
+    if (load.t_s > begin_s && load.t_s < end_s) knots_s.insert(load.t_s);
+  }
+  std::vector<Piece> pieces;
+  for (auto knot = knots_s.begin(); std::next(knot) != knots_s.end(); ++knot) {
+    Piece piece{.begin_s = *knot, .end_s = *std::next(knot)};
+    const Eigen::VectorXd moved =
+        timeline.CommandAt(piece.end_s) - timeline.CommandAt(piece.begin_s);
+    for (const double change : moved) {
+      if (std::abs(change) > tolerance) piece.still = false;
+    }
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+std::vector<experiment::TimeWindow> WindowsOf(const Piece& piece, int most) {
+  std::vector<experiment::TimeWindow> windows;
+  const double length_s = piece.end_s - piece.begin_s;
+  const auto edge_s = [&](int k) {
+    const double share = piece.still ? (std::exp2(k) - 1.0) / (std::exp2(most) - 1.0)
+                                     : static_cast<double>(k) / most;
+    return piece.begin_s + share * length_s;
+  };
+  for (int k = 0; k < most; ++k) windows.push_back({edge_s(k), edge_s(k + 1)});
+  return windows;
+}
+
+}  // namespace palpate::diagnosis

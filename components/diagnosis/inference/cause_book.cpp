@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/cause_book.hpp"
+
+#include <algorithm>
+
+namespace palpate::diagnosis {
+
+CauseBook::CauseBook(std::vector<CausePtr> causes, std::map<std::string, double> tolerances)
+    : causes_(std::move(causes)), first_{0}, tolerances_(std::move(tolerances)) {
+  for (const CausePtr& cause : causes_) {
+    first_.push_back(first_.back() + std::ssize(cause->parameters()));
+  }
+}
+
+double CauseBook::ToleranceOf(int k, int parameter) const {
+  const auto& parameters = cause(k).parameters();
+  const double own = parameters[static_cast<std::size_t>(parameter)].tolerance;
+  const auto told = tolerances_.find(cause(k).name().id);
+  if (told == tolerances_.end()) return own;
+  const double first = parameters.front().tolerance;
+  return first > 0.0 ? own * told->second / first : parameter == 0 ? told->second : own;
+}
+
+bool CauseBook::CanBeFault(int k) const {
+  const auto& parameters = cause(k).parameters();
+  return std::any_of(parameters.begin(), parameters.end(), [](const CauseParameter& parameter) {
+    return parameter.fault > parameter.tolerance;
+  });
+}
+
+Belief CauseBook::BeliefWith(const std::vector<int>& faults) const {
+  Belief belief(parameter_count());
+  for (int k = 0; k < size(); ++k) {
+    const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
+    for (Eigen::Index p = 0; p < count(k); ++p) {
+      const CauseParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+      const double tolerance = ToleranceOf(k, static_cast<int>(p));
+      belief.sigma[first(k) + p] = fault ? std::max(parameter.fault, tolerance) : tolerance;
+      if (fault) belief.mean[first(k) + p] = parameter.fault_at;
+    }
+  }
+  return belief;
+}
+
+Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>& faults) const {
+  Belief belief = BeliefWith(faults);
+  while (true) {
+    Posterior posterior = Infer(data, belief);
+    bool inside = true;
+    for (const int k : faults) {
+      for (Eigen::Index p = 0; p < count(k); ++p) {
+        const CauseParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+        const Eigen::Index column = first(k) + p;
+        const double z = posterior.mean[column];
+        const double bounded = std::clamp(z, parameter.least, parameter.most);
+        if (bounded == z || belief.sigma[column] == 0.0) continue;
+        belief.mean[column] = bounded;
+        belief.sigma[column] = 0.0;
+        inside = false;
+      }
+    }
+    if (inside) return posterior;
+  }
+}
+
+std::vector<int> CauseBook::ActiveIn(const Belief& belief) const {
+  std::vector<int> active;
+  for (int k = 0; k < size(); ++k) {
+    const bool believed = !belief.sigma.segment(first(k), count(k)).isZero(0.0) ||
+                          !belief.mean.segment(first(k), count(k)).isZero(0.0);
+    if (believed) active.push_back(k);
+  }
+  return active;
+}
+
+CauseList CauseBook::ListOf(const std::vector<int>& numbers) const {
+  CauseList list;
+  for (const int k : numbers) list.push_back(&cause(k));
+  return list;
+}
+
+std::vector<Eigen::Index> CauseBook::ParametersOf(const std::vector<int>& numbers) const {
+  std::vector<Eigen::Index> parameters;
+  for (const int k : numbers) {
+    for (Eigen::Index p = 0; p < count(k); ++p) parameters.push_back(first(k) + p);
+  }
+  return parameters;
+}
+
+}  // namespace palpate::diagnosis

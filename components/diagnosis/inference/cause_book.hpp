@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/inference/evidence.hpp"
+
+namespace palpate::diagnosis {
+
+/// All causes that a robot may have, where their parameters stand among all, and what is believed
+/// of them. Causes are known by their number here.
+class CauseBook {
+ public:
+  /// `tolerances` (experiment.yaml): cause id -> sigma of its first parameter for a healthy robot,
+  /// the others in proportion. One of something that is no cause here is of no effect.
+  CauseBook(std::vector<CausePtr> causes, std::map<std::string, double> tolerances);
+
+  int size() const { return static_cast<int>(causes_.size()); }
+  const Cause& cause(int k) const { return *causes_[static_cast<std::size_t>(k)]; }
+  Eigen::Index parameter_count() const { return first_.back(); }
+  Eigen::Index first(int k) const { return first_[static_cast<std::size_t>(k)]; }
+  Eigen::Index count(int k) const { return first(k + 1) - first(k); }
+  double ToleranceOf(int k, int parameter) const;
+
+  /// Whether a robot may have it as a fault: beyond what a healthy one has of it.
+  bool CanBeFault(int k) const;
+  /// A robot within its building tolerances, but for the causes in `faults`.
+  Belief BeliefWith(const std::vector<int>& faults) const;
+  /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
+  /// its bound.
+  Posterior InferWithin(const Information& data, const std::vector<int>& faults) const;
+
+  /// Those of which something is believed, with their numbers.
+  std::vector<int> ActiveIn(const Belief& belief) const;
+  CauseList ListOf(const std::vector<int>& numbers) const;
+  /// The parameters of these causes, one after the other.
+  std::vector<Eigen::Index> ParametersOf(const std::vector<int>& numbers) const;
+
+ private:
+  std::vector<CausePtr> causes_;
+  std::vector<Eigen::Index> first_;  ///< [causes + 1]
+  std::map<std::string, double> tolerances_;
+};
+
+}  // namespace palpate::diagnosis

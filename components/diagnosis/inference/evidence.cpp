@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+namespace palpate::diagnosis {
+
+Posterior Infer(const Information& data, const Belief& belief) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
+    if (belief.sigma[p] > 0.0) free.push_back(p);
+  }
+  std::vector<Eigen::Index> fixed_away;
+  for (Eigen::Index p = 0; p < belief.mean.size(); ++p) {
+    if (belief.mean[p] != 0.0) fixed_away.push_back(p);
+  }
+  double c = data.c;
+  Eigen::VectorXd b = data.b;
+  for (const Eigen::Index p : fixed_away) {
+    const double before = b[p];
+    b -= belief.mean[p] * data.H.col(p);
+    c -= belief.mean[p] * (before + b[p]);
+  }
+  const Eigen::VectorXd sigma = belief.sigma(free);
+  Eigen::MatrixXd A = sigma.asDiagonal() * data.H(free, free) * sigma.asDiagonal();
+  A.diagonal().array() += 1.0;
+  const Eigen::VectorXd g = sigma.cwiseProduct(b(free));
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  const Eigen::VectorXd steps = factor.solve(g);
+  Posterior posterior;
+  posterior.misfit = c - g.dot(steps);
+  posterior.ln_evidence =
+      -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
+  posterior.mean = belief.mean;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    posterior.mean[free[k]] += sigma[i] * steps[i];
+  }
+  posterior.covariance = Eigen::MatrixXd::Zero(belief.sigma.size(), belief.sigma.size());
+  const Eigen::MatrixXd inverse =
+      factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+  posterior.covariance(free, free) = sigma.asDiagonal() * inverse * sigma.asDiagonal();
+  return posterior;
+}
+
+}  // namespace palpate::diagnosis

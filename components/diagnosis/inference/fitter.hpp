@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "components/diagnosis/inference/cause_book.hpp"
+#include "components/diagnosis/inference/linear_model.hpp"
+#include "components/diagnosis/model/simulator.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::diagnosis {
+
+/// A robot with some faults, fitted to an experiment.
+struct Fit {
+  Status status;
+  std::vector<int> faults;  ///< numbers in the CauseBook
+  Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
+  Simulation simulation;
+  LinearModel model;        ///< columns of causes that were left out are 0
+  Posterior posterior;      ///< of all parameters
+};
+
+/// Which columns a linear model gets.
+enum class Columns {
+  kBelievedIn,  ///< those of parameters that the fit believes in
+  kAll,         ///< of every cause: to look for further ones
+};
+
+/// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
+class Fitter {
+ public:
+  /// All must outlive it.
+  Fitter(const ObservedExperiment& observed, const robot::RobotBody& body, const CauseBook& book,
+         const NoiseModel& noise, int threads);
+
+  /// The robot as its file has it, its linear model, and what a healthy robot makes of it.
+  Fit AsBuilt() const;
+  /// With these faults, from what `start` is fitted to. Ends where the evidence gains nothing.
+  Fit Refine(const std::vector<int>& faults, const Fit& start, Columns columns) const;
+  /// What a linear model says of faults, without another simulation.
+  Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
+
+  const CauseBook& book() const { return book_; }
+
+ private:
+  void LineariseAt(const Eigen::VectorXd& z, const std::vector<int>& columns,
+                   const Simulation* start, Fit* fit) const;
+
+  const ObservedExperiment& observed_;
+  const CauseBook& book_;
+  NoiseModel noise_;
+  ModelDraft nominal_;
+  Simulator simulator_;
+  Eigen::Matrix3Xd marker_rest_m_;
+};
+
+}  // namespace palpate::diagnosis

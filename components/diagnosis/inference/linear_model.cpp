@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/linear_model.hpp"
+
+#include <cmath>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Rows of one recording, marker and axis: what they have in common beside the noise.
+struct Series {
+  std::vector<int> samples;
+  Eigen::VectorXd sigma_m;   ///< [samples] noise of the means
+  Eigen::VectorXd common_m;  ///< [samples] of the constant
+};
+
+/// Multiplies by (D + v v')^(-1/2).
+class Whitening {
+ public:
+  explicit Whitening(const Series& series) : scale_(series.sigma_m.cwiseInverse()) {
+    along_ = series.common_m.cwiseProduct(scale_);
+    const double squared = along_.squaredNorm();
+    shrink_ = squared > 0.0 ? (1.0 - 1.0 / std::sqrt(1.0 + squared)) / squared : 0.0;
+  }
+
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const {
+    const Eigen::MatrixXd scaled = scale_.asDiagonal() * rows;
+    return scaled - shrink_ * along_ * (along_.transpose() * scaled);
+  }
+
+ private:
+  Eigen::VectorXd scale_;
+  Eigen::VectorXd along_;
+  double shrink_ = 0.0;
+};
+
+bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, std::size_t sample,
+            Eigen::Index coordinate) {
+  const SimulatedSample& simulated = simulation.samples[sample];
+  return simulated.status.ok() && observed.samples[sample].count[coordinate / 3] > 0 &&
+         simulated.jacobian_m.row(coordinate).allFinite();
+}
+
+Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation, int recording,
+                Eigen::Index coordinate, const Eigen::Matrix3Xd& rest_m,
+                const NoiseModel& noise) {
+  Series series;
+  std::vector<double> sigma_m;
+  std::vector<double> common_m;
+  const Eigen::Index marker = coordinate / 3;
+  const Eigen::Vector3d rest_seen_m =
+      observed.recordings[static_cast<std::size_t>(recording)].T_measurement_robot *
+      rest_m.col(marker);
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const Sample& sample = observed.samples[s];
+    if (sample.recording != recording || !IsSeen(observed, simulation, s, coordinate)) continue;
+    series.samples.push_back(static_cast<int>(s));
+    sigma_m.push_back(observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[marker]));
+    common_m.push_back(noise.relative_error *
+                       (simulation.samples[s].markers_m.col(marker) - rest_seen_m).norm());
+  }
+  series.sigma_m = Eigen::Map<Eigen::VectorXd>(sigma_m.data(), std::ssize(sigma_m));
+  series.common_m = Eigen::Map<Eigen::VectorXd>(common_m.data(), std::ssize(common_m));
+  return series;
+}
+
+}  // namespace
+
+Information::Information(Eigen::Index parameters)
+    : H(Eigen::MatrixXd::Zero(parameters, parameters)), b(Eigen::VectorXd::Zero(parameters)) {}
+
+void Information::Add(const Information& other) {
+  H += other.H;
+  b += other.b;
+  c += other.c;
+  rows += other.rows;
+}
+
+Information Information::Of(const std::vector<Eigen::Index>& parameters) const {
+  Information some(std::ssize(parameters));
+  some.H = H(parameters, parameters);
+  some.b = b(parameters);
+  some.c = c;
+  some.rows = rows;
+  return some;
+}
+
+Information LinearModel::All() const {
+  Information all(J.cols());
+  for (const Information& one : of_recording) all.Add(one);
+  return all;
+}
+
+Information LinearModel::AllBut(std::size_t recording) const {
+  Information some(J.cols());
+  for (std::size_t k = 0; k < of_recording.size(); ++k) {
+    if (k != recording) some.Add(of_recording[k]);
+  }
+  return some;
+}
+
+LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
+                      const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
+                      const NoiseModel& noise) {
+  const Eigen::Index coordinates = 3 * rest_m.cols();
+  const Eigen::Index most = std::ssize(observed.samples) * coordinates;
+  LinearModel model;
+  model.J.resize(most, z.size());
+  model.y.resize(most);
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < observed.recordings.size(); ++r) {
+    const Eigen::Index first = row;
+    for (Eigen::Index coordinate = 0; coordinate < coordinates; ++coordinate) {
+      const Series series = SeriesOf(observed, simulation, static_cast<int>(r), coordinate, rest_m,
+                                     noise);
+      const auto count = std::ssize(series.samples);
+      if (count == 0) continue;
+      Eigen::MatrixXd both(count, z.size() + 1);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const auto s = static_cast<std::size_t>(series.samples[static_cast<std::size_t>(k)]);
+        const SimulatedSample& simulated = simulation.samples[s];
+        both.row(k).head(z.size()) = simulated.jacobian_m.row(coordinate);
+        both(k, z.size()) = observed.samples[s].position_m.reshaped()[coordinate] -
+                            simulated.markers_m.reshaped()[coordinate] +
+                            simulated.jacobian_m.row(coordinate).dot(z);
+        model.sample_of_row.push_back(static_cast<int>(s));
+        model.coordinate_of_row.push_back(static_cast<int>(coordinate));
+      }
+      const Eigen::MatrixXd white = Whitening(series)(both);
+      model.J.middleRows(row, count) = white.leftCols(z.size());
+      model.y.segment(row, count) = white.col(z.size());
+      row += count;
+    }
+    Information& information = model.of_recording.emplace_back(z.size());
+    const auto J = model.J.middleRows(first, row - first);
+    const auto y = model.y.segment(first, row - first);
+    information.H.noalias() = J.transpose() * J;
+    information.b.noalias() = J.transpose() * y;
+    information.c = y.squaredNorm();
+    information.rows = static_cast<int>(row - first);
+  }
+  model.J.conservativeResize(row, Eigen::NoChange);
+  model.y.conservativeResize(row);
+  return model;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/data/observed_experiment.hpp"
+#include "components/diagnosis/model/simulation.hpp"
+
+namespace palpate::diagnosis {
+
+/// What a set of measurements says about parameters z, linear about a point:
+/// -2 ln p(y | z) = c - 2 b' z + z' H z, constants left out. Adds up over independent measurements.
+struct Information {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+  double c = 0.0;
+  int rows = 0;
+
+  explicit Information(Eigen::Index parameters);
+  void Add(const Information& other);
+  /// Of some of the parameters, the others at 0.
+  Information Of(const std::vector<Eigen::Index>& parameters) const;
+};
+
+/// An experiment as it looks from near z, whitened: y - J z is noise of unit variance.
+struct LinearModel {
+  Eigen::MatrixXd J;                ///< [rows x parameters]
+  Eigen::VectorXd y;                ///< [rows]
+  std::vector<int> sample_of_row;
+  std::vector<int> coordinate_of_row;  ///< 3 marker + axis
+  std::vector<Information> of_recording;
+
+  Information All() const;
+  Information AllBut(std::size_t recording) const;
+};
+
+struct NoiseModel {
+  /// What a mesh gets wrong, as a share of how far a marker is displaced: of each marker, axis and
+  /// recording a constant, one sigma. Noise that no averaging removes.
+  double relative_error = 0.01;
+};
+
+/// About `z` [parameters], at which `simulation` with its Jacobian was made. Samples that failed and
+/// markers that were not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
+LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
+                      const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
+                      const NoiseModel& noise);
+
+}  // namespace palpate::diagnosis

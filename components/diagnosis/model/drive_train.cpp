@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/drive_train.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palpate::diagnosis {
+
+DriveSettings::DriveSettings(int cables)
+    : mixing(Eigen::MatrixXd::Identity(cables, cables)),
+      gain(Eigen::VectorXd::Zero(cables)),
+      offset_m(Eigen::VectorXd::Zero(cables)),
+      play_m(Eigen::VectorXd::Zero(cables)) {}
+
+DriveTrain::DriveTrain(const ObservedExperiment& observed) : observed_(observed) {
+  t_s_ = observed.timeline.t_s;
+  for (const Sample& sample : observed.samples) {
+    t_s_.insert(t_s_.end(), sample.frame_t_s.begin(), sample.frame_t_s.end());
+  }
+  std::sort(t_s_.begin(), t_s_.end());
+  t_s_.erase(std::unique(t_s_.begin(), t_s_.end()), t_s_.end());
+  for (const Sample& sample : observed.samples) {
+    std::vector<int>& times = times_of_.emplace_back();
+    for (const double frame_s : sample.frame_t_s) {
+      const auto found = std::lower_bound(t_s_.begin(), t_s_.end(), frame_s);
+      times.push_back(static_cast<int>(found - t_s_.begin()));
+    }
+  }
+}
+
+/// After mixing and delay. A cable that gets nothing but commands of drives that are off is off.
+Eigen::VectorXd DriveTrain::Told(const DriveSettings& settings, double t_s) const {
+  const Eigen::VectorXd command = observed_.timeline.CommandAt(t_s - settings.delay_s);
+  Eigen::VectorXd told(command.size());
+  for (Eigen::Index cable = 0; cable < told.size(); ++cable) {
+    double sum = 0.0;
+    bool driven = false;
+    for (Eigen::Index drive = 0; drive < told.size(); ++drive) {
+      const double share = settings.mixing(cable, drive);
+      if (share == 0.0 || std::isnan(command[drive])) continue;
+      sum += share * command[drive];
+      driven = true;
+    }
+    told[cable] = driven ? sum : std::numeric_limits<double>::quiet_NaN();
+  }
+  return told;
+}
+
+Eigen::MatrixXd DriveTrain::Path(const DriveSettings& settings) const {
+  const Timeline& timeline = observed_.timeline;
+  const auto cables = static_cast<Eigen::Index>(timeline.cables.size());
+  Eigen::MatrixXd path(cables, static_cast<Eigen::Index>(t_s_.size()));
+  Eigen::VectorXd told = Told(settings, t_s_.front());
+  Eigen::VectorXd followed = told;
+  for (Eigen::Index k = 0; k < path.cols(); ++k) {
+    const auto now = static_cast<std::size_t>(k);
+    const Eigen::VectorXd next = Told(settings, t_s_[now]);
+    const double h_s = k > 0 ? t_s_[now] - t_s_[now - 1] : 0.0;
+    for (Eigen::Index c = 0; c < cables; ++c) {
+      // tau dy/dt + y = u, exactly for u that goes linearly.
+      const double behind = h_s > 0.0 ? (next[c] - told[c]) / h_s * settings.tau_s : 0.0;
+      const bool lags = settings.tau_s > 0.0 && h_s > 0.0 && !std::isnan(followed[c] + behind);
+      followed[c] = lags ? next[c] - behind +
+                               (followed[c] - told[c] + behind) * std::exp(-h_s / settings.tau_s)
+                         : next[c];
+      const bool by_tension = timeline.by_tension[static_cast<std::size_t>(c)];
+      const double geared =
+          (1.0 + settings.gain[c]) * followed[c] + (by_tension ? 0.0 : settings.offset_m[c]);
+      const double half = by_tension ? 0.0 : 0.5 * settings.play_m[c];
+      const double before = k > 0 ? path(c, k - 1) : geared;
+      path(c, k) = std::isnan(before) || std::isnan(geared)
+                       ? geared
+                       : std::clamp(before, std::min(geared - half, geared + half),
+                                    std::max(geared - half, geared + half));
+    }
+    told = next;
+  }
+  return path;
+}
+
+Eigen::MatrixXd DriveTrain::At(const DriveSettings& settings) const {
+  const Eigen::MatrixXd path = Path(settings);
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(path.rows(), std::ssize(times_of_));
+  for (std::size_t s = 0; s < times_of_.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    for (const int k : times_of_[s]) mean.col(column) += path.col(k);
+    mean.col(column) /= static_cast<double>(times_of_[s].size());
+  }
+  return mean;
+}
+
+Eigen::MatrixXi DriveTrain::Sliding(const DriveSettings& settings) const {
+  constexpr double kStill = 1e-9;
+  const Eigen::MatrixXd path = Path(settings);
+  Eigen::MatrixXi way = Eigen::MatrixXi::Zero(path.rows(), path.cols());
+  for (Eigen::Index k = 1; k < path.cols(); ++k) {
+    for (Eigen::Index c = 0; c < path.rows(); ++c) {
+      const double step = path(c, k) - path(c, k - 1);
+      way(c, k) = step > kStill ? 1 : step < -kStill ? -1 : way(c, k - 1);
+    }
+  }
+  Eigen::MatrixXi of_sample(path.rows(), std::ssize(times_of_));
+  for (std::size_t s = 0; s < times_of_.size(); ++s) {
+    of_sample.col(static_cast<Eigen::Index>(s)) = way.col(times_of_[s].back());
+  }
+  return of_sample;
+}
+
+}  // namespace palpate::diagnosis

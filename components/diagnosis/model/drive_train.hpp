@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/data/observed_experiment.hpp"
+
+namespace palpate::diagnosis {
+
+/// How drives turn what they are told into cable. At first as told.
+struct DriveSettings {
+  explicit DriveSettings(int cables);
+
+  Eigen::MatrixXd mixing;    ///< [cables x drives] what share of each drive's command a cable gets
+  double delay_s = 0.0;
+  double tau_s = 0.0;        ///< of a first order, after the delay
+  Eigen::VectorXd gain;      ///< [cables] g: takes in 1 + g times as much
+  Eigen::VectorXd offset_m;  ///< [cables] takes in so much more
+  Eigen::VectorXd play_m;    ///< [cables] full width
+
+  bool operator==(const DriveSettings&) const = default;
+};
+
+/// The drives through the whole experiment: mixing, lag, gain and offset, play, in
+/// this order; the play begins in its middle. Offset and play are of cables that are told a
+/// displacement.
+class DriveTrain {
+ public:
+  /// `observed` must outlive it.
+  explicit DriveTrain(const ObservedExperiment& observed);
+
+  /// [cables x samples] what the drives take in, m, or pull with, N: mean over the frames of each
+  /// sample; NaN: not driven.
+  Eigen::MatrixXd At(const DriveSettings& settings) const;
+  /// [cables x samples] 1 where a cable was last taken in, -1 let out, 0: not moved yet.
+  Eigen::MatrixXi Sliding(const DriveSettings& settings) const;
+
+ private:
+  /// [cables x times]
+  Eigen::MatrixXd Path(const DriveSettings& settings) const;
+  Eigen::VectorXd Told(const DriveSettings& settings, double t_s) const;
+
+  const ObservedExperiment& observed_;
+  std::vector<double> t_s_;                 ///< all stamps of commands and frames, rising
+  std::vector<std::vector<int>> times_of_;  ///< [samples] indices of its frames
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "components/diagnosis/data/observed_experiment.hpp"
+
+namespace palpate::diagnosis {
+
+/// What a body remembers of the experiment. A quantity that was worked out at the samples, and with
+/// every command at zero, is followed through all times: linearly from sample to sample, carried on
+/// to where a piece begins and ends, and to that of zero commands in the rests.
+class Memory {
+ public:
+  explicit Memory(const ObservedExperiment& observed);
+
+  /// [samples x samples + 1] weights W: the convolution integral of exp(-(t - s) / tau) dF/ds ds at
+  /// a sample, mean over its frames, is sum_k W(sample, k) F_k, the last k being zero commands.
+  /// Relaxed at the beginning. What was asked for once is kept; threads may ask at once.
+  const Eigen::MatrixXd& Fading(double tau_s) const;
+
+ private:
+  /// A time at which the quantity is a combination of those that were worked out.
+  struct Node {
+    double t_s = 0.0;
+    Eigen::RowVectorXd share;  ///< [samples + 1]
+  };
+  Eigen::MatrixXd WorkOutFading(double tau_s) const;
+  void AddPiece(std::size_t first, std::size_t last);
+  void Add(double t_s, Eigen::RowVectorXd share);
+  Eigen::RowVectorXd Only(std::size_t sample) const;
+  Eigen::RowVectorXd CarriedOn(std::size_t from, std::size_t over, double to_s) const;
+
+  const ObservedExperiment& observed_;
+  std::vector<Node> nodes_;  ///< by time
+  mutable std::mutex mutex_;
+  mutable std::map<double, Eigen::MatrixXd> fading_;  ///< by tau
+};
+
+}  // namespace palpate::diagnosis

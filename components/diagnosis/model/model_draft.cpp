@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/model_draft.hpp"
+
+namespace palpate::diagnosis {
+
+ModelDraft DraftOf(const robot::RobotBody& body, const ObservedExperiment& observed) {
+  ModelDraft draft(body);
+  draft.assembled_m = body.mesh.nodes_m.reshaped();
+  draft.cable_compliance_m_N = Eigen::VectorXd::Zero(std::ssize(body.cables));
+  draft.marker_offset_m = Eigen::Matrix3Xd::Zero(3, std::ssize(observed.markers));
+  draft.T_seen.assign(observed.recordings.size(), Eigen::Isometry3d::Identity());
+  return draft;
+}
+
+Eigen::Vector3d GravityIn(const ModelDraft& draft, const ObservedRecording& recording) {
+  return (recording.base_rotation * draft.R_askew).transpose() * draft.body.gravity_m_s2;
+}
+
+Eigen::Vector3d MiddleOfBase(const robot::RobotBody& body) {
+  Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+  int held = 0;
+  for (int node = 0; node < body.mesh.NodeCount(); ++node) {
+    if (!body.fixed.col(node).all()) continue;
+    sum_m += body.mesh.nodes_m.col(node);
+    ++held;
+  }
+  return sum_m / std::max(held, 1);
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/sample_differentiator.hpp"
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "components/diagnosis/model/sum_of_parameters.hpp"
+#include "components/diagnosis/model/simulator.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
+                                          const CauseList& causes, const Eigen::VectorXd& z,
+                                          const DriveSettings& drives) {
+  constexpr double kStep = 1e-3;  // of the parameter's fault sigma
+  const Eigen::MatrixXd taken_in = train.At(drives);
+  std::vector<Eigen::MatrixXd> changes;
+  Eigen::Index column = 0;
+  for (const Cause* cause : causes) {
+    for (const CauseParameter& parameter : cause->parameters()) {
+      changes.emplace_back();
+      const double step = kStep * parameter.fault;
+      Eigen::VectorXd beside = z;
+      beside[column++] += step;
+      if (!cause->OnDrives()) continue;
+      changes.back() =
+          (train.At(DraftWith(nominal, causes, beside).drives) - taken_in) / step;
+    }
+  }
+  return changes;
+}
+
+SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
+                                           const Eigen::VectorXd& z,
+                                           const std::vector<Eigen::MatrixXd>& drive_change,
+                                           SampleSolver* solver)
+    : draft_(draft),
+      causes_(causes),
+      z_(z),
+      drive_change_(drive_change),
+      solver_(*solver),
+      sensitivity_(solver->model()) {
+  for (int c = 0; c < solver->model().CableCount(); ++c) {
+    if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
+  }
+}
+
+void SampleDifferentiator::Collect(const CauseMoment& at) {
+  acting_.clear();
+  column_of_.clear();
+  Eigen::Index column = 0;
+  for (const Cause* cause : causes_) {
+    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
+    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
+      const Eigen::MatrixXd& change = drive_change_[static_cast<std::size_t>(column)];
+      auto sum = std::make_unique<SumOfParameters>();
+      if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
+        sum->Add(1.0, CommandChange(change.col(at.sample).array().isNaN().select(
+                          0.0, change.col(at.sample))));
+      }
+      if (robot::ParameterPtr body = cause->OnBody(p, own, at)) sum->Add(1.0, std::move(body));
+      if (sum->empty()) continue;
+      acting_.push_back(std::move(sum));
+      column_of_.push_back(column);
+    }
+  }
+  for (const int c : compliant_) acting_.push_back(robot::CableOffset(c));
+}
+
+/// What the drives hold changes with the tension: du = -C dT, dT = T_p + T_u du.
+void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
+  const auto count = std::ssize(compliant_);
+  const auto acting = std::ssize(column_of_);
+  const Eigen::MatrixXd& tension_N = sensitivity_.tension_N();
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
+  Eigen::MatrixXd given(count, acting);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int c = compliant_[static_cast<std::size_t>(k)];
+    slope.row(k) += draft_.cable_compliance_m_N[c] * tension_N.row(c).tail(count);
+    given.row(k) = -draft_.cable_compliance_m_N[c] * tension_N.row(c).head(acting);
+  }
+  motions_m->leftCols(acting) +=
+      motions_m->rightCols(count) * slope.partialPivLu().solve(given);
+}
+
+Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
+  const auto markers = std::ssize(solver_.markers());
+  Eigen::MatrixXd jacobian_m = Eigen::MatrixXd::Zero(3 * markers, ParameterCount(causes_));
+  Collect(at);
+  const SimulatedSample& simulated = at.simulated();
+  if (!simulated.status.ok() ||
+      !sensitivity_.Compute(simulated.commands, simulated.state, acting_).ok()) {
+    return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  Eigen::MatrixXd motions_m;
+  sensitivity_.PointMotions(solver_.markers(), &motions_m);
+  if (!compliant_.empty()) GiveWay(&motions_m);
+  for (std::size_t k = 0; k < column_of_.size(); ++k) {
+    jacobian_m.col(column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
+  }
+  const auto recording = static_cast<std::size_t>(at.seen().recording);
+  const Eigen::Matrix3d R_seen = draft_.T_seen[recording].linear();
+  const Eigen::Matrix3d R_measurement =
+      at.observed.recordings[recording].T_measurement_robot.linear();
+  Eigen::Index column = 0;
+  Eigen::Matrix3Xd seen_m(3, markers);
+  for (const Cause* cause : causes_) {
+    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
+    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
+      seen_m = R_seen * jacobian_m.col(column).reshaped(3, markers);
+      cause->OnView(p, own, at, &seen_m);
+      jacobian_m.col(column) = (R_measurement * seen_m).reshaped();
+    }
+  }
+  return jacobian_m;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/model/drive_train.hpp"
+#include "components/diagnosis/model/sample_solver.hpp"
+
+namespace palpate::diagnosis {
+
+/// [parameters][cables x samples] what dz of each parameter changes of what the drives take in;
+/// empty for those of causes that do not act on drives. `drives` are those at `z`.
+std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
+                                          const CauseList& causes, const Eigen::VectorXd& z,
+                                          const DriveSettings& drives);
+
+/// How the markers move with the parameters of causes. What compliant cables give way by when their
+/// tension changes is counted, what a compliant base then turns by is not. For one thread.
+class SampleDifferentiator {
+ public:
+  /// All must outlive it. `solver` is prepared for each sample before.
+  SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
+                       const Eigen::VectorXd& z,
+                       const std::vector<Eigen::MatrixXd>& drive_change, SampleSolver* solver);
+
+  /// [3 markers x parameters] m per z, measurement frame. NaN where there are no derivatives.
+  Eigen::MatrixXd At(const CauseMoment& at);
+
+ private:
+  void Collect(const CauseMoment& at);
+  void GiveWay(Eigen::MatrixXd* motions_m) const;
+
+  const ModelDraft& draft_;
+  const CauseList& causes_;
+  const Eigen::VectorXd& z_;  ///< [parameters of all]
+  const std::vector<Eigen::MatrixXd>& drive_change_;
+  SampleSolver& solver_;
+  robot::SensitivitySolver sensitivity_;
+  std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
+  std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter
+  std::vector<int> compliant_;               ///< cables, whose offsets come after `acting_`
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/sample_solver.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "libs/fem/embedding.hpp"
+#include "libs/robot/sensitivity/eyelet_gradient.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+using Kind = robot::CableCommand::Kind;
+
+/// Of loops between equilibrium and what gives way under it.
+constexpr int kMostRounds = 12;
+constexpr double kSettled_m = 1e-8;
+constexpr double kSettled_rad = 1e-8;
+
+std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
+  std::vector<fem::NodeWeights> points;
+  const bool moved = !draft.marker_offset_m.isZero();
+  const std::optional<fem::PointLocator> locator =
+      moved ? std::optional<fem::PointLocator>(draft.body.mesh) : std::nullopt;
+  for (std::size_t m = 0; m < draft.body.markers.size(); ++m) {
+    const fem::BodyPoint& point = draft.body.markers[m].point;
+    const Eigen::Vector3d offset_m = draft.marker_offset_m.col(static_cast<Eigen::Index>(m));
+    if (offset_m.isZero()) {
+      points.push_back(point.weights);
+      continue;
+    }
+    const fem::NodeWeights along = robot::EyeletWeightsAlong(*locator, point.rest_m, 0.0,
+                                                             offset_m.normalized());
+    points.push_back(fem::Combine({point.weights, along}, {1.0, offset_m.norm()}));
+  }
+  return points;
+}
+
+}  // namespace
+
+SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed)
+    : draft_(draft),
+      observed_(observed),
+      model_(draft.body),
+      sensitivity_(model_),
+      markers_(MarkerPoints(draft)),
+      zero_shift_m_(model_.CableCount()),
+      base_middle_m_(MiddleOfBase(draft.body)) {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    zero_shift_m_[c] =
+        model_.cable(c).rest_length_m() - model_.cable(c).Value(draft.assembled_m);
+  }
+}
+
+std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& taken_in) const {
+  std::vector<robot::CableCommand> commands(static_cast<std::size_t>(taken_in.size()));
+  for (Eigen::Index c = 0; c < taken_in.size(); ++c) {
+    const auto cable = static_cast<std::size_t>(c);
+    if (std::isnan(taken_in[c])) continue;
+    commands[cable] = observed_.timeline.by_tension[cable]
+                          ? robot::CableCommand{Kind::kTension, std::max(0.0, taken_in[c])}
+                          : robot::CableCommand{Kind::kDisplacement,
+                                                taken_in[c] + zero_shift_m_[c]};
+  }
+  return commands;
+}
+
+/// Weights that hang along what gravity was believed to be hang along what it is.
+std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
+  const auto& recording = observed_.recordings[static_cast<std::size_t>(sample.recording)];
+  const Eigen::Matrix3d& R_tilt = recording.base_rotation;
+  const Eigen::Vector3d believed = (R_tilt.transpose() * draft_.body.gravity_m_s2).normalized();
+  std::vector<robot::DeadLoad> loads;
+  for (const experiment::KnownLoad& load : sample.loads) {
+    const bool hangs = load.force_N.normalized().dot(believed) > kHangs;
+    const Eigen::Vector3d force_N =
+        hangs ? Eigen::Vector3d((R_tilt * draft_.R_askew).transpose() * R_tilt * load.force_N)
+              : load.force_N;
+    loads.push_back({model_.Patch(load.position_m, load.patch_radius_m).weights, force_N});
+  }
+  const Eigen::Vector3d gravity_m_s2 = GravityIn(draft_, recording);
+  for (const CarriedMass& mass : draft_.masses) {
+    loads.push_back({mass.weights, mass.mass_kg * gravity_m_s2});
+  }
+  for (const WorldForce& force : draft_.forces) {
+    loads.push_back({force.weights, R_tilt.transpose() * force.force_N});
+  }
+  return loads;
+}
+
+void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
+  const Timeline& timeline = observed_.timeline;
+  const double begin_s = timeline.begin_s.front();
+  const double share = (sample.t_s - begin_s) / (timeline.end_s.back() - begin_s);
+  const double factor =
+      (1.0 + draft_.modulus_change_at_end * share) * (1.0 + past.scale);
+  for (std::size_t k = 0; k < draft_.body.materials.size(); ++k) {
+    model_.SetYoungsModulus(static_cast<int>(k),
+                            factor * draft_.body.materials[k].youngs_modulus_Pa);
+  }
+  model_.SetGravity(
+      GravityIn(draft_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
+}
+
+void SampleSolver::SetSliding(const Eigen::VectorXi& way) {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    model_.SetCableFriction(
+        c, {.coefficient = draft_.body.cables[static_cast<std::size_t>(c)].friction_coefficient,
+            .sliding = way[c] < 0 ? robot::CableFriction::Sliding::kOut
+                                  : robot::CableFriction::Sliding::kIn});
+  }
+}
+
+Status SampleSolver::Balance(const fem::LoadState& loads, fem::StaticState* state) {
+  return model_.static_solver().Solve(loads, state).status;
+}
+
+fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
+                                          const SimulatedSample& solved) const {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const auto cable = static_cast<std::size_t>(c);
+    loads.commands[cable] = model_.ToConstraint(c, solved.commands[cable]);
+  }
+  if (base_turn_rad_.isZero()) return loads;
+  const double angle_rad = base_turn_rad_.norm();
+  const Eigen::AngleAxisd turn(angle_rad, base_turn_rad_ / angle_rad);
+  const Eigen::VectorXd& rest_m = model_.body().mesh.nodes_m.reshaped();
+  for (Eigen::Index node = 0; node < rest_m.size() / 3; ++node) {
+    loads.fixed_position_m.segment<3>(3 * node) =
+        base_middle_m_ + turn * (rest_m.segment<3>(3 * node) - base_middle_m_);
+  }
+  return loads;
+}
+
+/// Newton's method on what the drives hold: a stretched cable takes in less. Whether it moved.
+bool SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved) {
+  std::vector<int> compliant;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const auto& command = solved->commands[static_cast<std::size_t>(c)];
+    if (draft_.cable_compliance_m_N[c] > 0.0 && command.kind == Kind::kDisplacement) {
+      compliant.push_back(c);
+    }
+  }
+  if (compliant.empty()) return false;
+  const auto count = static_cast<Eigen::Index>(compliant.size());
+  Eigen::VectorXd beyond_m(count);
+  std::vector<robot::ParameterPtr> offsets;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int c = compliant[static_cast<std::size_t>(k)];
+    const double stretch_m = draft_.cable_compliance_m_N[c] * solved->state.multipliers_N[c];
+    beyond_m[k] = solved->commands[static_cast<std::size_t>(c)].value + stretch_m -
+                  (taken_in[c] + zero_shift_m_[c]);
+    offsets.push_back(robot::CableOffset(c));
+  }
+  if (beyond_m.cwiseAbs().maxCoeff() < kSettled_m) return false;
+  if (!sensitivity_.Compute(solved->commands, solved->state, offsets).ok()) return false;
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int c = compliant[static_cast<std::size_t>(k)];
+    slope.row(k) += draft_.cable_compliance_m_N[c] * sensitivity_.tension_N().row(c);
+  }
+  const Eigen::VectorXd step_m = slope.partialPivLu().solve(beyond_m);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto cable = static_cast<std::size_t>(compliant[static_cast<std::size_t>(k)]);
+    solved->commands[cable].value -= step_m[k];
+  }
+  return true;
+}
+
+/// A step towards the turn that goes with the moment on the base. Whether it moved.
+bool SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState& state) {
+  if (draft_.base_compliance_rad_Nm == 0.0) return false;
+  fem::Linearisation& linearisation = model_.linearisation();
+  if (!linearisation.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N).ok()) {
+    return false;
+  }
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
+  for (Eigen::Index node = 0; node < state.x_m.size() / 3; ++node) {
+    if (!model_.body().fixed.col(node).all()) continue;
+    const Eigen::Vector3d force_N = linearisation.nodal_residual_N().segment<3>(3 * node);
+    moment_Nm += (state.x_m.segment<3>(3 * node) - base_middle_m_).cross(force_N);
+  }
+  constexpr double kShare = 0.7;  // stiff bodies on soft bases swing otherwise
+  const Eigen::Vector3d step_rad = draft_.base_compliance_rad_Nm * moment_Nm - base_turn_rad_;
+  base_turn_rad_ += kShare * step_rad;
+  return step_rad.norm() > kSettled_rad;
+}
+
+Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
+                             SimulatedSample* solved) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Status status = Balance(WithCommands(loads, *solved), &solved->state);
+    if (!status.ok()) return status;
+    const bool stretched = StretchCables(taken_in, solved);
+    const bool turned = TurnBase(loads, solved->state);
+    if (!stretched && !turned) return Status::Ok();
+  }
+  return {StatusCode::kNotConverged, "cables or base give way without an end"};
+}
+
+void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) const {
+  const auto recording = static_cast<std::size_t>(sample.recording);
+  const Eigen::Isometry3d T_measurement_robot =
+      observed_.recordings[recording].T_measurement_robot * draft_.T_seen[recording];
+  solved->markers_m.resize(3, std::ssize(markers_));
+  for (std::size_t m = 0; m < markers_.size(); ++m) {
+    solved->markers_m.col(static_cast<Eigen::Index>(m)) =
+        T_measurement_robot * markers_[m].Position(solved->state.x_m);
+  }
+}
+
+void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
+                         const Hereditary& past, SimulatedSample* solved) {
+  Prepare(sample, past);
+  if (solved->state.x_m.size() == 0) solved->state = model_.RestState();
+  if (solved->commands.empty() || draft_.cable_compliance_m_N.isZero()) {
+    solved->commands = Commands(taken_in);
+  }
+  base_turn_rad_.setZero();
+  fem::LoadState loads = model_.Loads(solved->commands, LoadsAt(sample));
+  if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
+  solved->status = GiveWay(taken_in, loads, solved);
+  solved->markers_m = Eigen::Matrix3Xd::Constant(3, std::ssize(markers_),
+                                                 std::numeric_limits<double>::quiet_NaN());
+  solved->elastic_N = Eigen::VectorXd::Zero(solved->state.x_m.size());
+  if (!solved->status.ok()) return;
+  model_.elastic_body().AddForces(solved->state.x_m, solved->elastic_N);
+  solved->elastic_N /= 1.0 + past.scale;
+  SeeMarkers(sample, solved);
+}
+
+Eigen::VectorXd SampleSolver::RestElastic_N() {
+  SimulatedSample rest;
+  Sample nothing;
+  nothing.t_s = observed_.timeline.begin_s.front();
+  Eigen::VectorXd zero = Eigen::VectorXd::Zero(model_.CableCount());
+  Solve(nothing, zero, {}, &rest);
+  return rest.elastic_N;
+}
+
+}  // namespace palpate::diagnosis

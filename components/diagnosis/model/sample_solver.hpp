@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/simulation.hpp"
+#include "libs/fem/node_weights.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/sensitivity_solver.hpp"
+
+namespace palpate::diagnosis {
+
+/// What the past leaves for a sample: the body answers 1 + scale times as stiff, and carries forces.
+struct Hereditary {
+  double scale = 0.0;
+  Eigen::VectorXd force_N;  ///< [3n], or empty: none
+};
+
+/// Equilibria of a draft's robot at single samples. For one thread.
+class SampleSolver {
+ public:
+  /// Both must outlive it.
+  SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed);
+
+  robot::RobotModel& model() { return model_; }
+  /// [markers] points of the body that the markers sit at, offsets included.
+  const std::vector<fem::NodeWeights>& markers() const { return markers_; }
+
+  /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
+  /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
+  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const Hereditary& past,
+             SimulatedSample* solved);
+  /// Elastic forces [3n] at rest with every command at zero and nothing on the body.
+  Eigen::VectorXd RestElastic_N();
+  /// Puts the model's moduli and gravity to what they are at a sample.
+  void Prepare(const Sample& sample, const Hereditary& past);
+  /// [cables] which way they last went through their eyelets (DriveTrain::Sliding).
+  void SetSliding(const Eigen::VectorXi& way);
+
+ private:
+  std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
+  std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
+  Status Balance(const fem::LoadState& loads, fem::StaticState* state);
+  Status GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
+                 SimulatedSample* solved);
+  bool StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved);
+  bool TurnBase(const fem::LoadState& loads, const fem::StaticState& state);
+  fem::LoadState WithCommands(fem::LoadState loads, const SimulatedSample& solved) const;
+  void SeeMarkers(const Sample& sample, SimulatedSample* solved) const;
+
+  const ModelDraft& draft_;
+  const ObservedExperiment& observed_;
+  robot::RobotModel model_;
+  robot::SensitivitySolver sensitivity_;
+  std::vector<fem::NodeWeights> markers_;
+  Eigen::VectorXd zero_shift_m_;       ///< [cables] of the shape that the drives were zeroed at
+  Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d base_middle_m_;
+};
+
+}  // namespace palpate::diagnosis

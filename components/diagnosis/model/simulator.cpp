@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <thread>
+
+#include "components/diagnosis/model/sample_differentiator.hpp"
+#include "components/diagnosis/model/sample_solver.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Samples of the same recording follow each other and start from each other. [threads]
+std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed, int threads) {
+  std::vector<std::vector<std::size_t>> of_recording(observed.recordings.size());
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    of_recording[static_cast<std::size_t>(observed.samples[s].recording)].push_back(s);
+  }
+  std::sort(of_recording.begin(), of_recording.end(),
+            [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  std::vector<std::vector<std::size_t>> shares(static_cast<std::size_t>(threads));
+  for (const auto& samples : of_recording) {
+    auto& least = *std::min_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
+      return a.size() < b.size();
+    });
+    least.insert(least.end(), samples.begin(), samples.end());
+  }
+  return shares;
+}
+
+void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
+               const std::function<void(const std::vector<std::size_t>&)>& work) {
+  std::vector<std::jthread> threads;
+  for (std::size_t k = 1; k < shares.size(); ++k) {
+    threads.emplace_back([&work, &share = shares[k]] { work(share); });
+  }
+  work(shares.front());
+}
+
+/// What the past leaves for each sample, after a first look at all of them.
+std::vector<Hereditary> PastOf(const ModelDraft& draft, const Memory& memory,
+                               const Simulation& simulation) {
+  std::vector<Hereditary> past(simulation.samples.size());
+  if (draft.creep.empty()) return past;
+  const Eigen::Index nodal = simulation.rest_elastic_N.size();
+  const auto samples = std::ssize(simulation.samples);
+  Eigen::MatrixXd elastic_N(nodal, samples + 1);
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    elastic_N.col(s) = simulation.samples[static_cast<std::size_t>(s)].elastic_N;
+  }
+  elastic_N.col(samples) = simulation.rest_elastic_N;
+  for (const CreepTerm& term : draft.creep) {
+    const Eigen::MatrixXd fading = memory.Fading(term.tau_s);
+    for (Eigen::Index s = 0; s < samples; ++s) {
+      Hereditary& left = past[static_cast<std::size_t>(s)];
+      Eigen::VectorXd weights = fading.row(s).transpose();
+      left.scale += term.g * weights[s];
+      weights[s] = 0.0;
+      if (left.force_N.size() == 0) left.force_N = Eigen::VectorXd::Zero(nodal);
+      left.force_N.noalias() -= term.g * (elastic_N * weights);
+    }
+  }
+  return past;
+}
+
+/// Sweeps through all samples until what they remember of each other is settled.
+int SweepsFor(const ModelDraft& draft) {
+  constexpr double kLittle = 0.05;
+  double g = 0.0;
+  for (const CreepTerm& term : draft.creep) g += std::abs(term.g);
+  return g == 0.0 ? 1 : g < kLittle ? 2 : 4;
+}
+
+}  // namespace
+
+Eigen::Index ParameterCount(const CauseList& causes) {
+  return std::accumulate(causes.begin(), causes.end(), Eigen::Index{0},
+                         [](Eigen::Index sum, const Cause* cause) {
+                           return sum + std::ssize(cause->parameters());
+                         });
+}
+
+ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const Eigen::VectorXd& z) {
+  ModelDraft draft = nominal;
+  Eigen::Index first = 0;
+  for (const Cause* cause : causes) {
+    const auto count = std::ssize(cause->parameters());
+    const Eigen::VectorXd own = z.segment(first, count);
+    if (!own.isZero()) cause->Apply(own, &draft);
+    first += count;
+  }
+  return draft;
+}
+
+Simulator::Simulator(const ObservedExperiment& observed, int threads)
+    : observed_(observed), threads_(threads), drives_(observed), memory_(observed) {}
+
+Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) const {
+  Simulation simulation;
+  simulation.taken_in = drives_.At(draft.drives);
+  if (start != nullptr) {
+    simulation.samples = start->samples;
+  } else {
+    simulation.samples.resize(observed_.samples.size());
+  }
+  std::vector<Hereditary> past(observed_.samples.size());
+  const int sweeps = SweepsFor(draft);
+  const auto shares = Shares(observed_, threads_);
+  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    OnThreads(shares, [&](const std::vector<std::size_t>& share) {
+      SampleSolver solver(draft, observed_);
+      if (&share == &shares.front()) simulation.rest_elastic_N = solver.RestElastic_N();
+      const fem::StaticState* before = nullptr;
+      for (const std::size_t s : share) {
+        SimulatedSample& sample = simulation.samples[s];
+        solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
+        if (sample.state.x_m.size() == 0 && before != nullptr) sample.state = *before;
+        solver.Solve(observed_.samples[s], simulation.taken_in.col(static_cast<Eigen::Index>(s)),
+                     past[s], &sample);
+        if (sample.status.ok()) before = &sample.state;
+      }
+    });
+    if (sweep + 1 < sweeps) past = PastOf(draft, memory_, simulation);
+  }
+  simulation.status = Status::Ok();
+  for (const SimulatedSample& sample : simulation.samples) {
+    if (simulation.status.ok() && !sample.status.ok()) simulation.status = sample.status;
+  }
+  return simulation;
+}
+
+void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
+                              const Eigen::VectorXd& z, const ModelDraft& nominal,
+                              Simulation* simulation) const {
+  const std::vector<Eigen::MatrixXd> drive_change =
+      DriveChanges(drives_, nominal, causes, z, draft.drives);
+  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  const std::vector<Hereditary> past = PastOf(draft, memory_, *simulation);
+  OnThreads(Shares(observed_, threads_), [&](const std::vector<std::size_t>& share) {
+    SampleSolver solver(draft, observed_);
+    SampleDifferentiator differentiator(draft, causes, z, drive_change, &solver);
+    for (const std::size_t s : share) {
+      SimulatedSample& sample = simulation->samples[s];
+      const auto column = static_cast<Eigen::Index>(s);
+      solver.Prepare(observed_.samples[s], past[s]);
+      solver.SetSliding(sliding.col(column));
+      const CauseMoment at{.observed = observed_,
+                           .draft = draft,
+                           .simulation = *simulation,
+                           .memory = memory_,
+                           .sample = static_cast<int>(s),
+                           .model = solver.model()};
+      sample.jacobian_m = differentiator.At(at);
+    }
+  });
+}
+
+}  // namespace palpate::diagnosis

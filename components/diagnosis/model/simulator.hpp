@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/data/observed_experiment.hpp"
+#include "components/diagnosis/model/drive_train.hpp"
+#include "components/diagnosis/model/memory.hpp"
+#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/simulation.hpp"
+
+namespace palpate::diagnosis {
+
+/// Works out where the markers would be seen at every sample of an experiment, if the robot were as
+/// a draft has it, and what a change of causes does to that. Recordings are shared by threads, each
+/// with a model of its own.
+class Simulator {
+ public:
+  /// `observed` must outlive it.
+  Simulator(const ObservedExperiment& observed, int threads);
+
+  /// Equilibria of all samples. A sample that fails has a status that says so and no markers (NaN).
+  /// Begins from those of `start` where there is one, of the same mesh.
+  Simulation Run(const ModelDraft& draft, const Simulation* start = nullptr) const;
+
+  /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
+  /// `z` [parameters of all]; `draft` is what these made.
+  void Differentiate(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
+                     const ModelDraft& nominal, Simulation* simulation) const;
+
+  const Memory& memory() const { return memory_; }
+
+ private:
+  const ObservedExperiment& observed_;
+  int threads_;
+  DriveTrain drives_;
+  Memory memory_;
+};
+
+/// Parameters of all causes together.
+Eigen::Index ParameterCount(const CauseList& causes);
+
+/// What causes make of the robot file's draft.
+ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const Eigen::VectorXd& z);
+
+}  // namespace palpate::diagnosis
