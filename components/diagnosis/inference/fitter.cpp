@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/inference/fitter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -15,7 +16,10 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
       noise_(noise),
       nominal_(DraftOf(body, observed)),
       simulator_(observed, threads),
-      marker_rest_m_(3, std::ssize(body.markers)) {
+      marker_rest_m_(3, std::ssize(body.markers)),
+      healthy_(book.BeliefWith({})),
+      all_(static_cast<std::size_t>(book.size())) {
+  std::iota(all_.begin(), all_.end(), 0);
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     marker_rest_m_.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
   }
@@ -44,33 +48,55 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
 }
 
 Fit Fitter::AsBuilt() const {
-  std::vector<int> all(static_cast<std::size_t>(book_.size()));
-  std::iota(all.begin(), all.end(), 0);
   Fit fit;
-  LineariseAt(Eigen::VectorXd::Zero(book_.parameter_count()), all, nullptr, &fit);
+  LineariseAt(Eigen::VectorXd::Zero(book_.parameter_count()), all_, nullptr, &fit);
   fit.posterior = Guess(fit, {});
   return fit;
 }
 
+Eigen::VectorXd Fitter::PointOf(const Posterior& posterior, const std::vector<int>& faults) const {
+  Eigen::VectorXd z = posterior.mean;
+  for (int k = 0; k < book_.size(); ++k) {
+    const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
+    for (Eigen::Index p = 0; p < book_.count(k) && !fault; ++p) {
+      const bool one_sided = book_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
+      if (one_sided) z[book_.first(k) + p] = 0.0;
+    }
+  }
+  return z;
+}
+
+bool Fitter::IsNear(const Fit& fit) const {
+  constexpr double kShare = 0.5;
+  const Belief belief = book_.BeliefWith(fit.faults);
+  const Eigen::VectorXd step = PointOf(fit.posterior, fit.faults) - fit.z;
+  for (Eigen::Index p = 0; p < step.size(); ++p) {
+    const double known = std::sqrt(fit.posterior.covariance(p, p));
+    const bool fault = belief.sigma[p] != healthy_.sigma[p];
+    if (std::abs(step[p]) > kShare * (fault ? known : belief.sigma[p])) return false;
+  }
+  return true;
+}
+
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, Columns columns) const {
   constexpr int kMostRounds = 4;
-  constexpr double kNothing = 0.3;  // of ln evidence
-  std::vector<int> believed = book_.ActiveIn(book_.BeliefWith(faults));
-  std::vector<int> all(static_cast<std::size_t>(book_.size()));
-  std::iota(all.begin(), all.end(), 0);
+  constexpr double kNothing = 0.5;  // of ln evidence
+  const std::vector<int> believed = book_.ActiveIn(book_.BeliefWith(faults));
   Fit fit;
   fit.faults = faults;
   fit.posterior = Guess(start, faults);
   const Simulation* from = &start.simulation;
   for (int round = 0; round < kMostRounds; ++round) {
+    const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
-    LineariseAt(fit.posterior.mean, columns == Columns::kAll ? all : believed, from, &next);
+    LineariseAt(PointOf(fit.posterior, faults), columns == Columns::kAll ? all_ : believed, from,
+                &next);
     next.posterior = Guess(next, faults);
-    const double gain = next.posterior.ln_evidence - fit.posterior.ln_evidence;
     fit = std::move(next);
     from = &fit.simulation;
-    if (std::abs(gain) < kNothing) break;
+    const bool settled = std::abs(fit.posterior.ln_evidence - before) < kNothing;
+    if (!fit.status.ok() || settled || IsNear(fit)) break;
   }
   return fit;
 }

@@ -29,6 +29,8 @@ enum class Columns {
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
+/// Of a healthy robot what has one sign only (play, creep, delay) stays linear: it is small, and its
+/// derivative has two sides.
 class Fitter {
  public:
   /// All must outlive it.
@@ -37,14 +39,18 @@ class Fitter {
 
   /// The robot as its file has it, its linear model, and what a healthy robot makes of it.
   Fit AsBuilt() const;
-  /// With these faults, from what `start` is fitted to. Ends where the evidence gains nothing.
+  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches.
   Fit Refine(const std::vector<int>& faults, const Fit& start, Columns columns) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
 
+  /// Whether a fit's linear model was made where its posterior is.
+  bool IsNear(const Fit& fit) const;
+
   const CauseBook& book() const { return book_; }
 
  private:
+  Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
   void LineariseAt(const Eigen::VectorXd& z, const std::vector<int>& columns,
                    const Simulation* start, Fit* fit) const;
 
@@ -54,6 +60,8 @@ class Fitter {
   ModelDraft nominal_;
   Simulator simulator_;
   Eigen::Matrix3Xd marker_rest_m_;
+  Belief healthy_;
+  std::vector<int> all_;  ///< causes
 };
 
 }  // namespace palpate::diagnosis

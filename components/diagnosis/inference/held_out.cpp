@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/held_out.hpp"
+
+#include <cmath>
+
+namespace palpate::diagnosis {
+
+HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit) {
+  HeldOut out;
+  out.residual = fit.model.y;
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
+    const Information& own = fit.model.of_recording[r];
+    const Information others = fit.model.AllBut(r);
+    const Posterior posterior = book.InferWithin(others, fit.faults);
+    const auto J = fit.model.J.middleRows(first, own.rows);
+    auto residual = out.residual.segment(first, own.rows);
+    residual -= J * posterior.mean;
+    out.chi_squared.push_back(residual.squaredNorm());
+    const Posterior both = book.InferWithin(fit.model.All(), fit.faults);
+    out.ln_predicted.push_back(both.ln_evidence - posterior.ln_evidence);
+    first += own.rows;
+  }
+  return out;
+}
+
+HeldOutGain Compare(const HeldOut& before, const HeldOut& after) {
+  constexpr double kShare = 0.03;
+  constexpr double kClearly = 3.0;  // of ln p
+  HeldOutGain gain;
+  const auto count = static_cast<double>(before.chi_squared.size());
+  double squares = 0.0;
+  double chi_before = 0.0;
+  double chi_after = 0.0;
+  for (std::size_t r = 0; r < before.chi_squared.size(); ++r) {
+    const double step = after.ln_predicted[r] - before.ln_predicted[r];
+    gain.ln_gain += step;
+    squares += step * step;
+    chi_before += before.chi_squared[r];
+    chi_after += after.chi_squared[r];
+    if (step > kClearly) ++gain.recordings;
+  }
+  const double mean = gain.ln_gain / count;
+  gain.standard_error = std::sqrt(std::max(0.0, squares - count * mean * mean));
+  const double noise = static_cast<double>(before.residual.size());
+  const double beyond = std::max(chi_before - noise, 0.01 * noise);
+  gain.relative = (chi_before - chi_after) / beyond;
+  gain.clear = gain.relative > kShare && gain.ln_gain > 0.0;
+  return gain;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/selection.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "libs/core/text.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
+constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
+constexpr double kWorthALook = 6.0;      ///< below the best, ln BF, to be simulated anew
+constexpr int kMostRefined = 4;
+constexpr double kBeyondTolerance = 3.0;
+
+std::vector<int> With(std::vector<int> faults, int cause) {
+  faults.push_back(cause);
+  return faults;
+}
+
+/// ln of the mean of exp.
+double LogMeanExp(const std::vector<double>& values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double value : values) sum += std::exp(value - most);
+  return most + std::log(sum / static_cast<double>(values.size()));
+}
+
+/// All causes that could be next, screened; the best of each name stands for it.
+std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
+                              const std::vector<int>& faults) {
+  const CauseBook& book = fitter.book();
+  std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
+  for (int k = 0; k < book.size(); ++k) {
+    const CauseName& name = book.cause(k).name();
+    const bool named = std::any_of(faults.begin(), faults.end(),
+                                   [&](int f) { return book.cause(f).name() == name; });
+    if (named || !book.CanBeFault(k)) continue;
+    const double ln_bayes_factor =
+        fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
+    by_name[{name.id, name.where}].push_back({.cause = k, .ln_bayes_factor = ln_bayes_factor});
+  }
+  std::vector<Candidate> candidates;
+  for (auto& [name, of_name] : by_name) {
+    std::vector<double> values;
+    for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
+    Candidate best = *std::max_element(
+        of_name.begin(), of_name.end(),
+        [](const auto& a, const auto& b) { return a.ln_bayes_factor < b.ln_bayes_factor; });
+    best.ln_bayes_factor = LogMeanExp(values);
+    candidates.push_back(best);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
+  return candidates;
+}
+
+/// The largest canonical correlation between what two causes do, what building tolerances can make
+/// up for taken out.
+double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
+  const Belief belief = book.BeliefWith({});
+  const std::vector<int> both = {a, b};
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
+    const bool own = (p >= book.first(a) && p < book.first(a) + book.count(a)) ||
+                     (p >= book.first(b) && p < book.first(b) + book.count(b));
+    if (belief.sigma[p] > 0.0 && !own) free.push_back(p);
+  }
+  const Eigen::VectorXd sigma = belief.sigma(free);
+  const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
+  Eigen::MatrixXd A = clutter.transpose() * clutter;
+  A.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  const auto basis = [&](int k) -> Eigen::MatrixXd {
+    Eigen::MatrixXd effect = model.J.middleCols(book.first(k), book.count(k));
+    effect -= clutter * factor.solve(clutter.transpose() * effect);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(effect);
+    if (qr.rank() == 0) return {};
+    return qr.householderQ() * Eigen::MatrixXd::Identity(effect.rows(), qr.rank());
+  };
+  const Eigen::MatrixXd of_a = basis(a);
+  const Eigen::MatrixXd of_b = basis(b);
+  if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
+  return std::min(1.0, Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b)
+                           .singularValues()[0]);
+}
+
+/// How many of its tolerances, or of its own sigmas where a healthy robot has none of it, a cause
+/// is away from the robot file's.
+double Size(const CauseBook& book, const Posterior& posterior, int cause) {
+  double most = 0.0;
+  for (Eigen::Index p = 0; p < book.count(cause); ++p) {
+    const Eigen::Index column = book.first(cause) + p;
+    const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
+    const double sigma = std::sqrt(posterior.covariance(column, column));
+    const double unit = tolerance > 0.0 ? tolerance : std::max(sigma, 1e-12);
+    most = std::max(most, std::abs(posterior.mean[column]) / unit);
+  }
+  return most;
+}
+
+/// Looks for one further cause.
+class NextCause {
+ public:
+  NextCause(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before)
+      : observed_(observed), fitter_(fitter), before_(before) {}
+
+  /// Whether there is one; then Found.
+  bool Look() {
+    candidates_ = Screen(fitter_, before_, before_.faults);
+    if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlike) {
+      Explain();
+      return false;
+    }
+    RefineTheBest();
+    const HeldOut held_out = LeaveOneOut(fitter_.book(), before_);
+    for (std::size_t k = 0; k < candidates_.size() && candidates_[k].refined; ++k) {
+      if (!IsClear(held_out, k)) continue;
+      found_ = k;
+      break;
+    }
+    Explain();
+    return found_ < candidates_.size();
+  }
+
+  const Candidate& found() const { return candidates_[found_]; }
+  const Choice& choice() const { return choice_; }
+  const Fit& fit() const { return fits_[found_]; }
+  std::vector<Candidate>& candidates() { return candidates_; }
+
+  /// Those that fit as well as what was found.
+  std::vector<Candidate> Alike() const {
+    std::vector<Candidate> alike;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      const bool close =
+          candidates_[k].ln_bayes_factor > candidates_[found_].ln_bayes_factor - kAlike;
+      if (k != found_ && close) alike.push_back(candidates_[k]);
+    }
+    return alike;
+  }
+
+ private:
+  void RefineTheBest() {
+    const double enough = candidates_.front().ln_bayes_factor - kWorthALook;
+    for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
+      Candidate& candidate = candidates_[k];
+      if (candidate.ln_bayes_factor < enough) break;
+      Fit fit = fitter_.Refine(With(before_.faults, candidate.cause), before_,
+                               Columns::kBelievedIn);
+      const double guess =
+          fitter_.Guess(before_, fit.faults).ln_evidence - before_.posterior.ln_evidence;
+      const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
+      candidate.ln_bayes_factor += fit.status.ok() ? now - guess : -1e9;
+      candidate.refined = true;
+      fits_.push_back(std::move(fit));
+    }
+    SortRefined();
+  }
+
+  void SortRefined() {
+    std::vector<std::size_t> order(fits_.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return candidates_[a].ln_bayes_factor > candidates_[b].ln_bayes_factor;
+    });
+    std::vector<Candidate> sorted = candidates_;
+    std::vector<Fit> fits;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      sorted[k] = candidates_[order[k]];
+      fits.push_back(std::move(fits_[order[k]]));
+    }
+    candidates_ = std::move(sorted);
+    fits_ = std::move(fits);
+  }
+
+  bool IsClear(const HeldOut& before, std::size_t k) {
+    Candidate& candidate = candidates_[k];
+    if (candidate.ln_bayes_factor < kClearEvidence) {
+      candidate.why_not = "the evidence for it is not clear (ln BF " +
+                          FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+      return false;
+    }
+    const double size = Size(fitter_.book(), fits_[k].posterior, candidate.cause);
+    if (size < kBeyondTolerance) {
+      candidate.why_not = "it is within what a healthy robot may have";
+      return false;
+    }
+    const HeldOut after = LeaveOneOut(fitter_.book(), fits_[k]);
+    Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
+    choice.held_out = Compare(before, after);
+    for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
+      choice.ln_gain_of_recording.push_back(after.ln_predicted[r] - before.ln_predicted[r]);
+    }
+    if (!choice.held_out.clear && SeenIn(k) > 1) {
+      candidate.why_not = "with it recordings that it was not fitted to are predicted no better";
+      return false;
+    }
+    choice_ = std::move(choice);
+    return true;
+  }
+
+  /// In how many recordings the fit is clearly better with the cause.
+  int SeenIn(std::size_t k) const {
+    constexpr double kClearly = 5.0;
+    int recordings = 0;
+    Eigen::Index first = 0;
+    Eigen::Index first_before = 0;
+    for (std::size_t r = 0; r < observed_.recordings.size(); ++r) {
+      const auto misfit = [&](const Fit& fit, Eigen::Index begin) {
+        const Eigen::Index rows = fit.model.of_recording[r].rows;
+        return (fit.model.y.segment(begin, rows) -
+                fit.model.J.middleRows(begin, rows) * fit.posterior.mean)
+            .squaredNorm();
+      };
+      const double gain = 0.5 * (misfit(before_, first_before) - misfit(fits_[k], first));
+      if (gain > kClearly) ++recordings;
+      first += fits_[k].model.of_recording[r].rows;
+      first_before += before_.model.of_recording[r].rows;
+    }
+    return recordings;
+  }
+
+  void Explain() {
+    const CauseBook& book = fitter_.book();
+    const int first = found_ < candidates_.size() ? candidates_[found_].cause : -1;
+    for (std::size_t k = 0; k < candidates_.size(); ++k) {
+      Candidate& candidate = candidates_[k];
+      if (first >= 0 && k != found_) {
+        candidate.likeness = Likeness(book, before_.model, first, candidate.cause);
+      }
+      if (k == found_ || !candidate.why_not.empty()) continue;
+      candidate.why_not = first >= 0 ? "another cause explains more"
+                                     : "the evidence for it is not clear (ln BF " +
+                                           FormatNumber(std::round(
+                                               10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+    }
+  }
+
+  const ObservedExperiment& observed_;
+  const Fitter& fitter_;
+  const Fit& before_;
+  std::vector<Candidate> candidates_;
+  std::vector<Fit> fits_;  ///< of the first candidates, that were refined
+  std::size_t found_ = static_cast<std::size_t>(-1);
+  Choice choice_;
+};
+
+}  // namespace
+
+Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter, const Fit& as_built,
+                       int most, const ReportStep& report) {
+  const int steps = most + 3;
+  Selection selection;
+  report(1, steps, "fitting a healthy robot");
+  selection.healthy =
+      fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built, Columns::kAll);
+  selection.best = selection.healthy;
+  for (int number = 0; number < most; ++number) {
+    report(2 + number, steps,
+           number == 0 ? "looking for a cause" : "looking for a further cause");
+    NextCause next(observed, fitter, selection.best);
+    const bool found = next.Look();
+    if (number == 0) selection.candidates = next.candidates();
+    if (!found) break;
+    selection.named.push_back(next.choice());
+    for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
+    selection.best = fitter.Refine(next.fit().faults, next.fit(), Columns::kAll);
+  }
+  report(steps - 1, steps, "looking at what is left");
+  selection.guard = Guard(observed, fitter.book(), selection.best);
+  return selection;
+}
+
+}  // namespace palpate::diagnosis
