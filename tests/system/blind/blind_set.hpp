@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <ostream>
+#include <vector>
+
+#include "tests/system/blind/case_runner.hpp"
+
+namespace palpate::blind {
+
+/// Which cases. From the environment: PALPATE_BLIND_CASES (1 to 100000), PALPATE_BLIND_SEED (of the
+/// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_FOLDER (everything
+/// is kept there; without it nothing is).
+struct BlindSet {
+  int cases = 0;
+  std::uint64_t seed = 0;
+  std::filesystem::path folder = {};  ///< empty: a temporary one
+
+  /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError
+  /// for what is no number.
+  static BlindSet FromEnvironment(int cases);
+};
+
+/// Runs them, two at a time, through processes: palpate simulate, palpate diagnose. Prints the
+/// seed, a line for each case as it ends, and the table. Throws RunError where a seal is broken.
+std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out);
+
+}  // namespace palpate::blind

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libs/robot/robot_description.hpp"
+#include "libs/scenario/random.hpp"
+
+namespace palpate::blind {
+
+using Parameters = std::map<std::string, double>;
+
+/// A cause that the blind tests hide, and how large.
+struct MenuItem {
+  std::string_view id;
+  /// In the fault range of DIAGNOSIS, "Catalogue"; sizes logarithmically, so that small ones are as
+  /// frequent as large ones.
+  Parameters (*draw)(scenario::Random* random, const robot::RobotDescription& robot);
+};
+
+/// Those that move four_leg's markers in config/scenarios/diagnose.yaml by 0.3 mm RMS in some
+/// recording, at least at the upper end of their range.
+const std::vector<MenuItem>& CauseMenu();
+
+struct LeftOut {
+  std::string_view id;
+  std::string_view why;
+};
+
+/// The rest of the catalogue.
+const std::vector<LeftOut>& LeftOutOfMenu();
+
+/// What else does exactly the same to this robot: whoever withholds the one withholds both, and
+/// either name is right.
+std::vector<std::string> TwinsOf(std::string_view id);
+
+}  // namespace palpate::blind

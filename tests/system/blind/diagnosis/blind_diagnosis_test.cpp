@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <iostream>
+
+#include "tests/system/blind/acceptance.hpp"
+#include "tests/system/blind/blind_set.hpp"
+
+/// Virtual robots with something hidden in them, drawn anew in each run, and what palpate diagnose
+/// makes of them.
+namespace palpate::blind {
+namespace {
+
+/// Six minutes of two cores, with what making them takes.
+constexpr int kFewCases = 20;
+
+TEST(BlindDiagnosis, DISABLED_ReachesWhatIsWanted) {
+  const BlindSet set = BlindSet::FromEnvironment(kFewCases);
+  EXPECT_THAT(Missed(Judge(RunBlind(set, std::cout))), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace palpate::blind

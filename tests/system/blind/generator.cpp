@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/system/blind/generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/check.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "tests/system/process.hpp"
+
+namespace palpate::blind {
+
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::ActiveEffect;
+
+const std::string kNoEffects = "effects: []";
+
+std::string ListOf(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + Quoted(word);
+  return words.size() == 1 ? text : "[" + text + "]";
+}
+
+std::string EffectText(const ActiveEffect& effect) {
+  std::string text = "{id: " + effect.id + ", where: " + ListOf(effect.where);
+  for (const auto& [name, value] : effect.parameters) {
+    text += ", " + name + ": " + FormatNumber(value);
+  }
+  return text + "}";
+}
+
+double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,
+                  const std::map<std::string, Eigen::VectorXd>& without) {
+  double largest_m = 0.0;
+  for (const auto& [recording, coordinates_m] : with) {
+    const Eigen::VectorXd difference_m = coordinates_m - without.at(recording);
+    const double mean_m2 = difference_m.squaredNorm() / static_cast<double>(difference_m.size());
+    largest_m = std::max(largest_m, std::sqrt(mean_m2));
+  }
+  return largest_m;
+}
+
+}  // namespace
+
+Generator::Generator(fs::path robot_file, fs::path folder)
+    : robot_file_(std::move(robot_file)), folder_(std::move(folder)) {
+  const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
+  scenario_text_ = ReadFile(scenarios / "diagnose.yaml");
+  PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
+  fs::copy_file(scenarios / "four_leg_coarse.msh", folder_ / "four_leg_coarse.msh",
+                fs::copy_options::overwrite_existing);
+}
+
+void Generator::Make(const std::vector<ActiveEffect>& effects, std::uint64_t seed,
+                     const fs::path& experiment, const fs::path& answer) const {
+  std::string list;
+  for (const ActiveEffect& effect : effects)
+    list += (list.empty() ? "" : ", ") + EffectText(effect);
+  std::string text = scenario_text_;
+  text.replace(text.find(kNoEffects), kNoEffects.size(), "effects: [" + list + "]");
+  const std::string name = experiment.filename().string();
+  const fs::path scenario = folder_ / (name + ".scenario.yaml");
+  const fs::path log = folder_ / (name + ".simulate.log");
+  WriteFile(scenario, text);
+  const auto done = system_test::RunProgram(
+      "palpate",
+      {"simulate", robot_file_.string(), "--scenario", scenario.string(), "--seed",
+       std::to_string(seed), "--out", experiment.string(), "--answer", answer.string()},
+      log);
+  if (done != 0) throw RunError("palpate simulate: " + ReadFile(log));
+}
+
+std::vector<double> Generator::EffectSizes_m(const std::vector<ActiveEffect>& effects,
+                                             std::uint64_t seed, const fs::path& experiment) const {
+  const auto with_m = MarkerCoordinates_m(experiment);
+  std::vector<double> sizes_m;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const std::string name = experiment.filename().string() + "_without_" + std::to_string(i);
+    const fs::path other = folder_ / name;
+    const fs::path answer = folder_ / (name + ".answer.json");
+    Make(WithoutEffect(effects, i), seed, other, answer);
+    sizes_m.push_back(LargestRms(with_m, MarkerCoordinates_m(other)));
+    fs::remove_all(other);
+    fs::remove(answer);
+  }
+  return sizes_m;
+}
+
+std::vector<ActiveEffect> WithoutEffect(std::vector<ActiveEffect> effects, std::size_t index) {
+  const auto* kind = scenario::FindEffect(effects.at(index).id);
+  PALPATE_CHECK(kind != nullptr, effects[index].id);
+  bool has_clutter = false;
+  for (const scenario::EffectParameter& parameter : kind->parameters) {
+    PALPATE_CHECK(std::isfinite(parameter.healthy), kind->id, "has no nominal value of its own");
+    has_clutter = has_clutter || parameter.tolerance > 0.0;
+    effects[index].parameters[std::string(parameter.name)] = parameter.healthy;
+  }
+  if (!has_clutter) effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(index));
+  return effects;
+}
+
+std::map<std::string, Eigen::VectorXd> MarkerCoordinates_m(const fs::path& experiment) {
+  std::map<std::string, Eigen::VectorXd> coordinates_m;
+  for (const auto& recording : experiment::ReadExperiment(experiment, app::LoadYaml).recordings) {
+    std::vector<double> values_m;
+    for (const auto& frame : recording.markers.value().frames) {
+      for (const auto& position_m : frame.positions_m) {
+        values_m.insert(values_m.end(), position_m->begin(), position_m->end());
+      }
+    }
+    coordinates_m[recording.name] = Eigen::Map<const Eigen::VectorXd>(
+        values_m.data(), static_cast<Eigen::Index>(values_m.size()));
+  }
+  return coordinates_m;
+}
+
+}  // namespace palpate::blind

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libs/scenario/effect.hpp"
+
+namespace palpate::blind {
+
+/// Makes experiments of config/scenarios/diagnose.yaml with `palpate simulate`, each a process.
+class Generator {
+ public:
+  /// Works in `folder`, which is there.
+  Generator(std::filesystem::path robot_file, std::filesystem::path folder);
+
+  /// `experiment` and `answer`: files that are not there yet. Throws RunError with what the program
+  /// said.
+  void Make(const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed,
+            const std::filesystem::path& experiment, const std::filesystem::path& answer) const;
+
+  /// How far each effect moves the markers in the recording where it moves them most, beside the
+  /// others: RMS over all coordinates of all markers of a recording, m. `experiment` was made with
+  /// all of them by Make; for each, another without it but with the same seed, so that noise and
+  /// clutter are the same and drop out.
+  std::vector<double> EffectSizes_m(const std::vector<scenario::ActiveEffect>& effects,
+                                    std::uint64_t seed,
+                                    const std::filesystem::path& experiment) const;
+
+ private:
+  std::filesystem::path robot_file_;
+  std::filesystem::path folder_;
+  std::string scenario_text_;
+};
+
+/// All effects but one, which is not just left out: it would get clutter in its place, so that it
+/// is set to its nominal value where its kind has clutter.
+std::vector<scenario::ActiveEffect> WithoutEffect(std::vector<scenario::ActiveEffect> effects,
+                                                  std::size_t index);
+
+/// Coordinates of the markers by recording, in the order of the rows, m.
+std::map<std::string, Eigen::VectorXd> MarkerCoordinates_m(const std::filesystem::path& experiment);
+
+}  // namespace palpate::blind

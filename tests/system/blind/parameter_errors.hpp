@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libs/scenario/effect.hpp"
+#include "tests/system/blind/share.hpp"
+#include "tests/system/blind/verdict.hpp"
+
+namespace palpate::blind {
+
+/// How a verdict's parameters of a cause that is there compare with the truth.
+struct ParameterErrors {
+  Share covered;  ///< of those that are told: the truth is inside the 95 % interval
+  Share told;     ///< of the true ones
+  // Components of a vector (a force, a direction, ...) are one parameter here; those that are 0, or
+  // that the verdict does not tell, are left out.
+  std::vector<double> of_value;    ///< |error| / |truth|
+  std::vector<double> of_fault;    ///< |error| / |truth - nominal|
+  std::vector<double> of_place_m;  ///< where a load acts: |error|
+};
+
+/// `told`: by name, as in verdict.json. The truth's directions that the seed draws have no
+/// parameter.
+ParameterErrors CompareParameters(const scenario::ActiveEffect& truth,
+                                  const std::map<std::string, Estimate>& told);
+
+}  // namespace palpate::blind
