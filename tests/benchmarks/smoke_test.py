@@ -152,6 +152,14 @@ class PalpateBench(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("PALPATE_SENSING_CONTACTS", result.stderr)
 
+    def test_hides_causes_only_where_it_is_told_how_many(self):
+        self.assertNotIn("diagnosis/", run("--benchmark_list_tests=true").stdout)
+        names = run("--benchmark_list_tests=true", PALPATE_BLIND_CASES="2").stdout
+        self.assertIn("\ndiagnosis/blind/", names)
+        result = run("--benchmark_list_tests=true", PALPATE_BLIND_CASES="0")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("PALPATE_BLIND_CASES", result.stderr)
+
     def test_refuses_an_unknown_option(self):
         self.assertEqual(run("--no_such_option").returncode, 2)
 

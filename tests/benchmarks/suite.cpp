@@ -9,6 +9,7 @@
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "tests/benchmarks/calibration_bench.hpp"
 #include "tests/benchmarks/camera_bench.hpp"
+#include "tests/benchmarks/diagnosis_bench.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/measure.hpp"
 #include "tests/benchmarks/perception_bench.hpp"
@@ -190,6 +191,7 @@ Suite MakeSuite() {
   suite.blocks.push_back(CalibrationBlock());
   suite.blocks.push_back(VirtualRobotBlock());
   for (Block& block : SensingBlocks()) suite.blocks.push_back(std::move(block));
+  for (Block& block : DiagnosisBlocks()) suite.blocks.push_back(std::move(block));
   for (const int refinements : {0, 1, 2}) {
     suite.family.push_back(PaperRobot(ElementType::kTet4, refinements).name);
   }

@@ -68,7 +68,9 @@ CaseRecord CaseRunner::Run(std::uint64_t seed) const {
   const Generator generator(settings_.robot_file, sealed.path());
   try {
     generator.Make(drawn.effects, seed, made, answer);
-    record.sizes_m = generator.EffectSizes_m(drawn.effects, seed, made);
+    if (drawn.kind != CaseKind::kCorrupted) {  // of which no cause is asked
+      record.sizes_m = generator.EffectSizes_m(drawn.effects, seed, made);
+    }
   } catch (const RunError& error) {
     record.truth = drawn.effects;
     record.not_made = LastLine(error.what());

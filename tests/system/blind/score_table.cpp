@@ -37,6 +37,10 @@ void Row(std::ostream& out, const char* what, const Share& share, const std::str
 
 void Number(std::ostream& out, const char* what, double value, std::size_t count,
             const std::string& wanted) {
+  if (count == 0) {
+    fmt::print(out, "{:<{}}{:>9}\n", what, kNameWidth, "-");
+    return;
+  }
   fmt::print(out, "{:<{}}{:>10.3g}   of {:<12} {}\n", what, kNameWidth, value, count, wanted);
 }
 

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/benchmarks/diagnosis_bench.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "tests/system/blind/blind_set.hpp"
+#include "tests/system/blind/score.hpp"
+
+namespace palpate::benchmarks {
+
+namespace {
+
+void Count(benchmark::State& state, const std::string& name, const blind::Share& share) {
+  state.counters[name] = share.hits;
+  state.counters[name + "_of"] = share.count;
+}
+
+/// What is not known is left out.
+void Number(benchmark::State& state, const char* name, double value) {
+  if (std::isfinite(value)) state.counters[name] = value;
+}
+
+void CountAll(benchmark::State& state, const blind::Score& score) {
+  Count(state, "named_first", score.top1);
+  Count(state, "among_three", score.top3);
+  Count(state, "false_accusations", score.false_accusations);
+  Count(state, "both_named", score.both);
+  Count(state, "one_of_two_named", score.one);
+  Count(state, "third_named", score.third);
+  Count(state, "flagged", score.flagged);
+  Count(state, "false_flags", score.false_flags);
+  Count(state, "unfit", score.unfit);
+  Count(state, "wrongly_unfit", score.wrongly_unfit);
+  Count(state, "covered", score.covered);
+  Count(state, "without_verdict", score.without_verdict);
+  state.counters["not_made"] = score.not_made;
+  Number(state, "parameter_error_median", blind::Median(score.parameter_errors));
+  Number(state, "heldout_gain_median", blind::Median(score.heldout_gains));
+  state.counters["calibration_error"] = blind::CalibrationError(score.forecasts);
+}
+
+}  // namespace
+
+std::vector<Block> DiagnosisBlocks() {
+  if (std::getenv("PALPATE_BLIND_CASES") == nullptr) return {};
+  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
+  return {{.heading = "diagnosis of hidden causes: whole sets",
+           .benchmarks = {{.name = "diagnosis/blind",
+                           .measure =
+                               [set](benchmark::State& state) {
+                                 blind::Score score;
+                                 for ([[maybe_unused]] auto iteration : state) {
+                                   score = blind::Judge(blind::RunBlind(set, std::cout));
+                                 }
+                                 CountAll(state, score);
+                               },
+                           .max_repetitions = 1}}}};
+}
+
+}  // namespace palpate::benchmarks
