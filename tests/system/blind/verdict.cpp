@@ -75,6 +75,7 @@ Verdict VerdictFrom(const Json& json) {
   verdict.verdict = json.at("verdict");
   if (!kVerdicts.contains(verdict.verdict)) throw RunError("verdict '" + verdict.verdict + "'");
   verdict.causes = SuspectsFrom(json, "causes", true);
+  if (verdict.verdict == "cause" && verdict.causes.empty()) throw RunError("no cause is named");
   verdict.alternatives = SuspectsFrom(json, "alternatives", true);
   verdict.indistinguishable_from = SuspectsFrom(json, "indistinguishable_from", false);
   const Json residuals = json.value("residual_m_rms", Json::object());
@@ -98,9 +99,7 @@ bool Suspect::Names(const scenario::ActiveEffect& effect) const {
   return kind != nullptr && IsOfKind(effect) && scenario::SamePlace(*kind, where, effect.where);
 }
 
-bool Verdict::Accuses() const {
-  return verdict != "data_unfit" && (!causes.empty() || verdict == "indistinguishable");
-}
+bool Verdict::Accuses() const { return !causes.empty() || verdict == "indistinguishable"; }
 
 std::vector<const Suspect*> Verdict::First(std::size_t count) const {
   std::vector<const Suspect*> first;

@@ -57,8 +57,8 @@ struct Verdict {
   std::vector<const Suspect*> First(std::size_t count) const;
 };
 
-/// Throws RunError, saying what is wrong: no such verdict, a cause without a name, a probability
-/// beyond [0, 1], an interval whose ends are exchanged, a number that is none.
+/// Throws RunError, saying what is wrong: no such verdict, `cause` without one, a cause without a
+/// name, a probability beyond [0, 1], an interval whose ends are exchanged, a number that is none.
 Verdict ReadVerdict(const std::filesystem::path& file);
 
 }  // namespace palpate::blind

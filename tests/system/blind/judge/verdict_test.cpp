@@ -61,6 +61,7 @@ TEST_F(BlindVerdict, IsRefusedWhereItIsNone) {
   EXPECT_NE(Complaint(R"("id": "backlash", )", ""), "");
   EXPECT_NE(Complaint(R"("alternatives")", R"("others")"), "");
   EXPECT_NE(Complaint(R"({"verdict")", R"("verdict")"), "");
+  EXPECT_NE(Complaint(R"("causes")", R"("causes": [], "those")"), "");
   EXPECT_EQ(Complaint("0.0009", "null"), "");  // it was not cross-validated
 }
 
