@@ -52,7 +52,7 @@ double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,
 }  // namespace
 
 Generator::Generator(fs::path robot_file, fs::path folder)
-    : robot_file_(std::move(robot_file)), folder_(std::move(folder)) {
+    : robot_file_{std::move(robot_file)}, folder_{std::move(folder)} {
   const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
   scenario_text_ = ReadFile(scenarios / "diagnose.yaml");
   PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
