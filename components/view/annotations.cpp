@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "components/view/furniture.hpp"
-#include "components/view/label_layout.hpp"
 #include "components/view/overlay.hpp"
 #include "components/view/text.hpp"
+#include "libs/plot/label_layout.hpp"
 
 namespace palpate::view {
 
@@ -15,7 +15,7 @@ namespace {
 
 struct ArrowLabel {
   const Arrow* arrow;
-  LabelRequest request;
+  plot::LabelRequest request;
 };
 
 TextStyle LabelText(const Color& color, double px) {
@@ -101,7 +101,7 @@ void DrawAnnotations(const Scene& scene, const PageLayout& page, const Camera& c
     AddShaft(arrow, camera, px, &taken);
   }
   const std::vector<ArrowLabel> labels = LabelsOf(scene, camera, px);
-  std::vector<LabelRequest> requests;
+  std::vector<plot::LabelRequest> requests;
   for (const ArrowLabel& label : labels) {
     requests.push_back(label.request);
   }
@@ -109,7 +109,7 @@ void DrawAnnotations(const Scene& scene, const PageLayout& page, const Camera& c
     const bool inside = x >= 0 && y >= 0 && x < scene.width_px && y < scene.height_px;
     return inside ? stage.Coverage(x, y) : 0.0;
   };
-  const std::vector<Rect> places = PlaceLabels(requests, page.stage, taken, ink_at);
+  const std::vector<Rect> places = plot::PlaceLabels(requests, page.stage, taken, ink_at);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     DrawLeader(requests[i].anchor_px, places[i], px, image);
     DrawText(labels[i].arrow->label, {places[i].x_px, places[i].bottom_px() - 2.0 * px},

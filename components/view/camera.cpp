@@ -38,16 +38,6 @@ Extent EnclosingBall(const std::vector<Extent>& extents) {
 
 }  // namespace
 
-bool Rect::Overlaps(const Rect& other) const {
-  return x_px < other.right_px() && other.x_px < right_px() && y_px < other.bottom_px() &&
-         other.y_px < bottom_px();
-}
-
-bool Rect::Contains(const Rect& other) const {
-  return other.x_px >= x_px && other.right_px() <= right_px() && other.y_px >= y_px &&
-         other.bottom_px() <= bottom_px();
-}
-
 Camera Camera::Fit(const ViewDirection& view, const std::vector<Extent>& extents,
                    const Rect& area) {
   PALPATE_CHECK(!extents.empty());

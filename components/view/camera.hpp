@@ -6,7 +6,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/plot/rect.hpp"
+
 namespace palpate::view {
+
+using plot::Rect;
 
 /// Where the picture is taken from: the direction from the scene to the viewer.
 struct ViewDirection {
@@ -14,19 +18,6 @@ struct ViewDirection {
   double elevation_deg = 22.0;  ///< above the x-y plane, in (-90, 90)
   /// Distance of the eye in radii of the scene; 0: orthographic (lengths can be measured).
   double eye_distance_radii = 0.0;
-};
-
-/// A rectangle of the picture, x to the right, y down, px.
-struct Rect {
-  double x_px = 0.0;
-  double y_px = 0.0;
-  double width_px = 0.0;
-  double height_px = 0.0;
-
-  double right_px() const { return x_px + width_px; }
-  double bottom_px() const { return y_px + height_px; }
-  bool Overlaps(const Rect& other) const;
-  bool Contains(const Rect& other) const;
 };
 
 /// A ball of the scene that must be inside the picture.

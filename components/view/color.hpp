@@ -3,34 +3,18 @@
 
 #pragma once
 
+#include "libs/plot/color.hpp"
+
 namespace palpate::view {
 
-/// Red, green, blue, each in [0, 1], sRGB-coded.
-struct Color {
-  double r = 0.0;
-  double g = 0.0;
-  double b = 0.0;
-};
-
-/// A colour from 0xRRGGBB.
-constexpr Color FromHex(unsigned rgb) {
-  return {((rgb >> 16) & 0xFF) / 255.0, ((rgb >> 8) & 0xFF) / 255.0, (rgb & 0xFF) / 255.0};
-}
-
-/// `a` at t = 0, `b` at t = 1, straight in between.
-Color Mix(const Color& a, const Color& b, double t);
-
-/// The colour of a quantity without sign: t in [0, 1] (clamped) from indigo (small) over teal and
-/// green to yellow (large). Lightness rises all the way, so it reads in grey and with any colour
-/// vision.
-Color SequentialColor(double t);
+using plot::Color;
+using plot::FromHex;
+using plot::Mix;
+using plot::SequentialColor;
 
 namespace palette {
-inline constexpr Color kPaper = FromHex(0xFFFFFF);
-inline constexpr Color kInk = FromHex(0x1F2933);
-inline constexpr Color kMutedInk = FromHex(0x66727F);
-inline constexpr Color kRule = FromHex(0xC9D1D9);
-inline constexpr Color kFloorLine = FromHex(0xDFE4E9);
+using namespace plot::palette;
+inline constexpr Color kFloorLine = kGridLine;
 inline constexpr Color kShadow = FromHex(0xEDF0F3);
 inline constexpr Color kGhost = FromHex(0x8A97A5);
 inline constexpr Color kClamp = FromHex(0xAEB8C2);

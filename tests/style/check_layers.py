@@ -18,6 +18,7 @@ LIBRARIES = {
     "core": set(),
     "app": {"core"},
     "geometry": {"core"},
+    "plot": {"core"},
     "rgbd": {"core", "geometry"},
     "experiment": {"core", "geometry", "rgbd"},
     "scenario": {"core", "geometry", "fem", "robot", "rgbd"},

@@ -10,9 +10,10 @@
 #include <cmath>
 
 #include "components/palpate/calibrate/picture_projection.hpp"
-#include "components/view/label_layout.hpp"
-#include "components/view/plot/svg_document.hpp"
+#include "components/view/color.hpp"
 #include "libs/core/file.hpp"
+#include "libs/plot/label_layout.hpp"
+#include "libs/plot/svg_document.hpp"
 #include "libs/rgbd/png.hpp"
 
 namespace palpate::command {
@@ -20,9 +21,9 @@ namespace palpate::command {
 namespace {
 
 using calibration::MarkerSighting;
-using view::SvgDocument;
-using view::SvgPoint;
-using view::SvgText;
+using plot::SvgDocument;
+using plot::SvgPoint;
+using plot::SvgText;
 
 constexpr int kMostColumns = 3;
 constexpr double kWidth_px = 470.0, kHeight_px = 350.0, kGap_px = 16.0, kTitle_px = 22.0;
@@ -72,13 +73,13 @@ std::vector<SvgPoint> Ring(const SvgPoint& center, const Eigen::Matrix2d& half_a
   return ring;
 }
 
-void Circle(const SvgPoint& center, double radius_px, const view::SvgStroke& stroke,
+void Circle(const SvgPoint& center, double radius_px, const plot::SvgStroke& stroke,
             SvgDocument* svg) {
   svg->Polyline(Ring(center, radius_px * Eigen::Matrix2d::Identity()), stroke);
 }
 
 void Cross(const SvgPoint& at, double half_px, const view::Color& color, SvgDocument* svg) {
-  const view::SvgStroke stroke{color, 2.0};
+  const plot::SvgStroke stroke{color, 2.0};
   svg->Line({at.x_px - half_px, at.y_px - half_px}, {at.x_px + half_px, at.y_px + half_px}, stroke);
   svg->Line({at.x_px - half_px, at.y_px + half_px}, {at.x_px + half_px, at.y_px - half_px}, stroke);
 }
@@ -152,12 +153,12 @@ class PanelDrawing {
   /// Beside their marks and clear of all of them; a thin line where that is not near.
   void DrawNotes() {
     constexpr double kNear_px = 28.0;
-    std::vector<view::LabelRequest> requests;
+    std::vector<plot::LabelRequest> requests;
     for (const Note& note : notes_) {
       requests.push_back({{note.at.x_px, note.at.y_px}, LengthOf(note.text), kLabel_px + 3.0});
     }
     const auto places =
-        view::PlaceLabels(requests, frame_, taken_, [](int /*x*/, int /*y*/) { return 0.0; });
+        plot::PlaceLabels(requests, frame_, taken_, [](int /*x*/, int /*y*/) { return 0.0; });
     for (std::size_t k = 0; k < notes_.size(); ++k) {
       const view::Rect& place = places[k];
       const SvgPoint at = notes_[k].at;

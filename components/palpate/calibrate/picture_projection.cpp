@@ -79,7 +79,7 @@ Eigen::Vector2d PictureProjection::Flat(const Eigen::Vector3d& point_m) const {
                           : Eigen::Vector2d(axes_ * (point_m - middle_m_));
 }
 
-view::SvgPoint PictureProjection::At(const Eigen::Vector3d& point_m) const {
+plot::SvgPoint PictureProjection::At(const Eigen::Vector3d& point_m) const {
   const Eigen::Vector2d at_px = corner_px_ + scale_ * (Flat(point_m) - origin_);
   return {at_px.x(), at_px.y()};
 }

@@ -9,7 +9,7 @@
 
 #include "components/palpate/calibrate/assignment_picture.hpp"
 #include "components/view/camera.hpp"
-#include "components/view/plot/svg_document.hpp"
+#include "libs/plot/svg_document.hpp"
 
 namespace palpate::command {
 
@@ -30,7 +30,7 @@ class PictureProjection {
   /// `panel` must outlive this.
   PictureProjection(const AssignmentPanel& panel, const PlainView& plain, const view::Rect& frame);
 
-  view::SvgPoint At(const Eigen::Vector3d& point_m) const;
+  plot::SvgPoint At(const Eigen::Vector3d& point_m) const;
   /// d At / d point, sheet pixels per m.
   Eigen::Matrix<double, 2, 3> Derivative(const Eigen::Vector3d& point_m) const;
   /// At the points' middle.

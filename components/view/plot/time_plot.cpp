@@ -8,15 +8,19 @@
 #include <limits>
 #include <optional>
 
-#include "components/view/plot/axis_ticks.hpp"
-#include "components/view/plot/plot_area.hpp"
-#include "components/view/plot/svg_document.hpp"
+#include "components/view/plot/series_shapes.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/plot/plot_area.hpp"
 
 namespace palpate::view {
 
 namespace {
+
+using plot::AxisTicks;
+using plot::SvgDocument;
+using plot::SvgStroke;
+using plot::SvgText;
 
 constexpr double kLeft_px = 66.0;
 constexpr double kRight_px = 22.0;
@@ -95,31 +99,6 @@ void DrawHeading(const TimePlot& plot, SvgDocument* svg) {
   DrawLegend(plot, svg);
 }
 
-void DrawAxes(const PlotArea& area, const AxisTicks& times, bool is_lowest, SvgDocument* svg) {
-  const AxisTicks values =
-      MakeTicks(area.values(), static_cast<int>(area.height_px() / kValueTickDistance_px));
-  const SvgStroke rule{palette::kFloorLine, 1.0, false};
-  const SvgText muted{.size_px = 11.0, .color = palette::kMutedInk};
-  for (std::size_t i = 0; i < values.values.size(); ++i) {
-    const double y_px = area.Y_px(values.values[i]);
-    svg->Line({area.left_px(), y_px}, {area.right_px(), y_px}, rule);
-    SvgText style = muted;
-    style.anchor = SvgText::Anchor::kEnd;
-    svg->Text({area.left_px() - 7.0, y_px + 4.0}, values.labels[i], style);
-  }
-  for (std::size_t i = 0; i < times.values.size(); ++i) {
-    const double x_px = area.X_px(times.values[i]);
-    svg->Line({x_px, area.top_px()}, {x_px, area.bottom_px()}, rule);
-    if (!is_lowest) continue;
-    SvgText style = muted;
-    style.anchor = SvgText::Anchor::kMiddle;
-    svg->Text({x_px, area.bottom_px() + 16.0}, times.labels[i], style);
-  }
-  const SvgStroke axis{palette::kMutedInk, 1.0, false};
-  svg->Line({area.left_px(), area.bottom_px()}, {area.right_px(), area.bottom_px()}, axis);
-  svg->Line({area.left_px(), area.top_px()}, {area.left_px(), area.bottom_px()}, axis);
-}
-
 void DrawSeries(const TimeSeries& series, const PlotArea& area, SvgDocument* svg) {
   for (const std::vector<SvgPoint>& outline : BandOutlines(series, area)) {
     svg->Polygon(outline, series.color, kBandOpacity);
@@ -135,7 +114,9 @@ void DrawSeries(const TimeSeries& series, const PlotArea& area, SvgDocument* svg
 
 void DrawPanel(const PlotPanel& panel, const PlotArea& area, const AxisTicks& times, bool is_lowest,
                SvgDocument* svg) {
-  DrawAxes(area, times, is_lowest, svg);
+  const AxisTicks values =
+      plot::MakeTicks(area.y(), static_cast<int>(area.height_px() / kValueTickDistance_px));
+  plot::DrawAxes(area, times, values, is_lowest, svg);
   svg->Text({area.left_px(), area.top_px() - 6.0}, panel.title, {.size_px = 12.0, .bold = true});
   svg->Text({18.0, 0.5 * (area.top_px() + area.bottom_px())}, panel.value_title,
             {.anchor = SvgText::Anchor::kMiddle, .turned_deg = 90.0});
@@ -156,12 +137,12 @@ std::string DrawTimePlot(const TimePlot& plot) {
   DrawHeading(plot, &svg);
   const AxisRange time_s = TimeRange(plot);
   const double width_px = plot.width_px - kLeft_px - kRight_px;
-  const AxisTicks times = MakeTicks(time_s, static_cast<int>(width_px / kTickDistance_px));
+  const AxisTicks times = plot::MakeTicks(time_s, static_cast<int>(width_px / kTickDistance_px));
   double top_px = kTop_px;
   for (const PlotPanel& panel : plot.panels) {
     const int marks = static_cast<int>(height_px / kValueTickDistance_px);
     const PlotArea area({kLeft_px, top_px}, width_px, height_px, time_s,
-                        RoundOutward(ValueRange(panel), marks));
+                        plot::RoundOutward(ValueRange(panel), marks));
     DrawPanel(panel, area, times, &panel == &plot.panels.back(), &svg);
     top_px += height_px + kBetween_px;
   }

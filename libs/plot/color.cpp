@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/color.hpp"
+#include "libs/plot/color.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace palpate::view {
+namespace palpate::plot {
 
 Color Mix(const Color& a, const Color& b, double t) {
   return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
@@ -22,4 +22,4 @@ Color SequentialColor(double t) {
   return Mix(kStops[lower], kStops[lower + 1], position - static_cast<double>(lower));
 }
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

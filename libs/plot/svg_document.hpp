@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "components/view/color.hpp"
+#include "libs/plot/color.hpp"
 
-namespace palpate::view {
+namespace palpate::plot {
 
 /// A point of the picture, pixels from the upper left corner.
 struct SvgPoint {
@@ -37,7 +37,8 @@ struct SvgText {
 /// Writes a picture in SVG 1.1: well-formed XML, whatever the texts hold.
 class SvgDocument {
  public:
-  SvgDocument(int width_px, int height_px);
+  /// `name`: begins the ids inside, which must differ between the pictures of one page.
+  SvgDocument(int width_px, int height_px, const std::string& name = "");
 
   void Rectangle(const SvgPoint& corner, double width_px, double height_px, const Color& fill);
   void Line(const SvgPoint& from, const SvgPoint& to, const SvgStroke& stroke);
@@ -45,6 +46,9 @@ class SvgDocument {
   void Polyline(const std::vector<SvgPoint>& points, const SvgStroke& stroke);
   void Polygon(const std::vector<SvgPoint>& points, const Color& fill, double opacity);
   void Dot(const SvgPoint& center, double radius_px, const Color& fill);
+  void Circle(const SvgPoint& center, double radius_px, const SvgStroke& stroke);
+  /// A line that ends in a filled head of so many pixels; only the head where it is shorter.
+  void Arrow(const SvgPoint& from, const SvgPoint& to, double head_px, const SvgStroke& stroke);
   void Text(const SvgPoint& at, std::string_view text, const SvgText& style);
 
   /// A PNG file's bytes, stretched over the rectangle.
@@ -58,8 +62,11 @@ class SvgDocument {
 
   /// The whole file. No group may be open.
   std::string Finish() const;
+  /// The svg element alone, to stand in a page of HTML. No group may be open.
+  std::string Element() const;
 
  private:
+  std::string name_;
   std::string head_;
   std::string clips_;
   std::string body_;
@@ -77,4 +84,4 @@ std::string Base64(std::string_view bytes);
 /// U+FFFD.
 std::string EscapeXml(std::string_view text);
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/plot/svg_document.hpp"
+#include "libs/plot/svg_document.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "components/view/plot/axis_ticks.hpp"
 #include "libs/core/check.hpp"
+#include "libs/plot/axis_ticks.hpp"
 
-namespace palpate::view {
+namespace palpate::plot {
 
 namespace {
 
@@ -53,12 +53,11 @@ std::string_view AnchorWord(SvgText::Anchor anchor) {
 
 }  // namespace
 
-SvgDocument::SvgDocument(int width_px, int height_px) {
+SvgDocument::SvgDocument(int width_px, int height_px, const std::string& name) : name_(name) {
   PALPATE_CHECK(width_px > 0 && height_px > 0, width_px, height_px);
   const std::string width = std::to_string(width_px);
   const std::string height = std::to_string(height_px);
-  head_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg" +
-          Attribute("xmlns", "http://www.w3.org/2000/svg") + Attribute("version", "1.1") +
+  head_ = "<svg" + Attribute("xmlns", "http://www.w3.org/2000/svg") + Attribute("version", "1.1") +
           Attribute("xmlns:xlink", "http://www.w3.org/1999/xlink") + Attribute("width", width) +
           Attribute("height", height) + Attribute("viewBox", "0 0 " + width + " " + height) +
           Attribute("font-family", "DejaVu Sans, Helvetica, Arial, sans-serif") + ">\n";
@@ -92,6 +91,25 @@ void SvgDocument::Dot(const SvgPoint& center, double radius_px, const Color& fil
            Attribute("r", radius_px) + Attribute("fill", HexText(fill)) + "/>\n";
 }
 
+void SvgDocument::Circle(const SvgPoint& center, double radius_px, const SvgStroke& stroke) {
+  body_ += std::string("<circle") + Attribute("cx", center.x_px) + Attribute("cy", center.y_px) +
+           Attribute("r", radius_px) + StrokeAttributes(stroke) + "/>\n";
+}
+
+void SvgDocument::Arrow(const SvgPoint& from, const SvgPoint& to, double head_px,
+                        const SvgStroke& stroke) {
+  const double length_px = std::hypot(to.x_px - from.x_px, to.y_px - from.y_px);
+  if (!(length_px > 0.0)) return;
+  const double x = (to.x_px - from.x_px) / length_px, y = (to.y_px - from.y_px) / length_px;
+  const SvgPoint neck{to.x_px - head_px * x, to.y_px - head_px * y};
+  if (length_px > head_px) Line(from, neck, stroke);
+  const double half_px = 0.45 * head_px;
+  Polygon({to,
+           {neck.x_px - half_px * y, neck.y_px + half_px * x},
+           {neck.x_px + half_px * y, neck.y_px - half_px * x}},
+          stroke.color, 1.0);
+}
+
 void SvgDocument::Text(const SvgPoint& at, std::string_view text, const SvgText& style) {
   if (text.empty()) return;
   body_ += std::string("<text") + Attribute("x", at.x_px) + Attribute("y", at.y_px) +
@@ -116,7 +134,7 @@ void SvgDocument::Picture(const SvgPoint& corner, double width_px, double height
 
 void SvgDocument::BeginGroup(const std::string& name, const SvgPoint& corner, double width_px,
                              double height_px) {
-  const std::string id = "clip" + std::to_string(clip_count_++);
+  const std::string id = EscapeXml(name_) + "clip" + std::to_string(clip_count_++);
   clips_ += std::string("<clipPath") + Attribute("id", id) + "><rect" +
             Attribute("x", corner.x_px) + Attribute("y", corner.y_px) +
             Attribute("width", width_px) + Attribute("height", height_px) + "/></clipPath>\n";
@@ -132,6 +150,10 @@ void SvgDocument::EndGroup() {
 }
 
 std::string SvgDocument::Finish() const {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + Element();
+}
+
+std::string SvgDocument::Element() const {
   PALPATE_CHECK(open_groups_ == 0, open_groups_);
   return head_ + "<defs>\n" + clips_ + "</defs>\n" + body_ + "</svg>\n";
 }
@@ -181,4 +203,4 @@ std::string EscapeXml(std::string_view text) {
   return escaped;
 }
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

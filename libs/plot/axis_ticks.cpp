@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/plot/axis_ticks.hpp"
+#include "libs/plot/axis_ticks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 
-namespace palpate::view {
+namespace palpate::plot {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::string FixedText(double value, int decimals) {
   return is_zero && result.front() == '-' ? result.substr(1) : result;
 }
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/label_layout.hpp"
+#include "libs/plot/label_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace palpate::view {
+namespace palpate::plot {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<Rect> PlaceLabels(const std::vector<LabelRequest>& requests, const R
   return placed;
 }
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

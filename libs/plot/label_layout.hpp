@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "components/view/camera.hpp"
+#include "libs/plot/rect.hpp"
 
-namespace palpate::view {
+namespace palpate::plot {
 
 /// A label that wants to stand close to a point of the picture.
 struct LabelRequest {
@@ -25,4 +25,4 @@ std::vector<Rect> PlaceLabels(const std::vector<LabelRequest>& requests, const R
                               std::vector<Rect> taken,
                               const std::function<double(int x, int y)>& ink_at);
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

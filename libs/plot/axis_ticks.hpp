@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace palpate::view {
+namespace palpate::plot {
 
 /// A stretch of an axis, lower < upper.
 struct AxisRange {
@@ -31,4 +31,4 @@ AxisRange RoundOutward(const AxisRange& range, int count);
 /// A number with so many digits after the point, C locale; never "-0".
 std::string FixedText(double value, int decimals);
 
-}  // namespace palpate::view
+}  // namespace palpate::plot

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/view/plot/plot_area.hpp"
+#include "components/view/plot/series_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
