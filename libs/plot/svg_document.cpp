@@ -86,6 +86,13 @@ void SvgDocument::Polygon(const std::vector<SvgPoint>& points, const Color& fill
            Attribute("fill", HexText(fill)) + Attribute("fill-opacity", opacity) + "/>\n";
 }
 
+void SvgDocument::Facet(const std::vector<SvgPoint>& points, const Color& fill) {
+  const std::string color = HexText(fill);
+  body_ += std::string("<polygon") + Attribute("points", PointList(points)) +
+           Attribute("fill", color) + Attribute("stroke", color) + Attribute("stroke-width", 0.7) +
+           "/>\n";
+}
+
 void SvgDocument::Dot(const SvgPoint& center, double radius_px, const Color& fill) {
   body_ += std::string("<circle") + Attribute("cx", center.x_px) + Attribute("cy", center.y_px) +
            Attribute("r", radius_px) + Attribute("fill", HexText(fill)) + "/>\n";
@@ -101,9 +108,10 @@ void SvgDocument::Arrow(const SvgPoint& from, const SvgPoint& to, double head_px
   const double length_px = std::hypot(to.x_px - from.x_px, to.y_px - from.y_px);
   if (!(length_px > 0.0)) return;
   const double x = (to.x_px - from.x_px) / length_px, y = (to.y_px - from.y_px) / length_px;
-  const SvgPoint neck{to.x_px - head_px * x, to.y_px - head_px * y};
-  if (length_px > head_px) Line(from, neck, stroke);
-  const double half_px = 0.45 * head_px;
+  const double drawn_px = std::min(head_px, length_px);
+  const SvgPoint neck{to.x_px - drawn_px * x, to.y_px - drawn_px * y};
+  if (length_px > drawn_px) Line(from, neck, stroke);
+  const double half_px = 0.45 * drawn_px;
   Polygon({to,
            {neck.x_px - half_px * y, neck.y_px + half_px * x},
            {neck.x_px + half_px * y, neck.y_px - half_px * x}},

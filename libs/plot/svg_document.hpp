@@ -45,9 +45,11 @@ class SvgDocument {
   /// At least two points.
   void Polyline(const std::vector<SvgPoint>& points, const SvgStroke& stroke);
   void Polygon(const std::vector<SvgPoint>& points, const Color& fill, double opacity);
+  /// A polygon that leaves no hair line of the ground between itself and its neighbours.
+  void Facet(const std::vector<SvgPoint>& points, const Color& fill);
   void Dot(const SvgPoint& center, double radius_px, const Color& fill);
   void Circle(const SvgPoint& center, double radius_px, const SvgStroke& stroke);
-  /// A line that ends in a filled head of so many pixels; only the head where it is shorter.
+  /// A line that ends in a filled head of so many pixels; no longer than the arrow itself.
   void Arrow(const SvgPoint& from, const SvgPoint& to, double head_px, const SvgStroke& stroke);
   void Text(const SvgPoint& at, std::string_view text, const SvgText& style);
 
