@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/report/verdict_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity.
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json Where(const CauseName& name) {
+  return name.where.size() == 1 ? Json(name.where.front()) : Json(name.where);
+}
+
+Json ToJson(const CauseName& name) { return {{"id", name.id}, {"where", Where(name)}}; }
+
+Json ToJson(const NamedCause& cause) {
+  Json parameters = Json::object();
+  for (const FittedParameter& parameter : cause.parameters) {
+    parameters[parameter.name] = {
+        {"value", Number(parameter.value)},
+        {"ci95", Json::array({Number(parameter.ci95_low), Number(parameter.ci95_high)})}};
+  }
+  Json json = ToJson(cause.name);
+  json["parameters"] = parameters;
+  json["probability"] = Number(cause.probability);
+  json["words"] = cause.words;
+  json["ln_bayes_factor"] = Number(cause.ln_bayes_factor);
+  json["explained_share"] = Number(cause.explained_share);
+  json["cross_validated"] = cause.cross_validated;
+  json["seen_in"] = cause.seen_in;
+  return json;
+}
+
+Json ToJson(const Rival& rival) {
+  Json json = ToJson(rival.name);
+  json["probability"] = Number(rival.probability);
+  json["words"] = rival.words;
+  json["ln_bayes_factor"] = Number(rival.ln_bayes_factor);
+  json["likeness"] = Number(rival.likeness);
+  json["why_not"] = rival.why_not;
+  return json;
+}
+
+Json ToJson(const RecordingGap& recording) {
+  return {{"name", recording.name},
+          {"kind", recording.kind},
+          {"samples", recording.samples},
+          {"residual_m_rms",
+           {{"before", Number(recording.before_m)},
+            {"healthy", Number(recording.healthy_m)},
+            {"after", Number(recording.after_m)},
+            {"heldout_before", Number(recording.heldout_before_m)},
+            {"heldout_after", Number(recording.heldout_after_m)},
+            {"noise", Number(recording.noise_m)}}}};
+}
+
+Json ToJson(const GapSummary& gap) {
+  return {{"before", Number(gap.before_m)},
+          {"after", Number(gap.after_m)},
+          {"heldout_before", Number(gap.heldout_before_m)},
+          {"heldout_after", Number(gap.heldout_after_m)},
+          {"noise", Number(gap.noise_m)}};
+}
+
+Json NextExperiment(const std::vector<ExperimentProposal>& experiments) {
+  if (experiments.empty()) return nullptr;
+  const ExperimentProposal& next = experiments.front();
+  return {{"title", next.title},
+          {"by_hand", next.by_hand},
+          {"separates", Json::array({ToJson(next.first), ToJson(next.second)})},
+          {"expected_ln_bayes_factor", Number(next.expected_ln_bayes_factor)}};
+}
+
+template <typename T>
+Json List(const std::vector<T>& items) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(ToJson(item));
+  return list;
+}
+
+}  // namespace
+
+std::string FormatVerdict(const DiagnosisResult& result) {
+  const Json json = {{"verdict", ToString(result.verdict)},
+                     {"reason", result.reason},
+                     {"causes", List(result.causes)},
+                     {"alternatives", List(result.rivals)},
+                     {"indistinguishable_from", List(result.indistinguishable_from)},
+                     {"no_fault_probability", Number(result.no_fault_probability)},
+                     {"other_probability", Number(result.other_probability)},
+                     {"residual_m_rms", ToJson(result.gap)},
+                     {"next_experiment", NextExperiment(result.experiments)},
+                     {"recordings", List(result.recordings)},
+                     {"robot", result.robot},
+                     {"data", result.data},
+                     {"data_hash", result.data_hash},
+                     {"version", result.version},
+                     {"command", result.command}};
+  // Names come from files: bytes that are no UTF-8 must not stop the verdict.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace palpate::diagnosis
