@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/diagnosis/report/figures/figures.hpp"
+#include "libs/plot/axis_ticks.hpp"
+#include "libs/plot/text_width.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+using plot::SvgText;
+
+constexpr double kTop_px = 66.0, kBottom_px = 14.0, kRight_px = 12.0;
+constexpr double kScaleTitle_px = 150.0, kWidestName_px = 230.0, kLargestCell_px = 44.0;
+constexpr Eigen::Index kMostCauses = 12;
+
+/// -1: vermilion, 0: white, 1: blue.
+plot::Color ColorOf(double correlation) {
+  const double size = std::clamp(std::abs(correlation), 0.0, 1.0);
+  return plot::Mix(plot::palette::kPaper, correlation < 0.0 ? ink::kBefore : ink::kAfter, size);
+}
+
+void DrawScale(double left_px, plot::SvgDocument* svg) {
+  constexpr int kSteps = 41;
+  constexpr double kStep_px = 5.0;
+  for (int i = 0; i < kSteps; ++i) {
+    svg->Rectangle({left_px + i * kStep_px, 10.0}, kStep_px + 0.5, 12.0,
+                   ColorOf(2.0 * i / (kSteps - 1) - 1.0));
+  }
+  for (const int value : {-1, 0, 1}) {
+    svg->Text(
+        {left_px + 0.5 * kSteps * kStep_px * (value + 1), 36.0}, std::to_string(value),
+        {.anchor = SvgText::Anchor::kMiddle, .size_px = 11.0, .color = plot::palette::kMutedInk});
+  }
+  svg->Text({left_px - 10.0, 20.0}, "correlation (no unit)",
+            {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
+}
+
+void DrawCell(double value, const plot::SvgPoint& corner, double cell_px, plot::SvgDocument* svg) {
+  const bool known = std::isfinite(value);
+  svg->Rectangle(corner, cell_px - 1.0, cell_px - 1.0,
+                 known ? ColorOf(value) : plot::palette::kGridLine);
+  const bool on_dark = known && std::abs(value) > 0.6;
+  svg->Text({corner.x_px + 0.5 * (cell_px - 1.0), corner.y_px + 0.5 * cell_px + 3.5},
+            known ? plot::FixedText(value, 2) : "?",
+            {.anchor = SvgText::Anchor::kMiddle,
+             .size_px = cell_px < 36.0 ? 10.0 : 11.0,
+             .color = on_dark ? plot::palette::kPaper : plot::palette::kInk});
+}
+
+}  // namespace
+
+Figure DrawCorrelations(const DiagnosisResult& result) {
+  Figure figure{.id = "correlations",
+                .title = "How alike the effects of the causes are in these data",
+                .caption =
+                    "Near 1 or -1 two causes move the markers in the same way, and these "
+                    "data cannot tell them apart; columns carry the numbers of the rows.",
+                .svg = {},
+                .absent = {}};
+  const auto names = static_cast<Eigen::Index>(result.correlation_names.size());
+  const Eigen::Index count =
+      std::min({result.correlation.rows(), result.correlation.cols(), names, kMostCauses});
+  if (count < 2) {
+    figure.absent = "Fewer than two causes were compared.";
+    return figure;
+  }
+  if (names > count) {
+    figure.caption += " The first " + std::to_string(count) + " of " + std::to_string(names) + ".";
+  }
+  std::vector<std::string> rows;
+  double name_px = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rows.push_back(std::to_string(i + 1) + "  " +
+                   result.correlation_names[static_cast<std::size_t>(i)]);
+    name_px = std::max(name_px, plot::TextWidth_px(rows.back(), kLabelSize_px));
+  }
+  const double left_px = std::clamp(name_px, kScaleTitle_px, kWidestName_px) + 20.0;
+  const double cell_px = std::min(
+      kLargestCell_px, (kFigureWidth_px - left_px - kRight_px) / static_cast<double>(count));
+  plot::SvgDocument svg(
+      kFigureWidth_px,
+      static_cast<int>(kTop_px + cell_px * static_cast<double>(count) + kBottom_px), figure.id);
+  DrawScale(left_px, &svg);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double i_px = static_cast<double>(i) * cell_px;
+    svg.Text({left_px - 8.0, kTop_px + i_px + 0.5 * cell_px + 4.0},
+             plot::Shortened(rows[static_cast<std::size_t>(i)], kLabelSize_px, kWidestName_px),
+             {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
+    svg.Text({left_px + i_px + 0.5 * cell_px, kTop_px - 7.0}, std::to_string(i + 1),
+             {.anchor = SvgText::Anchor::kMiddle, .size_px = kLabelSize_px});
+    for (Eigen::Index k = 0; k < count; ++k) {
+      DrawCell(result.correlation(i, k),
+               {left_px + static_cast<double>(k) * cell_px, kTop_px + i_px}, cell_px, &svg);
+    }
+  }
+  figure.svg = svg.Element();
+  return figure;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/diagnosis_result.hpp"
+
+namespace palpate::diagnosis {
+
+/// What changes most in some moments: one marker's residual along one direction.
+struct DominantResidual {
+  Eigen::Index marker = -1;  ///< -1: nothing to be seen
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+
+using Moments = std::vector<const ComparedMoment*>;
+
+/// What varies most, from the residuals before about their mean over the moments; the sign is such
+/// that the last half of the moments is at the positive side of the first.
+DominantResidual FindDominant(const Moments& moments);
+
+/// What rises most with `x` [moments] (least squares), NaN: that moment does not count.
+DominantResidual FindRise(const Moments& moments, const std::vector<double>& x);
+
+/// One residual along the direction, mm; NaN: not seen.
+double Along_mm(const DominantResidual& dominant, const Eigen::Matrix3Xd& residual_m);
+
+/// "marker tip, along (0.1, 0.9, -0.3)"
+std::string DescribeDominant(const DominantResidual& dominant, const DiagnosisResult& result);
+
+}  // namespace palpate::diagnosis

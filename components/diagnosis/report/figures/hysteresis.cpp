@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "components/diagnosis/report/figures/dominant_residual.hpp"
+#include "components/diagnosis/report/figures/figures.hpp"
+#include "components/diagnosis/report/figures/trace_panels.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr std::size_t kMostPanels = 4;
+
+double CommandOf(const ComparedMoment& moment, Eigen::Index cable) {
+  return cable < moment.command.size() ? moment.command[cable]
+                                       : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// How far a cable was moved in these moments, in its unit.
+double Travel(const Moments& moments, Eigen::Index cable) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const ComparedMoment* moment : moments) {
+    const double command = CommandOf(*moment, cable);
+    if (!std::isfinite(command)) continue;
+    lowest = std::min(lowest, command);
+    highest = std::max(highest, command);
+  }
+  return highest > lowest ? highest - lowest : 0.0;
+}
+
+/// A cable and the recording that shows it best.
+struct Loop {
+  Eigen::Index cable = 0;
+  std::size_t recording = 0;
+  double travel = 0.0;  ///< there, as a share of the longest of cables with this unit
+};
+
+std::string UnitOf(const DiagnosisResult& result, std::size_t cable) {
+  return cable < result.cable_units.size() ? result.cable_units[cable] : "m";
+}
+
+/// The recording in which a cable moved far and the others little.
+std::vector<Loop> FindLoops(const DiagnosisResult& result, const std::vector<Moments>& moments) {
+  std::vector<Loop> loops;
+  for (std::size_t c = 0; c < result.cables.size(); ++c) {
+    const auto cable = static_cast<Eigen::Index>(c);
+    Loop best{cable, 0, 0.0};
+    double best_score = 0.0;
+    for (std::size_t r = 0; r < moments.size(); ++r) {
+      const double travel = Travel(moments[r], cable);
+      double all = 0.0;
+      for (std::size_t other = 0; other < result.cables.size(); ++other) {
+        const bool same_unit = UnitOf(result, other) == UnitOf(result, c);
+        if (same_unit) all += Travel(moments[r], static_cast<Eigen::Index>(other));
+      }
+      const double score = travel > 0.0 ? travel * travel / all : 0.0;
+      if (score <= best_score || FindDominant(moments[r]).marker < 0) continue;
+      best_score = score;
+      best = {cable, r, travel};
+    }
+    if (best_score > 0.0) loops.push_back(best);
+  }
+  std::map<std::string, double> longest;
+  for (const Loop& loop : loops) {
+    double& length = longest[UnitOf(result, static_cast<std::size_t>(loop.cable))];
+    length = std::max(length, loop.travel);
+  }
+  for (Loop& loop : loops) {
+    loop.travel /= longest[UnitOf(result, static_cast<std::size_t>(loop.cable))];
+  }
+  return loops;
+}
+
+TracePanel MakePanel(const DiagnosisResult& result, const Loop& loop, const Moments& moments) {
+  const auto cable = static_cast<std::size_t>(loop.cable);
+  const bool in_N = UnitOf(result, cable) == "N";
+  const double factor = in_N ? 1.0 : 1e3;
+  const DominantResidual dominant = FindDominant(moments);
+  TracePanel panel;
+  panel.title = "cable " + result.cables[cable] + ", in " + result.recordings[loop.recording].name;
+  panel.note = DescribeDominant(dominant, result);
+  panel.x_title = in_N ? "tension commanded (N)" : "displacement commanded (mm)";
+  panel.directed = true;
+  panel.x_range = {0.0, 0.0};
+  for (const ComparedMoment* moment : moments) {
+    const double x = factor * CommandOf(*moment, loop.cable);
+    panel.x.push_back(x);
+    panel.before_mm.push_back(Along_mm(dominant, moment->before_m));
+    panel.after_mm.push_back(Along_mm(dominant, moment->after_m));
+    if (!std::isfinite(x)) continue;
+    panel.x_range = {std::min(panel.x_range.lower, x), std::max(panel.x_range.upper, x)};
+  }
+  const double room = 0.03 * (panel.x_range.upper - panel.x_range.lower);
+  panel.x_range = {panel.x_range.lower - room, panel.x_range.upper + room};
+  panel.x_ticks = plot::MakeTicks(panel.x_range, 5);
+  return panel;
+}
+
+}  // namespace
+
+Figure DrawHysteresis(const DiagnosisResult& result) {
+  Figure figure{.id = "hysteresis",
+                .title = "Residual against actuation, for the cables that moved most",
+                .caption =
+                    "Each panel shows the marker and direction that vary most in the "
+                    "recording; arrow heads follow time, so that an open loop is "
+                    "hysteresis.",
+                .svg = {},
+                .absent = {}};
+  std::vector<Moments> moments(result.recordings.size());
+  for (const ComparedMoment& moment : result.moments) {
+    const auto recording = static_cast<std::size_t>(moment.recording);
+    if (moment.recording >= 0 && recording < moments.size()) moments[recording].push_back(&moment);
+  }
+  std::vector<Loop> loops = FindLoops(result, moments);
+  if (loops.empty()) {
+    figure.absent = "No cable moved while markers were compared.";
+    return figure;
+  }
+  std::stable_sort(loops.begin(), loops.end(),
+                   [](const Loop& a, const Loop& b) { return a.travel > b.travel; });
+  loops.resize(std::min(loops.size(), kMostPanels));
+  std::vector<TracePanel> panels;
+  for (const Loop& loop : loops) panels.push_back(MakePanel(result, loop, moments[loop.recording]));
+  figure.svg = DrawTracePanels(figure.id, panels, !result.causes.empty());
+  return figure;
+}
+
+}  // namespace palpate::diagnosis

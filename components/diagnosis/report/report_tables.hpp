@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+
+#include "components/diagnosis/diagnosis_result.hpp"
+
+namespace palpate::diagnosis {
+
+// Parts of the report in HTML; empty where there is nothing to tell.
+
+/// Named causes with their parameters and evidence.
+std::string CauseTable(const DiagnosisResult& result);
+std::string RivalTable(const DiagnosisResult& result);
+std::string ExperimentTable(const DiagnosisResult& result);
+std::string RecordingTable(const DiagnosisResult& result);
+std::string IdentityList(const DiagnosisResult& result);
+std::string HowToRepeat(const DiagnosisResult& result);
+
+}  // namespace palpate::diagnosis
