@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
+#include "components/diagnosis/report/figures/figure.hpp"
 #include "components/diagnosis/report/report_html.hpp"
 #include "tests/components/diagnosis/browser.hpp"
 #include "tests/components/diagnosis/example_result.hpp"
@@ -40,6 +42,21 @@ Ink InkIn(const plot::Rect& box, const Pixels& page) {
     }
   }
   return {static_cast<double>(drawn) / std::max(all, 1), colors.size()};
+}
+
+/// Pixels of one colour below the legend.
+int PixelsOf(const plot::Color& color, const plot::Rect& box, const Pixels& page) {
+  constexpr int kLegend_px = 60;
+  int count = 0;
+  for (int y = static_cast<int>(box.y_px) + kLegend_px; y < static_cast<int>(box.bottom_px());
+       ++y) {
+    for (int x = static_cast<int>(box.x_px); x < static_cast<int>(box.right_px()); ++x) {
+      const unsigned char* rgb = page.At(x, y);
+      count += rgb[0] == std::lround(255.0 * color.r) && rgb[1] == std::lround(255.0 * color.g) &&
+               rgb[2] == std::lround(255.0 * color.b);
+    }
+  }
+  return count;
 }
 
 /// A text's box without the room above and below its letters.
@@ -79,6 +96,10 @@ TEST(ReportRendering, EveryFigureIsThereAndNotBlank) {
     EXPECT_GT(ink.share, 0.03) << picture.id;
     EXPECT_LT(ink.share, 0.6) << picture.id;
     EXPECT_GT(ink.colors, 20U) << picture.id;
+    const bool has_before = picture.id != "probabilities" && picture.id != "correlations";
+    EXPECT_GE(PixelsOf(ink::kBefore, picture.box, page), has_before ? 100 : 0) << picture.id;
+    if (picture.id == "residual-field") continue;  // nothing is left to be seen
+    EXPECT_GT(PixelsOf(ink::kAfter, picture.box, page), 100) << picture.id;
   }
 }
 
@@ -87,6 +108,8 @@ TEST(ReportRendering, NoTextIsClippedOrOverAnother) {
   const Browser browser(folder.path());
   std::vector<DiagnosisResult> results = AllExamples();
   results.push_back(TwoCausesExample());
+  results.push_back(FrictionExample());
+  for (std::string& name : results.back().correlation_names) name = "lag";
   for (const DiagnosisResult& result : results) {
     for (const Picture& picture : browser.Measure(FormatReport(result), kWidth_px).pictures) {
       EXPECT_FALSE(picture.texts.empty());
