@@ -39,8 +39,7 @@ std::string Shortened(std::string_view text, double size_px, double width_px) {
   if (TextWidth_px(text, size_px) <= width_px) return std::string(text);
   while (!text.empty() &&
          TextWidth_px(text, size_px) + TextWidth_px(kEllipsis, size_px) > width_px) {
-    while (text.size() > 1 && ContinuesCharacter(text.back())) text.remove_suffix(1);
-    text.remove_suffix(1);
+    text.remove_suffix(1);  // whole characters: all their width is in their first byte
   }
   return std::string(text) + std::string(kEllipsis);
 }

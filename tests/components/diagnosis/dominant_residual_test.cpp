@@ -50,7 +50,7 @@ TEST(DominantResidual, PointsWhereTheLastHalfLies) {
 TEST(DominantResidual, RiseIsTheSlopeNotTheScatter) {
   auto moments = MakeMoments({0.0, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3});
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    moments[i].before_m(2, 2) = (i == 1 || i == 4 ? 0.02 : 0.0);  // evenly about the middle
+    moments[i].before_m(2, 2) = (i == 1 || i == 5 ? 0.02 : 0.0);  // evenly about the middle
   }
   const auto pointers = Pointers(moments);
   EXPECT_EQ(FindDominant(pointers).marker, 2);

@@ -63,7 +63,8 @@ TEST(VerdictWords, NameEachOfSeveralCauses) {
 }
 
 TEST(VerdictWords, DoNotRuleOutWhatFitsAlike) {
-  const DiagnosisResult result = IndistinguishableExample();
+  DiagnosisResult result = IndistinguishableExample();
+  result.rivals[0].probability = 0.04;
   EXPECT_EQ(VerdictHeadline(result),
             "There is a fault, and these data fit 2 causes alike: friction of cable north and "
             "backlash of cable north.");
