@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/diagnosis/report/html_table.hpp"
 #include "components/diagnosis/report/number_text.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "components/diagnosis/report/figures/figures.hpp"
 #include "components/diagnosis/report/number_text.hpp"
