@@ -30,8 +30,7 @@ class Backlash final : public Cause {
 void MakeBacklash(const CauseWorld& world, std::vector<CausePtr>* causes) {
   for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
     if (world.observed.timeline.by_tension[c]) continue;
-    causes->push_back(
-        std::make_unique<Backlash>(world.body.cables[c].name, static_cast<int>(c)));
+    causes->push_back(std::make_unique<Backlash>(world.body.cables[c].name, static_cast<int>(c)));
   }
 }
 

@@ -20,7 +20,8 @@ class BaseComplianceCause final : public Cause {
     draft->base_compliance_rad_Nm += std::max(0.0, z[0]);
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const override {
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
     Eigen::Matrix<double, 6, 6> turns = Eigen::Matrix<double, 6, 6>::Zero();
     turns.topLeftCorner<3, 3>().setIdentity();
     return robot::BaseCompliance(turns, middle_m_);

@@ -23,6 +23,12 @@ class CableFrictionCause final : public Cause {
         std::max(0.0, z[0]);
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->cables[static_cast<std::size_t>(index_)].friction_coefficient += z[0];
+    return true;
+  }
+
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
                              const CauseMoment& /*at*/) const override {
     return robot::CableFrictionCoefficient(index_);

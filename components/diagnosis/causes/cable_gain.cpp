@@ -19,6 +19,12 @@ class CableGainCause final : public Cause {
     draft->drives.gain[index_] += z[0];
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              std::vector<robot::CalibratedDrive>* drives) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.gain += z[0];
+    return true;
+  }
+
  private:
   Eigen::Index index_;
 };

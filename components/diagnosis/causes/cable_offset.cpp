@@ -19,6 +19,13 @@ class CableOffsetCause final : public Cause {
     draft->drives.offset_m[index_] += z[0];
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              std::vector<robot::CalibratedDrive>* drives) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.offset_m +=
+        z[0];
+    return true;
+  }
+
  private:
   Eigen::Index index_;
 };

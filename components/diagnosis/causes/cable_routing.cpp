@@ -22,6 +22,12 @@ class CableRouting final : public Cause {
     draft->body.cables[static_cast<std::size_t>(index_)].pull_point_m.tail<2>() += z;
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->cables[static_cast<std::size_t>(index_)].path_m.col(0).tail<2>() += z;
+    return true;
+  }
+
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
                              const CauseMoment& /*at*/) const override {
     return robot::PullPointMove(index_, Eigen::Vector3d::Unit(parameter + 1));

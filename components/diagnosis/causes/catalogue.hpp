@@ -14,13 +14,13 @@ namespace palpate::diagnosis {
 struct CauseWorld {
   const robot::RobotBody& body;
   const ObservedExperiment& observed;
-  double extrinsics_m = 0.0;    ///< sigma of given poses, where it is known (experiment.yaml)
+  double extrinsics_m = 0.0;  ///< sigma of given poses, where it is known (experiment.yaml)
   double extrinsics_rad = 0.0;
 };
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and
-/// `extrinsics`, which is never a fault. `without`: ids that are left out. Throws InputError for one
-/// that does not exist.
+/// `extrinsics`, which is never a fault. `without`: ids that are left out. Throws InputError for
+/// one that does not exist.
 std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
 
 /// Ids of the catalogue that diagnosis knows.

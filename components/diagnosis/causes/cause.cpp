@@ -28,6 +28,20 @@ std::vector<FittedParameter> Cause::Report(const Eigen::VectorXd& z,
   return report;
 }
 
+bool Cause::Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* /*robot*/,
+                   std::vector<robot::CalibratedDrive>* /*drives*/) const {
+  return false;
+}
+
+robot::CalibratedDrive& DriveOf(const std::string& cable,
+                                std::vector<robot::CalibratedDrive>* drives) {
+  for (robot::CalibratedDrive& drive : *drives) {
+    if (drive.cable == cable) return drive;
+  }
+  return drives->emplace_back(
+      robot::CalibratedDrive{.cable = cable, .drive = {}, .standard_error = {}});
+}
+
 FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
                        const Eigen::MatrixXd& covariance) {
   const double size = z.norm();
@@ -37,7 +51,8 @@ FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
   return {name, size, std::max(0.0, size - half), size + half};
 }
 
-robot::ParameterPtr Cause::OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const {
+robot::ParameterPtr Cause::OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                                  const CauseMoment& /*at*/) const {
   return nullptr;
 }
 

@@ -16,6 +16,8 @@
 #include "components/diagnosis/model/model_draft.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 #include "components/diagnosis/model/sum_of_parameters.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_description.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
 
 namespace palpate::diagnosis {
@@ -67,8 +69,8 @@ struct CauseMoment {
 };
 
 /// Something that a simulation may get wrong, at one place of the robot (DIAGNOSIS, "Catalogue").
-/// What it does is said twice: Apply changes a draft by any z; the other functions give what a small
-/// z does at a moment of a simulation, to first order, which a test holds against Apply.
+/// What it does is said twice: Apply changes a draft by any z; the other functions give what a
+/// small z does at a moment of a simulation, to first order, which a test holds against Apply.
 class Cause {
  public:
   Cause(CauseName name, std::string words, std::vector<CauseParameter> parameters)
@@ -88,20 +90,30 @@ class Cause {
 
   /// `z` [parameters].
   virtual void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const = 0;
+  /// Writes `z` into the robot file, or the drives of a calibration; false where neither can say
+  /// it.
+  virtual bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+                      std::vector<robot::CalibratedDrive>* drives) const;
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
   virtual bool OnDrives() const { return false; }
   /// What dz of one parameter does to the body where this cause is at `z` [parameters];
   /// nullptr: nothing.
-  virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z, const CauseMoment& at) const;
+  virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
+                                     const CauseMoment& at) const;
   /// Adds what it does to where markers are seen with the body where it is, [3 x markers], m,
   /// frame of the robot as it is seen (ModelDraft::T_seen).
-  virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at, Eigen::Matrix3Xd* motion_m) const;
+  virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
+                      Eigen::Matrix3Xd* motion_m) const;
 
  private:
   CauseName name_;
   std::string words_;
   std::vector<CauseParameter> parameters_;
 };
+
+/// The drive of a cable in a calibration, added where it is not there.
+robot::CalibratedDrive& DriveOf(const std::string& cable,
+                                std::vector<robot::CalibratedDrive>* drives);
 
 /// Of parameters that are the components of a vector, its length.
 FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,

@@ -24,7 +24,15 @@ class Density final : public Cause {
     draft->body.node_mass_kg *= std::exp(z[0]);
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const override {
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    if (robot->mass.density_kg_m3) *robot->mass.density_kg_m3 *= std::exp(z[0]);
+    if (robot->mass.total_kg) *robot->mass.total_kg *= std::exp(z[0]);
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
     return robot::MassFactor();
   }
 };

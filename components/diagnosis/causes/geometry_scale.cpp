@@ -31,7 +31,8 @@ class GeometryScale final : public Cause {
     draft->body.node_mass_kg *= factor * factor * factor;
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const override {
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& /*at*/) const override {
     return robot::GeometryScale(middle_m_, robot::CableZero::kOfChangedShape,
                                 robot::MassRule::kDensityKept);
   }

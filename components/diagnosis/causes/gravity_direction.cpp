@@ -32,8 +32,15 @@ class GravityDirection final : public Cause {
     draft->R_askew = draft->R_askew * Askew(z.head<2>());
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->gravity_m_s2 = Askew(z.head<2>()).transpose() * robot->gravity_m_s2;
+    return true;
+  }
+
   /// Weights that hang on the body turn along.
-  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     const Eigen::Matrix3d& R_tilt = at.recording().base_rotation;
     const Eigen::Matrix3d R = R_tilt * at.draft.R_askew;
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(parameter);

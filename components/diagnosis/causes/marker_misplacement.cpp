@@ -27,6 +27,12 @@ class MarkerMisplacement final : public Cause {
     draft->marker_offset_m.col(index_) += z;
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->markers[static_cast<std::size_t>(index_)].position_m += z;
+    return true;
+  }
+
   void OnView(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
     const auto recording = static_cast<std::size_t>(at.seen().recording);
@@ -42,9 +48,7 @@ class MarkerMisplacement final : public Cause {
 
  private:
   /// 1 mm in all, one sigma, in any direction.
-  static CauseParameter Component() {
-    return {.name = "d_m", .tolerance = 0.58e-3, .fault = 5e-3};
-  }
+  static CauseParameter Component() { return {.name = "d_m", .tolerance = 0.58e-3, .fault = 5e-3}; }
 
   Eigen::Index index_;
   std::vector<fem::NodeWeights> along_;  ///< [axes] derivative of its weights, 1/m
@@ -55,8 +59,8 @@ class MarkerMisplacement final : public Cause {
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes) {
   const fem::PointLocator locator(world.body.mesh);
   for (std::size_t m = 0; m < world.body.markers.size(); ++m) {
-    causes->push_back(std::make_unique<MarkerMisplacement>(world.body.markers[m],
-                                                           static_cast<int>(m), locator));
+    causes->push_back(
+        std::make_unique<MarkerMisplacement>(world.body.markers[m], static_cast<int>(m), locator));
   }
 }
 

@@ -23,8 +23,7 @@ class Payload final : public Cause {
         locator_(std::move(locator)) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->masses.push_back(
-        {locator_->Embed(near_m_ + z.tail<3>()).weights, std::max(0.0, z[0])});
+    draft->masses.push_back({locator_->Embed(near_m_ + z.tail<3>()).weights, std::max(0.0, z[0])});
   }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,

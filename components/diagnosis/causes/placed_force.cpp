@@ -23,8 +23,7 @@ PlacesToLookAt LookAt(const CauseWorld& world) {
       least_m[k] = std::min(least_m[k], (rest_m - world.body.mesh.nodes_m.col(node)).norm());
     }
   }
-  const double reach_m =
-      (world.body.mesh.nodes_m.colwise() - middle_m).colwise().norm().maxCoeff();
+  const double reach_m = (world.body.mesh.nodes_m.colwise() - middle_m).colwise().norm().maxCoeff();
   for (Eigen::Index k = 0; k < least_m.size() && places.point_m.size() < kMost; ++k) {
     if (least_m[k] < kFarFromBase * reach_m) continue;
     places.point_m.push_back(world.body.feature_points[static_cast<std::size_t>(k)].rest_m);
@@ -34,8 +33,8 @@ PlacesToLookAt LookAt(const CauseWorld& world) {
 
 robot::ParameterPtr MovedForce(const fem::PointLocator& locator, const Eigen::Vector3d& point_m,
                                int axis, const Eigen::Vector3d& force_N) {
-  return PointForce(
-      robot::EyeletWeightsAlong(locator, point_m, 0.0, Eigen::Vector3d::Unit(axis)), force_N);
+  return PointForce(robot::EyeletWeightsAlong(locator, point_m, 0.0, Eigen::Vector3d::Unit(axis)),
+                    force_N);
 }
 
 }  // namespace palpate::diagnosis

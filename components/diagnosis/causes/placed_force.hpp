@@ -21,7 +21,8 @@ struct PlacesToLookAt {
   std::shared_ptr<const fem::PointLocator> locator;
 };
 
-/// Up to 32 of the body's feature points that are far from the held nodes, where forces move little.
+/// Up to 32 of the body's feature points that are far from the held nodes, where forces move
+/// little.
 PlacesToLookAt LookAt(const CauseWorld& world);
 
 /// What moving the point at which `force_N` acts along `axis` through the undeformed body does.

@@ -25,7 +25,10 @@ Eigen::MatrixXd SoftestShapes(const robot::RobotBody& body) {
   Eigen::MatrixXd shapes(linearisation.Size(), kModes);
   for (Eigen::Index k = 0; k < kModes; ++k) {
     // Of any symmetry: no mode is left out.
-    shapes.col(k) = Eigen::VectorXd::LinSpaced(shapes.rows(), 0.0, 7.0 + 3.0 * static_cast<double>(k)).array().sin();
+    shapes.col(k) =
+        Eigen::VectorXd::LinSpaced(shapes.rows(), 0.0, 7.0 + 3.0 * static_cast<double>(k))
+            .array()
+            .sin();
   }
   for (int i = 0; i < kIterations; ++i) {
     linearisation.Solve(shapes);
@@ -45,8 +48,8 @@ class PlasticSet final : public Cause {
  public:
   explicit PlasticSet(Eigen::MatrixXd shapes)
       : Cause({"plastic_set", {"body"}}, "bent rest shape of the body",
-              std::vector<CauseParameter>(
-                  kModes, {.name = "tip_m", .tolerance = 1e-4, .fault = 3e-3})),
+              std::vector<CauseParameter>(kModes,
+                                          {.name = "tip_m", .tolerance = 1e-4, .fault = 3e-3})),
         shapes_(std::move(shapes)) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {

@@ -3,8 +3,8 @@
 
 #include "components/diagnosis/causes/makers.hpp"
 
-#include "libs/robot/sensitivity/parameters.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
 
@@ -29,7 +29,14 @@ class PoissonsRatioCause final : public Cause {
     }
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->material.poissons_ratio += z[0];
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     auto sum = std::make_unique<SumOfParameters>();
     for (std::size_t k = 0; k < at.model.elastic_body().materials().size(); ++k) {
       sum->Add(1.0, robot::PoissonsRatio(static_cast<int>(k)));

@@ -24,7 +24,16 @@ class RegionalStiffness final : public Cause {
     draft->body.materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa *= std::exp(z[0]);
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot::RegionSettings& region = robot->regions[static_cast<std::size_t>(material_) - 1];
+    region.youngs_modulus_Pa =
+        region.youngs_modulus_Pa.value_or(robot->material.youngs_modulus_Pa) * std::exp(z[0]);
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     const auto& materials = at.model.elastic_body().materials();
     return Scaled(materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa,
                   robot::YoungsModulus(material_));

@@ -32,7 +32,8 @@ class RestTwist final : public Cause {
     }
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     const Eigen::Matrix3Xd& nodes_m = at.draft.body.mesh.nodes_m;
     Eigen::VectorXd mode_m = Eigen::VectorXd::Zero(nodes_m.size());
     for (Eigen::Index node = 0; node < nodes_m.cols(); ++node) {

@@ -36,6 +36,14 @@ class Stiffening final : public Cause {
     draft->body.materials = AsYeoh(draft->body.materials, std::max(0.0, z[0]));
   }
 
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->material.model = fem::MaterialModel::kYeoh;
+    robot->material.c20_over_c10 = z[0];
+    robot->material.c30_over_c10 = 0.0;
+    return true;
+  }
+
   /// The forces are linear in C20.
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
                              const CauseMoment& at) const override {

@@ -19,7 +19,8 @@ class Temperature final : public Cause {
     draft->modulus_change_at_end += z[0];
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     const Timeline& timeline = at.observed.timeline;
     const double begin_s = timeline.begin_s.front();
     const double share = (at.seen().t_s - begin_s) / (timeline.end_s.back() - begin_s);

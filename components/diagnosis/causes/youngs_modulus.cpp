@@ -25,7 +25,17 @@ class YoungsModulusCause final : public Cause {
     }
   }
 
-  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at) const override {
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->material.youngs_modulus_Pa *= std::exp(z[0]);
+    for (robot::RegionSettings& region : robot->regions) {
+      if (region.youngs_modulus_Pa) *region.youngs_modulus_Pa *= std::exp(z[0]);
+    }
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const CauseMoment& at) const override {
     auto sum = std::make_unique<SumOfParameters>();
     const auto& materials = at.model.elastic_body().materials();
     for (std::size_t k = 0; k < materials.size(); ++k) {

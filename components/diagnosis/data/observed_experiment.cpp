@@ -43,8 +43,7 @@ std::vector<std::string> NamesOf(const std::vector<robot::BodyCable>& cables) {
 
 ObservedRecording Describe(const experiment::Experiment& experiment, const Recording& recording) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
-  seen.camera_frame =
-      FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
+  seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
   const auto pose = RobotFromMarkers(experiment, recording);
   if (const auto* T_robot_measurement = std::get_if<Eigen::Isometry3d>(&pose)) {
     seen.T_measurement_robot = T_robot_measurement->inverse();
@@ -135,8 +134,8 @@ class Sampler {
 
   void AddTo(const Cut& cut, std::vector<Sample>* samples, Scatter* scatter) const {
     const auto i = static_cast<std::size_t>(index_);
-    const TimeWindow span = recording_.steady_window_s.value_or(
-        TimeWindow{timeline_.begin_s[i], timeline_.end_s[i]});
+    const TimeWindow span =
+        recording_.steady_window_s.value_or(TimeWindow{timeline_.begin_s[i], timeline_.end_s[i]});
     bool first = true;
     for (const Piece& piece : PiecesOf(recording_, timeline_, span.begin_s, span.end_s)) {
       for (const TimeWindow& window : WindowsOf(piece, WindowCount(piece, cut))) {

@@ -17,14 +17,14 @@ namespace palpate::diagnosis {
 /// Markers averaged over a short time in which the commands go one way, and what was done then.
 /// Mean positions go with mean commands: over a window the body bends little.
 struct Sample {
-  int recording = 0;                       ///< index into the experiment's
-  double t_s = 0.0;                        ///< mean of the frames' stamps
-  std::vector<double> frame_t_s;           ///< that were averaged
-  double piece_begin_s = 0.0;              ///< of the piece that it is cut from
+  int recording = 0;              ///< index into the experiment's
+  double t_s = 0.0;               ///< mean of the frames' stamps
+  std::vector<double> frame_t_s;  ///< that were averaged
+  double piece_begin_s = 0.0;     ///< of the piece that it is cut from
   double piece_end_s = 0.0;
-  bool still = true;                       ///< the commands stay in that piece
-  Eigen::Matrix3Xd position_m;             ///< [3 x markers] measurement frame; NaN: not seen
-  Eigen::VectorXi count;                   ///< [markers] frames that saw it
+  bool still = true;                         ///< the commands stay in that piece
+  Eigen::Matrix3Xd position_m;               ///< [3 x markers] measurement frame; NaN: not seen
+  Eigen::VectorXi count;                     ///< [markers] frames that saw it
   std::vector<experiment::KnownLoad> loads;  ///< robot frame
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 /// The largest distance of a command from the straight way between two times, NaN left out.
 double Distance(const Timeline& timeline, std::size_t first, std::size_t last, std::size_t k) {
-  const double share = (timeline.t_s[k] - timeline.t_s[first]) /
-                       (timeline.t_s[last] - timeline.t_s[first]);
+  const double share =
+      (timeline.t_s[k] - timeline.t_s[first]) / (timeline.t_s[last] - timeline.t_s[first]);
   const Eigen::VectorXd straight =
       timeline.command[first] + share * (timeline.command[last] - timeline.command[first]);
   double distance = 0.0;

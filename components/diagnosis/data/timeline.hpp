@@ -14,11 +14,11 @@ namespace palpate::diagnosis {
 /// What the drives were told through a whole experiment, rests between recordings included: causes
 /// that have a memory (play, friction, creep, lag) run through it. Piecewise linear in time.
 struct Timeline {
-  std::vector<std::string> cables;          ///< of the robot
-  std::vector<bool> by_tension;             ///< [cables] command is a tension, N; else m
-  std::vector<double> t_s;                  ///< strictly rising
-  std::vector<Eigen::VectorXd> command;     ///< [times][cables]; NaN: not driven
-  std::vector<double> begin_s, end_s;       ///< [recordings] of what was recorded of each
+  std::vector<std::string> cables;       ///< of the robot
+  std::vector<bool> by_tension;          ///< [cables] command is a tension, N; else m
+  std::vector<double> t_s;               ///< strictly rising
+  std::vector<Eigen::VectorXd> command;  ///< [times][cables]; NaN: not driven
+  std::vector<double> begin_s, end_s;    ///< [recordings] of what was recorded of each
 
   Eigen::VectorXd CommandAt(double t_s) const;
 };

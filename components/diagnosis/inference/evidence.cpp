@@ -40,8 +40,7 @@ Posterior Infer(const Information& data, const Belief& belief) {
     posterior.mean[free[k]] += sigma[i] * steps[i];
   }
   posterior.covariance = Eigen::MatrixXd::Zero(belief.sigma.size(), belief.sigma.size());
-  const Eigen::MatrixXd inverse =
-      factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
   posterior.covariance(free, free) = sigma.asDiagonal() * inverse * sigma.asDiagonal();
   return posterior;
 }

@@ -18,8 +18,8 @@ struct Fit {
   std::vector<int> faults;  ///< numbers in the CauseBook
   Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
   Simulation simulation;
-  LinearModel model;        ///< columns of causes that were left out are 0
-  Posterior posterior;      ///< of all parameters
+  LinearModel model;    ///< columns of causes that were left out are 0
+  Posterior posterior;  ///< of all parameters
 };
 
 /// Which columns a linear model gets.
@@ -29,8 +29,8 @@ enum class Columns {
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
-/// Of a healthy robot what has one sign only (play, creep, delay) stays linear: it is small, and its
-/// derivative has two sides.
+/// Of a healthy robot what has one sign only (play, creep, delay) stays linear: it is small, and
+/// its derivative has two sides.
 class Fitter {
  public:
   /// All must outlive it.

@@ -59,8 +59,8 @@ GuardResult Guard(const ObservedExperiment& observed, const CauseBook& book, con
   std::normal_distribution<double> normal;
   Eigen::MatrixXd drawn(1 + 2 * std::ssize(observed.recordings), draws);
   for (int d = 0; d < draws; ++d) {
-    Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(belief.sigma.size(),
-                                                     [&] { return normal(random); });
+    Eigen::VectorXd z =
+        Eigen::VectorXd::NullaryExpr(belief.sigma.size(), [&] { return normal(random); });
     z = z.cwiseProduct(belief.sigma);
     for (const Eigen::Index p : book.ParametersOf(fit.faults)) z[p] = 0.0;
     const Eigen::VectorXd noise =

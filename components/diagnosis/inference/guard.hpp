@@ -13,8 +13,8 @@ namespace palpate::diagnosis {
 /// Whether what a fit leaves over is what noise and belief would leave.
 struct GuardResult {
   bool passed = false;
-  double surprise = 0.0;   ///< the worst test, in standard deviations of what a right model leaves
-  std::string worst;       ///< "misfit of recording RH_hold", "runs in recording RB_repeat", ...
+  double surprise = 0.0;  ///< the worst test, in standard deviations of what a right model leaves
+  std::string worst;      ///< "misfit of recording RH_hold", "runs in recording RB_repeat", ...
 };
 
 /// Misfit as a whole and in each recording, and how the residuals of neighbouring moments hang

@@ -10,6 +10,7 @@ namespace palpate::diagnosis {
 HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit) {
   HeldOut out;
   out.residual = fit.model.y;
+  const Posterior all = book.InferWithin(fit.model.All(), fit.faults);
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
     const Information& own = fit.model.of_recording[r];
@@ -19,8 +20,7 @@ HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit) {
     auto residual = out.residual.segment(first, own.rows);
     residual -= J * posterior.mean;
     out.chi_squared.push_back(residual.squaredNorm());
-    const Posterior both = book.InferWithin(fit.model.All(), fit.faults);
-    out.ln_predicted.push_back(both.ln_evidence - posterior.ln_evidence);
+    out.ln_predicted.push_back(all.ln_evidence - posterior.ln_evidence);
     first += own.rows;
   }
   return out;

@@ -23,8 +23,8 @@ HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit);
 /// Whether a prediction is better than another beyond chance: by more than 3 % of the other's
 /// misfit beyond the noise and by two standard errors over recordings.
 struct HeldOutGain {
-  double relative = 0.0;  ///< share of the misfit that is gone, whole rows counted
-  double ln_gain = 0.0;   ///< of what was predicted, all recordings
+  double relative = 0.0;        ///< share of the misfit that is gone, whole rows counted
+  double ln_gain = 0.0;         ///< of what was predicted, all recordings
   double standard_error = 0.0;  ///< of ln_gain
   int recordings = 0;           ///< that are predicted clearly better
   bool clear = false;

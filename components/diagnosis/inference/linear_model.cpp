@@ -44,8 +44,7 @@ bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, st
 }
 
 Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation, int recording,
-                Eigen::Index coordinate, const Eigen::Matrix3Xd& rest_m,
-                const NoiseModel& noise) {
+                Eigen::Index coordinate, const Eigen::Matrix3Xd& rest_m, const NoiseModel& noise) {
   Series series;
   std::vector<double> sigma_m;
   std::vector<double> common_m;
@@ -113,8 +112,8 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
   for (std::size_t r = 0; r < observed.recordings.size(); ++r) {
     const Eigen::Index first = row;
     for (Eigen::Index coordinate = 0; coordinate < coordinates; ++coordinate) {
-      const Series series = SeriesOf(observed, simulation, static_cast<int>(r), coordinate, rest_m,
-                                     noise);
+      const Series series =
+          SeriesOf(observed, simulation, static_cast<int>(r), coordinate, rest_m, noise);
       const auto count = std::ssize(series.samples);
       if (count == 0) continue;
       Eigen::MatrixXd both(count, z.size() + 1);

@@ -27,8 +27,8 @@ struct Information {
 
 /// An experiment as it looks from near z, whitened: y - J z is noise of unit variance.
 struct LinearModel {
-  Eigen::MatrixXd J;                ///< [rows x parameters]
-  Eigen::VectorXd y;                ///< [rows]
+  Eigen::MatrixXd J;  ///< [rows x parameters]
+  Eigen::VectorXd y;  ///< [rows]
   std::vector<int> sample_of_row;
   std::vector<int> coordinate_of_row;  ///< 3 marker + axis
   std::vector<Information> of_recording;
@@ -43,8 +43,8 @@ struct NoiseModel {
   double relative_error = 0.01;
 };
 
-/// About `z` [parameters], at which `simulation` with its Jacobian was made. Samples that failed and
-/// markers that were not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
+/// About `z` [parameters], at which `simulation` with its Jacobian was made. Samples that failed
+/// and markers that were not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
 LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
                       const NoiseModel& noise);

@@ -89,8 +89,8 @@ double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
   const Eigen::MatrixXd of_a = basis(a);
   const Eigen::MatrixXd of_b = basis(b);
   if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
-  return std::min(1.0, Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b)
-                           .singularValues()[0]);
+  return std::min(1.0,
+                  Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b).singularValues()[0]);
 }
 
 /// How many of its tolerances, or of its own sigmas where a healthy robot has none of it, a cause
@@ -153,8 +153,8 @@ class NextCause {
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
       if (candidate.ln_bayes_factor < enough) break;
-      Fit fit = fitter_.Refine(With(before_.faults, candidate.cause), before_,
-                               Columns::kBelievedIn);
+      Fit fit =
+          fitter_.Refine(With(before_.faults, candidate.cause), before_, Columns::kBelievedIn);
       const double guess =
           fitter_.Guess(before_, fit.faults).ln_evidence - before_.posterior.ln_evidence;
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
@@ -203,8 +203,19 @@ class NextCause {
       candidate.why_not = "with it recordings that it was not fitted to are predicted no better";
       return false;
     }
+    choice.probability = Probability(k);
     choice_ = std::move(choice);
     return true;
+  }
+
+  /// Half of what is believed before is that there is no further cause.
+  double Probability(std::size_t k) const {
+    const double ln_share = -std::log(static_cast<double>(candidates_.size()));
+    double others = std::exp(-candidates_[k].ln_bayes_factor - ln_share);
+    for (const Candidate& other : candidates_) {
+      others += std::exp(other.ln_bayes_factor - candidates_[k].ln_bayes_factor);
+    }
+    return 1.0 / others;
   }
 
   /// In how many recordings the fit is clearly better with the cause.
@@ -237,10 +248,10 @@ class NextCause {
         candidate.likeness = Likeness(book, before_.model, first, candidate.cause);
       }
       if (k == found_ || !candidate.why_not.empty()) continue;
-      candidate.why_not = first >= 0 ? "another cause explains more"
-                                     : "the evidence for it is not clear (ln BF " +
-                                           FormatNumber(std::round(
-                                               10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+      candidate.why_not =
+          first >= 0 ? "another cause explains more"
+                     : "the evidence for it is not clear (ln BF " +
+                           FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
     }
   }
 
@@ -255,8 +266,8 @@ class NextCause {
 
 }  // namespace
 
-Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter, const Fit& as_built,
-                       int most, const ReportStep& report) {
+Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
+                       const Fit& as_built, int most, const ReportStep& report) {
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
@@ -264,8 +275,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
       fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built, Columns::kAll);
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
-    report(2 + number, steps,
-           number == 0 ? "looking for a cause" : "looking for a further cause");
+    report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
     NextCause next(observed, fitter, selection.best);
     const bool found = next.Look();
     if (number == 0) selection.candidates = next.candidates();

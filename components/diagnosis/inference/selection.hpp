@@ -15,17 +15,18 @@ namespace palpate::diagnosis {
 
 /// A cause that was looked at as the next one, and what became of it.
 struct Candidate {
-  int cause = -1;              ///< the best of those that have its name (places, relaxation times)
+  int cause = -1;  ///< the best of those that have its name (places, relaxation times)
   double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
-  double likeness = 0.0;       ///< canonical correlation of its effect with that of the first named
-  bool refined = false;        ///< simulated anew where it fits best
-  std::string why_not = {};    ///< empty: named
+  double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
+  bool refined = false;      ///< simulated anew where it fits best
+  std::string why_not = {};  ///< empty: named
 };
 
 /// One cause that was named.
 struct Choice {
   int cause = -1;
   double ln_bayes_factor = 0.0;
+  double probability = 0.0;  ///< among all candidates and none, guesses as likely as each other
   HeldOutGain held_out = {};
   std::vector<double> ln_gain_of_recording = {};  ///< of what was predicted
 };
@@ -46,7 +47,7 @@ using ReportStep = std::function<void(int done, int of, const std::string& what)
 /// Names causes one after the other (DIAGNOSIS, "Method" 3-7): all are screened by the evidence of
 /// the linear model, the best simulated anew; the best is named if the evidence for it is clear, it
 /// predicts recordings that it was not fitted to, and it is beyond the tolerances. At most `most`.
-Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter, const Fit& as_built,
-                       int most, const ReportStep& report);
+Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
+                       const Fit& as_built, int most, const ReportStep& report);
 
 }  // namespace palpate::diagnosis

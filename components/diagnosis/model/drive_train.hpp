@@ -14,7 +14,7 @@ namespace palpate::diagnosis {
 struct DriveSettings {
   explicit DriveSettings(int cables);
 
-  Eigen::MatrixXd mixing;    ///< [cables x drives] what share of each drive's command a cable gets
+  Eigen::MatrixXd mixing;  ///< [cables x drives] what share of each drive's command a cable gets
   double delay_s = 0.0;
   double tau_s = 0.0;        ///< of a first order, after the delay
   Eigen::VectorXd gain;      ///< [cables] g: takes in 1 + g times as much

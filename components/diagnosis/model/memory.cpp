@@ -18,8 +18,8 @@ Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
       ++last;
     }
     AddPiece(first, last);
-    const bool ends = last + 1 == samples.size() ||
-                      samples[last + 1].recording != samples[first].recording;
+    const bool ends =
+        last + 1 == samples.size() || samples[last + 1].recording != samples[first].recording;
     if (ends && last + 1 < samples.size()) {
       const auto next = static_cast<std::size_t>(samples[last + 1].recording);
       const auto recording = static_cast<std::size_t>(samples[first].recording);

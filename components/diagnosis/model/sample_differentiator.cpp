@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "components/diagnosis/model/sum_of_parameters.hpp"
 #include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/model/sum_of_parameters.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -26,8 +26,7 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
       Eigen::VectorXd beside = z;
       beside[column++] += step;
       if (!cause->OnDrives()) continue;
-      changes.back() =
-          (train.At(DraftWith(nominal, causes, beside).drives) - taken_in) / step;
+      changes.back() = (train.At(DraftWith(nominal, causes, beside).drives) - taken_in) / step;
     }
   }
   return changes;
@@ -82,8 +81,7 @@ void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
     slope.row(k) += draft_.cable_compliance_m_N[c] * tension_N.row(c).tail(count);
     given.row(k) = -draft_.cable_compliance_m_N[c] * tension_N.row(c).head(acting);
   }
-  motions_m->leftCols(acting) +=
-      motions_m->rightCols(count) * slope.partialPivLu().solve(given);
+  motions_m->leftCols(acting) += motions_m->rightCols(count) * slope.partialPivLu().solve(given);
 }
 
 Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {

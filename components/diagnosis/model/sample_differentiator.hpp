@@ -23,8 +23,7 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
 class SampleDifferentiator {
  public:
   /// All must outlive it. `solver` is prepared for each sample before.
-  SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
-                       const Eigen::VectorXd& z,
+  SampleDifferentiator(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
                        const std::vector<Eigen::MatrixXd>& drive_change, SampleSolver* solver);
 
   /// [3 markers x parameters] m per z, measurement frame. NaN where there are no derivatives.

@@ -35,8 +35,8 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
       points.push_back(point.weights);
       continue;
     }
-    const fem::NodeWeights along = robot::EyeletWeightsAlong(*locator, point.rest_m, 0.0,
-                                                             offset_m.normalized());
+    const fem::NodeWeights along =
+        robot::EyeletWeightsAlong(*locator, point.rest_m, 0.0, offset_m.normalized());
     points.push_back(fem::Combine({point.weights, along}, {1.0, offset_m.norm()}));
   }
   return points;
@@ -53,8 +53,7 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
       zero_shift_m_(model_.CableCount()),
       base_middle_m_(MiddleOfBase(draft.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
-    zero_shift_m_[c] =
-        model_.cable(c).rest_length_m() - model_.cable(c).Value(draft.assembled_m);
+    zero_shift_m_[c] = model_.cable(c).rest_length_m() - model_.cable(c).Value(draft.assembled_m);
   }
 }
 
@@ -63,10 +62,10 @@ std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& t
   for (Eigen::Index c = 0; c < taken_in.size(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
     if (std::isnan(taken_in[c])) continue;
-    commands[cable] = observed_.timeline.by_tension[cable]
-                          ? robot::CableCommand{Kind::kTension, std::max(0.0, taken_in[c])}
-                          : robot::CableCommand{Kind::kDisplacement,
-                                                taken_in[c] + zero_shift_m_[c]};
+    commands[cable] =
+        observed_.timeline.by_tension[cable]
+            ? robot::CableCommand{Kind::kTension, std::max(0.0, taken_in[c])}
+            : robot::CableCommand{Kind::kDisplacement, taken_in[c] + zero_shift_m_[c]};
   }
   return commands;
 }
@@ -98,8 +97,7 @@ void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
   const Timeline& timeline = observed_.timeline;
   const double begin_s = timeline.begin_s.front();
   const double share = (sample.t_s - begin_s) / (timeline.end_s.back() - begin_s);
-  const double factor =
-      (1.0 + draft_.modulus_change_at_end * share) * (1.0 + past.scale);
+  const double factor = (1.0 + draft_.modulus_change_at_end * share) * (1.0 + past.scale);
   for (std::size_t k = 0; k < draft_.body.materials.size(); ++k) {
     model_.SetYoungsModulus(static_cast<int>(k),
                             factor * draft_.body.materials[k].youngs_modulus_Pa);
@@ -226,8 +224,8 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   fem::LoadState loads = model_.Loads(solved->commands, LoadsAt(sample));
   if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
   solved->status = GiveWay(taken_in, loads, solved);
-  solved->markers_m = Eigen::Matrix3Xd::Constant(3, std::ssize(markers_),
-                                                 std::numeric_limits<double>::quiet_NaN());
+  solved->markers_m =
+      Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
   solved->elastic_N = Eigen::VectorXd::Zero(solved->state.x_m.size());
   if (!solved->status.ok()) return;
   model_.elastic_body().AddForces(solved->state.x_m, solved->elastic_N);

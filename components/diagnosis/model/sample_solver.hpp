@@ -15,7 +15,8 @@
 
 namespace palpate::diagnosis {
 
-/// What the past leaves for a sample: the body answers 1 + scale times as stiff, and carries forces.
+/// What the past leaves for a sample: the body answers 1 + scale times as stiff, and carries
+/// forces.
 struct Hereditary {
   double scale = 0.0;
   Eigen::VectorXd force_N;  ///< [3n], or empty: none
@@ -58,7 +59,7 @@ class SampleSolver {
   robot::RobotModel model_;
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;
-  Eigen::VectorXd zero_shift_m_;       ///< [cables] of the shape that the drives were zeroed at
+  Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_middle_m_;
 };

@@ -80,10 +80,9 @@ int SweepsFor(const ModelDraft& draft) {
 }  // namespace
 
 Eigen::Index ParameterCount(const CauseList& causes) {
-  return std::accumulate(causes.begin(), causes.end(), Eigen::Index{0},
-                         [](Eigen::Index sum, const Cause* cause) {
-                           return sum + std::ssize(cause->parameters());
-                         });
+  return std::accumulate(
+      causes.begin(), causes.end(), Eigen::Index{0},
+      [](Eigen::Index sum, const Cause* cause) { return sum + std::ssize(cause->parameters()); });
 }
 
 ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const Eigen::VectorXd& z) {

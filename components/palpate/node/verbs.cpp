@@ -5,6 +5,7 @@
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/capture_verb.hpp"
+#include "components/palpate/diagnose_verb.hpp"
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
@@ -17,8 +18,8 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {DemoVerb(),      SolveVerb(),    SimulateVerb(),
-                                        CalibrateVerb(), EstimateVerb(), ImportVerb(),
-                                        CaptureVerb(),   InfoVerb()};
+                                        CalibrateVerb(), EstimateVerb(), DiagnoseVerb(),
+                                        ImportVerb(),    CaptureVerb(),  InfoVerb()};
   return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
 }
 

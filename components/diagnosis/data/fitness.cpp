@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/data/fitness.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "libs/core/text.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+using experiment::CableQuantity;
+using experiment::MarkerFrame;
+using experiment::Recording;
+
+/// How much a series changes from one value to the next, over how much it changes at all: near 0
+/// for a motion that is followed, 1 where neighbours have nothing to do with each other.
+struct Jumpiness {
+  double steps = 0.0;
+  double variance = 0.0;
+
+  void Add(const std::vector<Eigen::Vector3d>& series) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& value : series) mean += value / static_cast<double>(series.size());
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      variance += (series[k] - mean).squaredNorm();
+      if (k > 0) steps += 0.5 * (series[k] - series[k - 1]).squaredNorm();
+    }
+  }
+  double Ratio() const { return variance > 0.0 ? steps / variance : 0.0; }
+};
+
+Jumpiness OfMarkers(const Recording& recording) {
+  Jumpiness jumpiness;
+  for (std::size_t m = 0; m < recording.markers->names.size(); ++m) {
+    std::vector<Eigen::Vector3d> series;
+    for (const MarkerFrame& frame : recording.markers->frames) {
+      if (frame.positions_m[m]) series.push_back(*frame.positions_m[m]);
+    }
+    if (!series.empty()) jumpiness.Add(series);
+  }
+  return jumpiness;
+}
+
+/// Of the commands at the stamps of the markers.
+Jumpiness OfCommands(const Recording& recording) {
+  Jumpiness jumpiness;
+  for (const auto& column : recording.actuation->columns) {
+    if (column.quantity != CableQuantity::kDisplacement) continue;
+    std::vector<Eigen::Vector3d> series;
+    for (const MarkerFrame& frame : recording.markers->frames) {
+      series.emplace_back(recording.actuation->ValueAt(column, frame.t_s), 0.0, 0.0);
+    }
+    jumpiness.Add(series);
+  }
+  return jumpiness;
+}
+
+bool IsFrozen(const Recording& recording) {
+  constexpr int kFewest = 6;
+  constexpr double kShare = 0.3;
+  int pairs = 0;
+  int same = 0;
+  const auto& frames = recording.markers->frames;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    ++pairs;
+    bool alike = true;
+    for (std::size_t m = 0; m < frames[k].positions_m.size(); ++m) {
+      alike = alike && frames[k].positions_m[m] == frames[k - 1].positions_m[m];
+    }
+    if (alike) ++same;
+  }
+  return pairs >= kFewest && same > kShare * pairs;
+}
+
+bool IsShuffled(const Recording& recording, const Eigen::Vector3d& sigma_m) {
+  constexpr double kMotion = 9.0;  // of the noise's variance
+  constexpr double kJumpy = 0.5;
+  constexpr double kMoreThanCommands = 3.0;
+  if (!recording.actuation || recording.markers->frames.size() < 6) return false;
+  const Jumpiness markers = OfMarkers(recording);
+  const double noise_m2 =
+      static_cast<double>(recording.markers->frames.size() * recording.markers->names.size()) *
+      sigma_m.squaredNorm();
+  return markers.variance > kMotion * noise_m2 && markers.Ratio() > kJumpy &&
+         markers.Ratio() > kMoreThanCommands * OfCommands(recording).Ratio();
+}
+
+}  // namespace
+
+std::string WhyUnfit(const experiment::Experiment& experiment) {
+  bool actuated = false;
+  for (const Recording& recording : experiment.recordings) {
+    actuated = actuated || recording.actuation.has_value();
+  }
+  for (const Recording& recording : experiment.recordings) {
+    if (!recording.markers) continue;
+    const std::string who = "recording " + recording.name;
+    if (actuated && !recording.actuation) {
+      return who + " has no actuation.csv, which others have: what the cables did is not known";
+    }
+    if (IsFrozen(recording)) {
+      return who + ": the markers stay the same to the last digit: the camera stood still";
+    }
+    if (IsShuffled(recording, experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()))) {
+      return who +
+             ": the markers jump to and fro while the cables go on: the stamps are in disorder";
+    }
+  }
+  return {};
+}
+
+std::string WhyUnfit(const ObservedExperiment& observed, const Simulation& as_built) {
+  constexpr double kMostFailed = 0.2;
+  constexpr double kOtherSize = 0.1;
+  int failed = 0;
+  double spread_measured_m = 0.0;
+  double spread_simulated_m = 0.0;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const SimulatedSample& simulated = as_built.samples[s];
+    if (!simulated.status.ok()) {
+      ++failed;
+      continue;
+    }
+    std::vector<Eigen::Index> seen;
+    for (Eigen::Index m = 0; m < simulated.markers_m.cols(); ++m) {
+      if (observed.samples[s].count[m] > 0) seen.push_back(m);
+    }
+    if (seen.size() < 3) continue;
+    const Eigen::Matrix3Xd measured_m = observed.samples[s].position_m(Eigen::all, seen);
+    const Eigen::Matrix3Xd expected_m = simulated.markers_m(Eigen::all, seen);
+    spread_measured_m += (measured_m.colwise() - measured_m.rowwise().mean()).norm();
+    spread_simulated_m += (expected_m.colwise() - expected_m.rowwise().mean()).norm();
+  }
+  if (failed > kMostFailed * static_cast<double>(observed.samples.size())) {
+    return "the simulated robot has no equilibrium at " + FormatNumber(failed) + " of " +
+           FormatNumber(static_cast<double>(observed.samples.size())) +
+           " moments: " + as_built.status.message();
+  }
+  if (spread_simulated_m == 0.0) return "no moment has three markers";
+  const double size = spread_measured_m / spread_simulated_m;
+  if (std::abs(size - 1.0) > kOtherSize) {
+    return "the markers lie " + FormatNumber(std::round(100.0 * size) / 100.0) +
+           " times as far from each other as on this robot: it is another one, or the unit is "
+           "wrong";
+  }
+  return {};
+}
+
+}  // namespace palpate::diagnosis

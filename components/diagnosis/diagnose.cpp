@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/data/fitness.hpp"
+#include "components/diagnosis/gap.hpp"
+#include "libs/geometry/rigid_registration.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Nobody is surer than that of a cause.
+constexpr double kSurest = 0.99;
+/// What is left for something that the catalogue does not hold.
+constexpr double kOtherPassed = 0.01;
+constexpr double kOtherFailed = 0.5;
+
+double Tolerance(const experiment::Experiment& experiment, const std::string& key) {
+  const auto told = experiment.tolerances.find(key);
+  return told == experiment.tolerances.end() ? 0.0 : told->second;
+}
+
+std::map<std::string, double> CauseTolerances(const experiment::Experiment& experiment) {
+  std::map<std::string, double> tolerances = experiment.tolerances;
+  const auto marker = tolerances.find("marker_bias_m");
+  if (marker != tolerances.end()) tolerances["marker_misplacement"] = marker->second;
+  return tolerances;
+}
+
+/// Poses that nobody knows, from where the robot file's markers would be.
+void RegisterUnknownPoses(const robot::RobotBody& body, int threads, ObservedExperiment* observed) {
+  const bool known = std::all_of(observed->recordings.begin(), observed->recordings.end(),
+                                 [](const auto& recording) { return recording.knows_pose; });
+  if (known) return;
+  const Simulation simulation = Simulator(*observed, threads).Run(DraftOf(body, *observed));
+  for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
+    ObservedRecording& recording = observed->recordings[r];
+    if (recording.knows_pose) continue;
+    const auto shares = [&](const Sample& sample) {
+      const auto& other = observed->recordings[static_cast<std::size_t>(sample.recording)];
+      const bool own = recording.kind == "camera_moved" || other.kind == "camera_moved";
+      return own ? static_cast<std::size_t>(sample.recording) == r : !other.knows_pose;
+    };
+    std::vector<Eigen::Vector3d> robot_m;
+    std::vector<Eigen::Vector3d> measured_m;
+    for (std::size_t s = 0; s < observed->samples.size(); ++s) {
+      const Sample& sample = observed->samples[s];
+      if (!simulation.samples[s].status.ok() || !shares(sample)) continue;
+      for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
+        if (sample.count[m] == 0) continue;
+        robot_m.emplace_back(simulation.samples[s].markers_m.col(m));
+        measured_m.emplace_back(sample.position_m.col(m));
+      }
+    }
+    const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
+      return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, std::ssize(points));
+    };
+    if (robot_m.empty()) continue;
+    const geometry::Registration found =
+        geometry::RegisterRigid(columns(robot_m), columns(measured_m));
+    if (!found.status.ok()) continue;
+    recording.T_measurement_robot = Eigen::Isometry3d::Identity();
+    recording.T_measurement_robot.linear() = found.T_target_source.rotation().toRotationMatrix();
+    recording.T_measurement_robot.translation() = found.T_target_source.translation_m();
+  }
+}
+
+std::vector<std::string> Identities(const ObservedExperiment& observed) {
+  const bool loaded = std::any_of(observed.samples.begin(), observed.samples.end(),
+                                  [](const Sample& sample) { return !sample.loads.empty(); });
+  const bool tilted = std::any_of(
+      observed.recordings.begin(), observed.recordings.end(),
+      [](const ObservedRecording& recording) { return !recording.base_rotation.isIdentity(); });
+  std::vector<std::string> identities = {
+      "A negative zero of a drive and a slack cable are the same.",
+      "A cable that ends where it first touches the body stretches and cuts in alike."};
+  if (!loaded) {
+    identities.emplace_back(
+        "Without a known load only density over modulus and force over modulus can be told: hang a "
+        "known weight on the robot.");
+  }
+  if (!tilted) {
+    identities.emplace_back(
+        "Without a tilted base a mass on the body and a force downwards are the same, and "
+        "gravity's "
+        "direction and a sideways force nearly so: tilt the base by 15 degrees.");
+  }
+  return identities;
+}
+
+double ExplainedShare(const DiagnosisResult& result) {
+  double before = 0.0;
+  double after = 0.0;
+  double noise = 0.0;
+  for (const RecordingGap& gap : result.recordings) {
+    if (gap.samples == 0) continue;
+    before += gap.samples * gap.healthy_m * gap.healthy_m;
+    after += gap.samples * gap.after_m * gap.after_m;
+    noise += gap.samples * gap.noise_m * gap.noise_m;
+  }
+  return before > noise ? std::clamp((before - after) / (before - noise), 0.0, 1.0) : 0.0;
+}
+
+NamedCause Describe(const ObservedExperiment& observed, const CauseBook& book,
+                    const Posterior& posterior, const Choice& choice) {
+  constexpr double kSeen = 1.0;  // of ln p
+  const Cause& cause = book.cause(choice.cause);
+  const Eigen::Index first = book.first(choice.cause);
+  const Eigen::Index count = book.count(choice.cause);
+  NamedCause named{
+      .name = cause.name(),
+      .words = cause.words(),
+      .parameters = cause.Report(posterior.mean.segment(first, count),
+                                 posterior.covariance.block(first, first, count, count)),
+      .probability = std::min(kSurest, choice.probability),
+      .ln_bayes_factor = choice.ln_bayes_factor,
+      .cross_validated = choice.held_out.clear,
+      .seen_in = {}};
+  for (std::size_t r = 0; r < choice.ln_gain_of_recording.size(); ++r) {
+    if (choice.ln_gain_of_recording[r] > kSeen) {
+      named.seen_in.push_back(observed.recordings[r].name);
+    }
+  }
+  return named;
+}
+
+void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
+  const GuardResult& guard = selection.guard;
+  const std::string left = "what is left is not noise (" + guard.worst + ")";
+  if (selection.named.empty()) {
+    result->verdict = guard.passed ? Verdict::kNoFault : Verdict::kUnexplained;
+    result->reason = guard.passed
+                         ? "What the simulation gets wrong is within noise and building tolerances."
+                         : "No cause of the catalogue explains the gap: " + left + ".";
+  } else if (!guard.passed) {
+    result->verdict = Verdict::kPartlyExplained;
+    result->reason = "The cause explains a part; " + left + ".";
+  } else if (!selection.alike.empty()) {
+    result->verdict = Verdict::kIndistinguishable;
+    result->reason = "Other causes fit these data as well.";
+  } else {
+    result->verdict = Verdict::kCause;
+    result->reason = "The causes that are named explain the gap.";
+  }
+}
+
+/// Probabilities of the hypotheses for the first place; causes that were named have theirs.
+void DescribeRivals(const CauseBook& book, const Selection& selection, DiagnosisResult* result) {
+  const auto& candidates = selection.candidates;
+  const double ln_share =
+      -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
+  double all = 1.0;
+  for (const Candidate& one : candidates) all += std::exp(one.ln_bayes_factor + ln_share);
+  const double other = selection.guard.passed ? kOtherPassed : kOtherFailed;
+  result->other_probability = other;
+  result->no_fault_probability = (1.0 - other) / all;
+  for (const Candidate& one : candidates) {
+    const bool named = std::any_of(selection.named.begin(), selection.named.end(),
+                                   [&](const Choice& choice) { return choice.cause == one.cause; });
+    if (named) continue;
+    result->rivals.push_back(
+        {.name = book.cause(one.cause).name(),
+         .words = book.cause(one.cause).words(),
+         .probability = (1.0 - other) * std::exp(one.ln_bayes_factor + ln_share) / all,
+         .ln_bayes_factor = one.ln_bayes_factor,
+         .likeness = one.likeness,
+         .why_not = one.why_not});
+  }
+  for (const Candidate& one : selection.alike) {
+    result->indistinguishable_from.push_back(book.cause(one.cause).name());
+  }
+}
+
+void Extend(const CauseBook& book, const Selection& selection, Diagnosis* diagnosis) {
+  std::vector<robot::CalibratedDrive> drives;
+  for (const Choice& choice : selection.named) {
+    const Cause& cause = book.cause(choice.cause);
+    const Eigen::VectorXd z =
+        selection.best.posterior.mean.segment(book.first(choice.cause), book.count(choice.cause));
+    if (!cause.Extend(z, &diagnosis->extended, &drives)) {
+      diagnosis->not_in_files.push_back(cause.words());
+    }
+  }
+  if (drives.empty()) return;
+  const robot::RobotModel model(robot::BuildRobotBody(diagnosis->extended));
+  diagnosis->calibration = DescribeForCalibration(model);
+  diagnosis->calibration->drives = drives;
+}
+
+}  // namespace
+
+DiagnosisResult Unfit(const std::string& reason) {
+  DiagnosisResult result;
+  result.verdict = Verdict::kDataUnfit;
+  result.reason = reason;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  result.gap = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  return result;
+}
+
+Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& experiment,
+                   const DiagnosisSettings& settings, const ReportStep& report) {
+  Diagnosis diagnosis;
+  diagnosis.result = Unfit(WhyUnfit(experiment));
+  diagnosis.extended = robot;
+  DiagnosisResult& result = diagnosis.result;
+  if (!result.reason.empty()) return diagnosis;
+  const robot::RobotBody body = robot::BuildRobotBody(robot);
+  ObservedExperiment observed = Observe(experiment, body, {.most_samples = settings.most_samples});
+  RegisterUnknownPoses(body, settings.threads, &observed);
+  const CauseBook book(MakeCauses({.body = body,
+                                   .observed = observed,
+                                   .extrinsics_m = Tolerance(experiment, "extrinsics_m"),
+                                   .extrinsics_rad = Tolerance(experiment, "extrinsics_rad")},
+                                  settings.without),
+                       CauseTolerances(experiment));
+  const Fitter fitter(observed, body, book, settings.noise, settings.threads);
+  report(0, settings.most_causes + 3, "simulating the robot as its file has it");
+  const Fit as_built = fitter.AsBuilt();
+  result = Unfit(WhyUnfit(observed, as_built.simulation));
+  if (!result.reason.empty()) return diagnosis;
+  const Selection selection =
+      SelectCauses(observed, fitter, as_built, settings.most_causes, report);
+  DescribeGap(observed, body, book, as_built, selection, &result);
+  DescribeVerdict(selection, &result);
+  for (const Choice& choice : selection.named) {
+    result.causes.push_back(Describe(observed, book, selection.best.posterior, choice));
+    result.causes.back().explained_share = ExplainedShare(result);
+  }
+  DescribeRivals(book, selection, &result);
+  result.identities = Identities(observed);
+  Extend(book, selection, &diagnosis);
+  return diagnosis;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/diagnosis_result.hpp"
+#include "components/diagnosis/inference/selection.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/robot/calibration_file.hpp"
+#include "libs/robot/robot_description.hpp"
+
+namespace palpate::diagnosis {
+
+struct DiagnosisSettings {
+  std::vector<std::string> without;  ///< ids of causes that are not believed in
+  int most_causes = 4;
+  int most_samples = 120;  ///< moments that are compared
+  int threads = 2;
+  NoiseModel noise;
+};
+
+/// What a diagnosis found, for people and for the other verbs.
+struct Diagnosis {
+  DiagnosisResult result;
+  /// The robot file with the causes that a robot file can say; as it was without a cause.
+  robot::RobotDescription extended;
+  /// What belongs to the drives, for `calibration` of the other verbs; nothing: no cause does.
+  std::optional<robot::CalibrationFile> calibration;
+  std::vector<std::string> not_in_files;  ///< words of causes that neither file can say
+};
+
+/// Says what the simulation of a robot gets wrong in an experiment (DIAGNOSIS). Data that cannot
+/// tell have the verdict data_unfit with its reason; what is no robot or no experiment at all
+/// throws InputError.
+Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& experiment,
+                   const DiagnosisSettings& settings, const ReportStep& report);
+
+/// The result for data that could not even be read.
+DiagnosisResult Unfit(const std::string& reason);
+
+}  // namespace palpate::diagnosis

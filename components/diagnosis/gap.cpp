@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/gap.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Squares of what is left of the coordinates that were seen.
+struct Squares {
+  double sum_m2 = 0.0;
+  int count = 0;
+
+  void Add(const Eigen::Matrix3Xd& residual_m) {
+    for (const double value : residual_m.reshaped()) {
+      if (std::isnan(value)) continue;
+      sum_m2 += value * value;
+      ++count;
+    }
+  }
+  void Add(const Squares& other) {
+    sum_m2 += other.sum_m2;
+    count += other.count;
+  }
+  double Rms_m() const {
+    return count > 0 ? std::sqrt(sum_m2 / count) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// [3 x markers] measured - predicted at parameters z, measurement frame.
+Eigen::Matrix3Xd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
+                            const Eigen::VectorXd& z) {
+  const SimulatedSample& simulated = fit.simulation.samples[sample];
+  const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - fit.z);
+  return observed.samples[sample].position_m - simulated.markers_m -
+         moved_m.reshaped(3, simulated.markers_m.cols());
+}
+
+Eigen::Matrix3Xd Noise_m(const ObservedExperiment& observed, std::size_t sample) {
+  const Sample& seen = observed.samples[sample];
+  Eigen::Matrix3Xd noise_m(3, seen.count.size());
+  for (Eigen::Index m = 0; m < seen.count.size(); ++m) {
+    noise_m.col(m) = observed.sigma_m / std::sqrt(seen.count[m]);
+    if (seen.count[m] == 0) noise_m.col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return noise_m;
+}
+
+/// Of one recording, over its samples.
+struct Sums {
+  Squares before, healthy, after, heldout_before, heldout_after, noise;
+  int samples = 0;
+};
+
+/// [recordings] parameters as all other recordings have them.
+std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit) {
+  std::vector<Eigen::VectorXd> z;
+  for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
+    z.push_back(book.InferWithin(fit.model.AllBut(r), fit.faults).mean);
+  }
+  return z;
+}
+
+void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,
+                  DiagnosisResult* result) {
+  result->cables = observed.timeline.cables;
+  for (const bool by_tension : observed.timeline.by_tension) {
+    result->cable_units.emplace_back(by_tension ? "N" : "m");
+  }
+  result->markers = observed.markers;
+  result->marker_rest_m.resize(3, std::ssize(body.markers));
+  for (std::size_t m = 0; m < body.markers.size(); ++m) {
+    result->marker_rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+  }
+  result->surface_m = body.mesh.nodes_m;
+  const Eigen::Matrix3Xi triangles = body.boundary.CornerTriangles();
+  for (Eigen::Index k = 0; k < triangles.cols(); ++k) {
+    result->triangles.push_back({triangles(0, k), triangles(1, k), triangles(2, k)});
+  }
+}
+
+}  // namespace
+
+void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
+                 const CauseBook& book, const Fit& as_built, const Selection& selection,
+                 DiagnosisResult* result) {
+  DescribeBody(observed, body, result);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
+  const std::vector<Eigen::VectorXd> without = LeftOut(book, selection.healthy);
+  const std::vector<Eigen::VectorXd> with = LeftOut(book, selection.best);
+  std::vector<Sums> sums(observed.recordings.size());
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const Sample& sample = observed.samples[s];
+    const auto r = static_cast<std::size_t>(sample.recording);
+    if (!as_built.simulation.samples[s].status.ok()) continue;
+    const Eigen::Matrix3Xd before_m = Residual_m(observed, as_built, s, none);
+    const Eigen::Matrix3Xd after_m =
+        Residual_m(observed, selection.best, s, selection.best.posterior.mean);
+    sums[r].before.Add(before_m);
+    sums[r].after.Add(after_m);
+    sums[r].healthy.Add(
+        Residual_m(observed, selection.healthy, s, selection.healthy.posterior.mean));
+    sums[r].heldout_before.Add(Residual_m(observed, selection.healthy, s, without[r]));
+    sums[r].heldout_after.Add(Residual_m(observed, selection.best, s, with[r]));
+    sums[r].noise.Add(Noise_m(observed, s));
+    ++sums[r].samples;
+    const Eigen::Matrix3d R_robot_measurement =
+        observed.recordings[r].T_measurement_robot.linear().transpose();
+    result->moments.push_back({.recording = sample.recording,
+                               .t_s = sample.t_s,
+                               .command = observed.timeline.CommandAt(sample.t_s),
+                               .before_m = R_robot_measurement * before_m,
+                               .after_m = R_robot_measurement * after_m});
+  }
+  Sums all;
+  for (std::size_t r = 0; r < sums.size(); ++r) {
+    const Sums& one = sums[r];
+    result->recordings.push_back({.name = observed.recordings[r].name,
+                                  .kind = observed.recordings[r].kind,
+                                  .samples = one.samples,
+                                  .before_m = one.before.Rms_m(),
+                                  .healthy_m = one.healthy.Rms_m(),
+                                  .after_m = one.after.Rms_m(),
+                                  .heldout_before_m = one.heldout_before.Rms_m(),
+                                  .heldout_after_m = one.heldout_after.Rms_m(),
+                                  .noise_m = one.noise.Rms_m()});
+    all.before.Add(one.before);
+    all.after.Add(one.after);
+    all.heldout_before.Add(one.heldout_before);
+    all.heldout_after.Add(one.heldout_after);
+    all.noise.Add(one.noise);
+  }
+  result->gap = {.before_m = all.before.Rms_m(),
+                 .after_m = all.after.Rms_m(),
+                 .heldout_before_m = all.heldout_before.Rms_m(),
+                 .heldout_after_m = all.heldout_after.Rms_m(),
+                 .noise_m = all.noise.Rms_m()};
+}
+
+}  // namespace palpate::diagnosis

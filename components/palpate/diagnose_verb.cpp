@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/diagnose_verb.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <ctime>
+#include <memory>
+
+#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/diagnose.hpp"
+#include "components/diagnosis/report/report_html.hpp"
+#include "components/diagnosis/report/verdict_json.hpp"
+#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/progress_line.hpp"
+#include "libs/app/run_main.hpp"
+#include "libs/app/version.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/file.hpp"
+#include "libs/core/names.hpp"
+#include "libs/core/utc_text.hpp"
+#include "libs/experiment/folders.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma > begin) parts.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return parts;
+}
+
+void CheckCause(const std::string& id) {
+  const std::vector<std::string> known = diagnosis::KnownCauses();
+  if (!IndexOf(id, known)) throw InputError(Unknown("cause", id, known));
+}
+
+std::string HashOf(const experiment::Experiment& experiment) {
+  std::vector<const experiment::Recording*> recordings;
+  for (const experiment::Recording& recording : experiment.recordings) {
+    recordings.push_back(&recording);
+  }
+  return HashRecordings(recordings);
+}
+
+/// What is wrong with the data is a verdict; what is wrong with the robot or the options is not.
+diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
+                                  const robot::RobotDescription& robot) {
+  std::unique_ptr<ProgressLine> progress;
+  const auto report = [&](int done, int of, const std::string& what) {
+    if (!progress) progress = std::make_unique<ProgressLine>("steps", of);
+    progress->Update(done);
+    progress->Clear();
+    fmt::print(stderr, "{} of {}: {}\n", done + 1, of, what);
+  };
+  try {
+    const experiment::Experiment experiment =
+        experiment::ReadExperiment(options.data, app::LoadYaml);
+    diagnosis::Diagnosis diagnosis = diagnosis::Diagnose(robot, experiment,
+                                                         {.without = SplitAtCommas(options.without),
+                                                          .most_samples = options.most_samples,
+                                                          .threads = options.threads,
+                                                          .noise = {}},
+                                                         report);
+    diagnosis.result.data_hash = HashOf(experiment);
+    return diagnosis;
+  } catch (const InputError& error) {
+    diagnosis::Diagnosis unfit;
+    unfit.result = diagnosis::Unfit(error.what());
+    unfit.extended = robot;
+    return unfit;
+  }
+}
+
+void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
+  experiment::CreateFolder(folder);
+  WriteFile(folder / "verdict.json", FormatVerdict(diagnosis->result));
+  WriteFile(folder / "report.html", FormatReport(diagnosis->result));
+  if (diagnosis->result.verdict == diagnosis::Verdict::kDataUnfit) return;
+  WriteRobotFile(diagnosis->extended, folder / "robot.extended.yaml");
+  if (!diagnosis->calibration) return;
+  robot::CalibrationFile& calibration = *diagnosis->calibration;
+  calibration.date_utc = UtcText(std::time(nullptr));
+  calibration.data = diagnosis->result.data;
+  calibration.data_hash = diagnosis->result.data_hash;
+  calibration.residual_rms_m = diagnosis->result.gap.after_m;
+  WriteCalibrationFile(calibration, folder / "calibration.extended.yaml");
+}
+
+void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& result) {
+  bool found = false;
+  for (const diagnosis::NamedCause& cause : result.causes) {
+    if (cause.name.id != id) continue;
+    fmt::print("{}: named\n", cause.words);
+    found = true;
+  }
+  for (const diagnosis::Rival& rival : result.rivals) {
+    if (rival.name.id != id) continue;
+    fmt::print("{}: {} (ln BF {:.1f}, likeness to what was named {:.2f})\n", rival.words,
+               rival.why_not, rival.ln_bayes_factor, rival.likeness);
+    found = true;
+  }
+  if (!found) {
+    fmt::print("{}: cannot show on this robot with these data, or was left out\n", id);
+  }
+}
+
+}  // namespace
+
+int Diagnose(const DiagnoseOptions& options) {
+  if (options.robot.empty()) throw InputError("which robot? palpate diagnose ROBOT ...");
+  if (options.data.empty()) throw InputError("--data is missing");
+  if (options.out.empty()) throw InputError("--out is missing");
+  for (const std::string& id : SplitAtCommas(options.without)) CheckCause(id);
+  if (!options.explain.empty()) CheckCause(options.explain);
+  const auto begin = std::chrono::steady_clock::now();
+  const robot::RobotDescription robot =
+      robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
+  diagnosis::Diagnosis diagnosis = DiagnoseData(options, robot);
+  diagnosis::DiagnosisResult& result = diagnosis.result;
+  result.robot = robot.name;
+  result.data = options.data.string();
+  result.version = app::Version();
+  result.command = fmt::format("palpate diagnose {} --data {} --out {}{}{}", options.robot.string(),
+                               options.data.string(), options.out.string(),
+                               options.without.empty() ? "" : " --without ", options.without);
+  result.duration_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  Write(options.out, &diagnosis);
+  fmt::print("{}\n", VerdictParagraph(result));
+  for (const std::string& words : diagnosis.not_in_files) {
+    fmt::print(
+        "{}: neither robot file nor calibration can say it; the extended files are without\n",
+        words);
+  }
+  if (!options.explain.empty()) PrintExplanation(options.explain, result);
+  return result.verdict == diagnosis::Verdict::kDataUnfit ? app::kExitFailed : app::kExitDone;
+}
+
+app::Verb DiagnoseVerb() {
+  return {"diagnose", "Say what a robot's simulation gets wrong, name the cause, extend the model",
+          [](app::Arguments& arguments) -> app::Verb::Action {
+            const auto options = std::make_shared<DiagnoseOptions>();
+            arguments.Positional("ROBOT", &options->robot,
+                                 "robot file, or the name of a robot that comes with palpate",
+                                 app::Need::kOptional);
+            arguments.Option("--data", &options->data, "experiment folder");
+            arguments.Option("--out", &options->out,
+                             "folder for verdict.json, report.html, robot.extended.yaml");
+            arguments.Option("--without", &options->without,
+                             "causes that are not believed in, ID[,ID]");
+            arguments.Option("--explain", &options->explain, "cause: say why it was not named");
+            arguments.Option("--samples", &options->most_samples, 10, 2000,
+                             "moments that are compared, at most");
+            arguments.Option("--threads", &options->threads, 1, 64, "recordings worked on at once");
+            return [options] { return Diagnose(*options); };
+          }};
+}
+
+}  // namespace palpate::command

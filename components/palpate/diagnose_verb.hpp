@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+struct DiagnoseOptions {
+  std::filesystem::path robot;
+  std::filesystem::path data;  ///< experiment folder
+  std::filesystem::path out;   ///< folder, made where it is not there
+  std::string without;         ///< ids of causes, separated by commas
+  std::string explain;         ///< id of a cause that a person wonders about
+  int most_samples = 120;
+  int threads = 2;
+};
+
+/// `palpate diagnose`: writes verdict.json, report.html, robot.extended.yaml and, where drives are
+/// at fault, calibration.extended.yaml, and prints the verdict. Data that cannot be read or cannot
+/// tell have a verdict too (data_unfit). Returns 0, or 1 for data_unfit. Throws InputError where
+/// the robot or the options are wrong, RunError where nothing can be written.
+int Diagnose(const DiagnoseOptions& options);
+
+app::Verb DiagnoseVerb();
+
+}  // namespace palpate::command
