@@ -95,19 +95,6 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
   return identities;
 }
 
-double ExplainedShare(const DiagnosisResult& result) {
-  double before = 0.0;
-  double after = 0.0;
-  double noise = 0.0;
-  for (const RecordingGap& gap : result.recordings) {
-    if (gap.samples == 0) continue;
-    before += gap.samples * gap.healthy_m * gap.healthy_m;
-    after += gap.samples * gap.after_m * gap.after_m;
-    noise += gap.samples * gap.noise_m * gap.noise_m;
-  }
-  return before > noise ? std::clamp((before - after) / (before - noise), 0.0, 1.0) : 0.0;
-}
-
 NamedCause Describe(const ObservedExperiment& observed, const CauseBook& book,
                     const Posterior& posterior, const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
@@ -232,7 +219,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   DescribeVerdict(selection, &result);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(Describe(observed, book, selection.best.posterior, choice));
-    result.causes.back().explained_share = ExplainedShare(result);
+    result.causes.back().explained_share = ExplainedShare(observed, book, as_built, selection.best);
   }
   DescribeRivals(book, selection, &result);
   result.identities = Identities(observed);

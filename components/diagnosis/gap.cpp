@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/gap.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,7 +53,7 @@ Eigen::Matrix3Xd Noise_m(const ObservedExperiment& observed, std::size_t sample)
 
 /// Of one recording, over its samples.
 struct Sums {
-  Squares before, healthy, after, heldout_before, heldout_after, noise;
+  Squares before, healthy, after, heldout_after, noise;
   int samples = 0;
 };
 
@@ -83,14 +84,35 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
   }
 }
 
+/// Parameters of the faults alone, a robot without any deviation otherwise.
+Eigen::VectorXd OfFaults(const CauseBook& book, const Fit& fit) {
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(book.parameter_count());
+  for (const Eigen::Index p : book.ParametersOf(fit.faults)) z[p] = fit.posterior.mean[p];
+  return z;
+}
+
 }  // namespace
+
+double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
+                      const Fit& as_built, const Fit& best) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
+  const Eigen::VectorXd faults = OfFaults(book, best);
+  Squares before, after, noise;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    if (!as_built.simulation.samples[s].status.ok()) continue;
+    before.Add(Residual_m(observed, as_built, s, none));
+    after.Add(Residual_m(observed, best, s, faults));
+    noise.Add(Noise_m(observed, s));
+  }
+  const double excess_m2 = before.sum_m2 - noise.sum_m2;
+  return excess_m2 > 0.0 ? std::clamp((before.sum_m2 - after.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
+}
 
 void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
                  const CauseBook& book, const Fit& as_built, const Selection& selection,
                  DiagnosisResult* result) {
   DescribeBody(observed, body, result);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
-  const std::vector<Eigen::VectorXd> without = LeftOut(book, selection.healthy);
   const std::vector<Eigen::VectorXd> with = LeftOut(book, selection.best);
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
@@ -104,7 +126,6 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     sums[r].after.Add(after_m);
     sums[r].healthy.Add(
         Residual_m(observed, selection.healthy, s, selection.healthy.posterior.mean));
-    sums[r].heldout_before.Add(Residual_m(observed, selection.healthy, s, without[r]));
     sums[r].heldout_after.Add(Residual_m(observed, selection.best, s, with[r]));
     sums[r].noise.Add(Noise_m(observed, s));
     ++sums[r].samples;
@@ -125,18 +146,17 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                                   .before_m = one.before.Rms_m(),
                                   .healthy_m = one.healthy.Rms_m(),
                                   .after_m = one.after.Rms_m(),
-                                  .heldout_before_m = one.heldout_before.Rms_m(),
+                                  .heldout_before_m = one.before.Rms_m(),
                                   .heldout_after_m = one.heldout_after.Rms_m(),
                                   .noise_m = one.noise.Rms_m()});
     all.before.Add(one.before);
     all.after.Add(one.after);
-    all.heldout_before.Add(one.heldout_before);
     all.heldout_after.Add(one.heldout_after);
     all.noise.Add(one.noise);
   }
   result->gap = {.before_m = all.before.Rms_m(),
                  .after_m = all.after.Rms_m(),
-                 .heldout_before_m = all.heldout_before.Rms_m(),
+                 .heldout_before_m = all.before.Rms_m(),
                  .heldout_after_m = all.heldout_after.Rms_m(),
                  .noise_m = all.noise.Rms_m()};
 }

@@ -17,9 +17,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
       nominal_(DraftOf(body, observed)),
       simulator_(observed, threads),
       marker_rest_m_(3, std::ssize(body.markers)),
-      healthy_(book.BeliefWith({})),
-      all_(static_cast<std::size_t>(book.size())) {
-  std::iota(all_.begin(), all_.end(), 0);
+      healthy_(book.BeliefWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     marker_rest_m_.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
   }
@@ -35,7 +33,10 @@ void Fitter::LineariseAt(const Eigen::VectorXd& z, const std::vector<int>& colum
   fit->simulation = simulator_.Run(draft, start);
   simulator_.Differentiate(draft, causes, z_of_columns, nominal_, &fit->simulation);
   for (SimulatedSample& sample : fit->simulation.samples) {
-    Eigen::MatrixXd all_m = Eigen::MatrixXd::Zero(sample.jacobian_m.rows(), z.size());
+    const auto s = static_cast<std::size_t>(&sample - fit->simulation.samples.data());
+    Eigen::MatrixXd all_m = start != nullptr
+                                ? start->samples[s].jacobian_m
+                                : Eigen::MatrixXd::Zero(sample.jacobian_m.rows(), z.size());
     all_m(Eigen::all, parameters) = sample.jacobian_m;
     sample.jacobian_m = std::move(all_m);
   }
@@ -49,7 +50,9 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
 
 Fit Fitter::AsBuilt() const {
   Fit fit;
-  LineariseAt(Eigen::VectorXd::Zero(book_.parameter_count()), all_, nullptr, &fit);
+  std::vector<int> all(static_cast<std::size_t>(book_.size()));
+  std::iota(all.begin(), all.end(), 0);
+  LineariseAt(Eigen::VectorXd::Zero(book_.parameter_count()), all, nullptr, &fit);
   fit.posterior = Guess(fit, {});
   return fit;
 }
@@ -67,18 +70,20 @@ Eigen::VectorXd Fitter::PointOf(const Posterior& posterior, const std::vector<in
 }
 
 bool Fitter::IsNear(const Fit& fit) const {
-  constexpr double kShare = 0.5;
+  constexpr double kOfFault = 0.5;  // of what it is known to
+  constexpr double kOfTolerance = 1.5;
   const Belief belief = book_.BeliefWith(fit.faults);
   const Eigen::VectorXd step = PointOf(fit.posterior, fit.faults) - fit.z;
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     const double known = std::sqrt(fit.posterior.covariance(p, p));
     const bool fault = belief.sigma[p] != healthy_.sigma[p];
-    if (std::abs(step[p]) > kShare * (fault ? known : belief.sigma[p])) return false;
+    const double reach = fault ? kOfFault * known : kOfTolerance * belief.sigma[p];
+    if (std::abs(step[p]) > reach) return false;
   }
   return true;
 }
 
-Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, Columns columns) const {
+Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   constexpr int kMostRounds = 4;
   constexpr double kNothing = 0.5;  // of ln evidence
   const std::vector<int> believed = book_.ActiveIn(book_.BeliefWith(faults));
@@ -90,8 +95,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, Columns col
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
-    LineariseAt(PointOf(fit.posterior, faults), columns == Columns::kAll ? all_ : believed, from,
-                &next);
+    LineariseAt(PointOf(fit.posterior, faults), believed, from, &next);
     next.posterior = Guess(next, faults);
     fit = std::move(next);
     from = &fit.simulation;

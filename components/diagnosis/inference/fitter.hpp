@@ -22,12 +22,6 @@ struct Fit {
   Posterior posterior;  ///< of all parameters
 };
 
-/// Which columns a linear model gets.
-enum class Columns {
-  kBelievedIn,  ///< those of parameters that the fit believes in
-  kAll,         ///< of every cause: to look for further ones
-};
-
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
 /// Of a healthy robot what has one sign only (play, creep, delay) stays linear: it is small, and
 /// its derivative has two sides.
@@ -39,8 +33,10 @@ class Fitter {
 
   /// The robot as its file has it, its linear model, and what a healthy robot makes of it.
   Fit AsBuilt() const;
-  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches.
-  Fit Refine(const std::vector<int>& faults, const Fit& start, Columns columns) const;
+  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches. What
+  /// other causes would do is taken from `start`: good enough to look for them, and they are
+  /// refined before they are named.
+  Fit Refine(const std::vector<int>& faults, const Fit& start) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
 
@@ -61,7 +57,6 @@ class Fitter {
   Simulator simulator_;
   Eigen::Matrix3Xd marker_rest_m_;
   Belief healthy_;
-  std::vector<int> all_;  ///< causes
 };
 
 }  // namespace palpate::diagnosis

@@ -153,8 +153,7 @@ class NextCause {
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
       if (candidate.ln_bayes_factor < enough) break;
-      Fit fit =
-          fitter_.Refine(With(before_.faults, candidate.cause), before_, Columns::kBelievedIn);
+      Fit fit = fitter_.Refine(With(before_.faults, candidate.cause), before_);
       const double guess =
           fitter_.Guess(before_, fit.faults).ln_evidence - before_.posterior.ln_evidence;
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
@@ -271,8 +270,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
-  selection.healthy =
-      fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built, Columns::kAll);
+  selection.healthy = fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built);
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
@@ -282,7 +280,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (!found) break;
     selection.named.push_back(next.choice());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
-    selection.best = fitter.Refine(next.fit().faults, next.fit(), Columns::kAll);
+    selection.best = next.fit();
   }
   report(steps - 1, steps, "looking at what is left");
   selection.guard = Guard(observed, fitter.book(), selection.best);
