@@ -28,9 +28,9 @@ class CameraMoved final : public Cause {
     }
   }
 
-  void OnView(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    if (at.seen().recording >= from_recording_) AddSeenMove(parameter, middle_m_, at, motion_m);
+    if (at.seen().recording >= from_recording_) AddSeenMove(parameter, z, middle_m_, at, motion_m);
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z,

@@ -3,6 +3,8 @@
 
 #include "components/diagnosis/causes/seen_move.hpp"
 
+#include <cmath>
+
 namespace palpate::diagnosis {
 
 Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m) {
@@ -16,14 +18,30 @@ Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& midd
   return move;
 }
 
-void AddSeenMove(int parameter, const Eigen::Vector3d& middle_m, const CauseMoment& at,
-                 Eigen::Matrix3Xd* motion_m) {
+namespace {
+
+/// The turn in space that a little more of one component of a turn's vector is.
+Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
+  const Eigen::Vector3d more = Eigen::Vector3d::Unit(component);
+  const double angle_rad = turn_rad.norm();
+  constexpr double kSmall_rad = 1e-4;
+  if (angle_rad < kSmall_rad) return more + 0.5 * turn_rad.cross(more);
+  const Eigen::Vector3d axis = turn_rad / angle_rad;
+  return more + (1.0 - std::cos(angle_rad)) / angle_rad * axis.cross(more) +
+         (1.0 - std::sin(angle_rad) / angle_rad) * axis.cross(axis.cross(more));
+}
+
+}  // namespace
+
+void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
+                 const CauseMoment& at, Eigen::Matrix3Xd* motion_m) {
   const Eigen::Isometry3d T_robot_measurement = at.recording().T_measurement_robot.inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     const Eigen::Vector3d seen_m = T_robot_measurement * at.simulated().markers_m.col(m);
     motion_m->col(m) += parameter < 3
                             ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
-                            : Eigen::Vector3d::Unit(parameter - 3).cross(seen_m - middle_m);
+                            : TurnOf(z.tail<3>(), parameter - 3)
+                                  .cross(seen_m - middle_m - z.head<3>());
   }
 }
 

@@ -13,8 +13,8 @@ namespace palpate::diagnosis {
 /// What is seen moves by z.head(3), m, and turns by z.tail(3), rad, about `middle_m`.
 Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m);
 
-/// Adds what a little of one of these six does to where the markers are seen.
-void AddSeenMove(int parameter, const Eigen::Vector3d& middle_m, const CauseMoment& at,
-                 Eigen::Matrix3Xd* motion_m);
+/// Adds what a little more of one of these six than `z` does to where the markers are seen.
+void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
+                 const CauseMoment& at, Eigen::Matrix3Xd* motion_m);
 
 }  // namespace palpate::diagnosis
