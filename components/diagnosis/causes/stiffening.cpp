@@ -50,7 +50,15 @@ class Stiffening final : public Cause {
     const Eigen::VectorXd& x_m = at.simulated().state.x_m;
     Eigen::VectorXd without_N = Eigen::VectorXd::Zero(x_m.size());
     Eigen::VectorXd with_N = Eigen::VectorXd::Zero(x_m.size());
+    const auto& materials = at.model.elastic_body().materials();
     const std::scoped_lock lock(mutex_);
+    for (int k = 0; k < static_cast<int>(materials.size()); ++k) {
+      const fem::Material& now = materials[static_cast<std::size_t>(k)];
+      for (fem::ElasticBody* body : {&without_, &with_}) {
+        body->SetYoungsModulus(k, now.youngs_modulus_Pa);
+        body->SetPoissonsRatio(k, now.poissons_ratio);
+      }
+    }
     without_.AddForces(x_m, without_N);
     with_.AddForces(x_m, with_N);
     return robot::NodalForce(without_N - with_N);
@@ -58,8 +66,8 @@ class Stiffening final : public Cause {
 
  private:
   mutable std::mutex mutex_;  ///< bodies keep the sums of their threads
-  fem::ElasticBody without_;
-  fem::ElasticBody with_;
+  mutable fem::ElasticBody without_;  ///< of the moment's moduli
+  mutable fem::ElasticBody with_;
 };
 
 }  // namespace
