@@ -59,14 +59,13 @@ std::vector<Piece> PiecesOf(const experiment::Recording& recording, const Timeli
   constexpr double kTolerance = 0.01;
   const double tolerance = kTolerance * Span(timeline);
   std::set<double> knots_s{begin_s, end_s};
-  const auto at = [&](double t_s) {
-    const auto found = std::lower_bound(timeline.t_s.begin(), timeline.t_s.end(), t_s);
-    const auto last = static_cast<std::ptrdiff_t>(timeline.t_s.size()) - 1;
-    return static_cast<std::size_t>(std::min(found - timeline.t_s.begin(), last));
-  };
-  if (at(begin_s) < at(end_s)) {
-    KeepKnots(timeline, at(begin_s), at(end_s), tolerance, &knots_s);
-  }
+  // From the last stamp before to the first after: commands may turn at any between.
+  const std::vector<double>& t_s = timeline.t_s;
+  const auto after = std::upper_bound(t_s.begin(), t_s.end(), begin_s) - t_s.begin();
+  const auto until = std::lower_bound(t_s.begin(), t_s.end(), end_s) - t_s.begin();
+  const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
+  const std::size_t last = std::min(static_cast<std::size_t>(until), t_s.size() - 1);
+  if (first < last) KeepKnots(timeline, first, last, tolerance, &knots_s);
   for (const experiment::KnownLoad& load : recording.loads) {
     if (load.t_s > begin_s && load.t_s < end_s) knots_s.insert(load.t_s);
   }
