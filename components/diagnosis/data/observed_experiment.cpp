@@ -65,9 +65,11 @@ std::vector<int> ColumnsOf(const Recording& recording, const std::vector<std::st
   return columns;
 }
 
-/// Rests positions of the reference window, to take off; empty without one.
+/// Where the reference window has each marker, from where it is at rest: to take off; empty without
+/// one.
 Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>& columns,
-                             const robot::RobotBody& body) {
+                             const robot::RobotBody& body,
+                             const Eigen::Isometry3d& T_measurement_robot) {
   if (!recording.reference) return {};
   const auto means = MeanOver(*recording.markers, recording.reference->window_s);
   Eigen::Matrix3Xd off_m(3, static_cast<Eigen::Index>(columns.size()));
@@ -76,7 +78,8 @@ Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>&
     off_m.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     if (columns[m] < 0) continue;
     const auto& mean = means[static_cast<std::size_t>(columns[m])];
-    if (mean.count > 0) off_m.col(column) = mean.mean_m - body.markers[m].point.rest_m;
+    if (mean.count == 0) continue;
+    off_m.col(column) = mean.mean_m - T_measurement_robot * body.markers[m].point.rest_m;
   }
   return off_m;
 }
@@ -124,13 +127,15 @@ Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<
 /// The samples of one recording.
 class Sampler {
  public:
-  Sampler(const Recording& recording, int index, const Timeline& timeline,
-          const robot::RobotBody& body, const std::vector<std::string>& markers)
+  Sampler(const Recording& recording, int index,
+          const robot::RobotBody& body, const ObservedExperiment& observed)
       : recording_(recording),
         index_(index),
-        timeline_(timeline),
-        columns_(ColumnsOf(recording, markers)),
-        reference_m_(ReferenceOf(recording, columns_, body)) {}
+        timeline_(observed.timeline),
+        columns_(ColumnsOf(recording, observed.markers)),
+        reference_m_(ReferenceOf(
+            recording, columns_, body,
+            observed.recordings[static_cast<std::size_t>(index)].T_measurement_robot)) {}
 
   void AddTo(const Cut& cut, std::vector<Sample>* samples, Scatter* scatter) const {
     const auto i = static_cast<std::size_t>(index_);
@@ -177,8 +182,7 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
     observed.recordings.push_back(Describe(experiment, recording));
     if (!recording.markers) continue;
     CheckMarkers(recording, observed.markers);
-    samplers.emplace_back(recording, static_cast<int>(i), observed.timeline, body,
-                          observed.markers);
+    samplers.emplace_back(recording, static_cast<int>(i), body, observed);
   }
   if (samplers.empty()) {
     throw InputError(experiment.folder.string() + ": no recording has markers.csv");
