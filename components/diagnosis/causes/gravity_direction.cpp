@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "libs/fem/surface_patch.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -39,11 +40,13 @@ class GravityDirection final : public Cause {
   }
 
   /// Weights that hang on the body turn along.
-  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const CauseMoment& at) const override {
     const Eigen::Matrix3d& R_tilt = at.recording().base_rotation;
     const Eigen::Matrix3d R = R_tilt * at.draft.R_askew;
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(parameter);
+    // Ry Rx: the turn about y comes before the one about x.
+    const Eigen::Vector3d axis =
+        Askew({-z[0], 0.0}) * Eigen::Vector3d(Eigen::Vector3d::Unit(parameter));
     // R' v turns by -axis x R' v with a further turn of R on its right.
     const auto turned = [&](const Eigen::Vector3d& v_world) -> Eigen::Vector3d {
       return -kDegree * axis.cross(R.transpose() * v_world);
@@ -54,8 +57,9 @@ class GravityDirection final : public Cause {
     for (const experiment::KnownLoad& load : at.seen().loads) {
       const Eigen::Vector3d world_N = R_tilt * load.force_N;
       if (world_N.normalized().dot(down) < kHangs) continue;
-      sum->Add(1.0, PointForce(at.model.Patch(load.position_m, load.patch_radius_m).weights,
-                               turned(world_N)));
+      const fem::SurfacePatch patch =
+          fem::MakeSurfacePatch(*at.draft.places, load.position_m, load.patch_radius_m);
+      sum->Add(1.0, PointForce(patch.weights, turned(world_N)));
     }
     for (const CarriedMass& mass : at.draft.masses) {
       sum->Add(1.0, PointForce(mass.weights, mass.mass_kg * turned(at.draft.body.gravity_m_s2)));

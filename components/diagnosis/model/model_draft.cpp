@@ -7,6 +7,7 @@ namespace palpate::diagnosis {
 
 ModelDraft DraftOf(const robot::RobotBody& body, const ObservedExperiment& observed) {
   ModelDraft draft(body);
+  draft.places = std::make_shared<fem::PointLocator>(body.mesh);
   draft.assembled_m = body.mesh.nodes_m.reshaped();
   draft.cable_compliance_m_N = Eigen::VectorXd::Zero(std::ssize(body.cables));
   draft.marker_offset_m = Eigen::Matrix3Xd::Zero(3, std::ssize(observed.markers));

@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
+#include "libs/fem/embedding.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -47,6 +49,9 @@ struct ModelDraft {
       : body(of), drives(static_cast<int>(of.cables.size())) {}
 
   robot::RobotBody body;
+  /// The robot file's body, on which places are named: where the body is of another shape, what
+  /// hangs on it keeps its weights, as markers and eyelets do.
+  std::shared_ptr<const fem::PointLocator> places;
   /// [3n] the shape at which the drives were zeroed; that of the body unless something was bent
   /// afterwards.
   Eigen::VectorXd assembled_m;

@@ -6,9 +6,8 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "libs/fem/embedding.hpp"
+#include "libs/fem/surface_patch.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
@@ -25,9 +24,6 @@ constexpr double kSettled_rad = 1e-8;
 
 std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
   std::vector<fem::NodeWeights> points;
-  const bool moved = !draft.marker_offset_m.isZero();
-  const std::optional<fem::PointLocator> locator =
-      moved ? std::optional<fem::PointLocator>(draft.body.mesh) : std::nullopt;
   for (std::size_t m = 0; m < draft.body.markers.size(); ++m) {
     const fem::BodyPoint& point = draft.body.markers[m].point;
     const Eigen::Vector3d offset_m = draft.marker_offset_m.col(static_cast<Eigen::Index>(m));
@@ -35,8 +31,8 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
       points.push_back(point.weights);
       continue;
     }
-    const fem::NodeWeights along =
-        robot::EyeletWeightsAlong(*locator, point.rest_m, 0.0, offset_m.normalized());
+    const fem::NodeWeights along = robot::EyeletWeightsAlong(*draft.places, point.rest_m, 0.0,
+                                                             offset_m.normalized());
     points.push_back(fem::Combine({point.weights, along}, {1.0, offset_m.norm()}));
   }
   return points;
@@ -81,7 +77,9 @@ std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
     const Eigen::Vector3d force_N =
         hangs ? Eigen::Vector3d((R_tilt * draft_.R_askew).transpose() * R_tilt * load.force_N)
               : load.force_N;
-    loads.push_back({model_.Patch(load.position_m, load.patch_radius_m).weights, force_N});
+    loads.push_back(
+        {fem::MakeSurfacePatch(*draft_.places, load.position_m, load.patch_radius_m).weights,
+         force_N});
   }
   const Eigen::Vector3d gravity_m_s2 = GravityIn(draft_, recording);
   for (const CarriedMass& mass : draft_.masses) {
@@ -217,9 +215,13 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
                          const Hereditary& past, SimulatedSample* solved) {
   Prepare(sample, past);
   if (solved->state.x_m.size() == 0) solved->state = model_.RestState();
-  if (solved->commands.empty() || draft_.cable_compliance_m_N.isZero()) {
-    solved->commands = Commands(taken_in);
+  // Cables that give way begin from what they gave way by before.
+  std::vector<robot::CableCommand> commands = Commands(taken_in);
+  for (std::size_t c = 0; c < commands.size() && !solved->commands.empty(); ++c) {
+    const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] > 0.0;
+    if (gives_way && commands[c].kind == solved->commands[c].kind) commands[c] = solved->commands[c];
   }
+  solved->commands = std::move(commands);
   base_turn_rad_.setZero();
   fem::LoadState loads = model_.Loads(solved->commands, LoadsAt(sample));
   if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
