@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/model/simulator.hpp"
+#include "tests/components/diagnosis_core/small_robot.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+/// Of the parameter's fault sigma, over which nothing bends by more than about its own size: over
+/// this, by 1e-6 of it (central), still far above where the solver stops.
+constexpr double kStep = 1e-3;
+/// What is found by steps that end at 1e-8 rad needs a longer one.
+constexpr double kStepOfBase = 1e-2;
+/// What a whole fault sigma moves all markers by that counts as none.
+constexpr double kNothing_m = 1e-6;
+
+class CauseDerivatives : public testing::Test {
+ protected:
+  /// [3 markers, samples after another] of the simulation.
+  Eigen::VectorXd Markers(const CauseList& causes, const Eigen::VectorXd& z) const {
+    const Simulation run = simulator_.Run(DraftWith(nominal_, causes, z), &at_rest_);
+    EXPECT_TRUE(run.status.ok()) << run.status.message();
+    Eigen::VectorXd all_m(12 * std::ssize(run.samples));
+    for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
+      all_m.segment<12>(12 * s) = run.samples[static_cast<std::size_t>(s)].markers_m.reshaped();
+    }
+    return all_m;
+  }
+
+  Eigen::MatrixXd Analytic(const CauseList& causes, const Eigen::VectorXd& z) const {
+    const ModelDraft draft = DraftWith(nominal_, causes, z);
+    Simulation run = simulator_.Run(draft, &at_rest_);
+    simulator_.Differentiate(draft, causes, z, nominal_, &run);
+    Eigen::MatrixXd all_m(12 * std::ssize(run.samples), z.size());
+    for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
+      all_m.middleRows<12>(12 * s) = run.samples[static_cast<std::size_t>(s)].jacobian_m;
+    }
+    return all_m;
+  }
+
+  /// Central; one-sided of second order where the parameter cannot be below.
+  Eigen::VectorXd Difference(const CauseList& causes, const Eigen::VectorXd& z, Eigen::Index p,
+                             const CauseParameter& parameter) const {
+    const bool of_base = causes.front()->name().id == "base_compliance";
+    const double h = (of_base ? kStepOfBase : kStep) * parameter.fault;
+    const auto at = [&](double steps) {
+      Eigen::VectorXd beside = z;
+      beside[p] += steps * h;
+      return Markers(causes, beside);
+    };
+    if (z[p] - h < parameter.least) return (4.0 * at(1.0) - 3.0 * at(0.0) - at(2.0)) / (2.0 * h);
+    return (at(1.0) - at(-1.0)) / (2.0 * h);
+  }
+
+  /// In each recording alike: what is small beside another must be right, too.
+  void ExpectAlike(const Eigen::VectorXd& analytic, const Eigen::VectorXd& difference,
+                   double tolerance, const std::string& what) const {
+    for (int r = 0; r < std::ssize(observed_.recordings); ++r) {
+      double off = 0.0;
+      double size = 0.0;
+      for (Eigen::Index s = 0; s < std::ssize(observed_.samples); ++s) {
+        if (observed_.samples[static_cast<std::size_t>(s)].recording != r) continue;
+        off += (analytic - difference).segment<12>(12 * s).squaredNorm();
+        size += difference.segment<12>(12 * s).squaredNorm();
+      }
+      const double floor_m = 1e-3 * difference.norm() + kNothing_m;
+      EXPECT_LE(std::sqrt(off) / std::max(std::sqrt(size), floor_m), tolerance)
+          << what << " in " << observed_.recordings[static_cast<std::size_t>(r)].name << ", of "
+          << std::sqrt(size) << " m";
+    }
+  }
+
+  void ExpectDerivative(const Cause& cause, const Eigen::VectorXd& z, double tolerance) const {
+    const CauseList one{&cause};
+    const Eigen::MatrixXd analytic = Analytic(one, z);
+    for (Eigen::Index p = 0; p < z.size(); ++p) {
+      const CauseParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
+      ExpectAlike(parameter.fault * analytic.col(p),
+                  parameter.fault * Difference(one, z, p, parameter), tolerance,
+                  cause.words() + ", " + parameter.name);
+    }
+  }
+
+  robot::RobotBody body_ = SmallRobot();
+  ObservedExperiment observed_ = Observe(SmallExperiment(body_), body_, {.most_samples = 14});
+  ModelDraft nominal_ = DraftOf(body_, observed_);
+  Simulator simulator_{observed_, 1};
+  Simulation at_rest_ = simulator_.Run(nominal_);
+  std::vector<CausePtr> causes_ = MakeCauses({body_, observed_}, {});
+};
+
+TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
+  ASSERT_TRUE(at_rest_.status.ok()) << at_rest_.status.message();
+  constexpr double kTolerance = 2e-3;
+  for (const CausePtr& cause : causes_) {
+    if (cause->name().id == "stiffening") continue;  // begins with another material
+    ExpectDerivative(*cause, Eigen::VectorXd::Zero(std::ssize(cause->parameters())), kTolerance);
+  }
+}
+
+TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
+  constexpr double kShare = 0.31;  // of the fault sigma; no kink of the drives' play lies there
+  constexpr double kTolerance = 2e-3;
+  /// What the base turns by when its moment changes is left out: of the order of what the compliance
+  /// of this body is changed by, here 0.4 %.
+  constexpr double kToleranceOfBase = 1e-2;
+  /// What elastic forces of the past change by with g is left out: of the order of g, 0.08.
+  constexpr double kToleranceOfCreep = 0.08;
+  for (const CausePtr& cause : causes_) {
+    const std::string& id = cause->name().id;
+    Eigen::VectorXd z(std::ssize(cause->parameters()));
+    for (Eigen::Index p = 0; p < z.size(); ++p) {
+      z[p] = kShare * cause->parameters()[static_cast<std::size_t>(p)].fault;
+    }
+    ExpectDerivative(*cause, z,
+                     id == "viscoelastic_creep" ? kToleranceOfCreep
+                     : id == "base_compliance"  ? kToleranceOfBase
+                                                : kTolerance);
+  }
+}
+
+TEST_F(CauseDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
+  CauseList two;
+  for (const CausePtr& cause : causes_) {
+    const std::string& id = cause->name().id;
+    if (id == "youngs_modulus" || id == "stiffening") two.push_back(cause.get());
+  }
+  ASSERT_EQ(two.size(), 2U);
+  const Eigen::VectorXd z = Eigen::Vector2d(0.4, 0.5);
+  const Eigen::MatrixXd analytic = Analytic(two, z);
+  for (Eigen::Index p = 0; p < 2; ++p) {
+    ExpectAlike(analytic.col(p), Difference(two, z, p, two[static_cast<std::size_t>(p)]->parameters()[0]),
+                2e-3, two[static_cast<std::size_t>(p)]->words());
+  }
+}
+
+TEST_F(CauseDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
+  // A cable that gives way keeps where it was; the others must follow their drives all the same.
+  const auto find = [&](const std::string& id, const std::string& where) -> const Cause* {
+    for (const CausePtr& cause : causes_) {
+      if (cause->name().id == id && cause->name().where.front() == where) return cause.get();
+    }
+    return nullptr;
+  };
+  const CauseList causes{find("cable_elasticity", "cable:up"), find("cable_offset", "cable:aside")};
+  ASSERT_NE(causes[0], nullptr);
+  ASSERT_NE(causes[1], nullptr);
+  const ModelDraft before = DraftWith(nominal_, causes, Eigen::Vector2d(1e-3, -5e-4));
+  const ModelDraft after = DraftWith(nominal_, causes, Eigen::Vector2d(2e-3, 1e-3));
+  const Simulation start = simulator_.Run(before);
+  const Simulation cold = simulator_.Run(after);
+  const Simulation warm = simulator_.Run(after, &start);
+  ASSERT_TRUE(cold.status.ok() && warm.status.ok());
+  for (std::size_t s = 0; s < cold.samples.size(); ++s) {
+    EXPECT_LT((cold.samples[s].markers_m - warm.samples[s].markers_m).cwiseAbs().maxCoeff(), 1e-7)
+        << "sample " << s;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
