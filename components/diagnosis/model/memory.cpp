@@ -4,8 +4,18 @@
 #include "components/diagnosis/model/memory.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace palpate::diagnosis {
+
+namespace {
+
+/// Since when these loads act: others act since another time.
+std::optional<double> StampOf(const std::vector<experiment::KnownLoad>& loads) {
+  return loads.empty() ? std::nullopt : std::optional(loads.front().t_s);
+}
+
+}  // namespace
 
 Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
   const std::vector<Sample>& samples = observed.samples;
@@ -58,7 +68,15 @@ void Memory::Add(double t_s, Eigen::RowVectorXd share) {
 void Memory::AddPiece(std::size_t first, std::size_t last) {
   const std::vector<Sample>& samples = observed_.samples;
   const std::size_t second = std::min(first + 1, last);
-  Add(samples[first].piece_begin_s, CarriedOn(second, first, samples[first].piece_begin_s));
+  const double begin_s = samples[first].piece_begin_s;
+  Eigen::RowVectorXd at_begin = CarriedOn(second, first, begin_s);
+  const bool jumps = first > 0 && samples[first - 1].recording == samples[first].recording &&
+                     StampOf(samples[first - 1].loads) != StampOf(samples[first].loads);
+  if (jumps) {
+    nodes_.push_back({std::max(begin_s, nodes_.back().t_s), std::move(at_begin)});
+  } else {
+    Add(begin_s, std::move(at_begin));
+  }
   for (std::size_t s = first; s <= last; ++s) Add(samples[s].t_s, Only(s));
   const std::size_t before = last > first ? last - 1 : last;
   Add(samples[last].piece_end_s, CarriedOn(before, last, samples[last].piece_end_s));
