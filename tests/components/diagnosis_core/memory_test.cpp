@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace palpate::diagnosis {
+namespace {
+
+/// What the quantity is where every command is zero.
+constexpr double kAtZero = 0.7;
+
+/// A quantity that goes linearly between these.
+struct Path {
+  std::vector<double> t_s;
+  std::vector<double> value;
+
+  double At(double now_s) const {
+    std::size_t k = 1;
+    while (k + 1 < t_s.size() && t_s[k] < now_s) ++k;
+    return value[k - 1] +
+           (value[k] - value[k - 1]) * (now_s - t_s[k - 1]) / (t_s[k] - t_s[k - 1]);
+  }
+  /// Integral of exp(-(now - s) / tau) dvalue/ds ds, by the midpoint rule.
+  double Fading(double now_s, double tau_s) const {
+    constexpr int kSteps = 200000;
+    const double step_s = (now_s - t_s.front()) / kSteps;
+    double sum = 0.0;
+    for (int k = 0; k < kSteps; ++k) {
+      const double from_s = t_s.front() + k * step_s;
+      sum += std::exp(-(now_s - from_s - 0.5 * step_s) / tau_s) *
+             (At(from_s + step_s) - At(from_s));
+    }
+    return sum;
+  }
+};
+
+void AddSample(int recording, double piece_begin_s, double piece_end_s, bool still,
+               const std::vector<double>& frames_s, ObservedExperiment* observed) {
+  Sample& sample = observed->samples.emplace_back();
+  sample.recording = recording;
+  sample.frame_t_s = frames_s;
+  for (const double t_s : frames_s) sample.t_s += t_s / static_cast<double>(frames_s.size());
+  sample.piece_begin_s = piece_begin_s;
+  sample.piece_end_s = piece_end_s;
+  sample.still = still;
+}
+
+/// Up in two samples, a hold of two; a rest; another hold of one and a way on.
+ObservedExperiment TwoRecordings() {
+  ObservedExperiment observed;
+  observed.recordings.resize(2);
+  observed.timeline.begin_s = {0.0, 16.0};
+  observed.timeline.end_s = {10.0, 24.0};
+  AddSample(0, 0.0, 4.0, false, {0.5, 1.0, 1.5}, &observed);
+  AddSample(0, 0.0, 4.0, false, {2.5, 3.0, 3.5}, &observed);
+  AddSample(0, 4.0, 10.0, true, {4.5, 5.5}, &observed);
+  AddSample(0, 4.0, 10.0, true, {7.0, 8.0, 9.0}, &observed);
+  AddSample(1, 16.0, 20.0, true, {17.0, 19.0}, &observed);
+  AddSample(1, 20.0, 24.0, false, {21.0, 22.0}, &observed);
+  AddSample(1, 20.0, 24.0, false, {22.5, 23.5}, &observed);
+  return observed;
+}
+
+/// Zero commands are reached in the middle of the rest.
+Path PathThroughBoth() {
+  return {{0.0, 4.0, 10.0, 13.0, 16.0, 20.0, 24.0}, {1.0, 3.0, 3.0, kAtZero, 2.0, 2.0, -0.5}};
+}
+
+Eigen::VectorXd ValuesOf(const ObservedExperiment& observed, const Path& path) {
+  Eigen::VectorXd values(std::ssize(observed.samples) + 1);
+  for (Eigen::Index s = 0; s < std::ssize(observed.samples); ++s) {
+    values[s] = path.At(observed.samples[static_cast<std::size_t>(s)].t_s);
+  }
+  values[values.size() - 1] = kAtZero;
+  return values;
+}
+
+TEST(Memory, IsTheConvolutionWithWhatGoesLinearly) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Memory memory(observed);
+  const Path path = PathThroughBoth();
+  for (const double tau_s : {0.4, 3.0, 40.0}) {
+    const Eigen::VectorXd remembered = memory.Fading(tau_s) * ValuesOf(observed, path);
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      double expected = 0.0;
+      const std::vector<double>& frames_s = observed.samples[s].frame_t_s;
+      for (const double t_s : frames_s) {
+        expected += path.Fading(t_s, tau_s) / static_cast<double>(frames_s.size());
+      }
+      EXPECT_NEAR(remembered[static_cast<Eigen::Index>(s)], expected, 2e-4)
+          << "tau " << tau_s << ", sample " << s;
+    }
+  }
+}
+
+TEST(Memory, HasNothingOfWhatNeverChanges) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Memory memory(observed);
+  for (const double tau_s : {0.01, 1.0, 1000.0}) {
+    EXPECT_LT(memory.Fading(tau_s).rowwise().sum().cwiseAbs().maxCoeff(), 1e-12) << tau_s;
+  }
+}
+
+TEST(Memory, ForgetsAtOnceOrNever) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Memory memory(observed);
+  const Path path = PathThroughBoth();
+  const Eigen::VectorXd values = ValuesOf(observed, path);
+  // What changes by 1.25 a second at most: less than that times tau.
+  constexpr double kShort_s = 1e-4;
+  EXPECT_LT((memory.Fading(kShort_s) * values).cwiseAbs().maxCoeff(), 1.25 * kShort_s);
+  constexpr double kLong_s = 1e6;
+  const Eigen::VectorXd ever = memory.Fading(kLong_s) * values;
+  for (Eigen::Index s = 0; s < ever.size(); ++s) {
+    EXPECT_NEAR(ever[s], values[s] - path.value.front(), 1e-4) << "sample " << s;
+  }
+}
+
+TEST(Memory, NeverLooksAhead) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Eigen::MatrixXd weights = Memory(observed).Fading(5.0);
+  // Of the recording after; within one, a motion is carried back from its second sample.
+  EXPECT_TRUE(weights.topRows(4).middleCols(4, 3).isZero(0.0));
+}
+
+TEST(Memory, ALoadThatComesIsAJump) {
+  ObservedExperiment observed;
+  observed.recordings.resize(1);
+  observed.timeline.begin_s = {0.0};
+  observed.timeline.end_s = {20.0};
+  AddSample(0, 0.0, 10.0, true, {4.0, 6.0}, &observed);
+  AddSample(0, 10.0, 20.0, true, {11.0}, &observed);
+  AddSample(0, 10.0, 20.0, true, {17.0}, &observed);
+  for (std::size_t s : {1U, 2U}) observed.samples[s].loads = {{10.0, {}, {0.0, 0.0, 1.0}, 0.0, {}}};
+  constexpr double kTau_s = 3.0;
+  const Eigen::VectorXd remembered =
+      Memory(observed).Fading(kTau_s) * Eigen::Vector4d(1.0, 3.0, 3.0, 0.0);
+  EXPECT_NEAR(remembered[0], 0.0, 1e-12);
+  EXPECT_NEAR(remembered[1], 2.0 * std::exp(-1.0 / kTau_s), 1e-12);
+  EXPECT_NEAR(remembered[2], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
