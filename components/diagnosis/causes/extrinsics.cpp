@@ -31,8 +31,8 @@ class Extrinsics final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    const bool here = std::find(recordings_.begin(), recordings_.end(), at.seen().recording) !=
-                      recordings_.end();
+    const bool here =
+        std::find(recordings_.begin(), recordings_.end(), at.seen().recording) != recordings_.end();
     if (here) AddSeenMove(parameter, z, middle_m_, at, motion_m);
   }
 

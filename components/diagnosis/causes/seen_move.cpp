@@ -38,10 +38,9 @@ void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d&
   const Eigen::Isometry3d T_robot_measurement = at.recording().T_measurement_robot.inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     const Eigen::Vector3d seen_m = T_robot_measurement * at.simulated().markers_m.col(m);
-    motion_m->col(m) += parameter < 3
-                            ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
-                            : TurnOf(z.tail<3>(), parameter - 3)
-                                  .cross(seen_m - middle_m - z.head<3>());
+    motion_m->col(m) +=
+        parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
+                      : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
   }
 }
 

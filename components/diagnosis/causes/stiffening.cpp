@@ -65,7 +65,7 @@ class Stiffening final : public Cause {
   }
 
  private:
-  mutable std::mutex mutex_;  ///< bodies keep the sums of their threads
+  mutable std::mutex mutex_;          ///< bodies keep the sums of their threads
   mutable fem::ElasticBody without_;  ///< of the moment's moduli
   mutable fem::ElasticBody with_;
 };

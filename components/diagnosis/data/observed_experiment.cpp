@@ -127,8 +127,8 @@ Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<
 /// The samples of one recording.
 class Sampler {
  public:
-  Sampler(const Recording& recording, int index,
-          const robot::RobotBody& body, const ObservedExperiment& observed)
+  Sampler(const Recording& recording, int index, const robot::RobotBody& body,
+          const ObservedExperiment& observed)
       : recording_(recording),
         index_(index),
         timeline_(observed.timeline),

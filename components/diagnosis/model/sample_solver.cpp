@@ -31,8 +31,8 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
       points.push_back(point.weights);
       continue;
     }
-    const fem::NodeWeights along = robot::EyeletWeightsAlong(*draft.places, point.rest_m, 0.0,
-                                                             offset_m.normalized());
+    const fem::NodeWeights along =
+        robot::EyeletWeightsAlong(*draft.places, point.rest_m, 0.0, offset_m.normalized());
     points.push_back(fem::Combine({point.weights, along}, {1.0, offset_m.norm()}));
   }
   return points;
@@ -219,7 +219,8 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   std::vector<robot::CableCommand> commands = Commands(taken_in);
   for (std::size_t c = 0; c < commands.size() && !solved->commands.empty(); ++c) {
     const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] > 0.0;
-    if (gives_way && commands[c].kind == solved->commands[c].kind) commands[c] = solved->commands[c];
+    if (gives_way && commands[c].kind == solved->commands[c].kind)
+      commands[c] = solved->commands[c];
   }
   solved->commands = std::move(commands);
   base_turn_rad_.setZero();

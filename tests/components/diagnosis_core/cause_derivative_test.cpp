@@ -109,8 +109,8 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
 TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   constexpr double kShare = 0.31;  // of the fault sigma; no kink of the drives' play lies there
   constexpr double kTolerance = 2e-3;
-  /// What the base turns by when its moment changes is left out: of the order of what the compliance
-  /// of this body is changed by, here 0.4 %.
+  /// What the base turns by when its moment changes is left out: of the order of what the
+  /// compliance of this body is changed by, here 0.4 %.
   constexpr double kToleranceOfBase = 1e-2;
   /// What elastic forces of the past change by with g is left out: of the order of g, 0.08.
   constexpr double kToleranceOfCreep = 0.08;
@@ -137,8 +137,9 @@ TEST_F(CauseDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
   const Eigen::VectorXd z = Eigen::Vector2d(0.4, 0.5);
   const Eigen::MatrixXd analytic = Analytic(two, z);
   for (Eigen::Index p = 0; p < 2; ++p) {
-    ExpectAlike(analytic.col(p), Difference(two, z, p, two[static_cast<std::size_t>(p)]->parameters()[0]),
-                2e-3, two[static_cast<std::size_t>(p)]->words());
+    ExpectAlike(analytic.col(p),
+                Difference(two, z, p, two[static_cast<std::size_t>(p)]->parameters()[0]), 2e-3,
+                two[static_cast<std::size_t>(p)]->words());
   }
 }
 

@@ -22,8 +22,7 @@ struct Path {
   double At(double now_s) const {
     std::size_t k = 1;
     while (k + 1 < t_s.size() && t_s[k] < now_s) ++k;
-    return value[k - 1] +
-           (value[k] - value[k - 1]) * (now_s - t_s[k - 1]) / (t_s[k] - t_s[k - 1]);
+    return value[k - 1] + (value[k] - value[k - 1]) * (now_s - t_s[k - 1]) / (t_s[k] - t_s[k - 1]);
   }
   /// Integral of exp(-(now - s) / tau) dvalue/ds ds, by the midpoint rule.
   double Fading(double now_s, double tau_s) const {
@@ -32,8 +31,8 @@ struct Path {
     double sum = 0.0;
     for (int k = 0; k < kSteps; ++k) {
       const double from_s = t_s.front() + k * step_s;
-      sum += std::exp(-(now_s - from_s - 0.5 * step_s) / tau_s) *
-             (At(from_s + step_s) - At(from_s));
+      sum +=
+          std::exp(-(now_s - from_s - 0.5 * step_s) / tau_s) * (At(from_s + step_s) - At(from_s));
     }
     return sum;
   }

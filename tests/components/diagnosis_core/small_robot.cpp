@@ -132,13 +132,11 @@ experiment::Experiment SmallExperiment(const robot::RobotBody& body) {
   const std::vector<double> high{0.007, 0.006, 0.003};
   experiment.recordings.push_back(
       MakeRecording("a_ramp", body, {{0.0, low}, {4.0, high}, {8.0, low}}, 0.1));
-  experiment.recordings.push_back(
-      MakeRecording("b_hold", body, {{12.0, high}, {32.0, high}}, 0.5));
+  experiment.recordings.push_back(MakeRecording("b_hold", body, {{12.0, high}, {32.0, high}}, 0.5));
   experiment::Recording& hold = experiment.recordings.back();
   hold.loads = {{12.0, {0.091, 0.012, 0.0011}, {0.0, 0.0, -0.06}, 0.0, {}},
                 {12.0, {0.067, 0.0012, 0.0123}, {0.0, 0.04, 0.01}, 0.0, {}}};
-  experiment.recordings.push_back(
-      MakeRecording("c_tilt", body, {{36.0, low}, {38.0, high}}, 0.1));
+  experiment.recordings.push_back(MakeRecording("c_tilt", body, {{36.0, low}, {38.0, high}}, 0.1));
   experiment::Recording& tilt = experiment.recordings.back();
   tilt.base_tilt_deg = Eigen::Vector2d(20.0, -15.0);
   tilt.frame = MeasurementFrame::kCamera;

@@ -14,8 +14,8 @@
 namespace palpate::diagnosis {
 
 /// A soft beam of 100 x 20 x 20 mm along x, held at x = 0, of two materials (region "far"), with
-/// gravity, four markers and three cables that bend it up, sideways and down; the first runs through
-/// three eyelets. Computed in milliseconds.
+/// gravity, four markers and three cables that bend it up, sideways and down; the first runs
+/// through three eyelets. Computed in milliseconds.
 robot::RobotBody SmallRobot(fem::ElementType element = fem::ElementType::kTet4);
 
 /// What was commanded at a time.
