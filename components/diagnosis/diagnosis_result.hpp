@@ -65,7 +65,7 @@ struct RecordingGap {
   double before_m = 0.0;          ///< the simulation as the robot file has it
   double healthy_m = 0.0;         ///< fitted within the building tolerances
   double after_m = 0.0;           ///< with the causes that were named
-  double heldout_before_m = 0.0;  ///< as built: fitted to none
+  double heldout_before_m = 0.0;  ///< healthy robot, fitted to the other recordings
   double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
   double noise_m = 0.0;           ///< what measuring alone leaves
 };
@@ -74,7 +74,7 @@ struct RecordingGap {
 struct GapSummary {
   double before_m = 0.0;
   double after_m = 0.0;
-  double heldout_before_m = 0.0;
+  double heldout_before_m = 0.0;  ///< as built, which is fitted to none
   double heldout_after_m = 0.0;
   double noise_m = 0.0;
 };

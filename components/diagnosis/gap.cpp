@@ -53,7 +53,7 @@ Eigen::Matrix3Xd Noise_m(const ObservedExperiment& observed, std::size_t sample)
 
 /// Of one recording, over its samples.
 struct Sums {
-  Squares before, healthy, after, heldout_after, noise;
+  Squares before, healthy, after, heldout_before, heldout_after, noise;
   int samples = 0;
 };
 
@@ -113,6 +113,7 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                  DiagnosisResult* result) {
   DescribeBody(observed, body, result);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
+  const std::vector<Eigen::VectorXd> without = LeftOut(book, selection.healthy);
   const std::vector<Eigen::VectorXd> with = LeftOut(book, selection.best);
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
@@ -126,6 +127,7 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     sums[r].after.Add(after_m);
     sums[r].healthy.Add(
         Residual_m(observed, selection.healthy, s, selection.healthy.posterior.mean));
+    sums[r].heldout_before.Add(Residual_m(observed, selection.healthy, s, without[r]));
     sums[r].heldout_after.Add(Residual_m(observed, selection.best, s, with[r]));
     sums[r].noise.Add(Noise_m(observed, s));
     ++sums[r].samples;
@@ -146,7 +148,7 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                                   .before_m = one.before.Rms_m(),
                                   .healthy_m = one.healthy.Rms_m(),
                                   .after_m = one.after.Rms_m(),
-                                  .heldout_before_m = one.before.Rms_m(),
+                                  .heldout_before_m = one.heldout_before.Rms_m(),
                                   .heldout_after_m = one.heldout_after.Rms_m(),
                                   .noise_m = one.noise.Rms_m()});
     all.before.Add(one.before);

@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "libs/core/text.hpp"
@@ -93,18 +94,16 @@ double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
                   Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b).singularValues()[0]);
 }
 
-/// How many of its tolerances, or of its own sigmas where a healthy robot has none of it, a cause
-/// is away from the robot file's.
-double Size(const CauseBook& book, const Posterior& posterior, int cause) {
-  double most = 0.0;
+/// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
+/// robot has nothing of, of which the evidence says all.
+double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int cause) {
+  double most = -1.0;
   for (Eigen::Index p = 0; p < book.count(cause); ++p) {
-    const Eigen::Index column = book.first(cause) + p;
     const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
-    const double sigma = std::sqrt(posterior.covariance(column, column));
-    const double unit = tolerance > 0.0 ? tolerance : std::max(sigma, 1e-12);
-    most = std::max(most, std::abs(posterior.mean[column]) / unit);
+    if (tolerance == 0.0) continue;
+    most = std::max(most, std::abs(posterior.mean[book.first(cause) + p]) / tolerance);
   }
-  return most;
+  return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
 }
 
 /// Looks for one further cause.
@@ -149,16 +148,17 @@ class NextCause {
 
  private:
   void RefineTheBest() {
-    const double enough = candidates_.front().ln_bayes_factor - kWorthALook;
+    double best = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
-      if (candidate.ln_bayes_factor < enough) break;
+      if (candidate.ln_bayes_factor < std::max(kAlike, best - kWorthALook)) break;
       Fit fit = fitter_.Refine(With(before_.faults, candidate.cause), before_);
       const double guess =
           fitter_.Guess(before_, fit.faults).ln_evidence - before_.posterior.ln_evidence;
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
       candidate.ln_bayes_factor += fit.status.ok() ? now - guess : -1e9;
       candidate.refined = true;
+      best = std::max(best, candidate.ln_bayes_factor);
       fits_.push_back(std::move(fit));
     }
     SortRefined();
@@ -187,8 +187,7 @@ class NextCause {
                           FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
       return false;
     }
-    const double size = Size(fitter_.book(), fits_[k].posterior, candidate.cause);
-    if (size < kBeyondTolerance) {
+    if (SizeInTolerances(fitter_.book(), fits_[k].posterior, candidate.cause) < kBeyondTolerance) {
       candidate.why_not = "it is within what a healthy robot may have";
       return false;
     }
