@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <random>
+
+namespace palpate::diagnosis {
+namespace {
+
+constexpr unsigned kSeed = 20261122;
+
+/// y = J z + noise of unit variance.
+struct Problem {
+  explicit Problem(unsigned seed) : random(seed) {
+    J = Random(14, 5);
+    y = Random(14, 1);
+  }
+
+  Eigen::MatrixXd Random(Eigen::Index rows, Eigen::Index cols) {
+    std::normal_distribution<double> normal;
+    return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); });
+  }
+  Information Of(Eigen::Index first, Eigen::Index count) const {
+    Information information(J.cols());
+    const auto rows = J.middleRows(first, count);
+    information.H = rows.transpose() * rows;
+    information.b = rows.transpose() * y.segment(first, count);
+    information.c = y.segment(first, count).squaredNorm();
+    information.rows = static_cast<int>(count);
+    return information;
+  }
+
+  std::mt19937 random;
+  Eigen::MatrixXd J;
+  Eigen::VectorXd y;
+};
+
+/// Beliefs that differ by orders of magnitude, one of them held.
+Belief SomeBelief() {
+  Belief belief(5);
+  belief.sigma << 0.3, 2.0, 0.0, 50.0, 1e-3;
+  belief.mean << 0.0, 1.5, -0.7, 0.0, 0.02;
+  return belief;
+}
+
+/// What normal beliefs and data say, from the covariance of the data: no Woodbury.
+Posterior Dense(const Problem& problem, const Belief& belief) {
+  const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
+  const Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +
+      problem.J * S * problem.J.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::VectorXd off = problem.y - problem.J * belief.mean;
+  Posterior posterior;
+  posterior.misfit = off.dot(factor.solve(off));
+  posterior.ln_evidence =
+      -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
+  const Eigen::MatrixXd gain = S * problem.J.transpose();
+  posterior.mean = belief.mean + gain * factor.solve(off);
+  posterior.covariance = S - gain * factor.solve(Eigen::MatrixXd(gain.transpose()));
+  return posterior;
+}
+
+void ExpectAlike(const Posterior& inferred, const Posterior& dense) {
+  EXPECT_NEAR(inferred.misfit, dense.misfit, 1e-9 * (1.0 + dense.misfit));
+  EXPECT_NEAR(inferred.ln_evidence, dense.ln_evidence, 1e-9 * (1.0 + std::abs(dense.ln_evidence)));
+  EXPECT_TRUE(inferred.mean.isApprox(dense.mean, 1e-8)) << inferred.mean.transpose() << "\n"
+                                                        << dense.mean.transpose();
+  EXPECT_TRUE(inferred.covariance.isApprox(dense.covariance, 1e-7)) << inferred.covariance << "\n\n"
+                                                                    << dense.covariance;
+}
+
+TEST(Infer, IsWhatTheCovarianceOfTheDataSays) {
+  for (unsigned seed = kSeed; seed < kSeed + 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Problem problem(seed);
+    ExpectAlike(Infer(problem.Of(0, 14), SomeBelief()), Dense(problem, SomeBelief()));
+  }
+}
+
+TEST(Infer, HoldsWhatIsBelievedForSure) {
+  const Problem problem(kSeed);
+  Belief belief = SomeBelief();
+  const Posterior posterior = Infer(problem.Of(0, 14), belief);
+  EXPECT_EQ(posterior.mean[2], -0.7);
+  EXPECT_TRUE(posterior.covariance.row(2).isZero(0.0));
+  // All held: the data as they are.
+  belief.sigma.setZero();
+  const Posterior held = Infer(problem.Of(0, 14), belief);
+  EXPECT_NEAR(held.misfit, (problem.y - problem.J * belief.mean).squaredNorm(), 1e-9);
+  EXPECT_EQ(held.mean, belief.mean);
+}
+
+TEST(Infer, ABeliefAboutAnotherMeanIsOneAboutShiftedData) {
+  Problem problem(kSeed);
+  const Belief belief = SomeBelief();
+  Belief about_zero = belief;
+  about_zero.mean.setZero();
+  const Posterior moved = Infer(problem.Of(0, 14), belief);
+  problem.y -= problem.J * belief.mean;
+  const Posterior shifted = Infer(problem.Of(0, 14), about_zero);
+  EXPECT_NEAR(moved.ln_evidence, shifted.ln_evidence, 1e-9 * std::abs(moved.ln_evidence));
+  EXPECT_TRUE(moved.mean.isApprox(shifted.mean + belief.mean, 1e-9));
+}
+
+TEST(Information, AddsUpOverIndependentData) {
+  const Problem problem(kSeed);
+  Information sum = problem.Of(0, 5);
+  sum.Add(problem.Of(5, 9));
+  EXPECT_EQ(sum.rows, 14);
+  ExpectAlike(Infer(sum, SomeBelief()), Dense(problem, SomeBelief()));
+}
+
+TEST(Information, OfSomeParametersHasTheOthersAtZero) {
+  const Problem problem(kSeed);
+  Belief some = SomeBelief();
+  some.mean.setZero();
+  Belief few(2);
+  few.sigma << some.sigma[3], some.sigma[0];
+  for (const Eigen::Index p : {1, 2, 4}) some.sigma[p] = 0.0;
+  const Posterior all = Infer(problem.Of(0, 14), some);
+  const Posterior of_few = Infer(problem.Of(0, 14).Of({3, 0}), few);
+  EXPECT_NEAR(all.ln_evidence, of_few.ln_evidence, 1e-9 * std::abs(all.ln_evidence));
+  EXPECT_NEAR(all.mean[3], of_few.mean[0], 1e-9);
+  EXPECT_NEAR(all.mean[0], of_few.mean[1], 1e-9);
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis

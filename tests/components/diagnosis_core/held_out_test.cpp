@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/held_out.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "tests/components/diagnosis_core/toy_causes.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+constexpr unsigned kSeed = 11;
+
+TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
+  const CauseBook book = ToyBook();
+  ToyData data(book, kSeed);
+  const std::vector<int> faults{0};
+  const Belief belief = book.BeliefWith(faults);
+  const Eigen::VectorXd y = data.Draw(belief);
+  const HeldOut out = LeaveOneOut(book, data.FitTo(book, y, faults));
+  const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
+  const Eigen::MatrixXd all = data.J() * S * data.J().transpose() +
+                              Eigen::MatrixXd::Identity(data.rows(), data.rows());
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(data.rows()));
+  for (Eigen::Index r = 0; r < 3; ++r) {
+    std::vector<Eigen::Index> own;
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index row = 0; row < data.rows(); ++row) {
+      (row / 36 == r ? own : others).push_back(row);
+    }
+    // Conditional normal distribution of the dense covariance.
+    const Eigen::MatrixXd gain =
+        all(own, others) * Eigen::MatrixXd(all(others, others)).inverse();
+    const Eigen::VectorXd off = y(own) - gain * y(others);
+    const Eigen::LLT<Eigen::MatrixXd> factor(all(own, own) - gain * all(others, own));
+    const double ln_p = -0.5 * off.dot(factor.solve(off)) -
+                        factor.matrixLLT().diagonal().array().log().sum();
+    const auto k = static_cast<std::size_t>(r);
+    EXPECT_NEAR(out.chi_squared[k], off.squaredNorm(), 1e-8 * off.squaredNorm());
+    EXPECT_NEAR(out.ln_predicted[k], ln_p, 1e-8 * std::abs(ln_p));
+    EXPECT_TRUE(out.residual.segment(36 * r, 36).isApprox(off, 1e-8));
+  }
+}
+
+TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {
+  const CauseBook book = ToyBook();
+  ToyData data(book, kSeed);
+  const Eigen::VectorXd y = data.Draw(book.BeliefWith({})) + 6.0 * data.J().col(book.first(2));
+  const HeldOut without = LeaveOneOut(book, data.FitTo(book, y, {}));
+  const HeldOutGain right = Compare(without, LeaveOneOut(book, data.FitTo(book, y, {2})));
+  EXPECT_TRUE(right.clear);
+  EXPECT_GT(right.relative, 0.9);
+  EXPECT_EQ(right.recordings, 3);
+  const HeldOutGain none = Compare(without, without);
+  EXPECT_FALSE(none.clear);
+  EXPECT_EQ(none.ln_gain, 0.0);
+  const Eigen::VectorXd healthy = data.Draw(book.BeliefWith({}));
+  const HeldOutGain wrong = Compare(LeaveOneOut(book, data.FitTo(book, healthy, {})),
+                                    LeaveOneOut(book, data.FitTo(book, healthy, {3})));
+  EXPECT_LT(wrong.ln_gain, 0.0) << "seed " << kSeed;
+  EXPECT_FALSE(wrong.clear);
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
