@@ -38,7 +38,8 @@ TEST(CauseBook, TakesTolerancesOfTheExperiment) {
       "two", std::vector<CauseParameter>{{.name = "a", .tolerance = 0.2, .fault = 1.0},
                                          {.name = "b", .tolerance = 0.4, .fault = 1.0}}));
   causes.push_back(std::make_unique<ToyCause>(
-      "none", std::vector<CauseParameter>{{.name = "c", .fault = 1.0}, {.name = "d", .fault = 1.0}}));
+      "none",
+      std::vector<CauseParameter>{{.name = "c", .fault = 1.0}, {.name = "d", .fault = 1.0}}));
   const CauseBook book(std::move(causes), {{"two", 0.6}, {"none", 0.3}, {"unknown", 9.0}});
   EXPECT_NEAR(book.ToleranceOf(0, 0), 0.6, 1e-15);
   EXPECT_NEAR(book.ToleranceOf(0, 1), 1.2, 1e-15) << "in proportion";
@@ -68,8 +69,9 @@ TEST(CauseBook, WhatWouldGoBeyondItsBoundsEndsThere) {
   EXPECT_EQ(infer(50.0).mean[2], 40.0);
   EXPECT_EQ(infer(50.0).covariance(2, 2), 0.0);
   // At the bound it explains no more than it would there.
-  EXPECT_NEAR(infer(-10.0).ln_evidence, -0.5 * 100.0 * 100.0 - std::log(std::sqrt(26.0)) -
-                                            std::log(std::sqrt(17.0)) - std::log(std::sqrt(2.0)),
+  EXPECT_NEAR(infer(-10.0).ln_evidence,
+              -0.5 * 100.0 * 100.0 - std::log(std::sqrt(26.0)) - std::log(std::sqrt(17.0)) -
+                  std::log(std::sqrt(2.0)),
               1e-6);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,23 @@ constexpr double kStepOfBase = 1e-2;
 /// What a whole fault sigma moves all markers by that counts as none.
 constexpr double kNothing_m = 1e-6;
 
+/// The last cable is driven by its tension.
+experiment::Experiment WithATension(experiment::Experiment experiment) {
+  constexpr double kPerMetre_N = 100.0;
+  for (experiment::Recording& recording : experiment.recordings) {
+    experiment::CableColumn& last = recording.actuation->columns.back();
+    last.quantity = experiment::CableQuantity::kTension;
+    for (std::optional<double>& sample : last.samples) sample = kPerMetre_N * sample.value();
+  }
+  return experiment;
+}
+
 class CauseDerivatives : public testing::Test {
  protected:
+  CauseDerivatives() : CauseDerivatives(SmallRobot(), SmallExperiment(SmallRobot())) {}
+  CauseDerivatives(const robot::RobotBody& body, const experiment::Experiment& experiment)
+      : body_(body), observed_(Observe(experiment, body_, {.most_samples = 14})) {}
+
   /// [3 markers, samples after another] of the simulation.
   Eigen::VectorXd Markers(const CauseList& causes, const Eigen::VectorXd& z) const {
     const Simulation run = simulator_.Run(DraftWith(nominal_, causes, z), &at_rest_);
@@ -89,20 +105,43 @@ class CauseDerivatives : public testing::Test {
     }
   }
 
-  robot::RobotBody body_ = SmallRobot();
-  ObservedExperiment observed_ = Observe(SmallExperiment(body_), body_, {.most_samples = 14});
+  void ExpectDerivativesAsBuilt() const {
+    ASSERT_TRUE(at_rest_.status.ok()) << at_rest_.status.message();
+    constexpr double kTolerance = 2e-3;
+    for (const CausePtr& cause : causes_) {
+      if (cause->name().id == "stiffening") continue;  // begins with another material
+      ExpectDerivative(*cause, Eigen::VectorXd::Zero(std::ssize(cause->parameters())), kTolerance);
+    }
+  }
+
+  robot::RobotBody body_;
+  ObservedExperiment observed_;
   ModelDraft nominal_ = DraftOf(body_, observed_);
   Simulator simulator_{observed_, 1};
   Simulation at_rest_ = simulator_.Run(nominal_);
   std::vector<CausePtr> causes_ = MakeCauses({body_, observed_}, {});
 };
 
+class CauseDerivativesOfTet10AndTension : public CauseDerivatives {
+ protected:
+  CauseDerivativesOfTet10AndTension()
+      : CauseDerivatives(SmallRobot(fem::ElementType::kTet10),
+                         WithATension(SmallExperiment(SmallRobot(fem::ElementType::kTet10)))) {}
+};
+
 TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
-  ASSERT_TRUE(at_rest_.status.ok()) << at_rest_.status.message();
-  constexpr double kTolerance = 2e-3;
-  for (const CausePtr& cause : causes_) {
-    if (cause->name().id == "stiffening") continue;  // begins with another material
-    ExpectDerivative(*cause, Eigen::VectorXd::Zero(std::ssize(cause->parameters())), kTolerance);
+  ExpectDerivativesAsBuilt();
+}
+
+TEST_F(CauseDerivativesOfTet10AndTension, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
+  ExpectDerivativesAsBuilt();
+}
+
+TEST_F(CauseDerivatives, AreOfEveryCauseOfTheCatalogue) {
+  for (const std::string& id : KnownCauses()) {
+    EXPECT_TRUE(std::any_of(causes_.begin(), causes_.end(), [&](const CausePtr& cause) {
+      return cause->name().id == id;
+    })) << id;
   }
 }
 
@@ -137,9 +176,8 @@ TEST_F(CauseDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
   const Eigen::VectorXd z = Eigen::Vector2d(0.4, 0.5);
   const Eigen::MatrixXd analytic = Analytic(two, z);
   for (Eigen::Index p = 0; p < 2; ++p) {
-    ExpectAlike(analytic.col(p),
-                Difference(two, z, p, two[static_cast<std::size_t>(p)]->parameters()[0]), 2e-3,
-                two[static_cast<std::size_t>(p)]->words());
+    const Cause& cause = *two[static_cast<std::size_t>(p)];
+    ExpectAlike(analytic.col(p), Difference(two, z, p, cause.parameters()[0]), 2e-3, cause.words());
   }
 }
 

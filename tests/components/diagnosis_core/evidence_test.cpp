@@ -50,9 +50,8 @@ Belief SomeBelief() {
 /// What normal beliefs and data say, from the covariance of the data: no Woodbury.
 Posterior Dense(const Problem& problem, const Belief& belief) {
   const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
-  const Eigen::MatrixXd covariance =
-      Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +
-      problem.J * S * problem.J.transpose();
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +
+                                     problem.J * S * problem.J.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
   const Eigen::VectorXd off = problem.y - problem.J * belief.mean;
   Posterior posterior;

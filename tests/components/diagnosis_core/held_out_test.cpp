@@ -24,8 +24,8 @@ TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
   const Eigen::VectorXd y = data.Draw(belief);
   const HeldOut out = LeaveOneOut(book, data.FitTo(book, y, faults));
   const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
-  const Eigen::MatrixXd all = data.J() * S * data.J().transpose() +
-                              Eigen::MatrixXd::Identity(data.rows(), data.rows());
+  const Eigen::MatrixXd all =
+      data.J() * S * data.J().transpose() + Eigen::MatrixXd::Identity(data.rows(), data.rows());
   std::vector<Eigen::Index> order(static_cast<std::size_t>(data.rows()));
   for (Eigen::Index r = 0; r < 3; ++r) {
     std::vector<Eigen::Index> own;
@@ -34,12 +34,11 @@ TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
       (row / 36 == r ? own : others).push_back(row);
     }
     // Conditional normal distribution of the dense covariance.
-    const Eigen::MatrixXd gain =
-        all(own, others) * Eigen::MatrixXd(all(others, others)).inverse();
+    const Eigen::MatrixXd gain = all(own, others) * Eigen::MatrixXd(all(others, others)).inverse();
     const Eigen::VectorXd off = y(own) - gain * y(others);
     const Eigen::LLT<Eigen::MatrixXd> factor(all(own, own) - gain * all(others, own));
-    const double ln_p = -0.5 * off.dot(factor.solve(off)) -
-                        factor.matrixLLT().diagonal().array().log().sum();
+    const double ln_p =
+        -0.5 * off.dot(factor.solve(off)) - factor.matrixLLT().diagonal().array().log().sum();
     const auto k = static_cast<std::size_t>(r);
     EXPECT_NEAR(out.chi_squared[k], off.squaredNorm(), 1e-8 * off.squaredNorm());
     EXPECT_NEAR(out.ln_predicted[k], ln_p, 1e-8 * std::abs(ln_p));

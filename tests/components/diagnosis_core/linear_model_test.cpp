@@ -75,8 +75,7 @@ class LinearModelTest : public testing::Test {
       const double sigma_m = observed_.sigma_m[coordinate % 3];
       covariance(k, k) = sigma_m * sigma_m / observed_.samples[s].count[coordinate / 3];
       const SimulatedSample& simulated = simulation_.samples[s];
-      common[k] =
-          noise_.relative_error * (simulated.markers_m.col(coordinate / 3) - rest_m).norm();
+      common[k] = noise_.relative_error * (simulated.markers_m.col(coordinate / 3) - rest_m).norm();
       J.row(k) = simulated.jacobian_m.row(coordinate);
       y[k] = observed_.samples[s].position_m(coordinate % 3, coordinate / 3) -
              simulated.markers_m(coordinate % 3, coordinate / 3) + J.row(k).dot(z_);
