@@ -29,8 +29,19 @@ class CableRouting final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
-    return robot::PullPointMove(index_, Eigen::Vector3d::Unit(parameter + 1));
+                             const CauseMoment& at) const override {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter + 1);
+    auto sum = std::make_unique<SumOfParameters>();
+    sum->Add(1.0, robot::PullPointMove(index_, direction, robot::CableZero::kKept));
+    if (at.observed.timeline.by_tension[static_cast<std::size_t>(index_)]) return sum;
+    // Zeroed in the shape of that time, which a bent body no longer has.
+    const robot::BodyCable& cable = at.draft.body.cables[static_cast<std::size_t>(index_)];
+    const Eigen::Vector3d last_m =
+        cable.pull_point_m - cable.eyelets.front().weights.Position(at.draft.assembled_m);
+    Eigen::VectorXd change_m = Eigen::VectorXd::Zero(std::ssize(at.draft.body.cables));
+    change_m[index_] = -last_m.normalized().dot(direction);
+    sum->Add(1.0, CommandChange(std::move(change_m)));
+    return sum;
   }
 
  private:

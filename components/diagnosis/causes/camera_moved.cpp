@@ -30,7 +30,10 @@ class CameraMoved final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    if (at.seen().recording >= from_recording_) AddSeenMove(parameter, z, middle_m_, at, motion_m);
+    if (at.seen().recording < from_recording_) return;
+    const Eigen::Isometry3d& T_seen =
+        at.draft.T_seen[static_cast<std::size_t>(at.seen().recording)];
+    AddSeenMove(parameter, z, middle_m_, T_seen * SeenMove(z, middle_m_).inverse(), at, motion_m);
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z,

@@ -34,13 +34,17 @@ Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
 }  // namespace
 
 void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const CauseMoment& at, Eigen::Matrix3Xd* motion_m) {
-  const Eigen::Isometry3d T_robot_measurement = at.recording().T_measurement_robot.inverse();
+                 const Eigen::Isometry3d& T_after, const CauseMoment& at,
+                 Eigen::Matrix3Xd* motion_m) {
+  const Eigen::Isometry3d T_moved_measurement =
+      (at.recording().T_measurement_robot * T_after).inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-    const Eigen::Vector3d seen_m = T_robot_measurement * at.simulated().markers_m.col(m);
-    motion_m->col(m) +=
-        parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
-                      : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
+    const Eigen::Vector3d seen_m = T_moved_measurement * at.simulated().markers_m.col(m);
+    const Eigen::Vector3d move =
+        parameter < 3
+            ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
+            : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
+    motion_m->col(m) += T_after.linear() * move;
   }
 }
 

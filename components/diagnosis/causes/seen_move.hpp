@@ -14,7 +14,9 @@ namespace palpate::diagnosis {
 Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m);
 
 /// Adds what a little more of one of these six than `z` does to where the markers are seen.
+/// `T_after`: what the move that `z` makes is followed by.
 void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const CauseMoment& at, Eigen::Matrix3Xd* motion_m);
+                 const Eigen::Isometry3d& T_after, const CauseMoment& at,
+                 Eigen::Matrix3Xd* motion_m);
 
 }  // namespace palpate::diagnosis
