@@ -31,8 +31,8 @@ class Extrinsics final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    const bool here = std::find(recordings_.begin(), recordings_.end(), at.seen().recording) !=
-                      recordings_.end();
+    const bool here =
+        std::find(recordings_.begin(), recordings_.end(), at.seen().recording) != recordings_.end();
     if (here) AddSeenMove(parameter, z, middle_m_, Eigen::Isometry3d::Identity(), at, motion_m);
   }
 
@@ -73,9 +73,8 @@ void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes) {
     const bool given = recordings[k].knows_pose;
     const double sigma_m = world.extrinsics_m > 0.0 ? world.extrinsics_m : kGiven_m;
     const double sigma_rad = world.extrinsics_rad > 0.0 ? world.extrinsics_rad : kGiven_rad;
-    causes->push_back(std::make_unique<Extrinsics>(std::move(alike), middle_m,
-                                                   given ? sigma_m : kFitted_m,
-                                                   given ? sigma_rad : kFitted_rad));
+    causes->push_back(std::make_unique<Extrinsics>(
+        std::move(alike), middle_m, given ? sigma_m : kFitted_m, given ? sigma_rad : kFitted_rad));
   }
 }
 

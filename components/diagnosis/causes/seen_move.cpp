@@ -41,9 +41,8 @@ void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d&
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     const Eigen::Vector3d seen_m = T_moved_measurement * at.simulated().markers_m.col(m);
     const Eigen::Vector3d move =
-        parameter < 3
-            ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
-            : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
+        parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))
+                      : TurnOf(z.tail<3>(), parameter - 3).cross(seen_m - middle_m - z.head<3>());
     motion_m->col(m) += T_after.linear() * move;
   }
 }

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libs/app/yaml.hpp"
+#include "libs/core/file.hpp"
+#include "libs/robot/robot_description.hpp"
+#include "tests/system/process.hpp"
+
+/// `palpate diagnose` as a person calls it, on robots of the virtual bench.
+namespace palpate::blind {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const fs::path kSource = PALPATE_SOURCE_DIR;
+
+std::optional<int> Palpate(const std::vector<std::string>& arguments, const fs::path& log) {
+  system_test::Process process("palpate", arguments, log);
+  return process.Wait(std::chrono::seconds(600));
+}
+
+void Replace(const std::string& what, const std::string& by, std::string* text) {
+  const std::size_t found = text->find(what);
+  ASSERT_NE(found, std::string::npos) << what;
+  text->replace(found, what.size(), by);
+}
+
+class DiagnoseVerb : public testing::Test {
+ protected:
+  DiagnoseVerb()
+      : folder_(fs::temp_directory_path() /
+                (std::string("palpate_diagnose_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~DiagnoseVerb() override { fs::remove_all(folder_); }
+
+  /// An experiment of config/scenarios/diagnose.yaml with this hidden in it.
+  void Make(const std::string& effect) {
+    std::string scenario = ReadFile(kSource / "config/scenarios/diagnose.yaml");
+    Replace("four_leg_coarse.msh", (kSource / "config/scenarios/four_leg_coarse.msh").string(),
+            &scenario);
+    Replace("effects: []", "effects: [" + effect + "]", &scenario);
+    WriteFile(folder_ / "scenario.yaml", scenario);
+    constexpr const char* kSeed = "7";
+    const auto made = Palpate({"simulate", "four_leg", "--scenario",
+                               (folder_ / "scenario.yaml").string(), "--seed", kSeed, "--out",
+                               (folder_ / "exp").string()},
+                              folder_ / "simulate.log");
+    ASSERT_EQ(made, 0) << "seed " << kSeed << "\n" << ReadFile(folder_ / "simulate.log");
+  }
+
+  std::optional<int> Diagnose() {
+    return Palpate({"diagnose", "four_leg", "--data", (folder_ / "exp").string(), "--out",
+                    (folder_ / "out").string()},
+                   folder_ / "diagnose.log");
+  }
+  Json Verdict() const { return Json::parse(ReadFile(folder_ / "out/verdict.json")); }
+
+  fs::path folder_;
+};
+
+TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
+  constexpr double kFactor = 0.7;
+  Make("{id: youngs_modulus, factor: 0.7}");
+  ASSERT_EQ(Diagnose(), 0) << ReadFile(folder_ / "diagnose.log");
+  const Json verdict = Verdict();
+  EXPECT_EQ(verdict["verdict"], "cause") << verdict["reason"];
+  ASSERT_EQ(verdict["causes"].size(), 1U);
+  EXPECT_EQ(verdict["causes"][0]["id"], "youngs_modulus");
+  const Json& ci95 = verdict["causes"][0]["parameters"]["factor"]["ci95"];
+  const double half = 0.5 * (ci95[1].get<double>() - ci95[0].get<double>());
+  const double value = verdict["causes"][0]["parameters"]["factor"]["value"].get<double>();
+  EXPECT_LT(half, 0.1 * kFactor);
+  EXPECT_NEAR(value, kFactor, 2.0 * half);  // four sigma
+  const Json& rms_m = verdict["residual_m_rms"];
+  EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.5 * rms_m["heldout_before"].get<double>());
+  const robot::RobotDescription nominal =
+      robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml);
+  const robot::RobotDescription extended =
+      robot::ReadRobotFile(folder_ / "out/robot.extended.yaml", app::LoadYaml);
+  EXPECT_NEAR(extended.material.youngs_modulus_Pa, value * nominal.material.youngs_modulus_Pa, 1.0);
+  EXPECT_EQ(Palpate({"info", (folder_ / "out/robot.extended.yaml").string()},
+                    folder_ / "info.log"),
+            0);
+  EXPECT_THAT(ReadFile(folder_ / "out/report.html"), testing::HasSubstr("<svg"));
+}
+
+TEST_F(DiagnoseVerb, SaysNothingOfACameraThatStoodStill) {
+  Make("");
+  const fs::path file = folder_ / "exp/recordings/RA_north/markers.csv";
+  std::vector<std::string> lines;
+  std::string text = ReadFile(file);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  const std::size_t first = 1;
+  const std::string stamp = lines[first].substr(0, lines[first].find(','));
+  std::size_t markers = 0;
+  while (lines[first + markers].starts_with(stamp + ",")) ++markers;
+  for (std::size_t k = first; k < lines.size(); ++k) {
+    const std::string& shown = lines[first + (k - first) % markers];
+    lines[k] = lines[k].substr(0, lines[k].find(',')) + shown.substr(shown.find(','));
+  }
+  text.clear();
+  for (const std::string& line : lines) text += line + "\n";
+  WriteFile(file, text);
+  EXPECT_EQ(Diagnose(), 1);
+  const Json verdict = Verdict();
+  EXPECT_EQ(verdict["verdict"], "data_unfit");
+  EXPECT_TRUE(verdict["causes"].empty());
+  EXPECT_THAT(verdict["reason"].get<std::string>(), testing::HasSubstr("RA_north"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/robot.extended.yaml"));
+}
+
+TEST_F(DiagnoseVerb, RefusesACauseThatDoesNotExist) {
+  EXPECT_EQ(Palpate({"diagnose", "four_leg", "--data", "x", "--out", (folder_ / "out").string(),
+                     "--without", "cable_frictoin"},
+                    folder_ / "log"),
+            2);
+  EXPECT_THAT(ReadFile(folder_ / "log"), testing::HasSubstr("cable_friction"));
+}
+
+}  // namespace
+}  // namespace palpate::blind
