@@ -240,7 +240,12 @@ Eigen::VectorXd SampleSolver::RestElastic_N() {
   SimulatedSample rest;
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
-  Eigen::VectorXd zero = Eigen::VectorXd::Zero(model_.CableCount());
+  // Of the cables that are driven at all.
+  const double off = std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd zero = Eigen::VectorXd::Constant(model_.CableCount(), off);
+  for (const Eigen::VectorXd& command : observed_.timeline.command) {
+    zero = command.array().isNaN().select(zero, 0.0);
+  }
   Solve(nothing, zero, {}, &rest);
   return rest.elastic_N;
 }

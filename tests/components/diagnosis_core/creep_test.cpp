@@ -66,6 +66,20 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
   }
 }
 
+TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
+  robot::RobotBody body = SmallRobot();
+  // Hanging upwards it would be held by the lower cable, which nobody drives: it holds nothing, in
+  // the rests either.
+  body.gravity_m_s2 *= -1.0;
+  experiment::Experiment experiment;
+  experiment.recordings = {MakeRecording("still", body, {{0.0, {0.0}}, {5.0, {0.0}}}, 0.5)};
+  const ObservedExperiment observed = Observe(experiment, body);
+  const Simulation simulation = Simulator(observed, 1).Run(DraftOf(body, observed));
+  ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
+  const Eigen::VectorXd& elastic_N = simulation.samples.front().elastic_N;
+  EXPECT_LT((simulation.rest_elastic_N - elastic_N).norm(), 1e-6 * elastic_N.norm());
+}
+
 TEST(Creep, LeavesTheInstantaneousModulusAtOnce) {
   const LoadedBeam beam;
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
