@@ -41,6 +41,12 @@ std::vector<std::string> NamesOf(const std::vector<robot::BodyCable>& cables) {
   return names;
 }
 
+/// One that counts from an equilibrium is taken as it was measured.
+bool CountsFromUndeformed(const Recording& recording) {
+  return recording.reference &&
+         recording.reference->shape == experiment::ReferenceShape::kUndeformed;
+}
+
 ObservedRecording Describe(const experiment::Experiment& experiment, const Recording& recording) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
   seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
@@ -51,7 +57,7 @@ ObservedRecording Describe(const experiment::Experiment& experiment, const Recor
     seen.knows_pose = false;
   }
   seen.base_rotation = experiment::BaseRotation(recording);
-  seen.from_undeformed = recording.reference.has_value();
+  seen.from_undeformed = CountsFromUndeformed(recording);
   return seen;
 }
 
@@ -70,7 +76,7 @@ std::vector<int> ColumnsOf(const Recording& recording, const std::vector<std::st
 Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>& columns,
                              const robot::RobotBody& body,
                              const Eigen::Isometry3d& T_measurement_robot) {
-  if (!recording.reference) return {};
+  if (!CountsFromUndeformed(recording)) return {};
   const auto means = MeanOver(*recording.markers, recording.reference->window_s);
   Eigen::Matrix3Xd off_m(3, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t m = 0; m < columns.size(); ++m) {

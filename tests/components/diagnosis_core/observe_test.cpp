@@ -142,6 +142,18 @@ TEST_F(ObserveTest, AReferenceWindowStandsForTheRestPositionsInTheFrameThatMeasu
   }
 }
 
+TEST_F(ObserveTest, AReferenceInEquilibriumIsNotTheUndeformedShape) {
+  const Eigen::Vector3d sagged_m(0.0, 0.0, -0.004);
+  Add({{0.0, {0.003}}, {10.0, {0.003}}}, [&](double /*t_s*/, int marker) {
+    const Eigen::Vector3d& rest_m = body_.markers[static_cast<std::size_t>(marker)].point.rest_m;
+    return std::optional<Eigen::Vector3d>(rest_m + sagged_m);
+  }).reference = experiment::Reference{{0.0, 4.9}, experiment::ReferenceShape::kEquilibrium};
+  const ObservedExperiment observed = Observed();
+  EXPECT_FALSE(observed.recordings[0].from_undeformed);
+  const Eigen::Vector3d expected_m = body_.markers[0].point.rest_m + sagged_m;
+  EXPECT_LT((observed.samples[0].position_m.col(0) - expected_m).norm(), 1e-12);
+}
+
 TEST_F(ObserveTest, TakesFewerMomentsWhereThereAreManyRecordings) {
   for (int r = 0; r < 6; ++r) {
     const double begin_s = 20.0 * r;
