@@ -55,10 +55,10 @@ class DiagnoseVerb : public testing::Test {
     Replace("effects: []", "effects: [" + effect + "]", &scenario);
     WriteFile(folder_ / "scenario.yaml", scenario);
     constexpr const char* kSeed = "7";
-    const auto made = Palpate({"simulate", "four_leg", "--scenario",
-                               (folder_ / "scenario.yaml").string(), "--seed", kSeed, "--out",
-                               (folder_ / "exp").string()},
-                              folder_ / "simulate.log");
+    const auto made =
+        Palpate({"simulate", "four_leg", "--scenario", (folder_ / "scenario.yaml").string(),
+                 "--seed", kSeed, "--out", (folder_ / "exp").string()},
+                folder_ / "simulate.log");
     ASSERT_EQ(made, 0) << "seed " << kSeed << "\n" << ReadFile(folder_ / "simulate.log");
   }
 
@@ -92,8 +92,7 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   const robot::RobotDescription extended =
       robot::ReadRobotFile(folder_ / "out/robot.extended.yaml", app::LoadYaml);
   EXPECT_NEAR(extended.material.youngs_modulus_Pa, value * nominal.material.youngs_modulus_Pa, 1.0);
-  EXPECT_EQ(Palpate({"info", (folder_ / "out/robot.extended.yaml").string()},
-                    folder_ / "info.log"),
+  EXPECT_EQ(Palpate({"info", (folder_ / "out/robot.extended.yaml").string()}, folder_ / "info.log"),
             0);
   EXPECT_THAT(ReadFile(folder_ / "out/report.html"), testing::HasSubstr("<svg"));
 }
