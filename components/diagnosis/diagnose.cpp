@@ -160,6 +160,10 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
          .likeness = one.likeness,
          .why_not = one.why_not});
   }
+  for (const int cause : selection.compared) {
+    result->correlation_names.push_back(book.cause(cause).words());
+  }
+  result->correlation = selection.likeness;
   for (const Candidate& one : selection.alike) {
     result->indistinguishable_from.push_back(book.cause(one.cause).name());
   }

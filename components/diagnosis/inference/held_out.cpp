@@ -3,7 +3,7 @@
 
 #include "components/diagnosis/inference/held_out.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace palpate::diagnosis {
 
@@ -28,24 +28,17 @@ HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit) {
 
 HeldOutGain Compare(const HeldOut& before, const HeldOut& after) {
   constexpr double kShare = 0.03;
-  constexpr double kClearly = 3.0;  // of ln p
+  constexpr double kLeastBeyond = 0.01;  // of the noise: nothing is divided by nothing
   HeldOutGain gain;
-  const auto count = static_cast<double>(before.chi_squared.size());
-  double squares = 0.0;
   double chi_before = 0.0;
   double chi_after = 0.0;
   for (std::size_t r = 0; r < before.chi_squared.size(); ++r) {
-    const double step = after.ln_predicted[r] - before.ln_predicted[r];
-    gain.ln_gain += step;
-    squares += step * step;
+    gain.ln_gain += after.ln_predicted[r] - before.ln_predicted[r];
     chi_before += before.chi_squared[r];
     chi_after += after.chi_squared[r];
-    if (step > kClearly) ++gain.recordings;
   }
-  const double mean = gain.ln_gain / count;
-  gain.standard_error = std::sqrt(std::max(0.0, squares - count * mean * mean));
   const double noise = static_cast<double>(before.residual.size());
-  const double beyond = std::max(chi_before - noise, 0.01 * noise);
+  const double beyond = std::max(chi_before - noise, kLeastBeyond * noise);
   gain.relative = (chi_before - chi_after) / beyond;
   gain.clear = gain.relative > kShare && gain.ln_gain > 0.0;
   return gain;

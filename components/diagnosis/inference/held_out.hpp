@@ -20,13 +20,11 @@ struct HeldOut {
 /// Leaves out one recording at a time, never a frame: frames of one recording hang together.
 HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit);
 
-/// Whether a prediction is better than another beyond chance: by more than 3 % of the other's
-/// misfit beyond the noise and by two standard errors over recordings.
+/// Whether a prediction is better than another: recordings that were left out are more probable
+/// under it, and more than 3 % of the misfit beyond the noise is gone.
 struct HeldOutGain {
-  double relative = 0.0;        ///< share of the misfit that is gone, whole rows counted
-  double ln_gain = 0.0;         ///< of what was predicted, all recordings
-  double standard_error = 0.0;  ///< of ln_gain
-  int recordings = 0;           ///< that are predicted clearly better
+  double relative = 0.0;  ///< share of the misfit beyond the noise that is gone
+  double ln_gain = 0.0;   ///< of what was predicted, all recordings
   bool clear = false;
 };
 HeldOutGain Compare(const HeldOut& before, const HeldOut& after);

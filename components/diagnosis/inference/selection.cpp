@@ -262,6 +262,25 @@ class NextCause {
   Choice choice_;
 };
 
+/// How alike the most probable candidates are to each other.
+void CompareCandidates(const CauseBook& book, Selection* selection) {
+  constexpr std::size_t kMost = 8;
+  for (const Candidate& candidate : selection->candidates) {
+    if (selection->compared.size() < kMost) selection->compared.push_back(candidate.cause);
+  }
+  const auto count = std::ssize(selection->compared);
+  selection->likeness = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    for (Eigen::Index b = 0; b < a; ++b) {
+      const double alike =
+          Likeness(book, selection->healthy.model, selection->compared[static_cast<std::size_t>(a)],
+                   selection->compared[static_cast<std::size_t>(b)]);
+      selection->likeness(a, b) = alike;
+      selection->likeness(b, a) = alike;
+    }
+  }
+}
+
 }  // namespace
 
 Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
@@ -283,6 +302,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   }
   report(steps - 1, steps, "looking at what is left");
   selection.guard = Guard(observed, fitter.book(), selection.best);
+  CompareCandidates(fitter.book(), &selection);
   return selection;
 }
 

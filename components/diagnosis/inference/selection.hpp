@@ -39,6 +39,8 @@ struct Selection {
   std::vector<Candidate> candidates;  ///< for the first place, the most probable first
   std::vector<Candidate> alike;       ///< that fit as well as what was named
   GuardResult guard;                  ///< of `best`
+  std::vector<int> compared;          ///< the causes of the most probable candidates
+  Eigen::MatrixXd likeness;           ///< [compared x compared] as Candidate::likeness, in [0, 1]
 };
 
 /// "3 of 12: screening"; parts are alike long as far as that is known.

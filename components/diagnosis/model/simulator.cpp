@@ -11,6 +11,7 @@
 
 #include "components/diagnosis/model/sample_differentiator.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
+#include "components/diagnosis/model/window_means.hpp"
 
 namespace palpate::diagnosis {
 
@@ -128,6 +129,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
     });
     if (sweep + 1 < sweeps) past = PastOf(draft, memory_, simulation);
   }
+  MoveToWindowMeans(observed_, &simulation);
   simulation.status = Status::Ok();
   for (const SimulatedSample& sample : simulation.samples) {
     if (simulation.status.ok() && !sample.status.ok()) simulation.status = sample.status;
