@@ -95,7 +95,7 @@ std::string RivalTable(const DiagnosisResult& result) {
 std::string ExperimentTable(const DiagnosisResult& result) {
   if (result.experiments.empty()) {
     if (result.verdict == Verdict::kDataUnfit) return "";
-    return Element("p", "None is proposed: nothing is left that the bench could tell apart.");
+    return Element("p", "None was worked out.");
   }
   HtmlTable table;
   table.head = {"", "experiment", "by hand", "tells apart", "expected ln BF"};
