@@ -34,11 +34,13 @@ std::map<std::string, double> CauseTolerances(const experiment::Experiment& expe
   return tolerances;
 }
 
-/// Poses that nobody knows, from where the robot file's markers would be.
-void RegisterUnknownPoses(const robot::RobotBody& body, int threads, ObservedExperiment* observed) {
+/// Poses that nobody knows, from where the robot file's markers would be. Why that cannot be;
+/// empty: it could.
+std::string RegisterUnknownPoses(const robot::RobotBody& body, int threads,
+                                 ObservedExperiment* observed) {
   const bool known = std::all_of(observed->recordings.begin(), observed->recordings.end(),
                                  [](const auto& recording) { return recording.knows_pose; });
-  if (known) return;
+  if (known) return {};
   const Simulation simulation = Simulator(*observed, threads).Run(DraftOf(body, *observed));
   for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
     ObservedRecording& recording = observed->recordings[r];
@@ -62,14 +64,18 @@ void RegisterUnknownPoses(const robot::RobotBody& body, int threads, ObservedExp
     const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
       return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, std::ssize(points));
     };
-    if (robot_m.empty()) continue;
+    if (robot_m.empty()) continue;  // nothing was seen that a pose would be needed for
     const geometry::Registration found =
         geometry::RegisterRigid(columns(robot_m), columns(measured_m));
-    if (!found.status.ok()) continue;
+    if (!found.status.ok()) {
+      return "nobody says from where recording " + recording.name +
+             " was measured, and its markers do not tell: " + found.status.message();
+    }
     recording.T_measurement_robot = Eigen::Isometry3d::Identity();
     recording.T_measurement_robot.linear() = found.T_target_source.rotation().toRotationMatrix();
     recording.T_measurement_robot.translation() = found.T_target_source.translation_m();
   }
+  return {};
 }
 
 std::vector<std::string> Identities(const ObservedExperiment& observed) {
@@ -205,7 +211,8 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   if (!result.reason.empty()) return diagnosis;
   const robot::RobotBody body = robot::BuildRobotBody(robot);
   ObservedExperiment observed = Observe(experiment, body, {.most_samples = settings.most_samples});
-  RegisterUnknownPoses(body, settings.threads, &observed);
+  result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
+  if (!result.reason.empty()) return diagnosis;
   const CauseBook book(MakeCauses({.body = body,
                                    .observed = observed,
                                    .extrinsics_m = Tolerance(experiment, "extrinsics_m"),
@@ -221,9 +228,10 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
       SelectCauses(observed, fitter, as_built, settings.most_causes, report);
   DescribeGap(observed, body, book, as_built, selection, &result);
   DescribeVerdict(selection, &result);
+  const double share = ExplainedShare(observed, book, as_built, selection.best);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(Describe(observed, book, selection.best.posterior, choice));
-    result.causes.back().explained_share = ExplainedShare(observed, book, as_built, selection.best);
+    result.causes.back().explained_share = share;
   }
   DescribeRivals(book, selection, &result);
   result.identities = Identities(observed);

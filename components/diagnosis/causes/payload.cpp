@@ -43,10 +43,7 @@ class Payload final : public Cause {
 }  // namespace
 
 void MakePayload(const CauseWorld& world, std::vector<CausePtr>* causes) {
-  const PlacesToLookAt places = LookAt(world);
-  for (const Eigen::Vector3d& point_m : places.point_m) {
-    causes->push_back(std::make_unique<Payload>(point_m, places.locator));
-  }
+  AddAtPlaces<Payload>(world, causes);
 }
 
 }  // namespace palpate::diagnosis

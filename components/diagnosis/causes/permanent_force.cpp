@@ -46,10 +46,7 @@ class PermanentForce final : public Cause {
 }  // namespace
 
 void MakePermanentForce(const CauseWorld& world, std::vector<CausePtr>* causes) {
-  const PlacesToLookAt places = LookAt(world);
-  for (const Eigen::Vector3d& point_m : places.point_m) {
-    causes->push_back(std::make_unique<PermanentForce>(point_m, places.locator));
-  }
+  AddAtPlaces<PermanentForce>(world, causes);
 }
 
 }  // namespace palpate::diagnosis

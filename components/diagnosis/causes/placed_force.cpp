@@ -3,7 +3,9 @@
 
 #include "components/diagnosis/causes/placed_force.hpp"
 
-#include "libs/geometry/surface_sampling.hpp"
+#include <algorithm>
+#include <limits>
+
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 
 namespace palpate::diagnosis {

@@ -25,6 +25,15 @@ struct PlacesToLookAt {
 /// little.
 PlacesToLookAt LookAt(const CauseWorld& world);
 
+/// Adds a cause of this kind, made of a point and the locator, for each place to look at.
+template <typename PlacedCause>
+void AddAtPlaces(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  const PlacesToLookAt places = LookAt(world);
+  for (const Eigen::Vector3d& point_m : places.point_m) {
+    causes->push_back(std::make_unique<PlacedCause>(point_m, places.locator));
+  }
+}
+
 /// What moving the point at which `force_N` acts along `axis` through the undeformed body does.
 robot::ParameterPtr MovedForce(const fem::PointLocator& locator, const Eigen::Vector3d& point_m,
                                int axis, const Eigen::Vector3d& force_N);

@@ -68,7 +68,6 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
 /// up for taken out.
 double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
   const Belief belief = book.BeliefWith({});
-  const std::vector<int> both = {a, b};
   std::vector<Eigen::Index> free;
   for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
     const bool own = (p >= book.first(a) && p < book.first(a) + book.count(a)) ||
@@ -112,7 +111,7 @@ class NextCause {
   NextCause(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before)
       : observed_(observed), fitter_(fitter), before_(before) {}
 
-  /// Whether there is one; then Found.
+  /// Whether there is one; then choice() and fit() are about it.
   bool Look() {
     candidates_ = Screen(fitter_, before_, before_.faults);
     if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlike) {
@@ -130,7 +129,6 @@ class NextCause {
     return found_ < candidates_.size();
   }
 
-  const Candidate& found() const { return candidates_[found_]; }
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }

@@ -134,8 +134,10 @@ fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
   return loads;
 }
 
-/// Newton's method on what the drives hold: a stretched cable takes in less. Whether it moved.
-bool SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved) {
+/// Newton's method on what the drives hold: a stretched cable takes in less. Sets `moved` where it
+/// took a step.
+Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved,
+                                   bool* moved) {
   std::vector<int> compliant;
   for (int c = 0; c < model_.CableCount(); ++c) {
     const auto& command = solved->commands[static_cast<std::size_t>(c)];
@@ -143,7 +145,7 @@ bool SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSampl
       compliant.push_back(c);
     }
   }
-  if (compliant.empty()) return false;
+  if (compliant.empty()) return Status::Ok();
   const auto count = static_cast<Eigen::Index>(compliant.size());
   Eigen::VectorXd beyond_m(count);
   std::vector<robot::ParameterPtr> offsets;
@@ -154,8 +156,9 @@ bool SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSampl
                   (taken_in[c] + zero_shift_m_[c]);
     offsets.push_back(robot::CableOffset(c));
   }
-  if (beyond_m.cwiseAbs().maxCoeff() < kSettled_m) return false;
-  if (!sensitivity_.Compute(solved->commands, solved->state, offsets).ok()) return false;
+  if (beyond_m.cwiseAbs().maxCoeff() < kSettled_m) return Status::Ok();
+  const Status known = sensitivity_.Compute(solved->commands, solved->state, offsets);
+  if (!known.ok()) return known;
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const int c = compliant[static_cast<std::size_t>(k)];
@@ -166,16 +169,19 @@ bool SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSampl
     const auto cable = static_cast<std::size_t>(compliant[static_cast<std::size_t>(k)]);
     solved->commands[cable].value -= step_m[k];
   }
-  return true;
+  *moved = true;
+  return Status::Ok();
 }
 
-/// A step towards the turn that goes with the moment on the base. Whether it moved.
-bool SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState& state) {
-  if (draft_.base_compliance_rad_Nm == 0.0) return false;
+/// A step towards the turn that goes with the moment on the base. Sets `moved` where it is not
+/// there yet.
+Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState& state,
+                              bool* moved) {
+  if (draft_.base_compliance_rad_Nm == 0.0) return Status::Ok();
   fem::Linearisation& linearisation = model_.linearisation();
-  if (!linearisation.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N).ok()) {
-    return false;
-  }
+  const Status known =
+      linearisation.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N);
+  if (!known.ok()) return known;
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
   for (Eigen::Index node = 0; node < state.x_m.size() / 3; ++node) {
     if (!model_.body().fixed.col(node).all()) continue;
@@ -185,17 +191,18 @@ bool SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState&
   constexpr double kShare = 0.7;  // stiff bodies on soft bases swing otherwise
   const Eigen::Vector3d step_rad = draft_.base_compliance_rad_Nm * moment_Nm - base_turn_rad_;
   base_turn_rad_ += kShare * step_rad;
-  return step_rad.norm() > kSettled_rad;
+  if (step_rad.norm() > kSettled_rad) *moved = true;
+  return Status::Ok();
 }
 
 Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
                              SimulatedSample* solved) {
   for (int round = 0; round < kMostRounds; ++round) {
-    const Status status = Balance(WithCommands(loads, *solved), &solved->state);
-    if (!status.ok()) return status;
-    const bool stretched = StretchCables(taken_in, solved);
-    const bool turned = TurnBase(loads, solved->state);
-    if (!stretched && !turned) return Status::Ok();
+    bool moved = false;
+    Status status = Balance(WithCommands(loads, *solved), &solved->state);
+    if (status.ok()) status = StretchCables(taken_in, solved, &moved);
+    if (status.ok()) status = TurnBase(loads, solved->state, &moved);
+    if (!status.ok() || !moved) return status;
   }
   return {StatusCode::kNotConverged, "cables or base give way without an end"};
 }

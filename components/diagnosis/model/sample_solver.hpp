@@ -49,8 +49,8 @@ class SampleSolver {
   Status Balance(const fem::LoadState& loads, fem::StaticState* state);
   Status GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
                  SimulatedSample* solved);
-  bool StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved);
-  bool TurnBase(const fem::LoadState& loads, const fem::StaticState& state);
+  Status StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved, bool* moved);
+  Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState WithCommands(fem::LoadState loads, const SimulatedSample& solved) const;
   void SeeMarkers(const Sample& sample, SimulatedSample* solved) const;
 

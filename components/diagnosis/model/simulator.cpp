@@ -57,7 +57,7 @@ std::vector<Hereditary> PastOf(const ModelDraft& draft, const Memory& memory,
   }
   elastic_N.col(samples) = simulation.rest_elastic_N;
   for (const CreepTerm& term : draft.creep) {
-    const Eigen::MatrixXd fading = memory.Fading(term.tau_s);
+    const Eigen::MatrixXd& fading = memory.Fading(term.tau_s);
     for (Eigen::Index s = 0; s < samples; ++s) {
       Hereditary& left = past[static_cast<std::size_t>(s)];
       Eigen::VectorXd weights = fading.row(s).transpose();
