@@ -57,7 +57,8 @@ struct CauseMoment {
   const Simulation& simulation;
   const Memory& memory;
   int sample = 0;
-  robot::RobotModel& model;  ///< its linearisation is at this moment's equilibrium
+  const HeldShape& shape;    ///< one of the sample's
+  robot::RobotModel& model;  ///< its linearisation is at that shape
 
   const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
   const SimulatedSample& simulated() const {

@@ -38,7 +38,7 @@ class MarkerMisplacement final : public Cause {
     const auto recording = static_cast<std::size_t>(at.seen().recording);
     motion_m->col(index_) +=
         at.draft.T_seen[recording].linear() *
-        along_[static_cast<std::size_t>(parameter)].Position(at.simulated().state.x_m);
+        along_[static_cast<std::size_t>(parameter)].Position(at.shape.state.x_m);
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z,

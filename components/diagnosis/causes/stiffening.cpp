@@ -47,7 +47,7 @@ class Stiffening final : public Cause {
   /// The forces are linear in C20.
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
                              const CauseMoment& at) const override {
-    const Eigen::VectorXd& x_m = at.simulated().state.x_m;
+    const Eigen::VectorXd& x_m = at.shape.state.x_m;
     Eigen::VectorXd without_N = Eigen::VectorXd::Zero(x_m.size());
     Eigen::VectorXd with_N = Eigen::VectorXd::Zero(x_m.size());
     const auto& materials = at.model.elastic_body().materials();

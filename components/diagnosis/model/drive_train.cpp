@@ -92,6 +92,27 @@ Eigen::MatrixXd DriveTrain::At(const DriveSettings& settings) const {
   return mean;
 }
 
+std::vector<std::vector<SamplePart>> DriveTrain::PartsAt(const DriveSettings& settings) const {
+  constexpr std::size_t kMostParts = 5;
+  const Eigen::MatrixXd path = Path(settings);
+  std::vector<std::vector<SamplePart>> parts;
+  for (std::size_t s = 0; s < times_of_.size(); ++s) {
+    const std::vector<int>& times = times_of_[s];
+    const std::size_t count = observed_.samples[s].still ? 1 : std::min(kMostParts, times.size());
+    std::vector<SamplePart>& of_sample = parts.emplace_back();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t first = k * times.size() / count;
+      const std::size_t end = (k + 1) * times.size() / count;
+      SamplePart part{.taken_in = Eigen::VectorXd::Zero(path.rows())};
+      for (std::size_t f = first; f < end; ++f) part.taken_in += path.col(times[f]);
+      part.taken_in /= static_cast<double>(end - first);
+      part.share = static_cast<double>(end - first) / static_cast<double>(times.size());
+      of_sample.push_back(std::move(part));
+    }
+  }
+  return parts;
+}
+
 Eigen::MatrixXi DriveTrain::Sliding(const DriveSettings& settings) const {
   constexpr double kStill = 1e-9;
   const Eigen::MatrixXd path = Path(settings);

@@ -24,6 +24,12 @@ struct DriveSettings {
   bool operator==(const DriveSettings&) const = default;
 };
 
+/// A part of a sample's frames, over which the body may be taken to stand still.
+struct SamplePart {
+  double share = 0.0;        ///< of the sample's frames
+  Eigen::VectorXd taken_in;  ///< [cables] as DriveTrain::At, mean over the part
+};
+
 /// The drives through the whole experiment: mixing, lag, gain and offset, play, in
 /// this order; the play begins in its middle. Offset and play are of cables that are told a
 /// displacement.
@@ -35,6 +41,9 @@ class DriveTrain {
   /// [cables x samples] what the drives take in, m, or pull with, N: mean over the frames of each
   /// sample; NaN: not driven.
   Eigen::MatrixXd At(const DriveSettings& settings) const;
+  /// [samples] parts in order of time: one of a sample in which nothing is moved, up to five of a
+  /// motion, in which a cable may get taut.
+  std::vector<std::vector<SamplePart>> PartsAt(const DriveSettings& settings) const;
   /// [cables x samples] 1 where a cable was last taken in, -1 let out, 0: not moved yet.
   Eigen::MatrixXi Sliding(const DriveSettings& settings) const;
 

@@ -88,9 +88,8 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   const auto markers = std::ssize(solver_.markers());
   Eigen::MatrixXd jacobian_m = Eigen::MatrixXd::Zero(3 * markers, ParameterCount(causes_));
   Collect(at);
-  const SimulatedSample& simulated = at.simulated();
-  if (!simulated.status.ok() ||
-      !sensitivity_.Compute(simulated.commands, simulated.state, acting_).ok()) {
+  if (!at.simulated().status.ok() ||
+      !sensitivity_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   Eigen::MatrixXd motions_m;

@@ -19,7 +19,7 @@ using Kind = robot::CableCommand::Kind;
 
 /// Of loops between equilibrium and what gives way under it.
 constexpr int kMostRounds = 12;
-constexpr double kSettled_m = 1e-8;
+constexpr double kSettled_m = 1e-10;
 constexpr double kSettled_rad = 1e-8;
 
 std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
@@ -121,7 +121,7 @@ fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
                                           const SimulatedSample& solved) const {
   for (int c = 0; c < model_.CableCount(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
-    loads.commands[cable] = model_.ToConstraint(c, solved.commands[cable]);
+    loads.commands[cable] = model_.ToConstraint(c, solved.middle.commands[cable]);
   }
   if (base_turn_rad_.isZero()) return loads;
   const double angle_rad = base_turn_rad_.norm();
@@ -140,7 +140,7 @@ Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSam
                                    bool* moved) {
   std::vector<int> compliant;
   for (int c = 0; c < model_.CableCount(); ++c) {
-    const auto& command = solved->commands[static_cast<std::size_t>(c)];
+    const auto& command = solved->middle.commands[static_cast<std::size_t>(c)];
     if (draft_.cable_compliance_m_N[c] > 0.0 && command.kind == Kind::kDisplacement) {
       compliant.push_back(c);
     }
@@ -151,13 +151,13 @@ Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSam
   std::vector<robot::ParameterPtr> offsets;
   for (Eigen::Index k = 0; k < count; ++k) {
     const int c = compliant[static_cast<std::size_t>(k)];
-    const double stretch_m = draft_.cable_compliance_m_N[c] * solved->state.multipliers_N[c];
-    beyond_m[k] = solved->commands[static_cast<std::size_t>(c)].value + stretch_m -
+    const double stretch_m = draft_.cable_compliance_m_N[c] * solved->middle.state.multipliers_N[c];
+    beyond_m[k] = solved->middle.commands[static_cast<std::size_t>(c)].value + stretch_m -
                   (taken_in[c] + zero_shift_m_[c]);
     offsets.push_back(robot::CableOffset(c));
   }
   if (beyond_m.cwiseAbs().maxCoeff() < kSettled_m) return Status::Ok();
-  const Status known = sensitivity_.Compute(solved->commands, solved->state, offsets);
+  const Status known = sensitivity_.Compute(solved->middle.commands, solved->middle.state, offsets);
   if (!known.ok()) return known;
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -167,7 +167,7 @@ Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSam
   const Eigen::VectorXd step_m = slope.partialPivLu().solve(beyond_m);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto cable = static_cast<std::size_t>(compliant[static_cast<std::size_t>(k)]);
-    solved->commands[cable].value -= step_m[k];
+    solved->middle.commands[cable].value -= step_m[k];
   }
   *moved = true;
   return Status::Ok();
@@ -199,9 +199,9 @@ Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadSta
                              SimulatedSample* solved) {
   for (int round = 0; round < kMostRounds; ++round) {
     bool moved = false;
-    Status status = Balance(WithCommands(loads, *solved), &solved->state);
+    Status status = Balance(WithCommands(loads, *solved), &solved->middle.state);
     if (status.ok()) status = StretchCables(taken_in, solved, &moved);
-    if (status.ok()) status = TurnBase(loads, solved->state, &moved);
+    if (status.ok()) status = TurnBase(loads, solved->middle.state, &moved);
     if (!status.ok() || !moved) return status;
   }
   return {StatusCode::kNotConverged, "cables or base give way without an end"};
@@ -214,31 +214,31 @@ void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) con
   solved->markers_m.resize(3, std::ssize(markers_));
   for (std::size_t m = 0; m < markers_.size(); ++m) {
     solved->markers_m.col(static_cast<Eigen::Index>(m)) =
-        T_measurement_robot * markers_[m].Position(solved->state.x_m);
+        T_measurement_robot * markers_[m].Position(solved->middle.state.x_m);
   }
 }
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
                          const Hereditary& past, SimulatedSample* solved) {
   Prepare(sample, past);
-  if (solved->state.x_m.size() == 0) solved->state = model_.RestState();
+  if (solved->middle.state.x_m.size() == 0) solved->middle.state = model_.RestState();
   // Cables that give way begin from what they gave way by before.
   std::vector<robot::CableCommand> commands = Commands(taken_in);
-  for (std::size_t c = 0; c < commands.size() && !solved->commands.empty(); ++c) {
+  for (std::size_t c = 0; c < commands.size() && !solved->middle.commands.empty(); ++c) {
     const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] > 0.0;
-    if (gives_way && commands[c].kind == solved->commands[c].kind)
-      commands[c] = solved->commands[c];
+    if (gives_way && commands[c].kind == solved->middle.commands[c].kind)
+      commands[c] = solved->middle.commands[c];
   }
-  solved->commands = std::move(commands);
+  solved->middle.commands = std::move(commands);
   base_turn_rad_.setZero();
-  fem::LoadState loads = model_.Loads(solved->commands, LoadsAt(sample));
+  fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
   if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
   solved->status = GiveWay(taken_in, loads, solved);
   solved->markers_m =
       Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
-  solved->elastic_N = Eigen::VectorXd::Zero(solved->state.x_m.size());
+  solved->elastic_N = Eigen::VectorXd::Zero(solved->middle.state.x_m.size());
   if (!solved->status.ok()) return;
-  model_.elastic_body().AddForces(solved->state.x_m, solved->elastic_N);
+  model_.elastic_body().AddForces(solved->middle.state.x_m, solved->elastic_N);
   solved->elastic_N /= 1.0 + past.scale;
   SeeMarkers(sample, solved);
 }

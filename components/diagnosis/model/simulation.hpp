@@ -12,14 +12,22 @@
 
 namespace palpate::diagnosis {
 
-/// One moment of a simulated experiment.
+/// A shape of the body and what holds it.
+struct HeldShape {
+  double share = 1.0;  ///< of a sample's frames that it stands for
+  fem::StaticState state;
+  std::vector<robot::CableCommand> commands;
+};
+
+/// One sample of a simulated experiment.
 struct SimulatedSample {
   Status status;
-  fem::StaticState state;
-  std::vector<robot::CableCommand> commands;  ///< that hold the state
-  Eigen::VectorXd elastic_N;                  ///< [3n] F_int without what the body remembers
-  Eigen::Matrix3Xd markers_m;                 ///< [3 x markers] measurement frame
-  Eigen::MatrixXd jacobian_m;                 ///< [3 markers x parameters] of them
+  HeldShape middle;
+  /// In a motion: one shape for each other set of cables that are taut in parts of it.
+  std::vector<HeldShape> beside;
+  Eigen::VectorXd elastic_N;   ///< [3n] F_int in the middle, without what the body remembers
+  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] mean over the sample, measurement frame
+  Eigen::MatrixXd jacobian_m;  ///< [3 markers x parameters] of them
 };
 
 /// A simulated experiment.
@@ -28,7 +36,6 @@ struct Simulation {
   std::vector<SimulatedSample> samples;
   /// [3n] elastic forces with every command at zero: what the body is between recordings.
   Eigen::VectorXd rest_elastic_N;
-  Eigen::MatrixXd taken_in;  ///< [cables x samples] by the drives, m or N
 };
 
 }  // namespace palpate::diagnosis

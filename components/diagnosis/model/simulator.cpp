@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <thread>
 
 #include "components/diagnosis/model/sample_differentiator.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
-#include "components/diagnosis/model/window_means.hpp"
 
 namespace palpate::diagnosis {
 
@@ -78,6 +78,43 @@ int SweepsFor(const ModelDraft& draft) {
   return g == 0.0 ? 1 : g < kLittle ? 2 : 4;
 }
 
+std::vector<bool> TautCables(const fem::StaticState& state) {
+  constexpr double kNothing_N = 1e-6;
+  std::vector<bool> taut;
+  for (const double tension_N : state.multipliers_N) taut.push_back(tension_N > kNothing_N);
+  return taut;
+}
+
+/// The middle of a sample, the mean of where its markers are seen, and the shapes beside.
+void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
+                  const Hereditary& past, SampleSolver* solver, SimulatedSample* simulated) {
+  SimulatedSample part;
+  part.middle = std::move(simulated->middle);
+  Eigen::Matrix3Xd mean_m;
+  std::map<std::vector<bool>, std::vector<HeldShape>> by_taut;
+  std::vector<bool> taut_in_the_middle;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    solver->Solve(sample, parts[k].taken_in, past, &part);
+    const bool middle = k == parts.size() / 2;
+    if (middle || !part.status.ok()) *simulated = part;
+    if (!part.status.ok()) return;
+    const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
+    mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
+    const std::vector<bool> taut = TautCables(part.middle.state);
+    if (middle) taut_in_the_middle = taut;
+    by_taut[taut].push_back({parts[k].share, part.middle.state, part.middle.commands});
+  }
+  simulated->markers_m = std::move(mean_m);
+  simulated->middle.share = 1.0;
+  for (auto& [taut, shapes] : by_taut) {
+    if (taut == taut_in_the_middle) continue;
+    HeldShape& one = simulated->beside.emplace_back(shapes[shapes.size() / 2]);
+    one.share = 0.0;
+    for (const HeldShape& shape : shapes) one.share += shape.share;
+    simulated->middle.share -= one.share;
+  }
+}
+
 }  // namespace
 
 Eigen::Index ParameterCount(const CauseList& causes) {
@@ -103,7 +140,6 @@ Simulator::Simulator(const ObservedExperiment& observed, int threads)
 
 Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) const {
   Simulation simulation;
-  simulation.taken_in = drives_.At(draft.drives);
   if (start != nullptr) {
     simulation.samples = start->samples;
   } else {
@@ -112,6 +148,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
   std::vector<Hereditary> past(observed_.samples.size());
   const int sweeps = SweepsFor(draft);
   const auto shares = Shares(observed_, threads_);
+  const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     OnThreads(shares, [&](const std::vector<std::size_t>& share) {
@@ -121,15 +158,14 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
       for (const std::size_t s : share) {
         SimulatedSample& sample = simulation.samples[s];
         solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
-        if (sample.state.x_m.size() == 0 && before != nullptr) sample.state = *before;
-        solver.Solve(observed_.samples[s], simulation.taken_in.col(static_cast<Eigen::Index>(s)),
-                     past[s], &sample);
-        if (sample.status.ok()) before = &sample.state;
+        fem::StaticState& state = sample.middle.state;
+        if (state.x_m.size() == 0 && before != nullptr) state = *before;
+        SolveInParts(observed_.samples[s], parts[s], past[s], &solver, &sample);
+        if (sample.status.ok()) before = &state;
       }
     });
     if (sweep + 1 < sweeps) past = PastOf(draft, memory_, simulation);
   }
-  MoveToWindowMeans(observed_, &simulation);
   simulation.status = Status::Ok();
   for (const SimulatedSample& sample : simulation.samples) {
     if (simulation.status.ok() && !sample.status.ok()) simulation.status = sample.status;
@@ -152,13 +188,19 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
       const auto column = static_cast<Eigen::Index>(s);
       solver.Prepare(observed_.samples[s], past[s]);
       solver.SetSliding(sliding.col(column));
-      const CauseMoment at{.observed = observed_,
-                           .draft = draft,
-                           .simulation = *simulation,
-                           .memory = memory_,
-                           .sample = static_cast<int>(s),
-                           .model = solver.model()};
-      sample.jacobian_m = differentiator.At(at);
+      const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
+        const CauseMoment at{.observed = observed_,
+                             .draft = draft,
+                             .simulation = *simulation,
+                             .memory = memory_,
+                             .sample = static_cast<int>(s),
+                             .shape = shape,
+                             .model = solver.model()};
+        return shape.share * differentiator.At(at);
+      };
+      Eigen::MatrixXd mean_m = jacobian_m(sample.middle);
+      for (const HeldShape& shape : sample.beside) mean_m += jacobian_m(shape);
+      sample.jacobian_m = std::move(mean_m);
     }
   });
 }

@@ -50,6 +50,26 @@ TEST(DriveTrain, TakesInTheMeanOfWhatItIsToldInTheFramesOfASample) {
   EXPECT_NEAR(taken_in(1, 0), 0.5 * (0.003 + 0.0045 + 0.009) / 3.0, 1e-15);
 }
 
+TEST(DriveTrain, PartsOfASampleAreItsFramesInOrder) {
+  ObservedExperiment observed = UpAndDown({4.0, 8.0});
+  std::vector<double>& frames_s = observed.samples[0].frame_t_s;
+  frames_s.clear();
+  for (int frame = 0; frame < 12; ++frame) frames_s.push_back(0.5 * frame);
+  observed.samples[0].still = false;
+  const auto parts = DriveTrain(observed).PartsAt(DriveSettings(2));
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].size(), 5u);
+  EXPECT_EQ(parts[1].size(), 1u) << "nothing is moved in it";
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(2);
+  double before = -1.0;
+  for (const SamplePart& part : parts[0]) {
+    EXPECT_GT(part.taken_in[0], before);
+    before = part.taken_in[0];
+    mean += part.share * part.taken_in;
+  }
+  EXPECT_LT((mean - DriveTrain(observed).At(DriveSettings(2)).col(0)).norm(), 1e-15);
+}
+
 TEST(DriveTrain, GainsAndOffsetsAreOfTheirCable) {
   ObservedExperiment observed = UpAndDown({5.0});
   DriveSettings settings(2);
