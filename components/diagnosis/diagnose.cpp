@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/data/fitness.hpp"
+#include "components/diagnosis/data/one_clock.hpp"
 #include "components/diagnosis/gap.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
@@ -78,6 +79,20 @@ std::string RegisterUnknownPoses(const robot::RobotBody& body, int threads,
   return {};
 }
 
+std::size_t PlacesOfLoads(const ObservedExperiment& observed) {
+  constexpr double kElsewhere_m = 5e-3;
+  std::vector<Eigen::Vector3d> places_m;
+  for (const Sample& sample : observed.samples) {
+    for (const experiment::KnownLoad& load : sample.loads) {
+      const bool known = std::any_of(places_m.begin(), places_m.end(), [&](const auto& place_m) {
+        return (place_m - load.position_m).norm() < kElsewhere_m;
+      });
+      if (!known) places_m.push_back(load.position_m);
+    }
+  }
+  return places_m.size();
+}
+
 std::vector<std::string> Identities(const ObservedExperiment& observed) {
   const bool loaded = std::any_of(observed.samples.begin(), observed.samples.end(),
                                   [](const Sample& sample) { return !sample.loads.empty(); });
@@ -92,11 +107,16 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
         "Without a known load only density over modulus and force over modulus can be told: hang a "
         "known weight on the robot.");
   }
+  if (loaded && PlacesOfLoads(observed) == 1) {
+    identities.emplace_back(
+        "A known load that acts at one place only does not tell where exactly: one that acts "
+        "higher or lower looks like another modulus. Hang it elsewhere, too.");
+  }
   if (!tilted) {
     identities.emplace_back(
-        "Without a tilted base a mass on the body and a force downwards are the same, and "
-        "gravity's "
-        "direction and a sideways force nearly so: tilt the base by 15 degrees.");
+        "Without a tilted base a mass on the body, that of its markers, too, and a force downwards "
+        "are the same, and gravity's direction and a sideways force nearly so: tilt the base by 15 "
+        "degrees.");
   }
   return identities;
 }
@@ -202,9 +222,10 @@ DiagnosisResult Unfit(const std::string& reason) {
   return result;
 }
 
-Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& experiment,
+Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& as_recorded,
                    const DiagnosisSettings& settings, const ReportStep& report) {
   Diagnosis diagnosis;
+  const experiment::Experiment experiment = OnOneClock(as_recorded);
   diagnosis.result = Unfit(WhyUnfit(experiment));
   diagnosis.extended = robot;
   DiagnosisResult& result = diagnosis.result;

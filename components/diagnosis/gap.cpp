@@ -32,13 +32,52 @@ struct Squares {
   }
 };
 
-/// [3 x markers] measured - predicted at parameters z, measurement frame.
+/// [samples] [3 x markers] measured - predicted, measurement frame; NaN: not known.
+using Residuals = std::vector<Eigen::Matrix3Xd>;
+
 Eigen::Matrix3Xd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
                             const Eigen::VectorXd& z) {
   const SimulatedSample& simulated = fit.simulation.samples[sample];
   const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - fit.z);
   return observed.samples[sample].position_m - simulated.markers_m -
          moved_m.reshaped(3, simulated.markers_m.cols());
+}
+
+/// What a shape in which the body was held may be off by is no fault of the simulation: of each
+/// marker a constant, at most twice as large as such shapes are off by.
+void TakeOffReference(const ObservedExperiment& observed, int recording, Residuals* residuals_m) {
+  constexpr double kAtMost = 2.0;
+  if (!observed.recordings[static_cast<std::size_t>(recording)].held_until_s) return;
+  const double most_m = kAtMost * observed.reference_sigma_m;
+  for (Eigen::Index k = 0; k < 3 * std::ssize(observed.markers); ++k) {
+    double sum_m = 0.0;
+    int count = 0;
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      const double value_m = (*residuals_m)[s].reshaped()[k];
+      if (observed.samples[s].recording != recording || std::isnan(value_m)) continue;
+      sum_m += value_m;
+      ++count;
+    }
+    if (count == 0) continue;
+    const double off_m = std::clamp(sum_m / count, -most_m, most_m);
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      if (observed.samples[s].recording == recording) (*residuals_m)[s].reshaped()[k] -= off_m;
+    }
+  }
+}
+
+/// Of a fit at parameters, of each recording their own: z [recordings], or one for all.
+Residuals ResidualsOf(const ObservedExperiment& observed, const Fit& fit,
+                      const std::vector<Eigen::VectorXd>& z) {
+  Residuals residuals_m;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const auto r = static_cast<std::size_t>(observed.samples[s].recording);
+    residuals_m.push_back(Residual_m(observed, fit, s, z.size() == 1 ? z.front() : z[r]));
+  }
+  for (int r = 0; r < std::ssize(observed.recordings); ++r) {
+    TakeOffReference(observed, r, &residuals_m);
+  }
+  return residuals_m;
 }
 
 Eigen::Matrix3Xd Noise_m(const ObservedExperiment& observed, std::size_t sample) {
@@ -96,12 +135,13 @@ Eigen::VectorXd OfFaults(const CauseBook& book, const Fit& fit) {
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
                       const Fit& as_built, const Fit& best) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
-  const Eigen::VectorXd faults = OfFaults(book, best);
+  const Residuals before_m = ResidualsOf(observed, as_built, {none});
+  const Residuals after_m = ResidualsOf(observed, best, {OfFaults(book, best)});
   Squares before, after, noise;
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (!as_built.simulation.samples[s].status.ok()) continue;
-    before.Add(Residual_m(observed, as_built, s, none));
-    after.Add(Residual_m(observed, best, s, faults));
+    before.Add(before_m[s]);
+    after.Add(after_m[s]);
     noise.Add(Noise_m(observed, s));
   }
   const double excess_m2 = before.sum_m2 - noise.sum_m2;
@@ -113,22 +153,23 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                  DiagnosisResult* result) {
   DescribeBody(observed, body, result);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
-  const std::vector<Eigen::VectorXd> without = LeftOut(book, selection.healthy);
-  const std::vector<Eigen::VectorXd> with = LeftOut(book, selection.best);
+  const Fit& best = selection.best;
+  const Fit& healthy = selection.healthy;
+  const Residuals before_m = ResidualsOf(observed, as_built, {none});
+  const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
+  const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
+  const Residuals heldout_before_m = ResidualsOf(observed, healthy, LeftOut(book, healthy));
+  const Residuals heldout_after_m = ResidualsOf(observed, best, LeftOut(book, best));
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
     const auto r = static_cast<std::size_t>(sample.recording);
     if (!as_built.simulation.samples[s].status.ok()) continue;
-    const Eigen::Matrix3Xd before_m = Residual_m(observed, as_built, s, none);
-    const Eigen::Matrix3Xd after_m =
-        Residual_m(observed, selection.best, s, selection.best.posterior.mean);
-    sums[r].before.Add(before_m);
-    sums[r].after.Add(after_m);
-    sums[r].healthy.Add(
-        Residual_m(observed, selection.healthy, s, selection.healthy.posterior.mean));
-    sums[r].heldout_before.Add(Residual_m(observed, selection.healthy, s, without[r]));
-    sums[r].heldout_after.Add(Residual_m(observed, selection.best, s, with[r]));
+    sums[r].before.Add(before_m[s]);
+    sums[r].healthy.Add(healthy_m[s]);
+    sums[r].after.Add(after_m[s]);
+    sums[r].heldout_before.Add(heldout_before_m[s]);
+    sums[r].heldout_after.Add(heldout_after_m[s]);
     sums[r].noise.Add(Noise_m(observed, s));
     ++sums[r].samples;
     const Eigen::Matrix3d R_robot_measurement =
@@ -136,8 +177,8 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     result->moments.push_back({.recording = sample.recording,
                                .t_s = sample.t_s,
                                .command = observed.timeline.CommandAt(sample.t_s),
-                               .before_m = R_robot_measurement * before_m,
-                               .after_m = R_robot_measurement * after_m});
+                               .before_m = R_robot_measurement * before_m[s],
+                               .after_m = R_robot_measurement * after_m[s]});
   }
   Sums all;
   for (std::size_t r = 0; r < sums.size(); ++r) {

@@ -121,13 +121,8 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
   const int most =
       steps == Steps::kFull ? settings_.max_full_steps : settings_.max_newton_iterations;
   for (int iteration = 0; iteration <= most; ++iteration) {
-    if (Status status = step_.Compute(loads, state->x_m, state->multipliers_N, true);
-        !status.ok()) {
-      return status;
-    }
-    result->residual_N = linearisation_.residual_N().norm();
-    result->residual_relative =
-        result->residual_N / ForceScale_N(linearisation_, loads, state->multipliers_N);
+    const bool may_keep = steps == Steps::kFull && iteration > 0;
+    if (Status status = Linearise(loads, *state, may_keep, result); !status.ok()) return status;
     result->constraint_error_m = ConstraintError(loads, *state);
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
                           result->residual_N <= RoundingForce_N(linearisation_, state->x_m);
@@ -146,6 +141,30 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
     }
   }
   return {StatusCode::kNotConverged, "Newton iterations used up"};
+}
+
+/// The step from here, and the residual that it begins with.
+Status StaticSolver::Linearise(const LoadState& loads, const StaticState& state, bool may_keep,
+                               StaticResult* result) {
+  const auto measure = [&] {
+    result->residual_N = linearisation_.residual_N().norm();
+    result->residual_relative =
+        result->residual_N / ForceScale_N(linearisation_, loads, state.multipliers_N);
+  };
+  if (may_keep && settings_.keep_tangent_below > 0.0) {
+    const double before = result->residual_relative;
+    const Status known =
+        linearisation_.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N);
+    if (!known.ok()) return known;
+    measure();
+    const bool balanced = result->residual_relative <= settings_.relative_tolerance;
+    if (balanced || result->residual_relative < settings_.keep_tangent_below * before) {
+      return step_.ComputeChord(loads, state.x_m, state.multipliers_N);
+    }
+  }
+  const Status status = step_.Compute(loads, state.x_m, state.multipliers_N, true);
+  if (status.ok()) measure();
+  return status;
 }
 
 /// The whole step, unless it inverts an element: then the largest of its halves that does not.

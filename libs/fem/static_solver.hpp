@@ -22,6 +22,9 @@ struct StaticSettings {
   /// Full Newton steps that are tried before the line search. Where they converge they take a tenth
   /// of its iterations: bending bodies must pass through stretched states that it refuses.
   int max_full_steps = 15;
+  /// A tangent is kept for the next full step where the last one brought the residual down to this
+  /// share of what it was; 0: every step has its own. For many equilibria near each other.
+  double keep_tangent_below = 0.0;
   int max_load_steps = 60;  ///< tried in all
   double smallest_load_step = 1e-4;
 };
@@ -60,6 +63,8 @@ class StaticSolver {
   Status SolveLoadStep(const LoadState& loads, const StaticState& start, StaticState* state,
                        StaticResult* result);
   Status Iterate(const LoadState& loads, Steps steps, StaticState* state, StaticResult* result);
+  Status Linearise(const LoadState& loads, const StaticState& state, bool may_keep,
+                   StaticResult* result);
   bool TakeFullStep(StaticState* state);
   LoadState Interpolate(const StaticState& start, const LoadState& target, double fraction) const;
   void ApplyFixedPositions(const LoadState& loads, Eigen::VectorXd* x_m) const;

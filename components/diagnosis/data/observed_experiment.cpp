@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/data/observed_experiment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -27,12 +28,13 @@ struct Cut {
   int of_hold = 5;
 };
 
-/// A hold shorter than this shows nothing of what changes with time.
-constexpr double kLongHold_s = 4.0;
+/// The first window of a hold, each of the others being twice as long as the one before.
+constexpr double kShortest_s = 0.3;
 
 int WindowCount(const Piece& piece, const Cut& cut) {
   if (!piece.still) return cut.of_motion;
-  return piece.end_s - piece.begin_s >= kLongHold_s ? cut.of_hold : std::min(cut.of_hold, 2);
+  const double windows = std::log2(1.0 + (piece.end_s - piece.begin_s) / kShortest_s);
+  return std::clamp(static_cast<int>(windows), 1, cut.of_hold);
 }
 
 std::vector<std::string> NamesOf(const std::vector<robot::BodyCable>& cables) {
@@ -40,6 +42,9 @@ std::vector<std::string> NamesOf(const std::vector<robot::BodyCable>& cables) {
   for (const robot::BodyCable& cable : cables) names.push_back(cable.name);
   return names;
 }
+
+/// A soft body is held in its undeformed shape by hand.
+constexpr double kReferenceSigma_m = 1e-3;
 
 /// One that counts from an equilibrium is taken as it was measured.
 bool CountsFromUndeformed(const Recording& recording) {
@@ -57,7 +62,7 @@ ObservedRecording Describe(const experiment::Experiment& experiment, const Recor
     seen.knows_pose = false;
   }
   seen.base_rotation = experiment::BaseRotation(recording);
-  seen.from_undeformed = CountsFromUndeformed(recording);
+  if (CountsFromUndeformed(recording)) seen.held_until_s = recording.reference->window_s.end_s;
   return seen;
 }
 
@@ -200,6 +205,9 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
     for (const Sampler& sampler : samplers) sampler.AddTo(cut, &observed.samples, &scatter);
     if (static_cast<int>(observed.samples.size()) <= settings.most_samples) break;
   }
+  const auto told = experiment.tolerances.find("marker_bias_m");
+  observed.reference_sigma_m =
+      told != experiment.tolerances.end() ? told->second : kReferenceSigma_m;
   observed.sigma_m = scatter.Sigma_m(experiment.markers_sigma_m);
   return observed;
 }

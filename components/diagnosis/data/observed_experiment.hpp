@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ struct ObservedRecording {
   bool camera_frame = false;
   /// R of `base_tilt_deg`; gravity in the robot frame is R' g.
   Eigen::Matrix3d base_rotation = Eigen::Matrix3d::Identity();
-  /// Positions count from the body in its undeformed shape, held there for a reference window.
-  bool from_undeformed = false;
+  /// Positions count from the body in its undeformed shape, in which it was held until then.
+  std::optional<double> held_until_s = {};
 };
 
 /// An experiment as diagnosis looks at it.
@@ -47,6 +48,8 @@ struct ObservedExperiment {
   std::vector<Sample> samples;  ///< by time
   Timeline timeline;
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();  ///< of one frame, measurement frame
+  /// How well a reference window has the undeformed places of markers, one sigma of an axis.
+  double reference_sigma_m = 0.0;
 };
 
 struct ObservationSettings {

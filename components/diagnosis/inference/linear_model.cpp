@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/inference/linear_model.hpp"
 
+#include <Eigen/SVD>
 #include <cmath>
 
 namespace palpate::diagnosis {
@@ -13,27 +14,28 @@ namespace {
 struct Series {
   std::vector<int> samples;
   Eigen::VectorXd sigma_m;   ///< [samples] noise of the means
-  Eigen::VectorXd common_m;  ///< [samples] of the constant
+  Eigen::MatrixXd common_m;  ///< [samples x 2] of the mesh's error, of the reference's
 };
 
-/// Multiplies by (D + v v')^(-1/2).
+/// Multiplies by (D + V V')^(-1/2).
 class Whitening {
  public:
   explicit Whitening(const Series& series) : scale_(series.sigma_m.cwiseInverse()) {
-    along_ = series.common_m.cwiseProduct(scale_);
-    const double squared = along_.squaredNorm();
-    shrink_ = squared > 0.0 ? (1.0 - 1.0 / std::sqrt(1.0 + squared)) / squared : 0.0;
+    const Eigen::BDCSVD<Eigen::MatrixXd> svd(scale_.asDiagonal() * series.common_m,
+                                             Eigen::ComputeThinU);
+    along_ = svd.matrixU();
+    shrink_ = 1.0 - (1.0 + svd.singularValues().array().square()).rsqrt();
   }
 
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const {
     const Eigen::MatrixXd scaled = scale_.asDiagonal() * rows;
-    return scaled - shrink_ * along_ * (along_.transpose() * scaled);
+    return scaled - along_ * (shrink_.asDiagonal() * (along_.transpose() * scaled));
   }
 
  private:
   Eigen::VectorXd scale_;
-  Eigen::VectorXd along_;
-  double shrink_ = 0.0;
+  Eigen::MatrixXd along_;
+  Eigen::VectorXd shrink_;
 };
 
 bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, std::size_t sample,
@@ -47,7 +49,7 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
                 Eigen::Index coordinate, const Eigen::Matrix3Xd& rest_m, const NoiseModel& noise) {
   Series series;
   std::vector<double> sigma_m;
-  std::vector<double> common_m;
+  std::vector<double> of_mesh_m;
   const Eigen::Index marker = coordinate / 3;
   const Eigen::Vector3d rest_seen_m =
       observed.recordings[static_cast<std::size_t>(recording)].T_measurement_robot *
@@ -57,11 +59,14 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
     if (sample.recording != recording || !IsSeen(observed, simulation, s, coordinate)) continue;
     series.samples.push_back(static_cast<int>(s));
     sigma_m.push_back(observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[marker]));
-    common_m.push_back(noise.relative_error *
+    of_mesh_m.push_back(noise.relative_error *
                        (simulation.samples[s].markers_m.col(marker) - rest_seen_m).norm());
   }
   series.sigma_m = Eigen::Map<Eigen::VectorXd>(sigma_m.data(), std::ssize(sigma_m));
-  series.common_m = Eigen::Map<Eigen::VectorXd>(common_m.data(), std::ssize(common_m));
+  const bool held = observed.recordings[static_cast<std::size_t>(recording)].held_until_s.has_value();
+  series.common_m.resize(std::ssize(sigma_m), 2);
+  series.common_m.col(0) = Eigen::Map<Eigen::VectorXd>(of_mesh_m.data(), std::ssize(of_mesh_m));
+  series.common_m.col(1).setConstant(held ? observed.reference_sigma_m : 0.0);
   return series;
 }
 

@@ -25,7 +25,9 @@ struct Information {
   Information Of(const std::vector<Eigen::Index>& parameters) const;
 };
 
-/// An experiment as it looks from near z, whitened: y - J z is noise of unit variance.
+/// An experiment as it looks from near z, whitened: y - J z is noise of unit variance. Rows of one
+/// recording, marker and axis share the mesh's error (NoiseModel) and, where the recording counts
+/// from a shape in which the body was held, that shape's.
 struct LinearModel {
   Eigen::MatrixXd J;  ///< [rows x parameters]
   Eigen::VectorXd y;  ///< [rows]

@@ -34,7 +34,7 @@ Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
       const auto next = static_cast<std::size_t>(samples[last + 1].recording);
       const auto recording = static_cast<std::size_t>(samples[first].recording);
       Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(std::ssize(samples) + 1);
-      zero[zero.size() - 1] = 1.0;
+      if (!observed.recordings[next].held_until_s) zero[zero.size() - 1] = 1.0;
       Add(0.5 * (timeline.end_s[recording] + timeline.begin_s[next]), std::move(zero));
     }
     first = last + 1;
@@ -70,6 +70,14 @@ void Memory::AddPiece(std::size_t first, std::size_t last) {
   const std::size_t second = std::min(first + 1, last);
   const double begin_s = samples[first].piece_begin_s;
   Eigen::RowVectorXd at_begin = CarriedOn(second, first, begin_s);
+  const auto recording = static_cast<std::size_t>(samples[first].recording);
+  const std::optional<double> held_until_s = observed_.recordings[recording].held_until_s;
+  const bool released = held_until_s && *held_until_s < begin_s &&
+                        (first == 0 || samples[first - 1].recording != samples[first].recording);
+  if (released) {
+    Add(*held_until_s, Eigen::RowVectorXd::Zero(at_begin.size()));
+    nodes_.push_back({*held_until_s, at_begin});
+  }
   const bool jumps = first > 0 && samples[first - 1].recording == samples[first].recording &&
                      StampOf(samples[first - 1].loads) != StampOf(samples[first].loads);
   if (jumps) {

@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 /// What a body remembers of the experiment. A quantity that was worked out at the samples, and with
 /// every command at zero, is followed through all times: linearly from sample to sample, carried on
 /// to where a piece begins and ends, and to that of zero commands in the rests. Where a load comes
-/// or goes it jumps.
+/// or goes it jumps, and where a body is let go that was held in its undeformed shape.
 class Memory {
  public:
   explicit Memory(const ObservedExperiment& observed);

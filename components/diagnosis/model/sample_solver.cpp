@@ -43,7 +43,7 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
 SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed)
     : draft_(draft),
       observed_(observed),
-      model_(draft.body),
+      model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
       zero_shift_m_(model_.CableCount()),

@@ -131,7 +131,7 @@ TEST_F(ObserveTest, AReferenceWindowStandsForTheRestPositionsInTheFrameThatMeasu
   recording.reference = experiment::Reference{{0.0, 4.9}};
   recording.steady_window_s = experiment::TimeWindow{5.0, 10.0};
   const ObservedExperiment observed = Observed();
-  EXPECT_TRUE(observed.recordings[0].from_undeformed);
+  EXPECT_TRUE(observed.recordings[0].held_until_s.has_value());
   ASSERT_FALSE(observed.samples.empty());
   for (const Sample& sample : observed.samples) {
     for (int m = 0; m < 4; ++m) {
@@ -149,7 +149,7 @@ TEST_F(ObserveTest, AReferenceInEquilibriumIsNotTheUndeformedShape) {
     return std::optional<Eigen::Vector3d>(rest_m + sagged_m);
   }).reference = experiment::Reference{{0.0, 4.9}, experiment::ReferenceShape::kEquilibrium};
   const ObservedExperiment observed = Observed();
-  EXPECT_FALSE(observed.recordings[0].from_undeformed);
+  EXPECT_FALSE(observed.recordings[0].held_until_s.has_value());
   const Eigen::Vector3d expected_m = body_.markers[0].point.rest_m + sagged_m;
   EXPECT_LT((observed.samples[0].position_m.col(0) - expected_m).norm(), 1e-12);
 }
