@@ -60,10 +60,11 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
     series.samples.push_back(static_cast<int>(s));
     sigma_m.push_back(observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[marker]));
     of_mesh_m.push_back(noise.relative_error *
-                       (simulation.samples[s].markers_m.col(marker) - rest_seen_m).norm());
+                        (simulation.samples[s].markers_m.col(marker) - rest_seen_m).norm());
   }
   series.sigma_m = Eigen::Map<Eigen::VectorXd>(sigma_m.data(), std::ssize(sigma_m));
-  const bool held = observed.recordings[static_cast<std::size_t>(recording)].held_until_s.has_value();
+  const bool held =
+      observed.recordings[static_cast<std::size_t>(recording)].held_until_s.has_value();
   series.common_m.resize(std::ssize(sigma_m), 2);
   series.common_m.col(0) = Eigen::Map<Eigen::VectorXd>(of_mesh_m.data(), std::ssize(of_mesh_m));
   series.common_m.col(1).setConstant(held ? observed.reference_sigma_m : 0.0);

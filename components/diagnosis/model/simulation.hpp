@@ -27,6 +27,7 @@ struct SimulatedSample {
   std::vector<HeldShape> beside;
   Eigen::VectorXd elastic_N;   ///< [3n] F_int in the middle, without what the body remembers
   Eigen::Matrix3Xd markers_m;  ///< [3 x markers] mean over the sample, measurement frame
+  Eigen::Matrix3Xd bend_m;     ///< [3 x markers] by which that mean is not where the middle is
   Eigen::MatrixXd jacobian_m;  ///< [3 markers x parameters] of them
 };
 

@@ -85,34 +85,58 @@ std::vector<bool> TautCables(const fem::StaticState& state) {
   return taut;
 }
 
-/// The middle of a sample, the mean of where its markers are seen, and the shapes beside.
-void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const Hereditary& past, SampleSolver* solver, SimulatedSample* simulated) {
-  SimulatedSample part;
-  part.middle = std::move(simulated->middle);
-  Eigen::Matrix3Xd mean_m;
-  std::map<std::vector<bool>, std::vector<HeldShape>> by_taut;
-  std::vector<bool> taut_in_the_middle;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    solver->Solve(sample, parts[k].taken_in, past, &part);
-    const bool middle = k == parts.size() / 2;
-    if (middle || !part.status.ok()) *simulated = part;
-    if (!part.status.ok()) return;
-    const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
-    mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
-    const std::vector<bool> taut = TautCables(part.middle.state);
-    if (middle) taut_in_the_middle = taut;
-    by_taut[taut].push_back({parts[k].share, part.middle.state, part.middle.commands});
-  }
-  simulated->markers_m = std::move(mean_m);
+/// Whether the middle of a sample and how it bends stand for all of its parts: the cables that are
+/// taut in the middle were so in all parts, of a robot that was a little different.
+bool MiddleStandsForAll(const SimulatedSample& before, const SimulatedSample& middle) {
+  return before.bend_m.size() > 0 && before.beside.empty() &&
+         TautCables(before.middle.state) == TautCables(middle.middle.state);
+}
+
+/// Beside the middle: shapes with other cables taut than there.
+void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_taut,
+                SimulatedSample* simulated) {
+  const std::vector<bool> taut_in_the_middle = TautCables(simulated->middle.state);
   simulated->middle.share = 1.0;
-  for (auto& [taut, shapes] : by_taut) {
+  for (const auto& [taut, shapes] : by_taut) {
     if (taut == taut_in_the_middle) continue;
     HeldShape& one = simulated->beside.emplace_back(shapes[shapes.size() / 2]);
     one.share = 0.0;
     for (const HeldShape& shape : shapes) one.share += shape.share;
     simulated->middle.share -= one.share;
   }
+}
+
+/// The middle of a sample, the mean of where its markers are seen, and the shapes beside; begins
+/// from what `simulated` was.
+void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
+                  const Hereditary& past, SampleSolver* solver, SimulatedSample* simulated) {
+  const std::size_t middle = parts.size() / 2;
+  SimulatedSample part;
+  part.middle = simulated->middle;
+  if (simulated->bend_m.size() > 0 && simulated->beside.empty()) {
+    solver->Solve(sample, parts[middle].taken_in, past, &part);
+    if (part.status.ok() && MiddleStandsForAll(*simulated, part)) {
+      part.bend_m = simulated->bend_m;
+      part.markers_m += part.bend_m;
+      *simulated = std::move(part);
+      return;
+    }
+    part.middle = simulated->middle;
+  }
+  Eigen::Matrix3Xd mean_m;
+  std::map<std::vector<bool>, std::vector<HeldShape>> by_taut;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    solver->Solve(sample, parts[k].taken_in, past, &part);
+    if (k == middle || !part.status.ok()) *simulated = part;
+    if (!part.status.ok()) return;
+    const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
+    mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
+    by_taut[TautCables(part.middle.state)].push_back(
+        {parts[k].share, part.middle.state, part.middle.commands});
+  }
+  simulated->bend_m = mean_m - simulated->markers_m;
+  simulated->markers_m = std::move(mean_m);
+  KeepOthers(by_taut, simulated);
 }
 
 }  // namespace
