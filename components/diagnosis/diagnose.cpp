@@ -169,11 +169,14 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
   const auto& candidates = selection.candidates;
   const double ln_share =
       -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
-  double all = 1.0;
-  for (const Candidate& one : candidates) all += std::exp(one.ln_bayes_factor + ln_share);
+  std::vector<double> ln_weights{0.0};  // of no fault, then of the candidates
+  for (const Candidate& one : candidates) ln_weights.push_back(one.ln_bayes_factor + ln_share);
+  const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
+  double all = 0.0;
+  for (const double ln_weight : ln_weights) all += std::exp(ln_weight - ln_most);
   const double other = selection.guard.passed ? kOtherPassed : kOtherFailed;
   result->other_probability = other;
-  result->no_fault_probability = (1.0 - other) / all;
+  result->no_fault_probability = (1.0 - other) * std::exp(-ln_most) / all;
   for (const Candidate& one : candidates) {
     const bool named = std::any_of(selection.named.begin(), selection.named.end(),
                                    [&](const Choice& choice) { return choice.cause == one.cause; });
@@ -181,7 +184,7 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
     result->rivals.push_back(
         {.name = book.cause(one.cause).name(),
          .words = book.cause(one.cause).words(),
-         .probability = (1.0 - other) * std::exp(one.ln_bayes_factor + ln_share) / all,
+         .probability = (1.0 - other) * std::exp(one.ln_bayes_factor + ln_share - ln_most) / all,
          .ln_bayes_factor = one.ln_bayes_factor,
          .likeness = one.likeness,
          .why_not = one.why_not});

@@ -23,6 +23,7 @@ constexpr Entry kCatalogue[] = {
     {"stiffening", MakeStiffening},
     {"density", MakeDensity},
     {"viscoelastic_creep", MakeViscoelasticCreep},
+    {"mullins", MakeMullins},
     {"plastic_set", MakePlasticSet},
     {"geometry_scale", MakeGeometryScale},
     {"temperature", MakeTemperature},

@@ -17,6 +17,7 @@ void MakePoissonsRatio(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeStiffening(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeDensity(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeViscoelasticCreep(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeMullins(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakePlasticSet(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeGeometryScale(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeTemperature(const CauseWorld& world, std::vector<CausePtr>* causes);

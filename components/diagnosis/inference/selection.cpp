@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "components/diagnosis/inference/backward_check.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::diagnosis {
@@ -99,8 +100,19 @@ double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int c
   double most = -1.0;
   for (Eigen::Index p = 0; p < book.count(cause); ++p) {
     const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
-    if (tolerance == 0.0) continue;
-    most = std::max(most, std::abs(posterior.mean[book.first(cause) + p]) / tolerance);
+    const Eigen::Index column = book.first(cause) + p;
+    const double z = posterior.mean[column];
+    if (tolerance > 0.0) {
+      most = std::max(most, std::abs(z) / tolerance);
+      continue;
+    }
+    // A size that begins at nothing, beside one that a healthy robot may have.
+    const CauseParameter& parameter = book.cause(cause).parameters()[static_cast<std::size_t>(p)];
+    const bool is_size =
+        parameter.scale == CauseParameter::Scale::kLinear && parameter.least == 0.0;
+    if (is_size && z > kBeyondTolerance * std::sqrt(posterior.covariance(column, column))) {
+      return std::numeric_limits<double>::infinity();
+    }
   }
   return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
 }
@@ -132,6 +144,16 @@ class NextCause {
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
+
+  /// The most probable of the others.
+  std::vector<int> Rivals() const {
+    constexpr std::size_t kMost = 4;
+    std::vector<int> rivals;
+    for (std::size_t k = 0; k < candidates_.size() && rivals.size() < kMost; ++k) {
+      if (k != found_) rivals.push_back(candidates_[k].cause);
+    }
+    return rivals;
+  }
 
   /// Those that fit as well as what was found.
   std::vector<Candidate> Alike() const {
@@ -288,6 +310,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   report(1, steps, "fitting a healthy robot");
   selection.healthy = fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built);
   selection.best = selection.healthy;
+  std::vector<std::vector<int>> rivals;
   for (int number = 0; number < most; ++number) {
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
     NextCause next(observed, fitter, selection.best);
@@ -295,9 +318,16 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
     selection.named.push_back(next.choice());
+    rivals.push_back(next.Rivals());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
     selection.best = next.fit();
+    if (number > 0) CheckBackward(fitter, kClearEvidence, &rivals, &selection);
+    if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
+  std::erase_if(selection.alike, [&](const Candidate& alike) {
+    return std::find(selection.best.faults.begin(), selection.best.faults.end(), alike.cause) !=
+           selection.best.faults.end();
+  });
   report(steps - 1, steps, "looking at what is left");
   selection.guard = Guard(observed, fitter.book(), selection.best);
   CompareCandidates(fitter.book(), &selection);

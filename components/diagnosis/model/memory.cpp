@@ -129,4 +129,24 @@ Eigen::MatrixXd Memory::WorkOutFading(double tau_s) const {
   return weights;
 }
 
+Eigen::MatrixXf Memory::Largest(const Eigen::MatrixXf& values) const {
+  Eigen::MatrixXf largest = values.leftCols(std::ssize(observed_.samples));
+  Eigen::VectorXf until_now = Eigen::VectorXf::Zero(values.rows());
+  std::size_t node = 0;
+  for (Eigen::Index s = 0; s < largest.cols(); ++s) {
+    const double t_s = observed_.samples[static_cast<std::size_t>(s)].t_s;
+    for (; node < nodes_.size() && nodes_[node].t_s <= t_s; ++node) {
+      Eigen::VectorXf there = Eigen::VectorXf::Zero(values.rows());
+      for (Eigen::Index k = 0; k < values.cols(); ++k) {
+        const auto share = static_cast<float>(nodes_[node].share[k]);
+        if (share != 0.0F) there += share * values.col(k);
+      }
+      until_now = until_now.cwiseMax(there);
+    }
+    until_now = until_now.cwiseMax(largest.col(s));
+    largest.col(s) = until_now;
+  }
+  return largest;
+}
+
 }  // namespace palpate::diagnosis

@@ -25,6 +25,10 @@ class Memory {
   /// Relaxed at the beginning. What was asked for once is kept; threads may ask at once.
   const Eigen::MatrixXd& Fading(double tau_s) const;
 
+  /// [n x samples] the largest that each of n quantities was until then; `values`
+  /// [n x samples + 1], the last with zero commands.
+  Eigen::MatrixXf Largest(const Eigen::MatrixXf& values) const;
+
  private:
   /// A time at which the quantity is a combination of those that were worked out.
   struct Node {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "components/diagnosis/model/damage.hpp"
 #include "libs/fem/surface_patch.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
@@ -46,6 +47,7 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
       model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
+      cell_volume_m3_(CellVolumes_m3(draft.body.mesh)),
       zero_shift_m_(model_.CableCount()),
       base_middle_m_(MiddleOfBase(draft.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
@@ -99,6 +101,11 @@ void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
   for (std::size_t k = 0; k < draft_.body.materials.size(); ++k) {
     model_.SetYoungsModulus(static_cast<int>(k),
                             factor * draft_.body.materials[k].youngs_modulus_Pa);
+  }
+  if (draft_.mullins) {
+    model_.elastic_body().SetCellFactors(past.cell_factor.size() > 0
+                                             ? past.cell_factor
+                                             : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
   model_.SetGravity(
       GravityIn(draft_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
@@ -236,14 +243,25 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   solved->status = GiveWay(taken_in, loads, solved);
   solved->markers_m =
       Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
-  solved->elastic_N = Eigen::VectorXd::Zero(solved->middle.state.x_m.size());
-  if (!solved->status.ok()) return;
-  model_.elastic_body().AddForces(solved->middle.state.x_m, solved->elastic_N);
-  solved->elastic_N /= 1.0 + past.scale;
-  SeeMarkers(sample, solved);
+  if (solved->status.ok()) SeeMarkers(sample, solved);
 }
 
-Eigen::VectorXd SampleSolver::RestElastic_N() {
+void SampleSolver::Remember(const Hereditary& past, SimulatedSample* solved) {
+  const Eigen::VectorXd& x_m = solved->middle.state.x_m;
+  solved->elastic_N = Eigen::VectorXd::Zero(x_m.size());
+  solved->energy_J_m3 = Eigen::VectorXf::Zero(cell_volume_m3_.size());
+  if (!solved->status.ok()) return;
+  const fem::ElasticBody& body = model_.elastic_body();
+  body.AddForces(x_m, solved->elastic_N);
+  solved->elastic_N /= 1.0 + past.scale;
+  Eigen::VectorXd energy_J;
+  body.CellEnergies(x_m, &energy_J);
+  energy_J = energy_J.cwiseQuotient(cell_volume_m3_) / (1.0 + past.scale);
+  if (past.cell_factor.size() > 0) energy_J = energy_J.cwiseQuotient(past.cell_factor);
+  solved->energy_J_m3 = energy_J.cast<float>();
+}
+
+SimulatedSample SampleSolver::Rest() {
   SimulatedSample rest;
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
@@ -254,7 +272,8 @@ Eigen::VectorXd SampleSolver::RestElastic_N() {
     zero = command.array().isNaN().select(zero, 0.0);
   }
   Solve(nothing, zero, {}, &rest);
-  return rest.elastic_N;
+  Remember({}, &rest);
+  return rest;
 }
 
 }  // namespace palpate::diagnosis

@@ -15,13 +15,6 @@
 
 namespace palpate::diagnosis {
 
-/// What the past leaves for a sample: the body answers 1 + scale times as stiff, and carries
-/// forces.
-struct Hereditary {
-  double scale = 0.0;
-  Eigen::VectorXd force_N;  ///< [3n], or empty: none
-};
-
 /// Equilibria of a draft's robot at single samples. For one thread.
 class SampleSolver {
  public:
@@ -36,8 +29,10 @@ class SampleSolver {
   /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
   void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const Hereditary& past,
              SimulatedSample* solved);
-  /// Elastic forces [3n] at rest with every command at zero and nothing on the body.
-  Eigen::VectorXd RestElastic_N();
+  /// Fills in what a body remembers of where it is now.
+  void Remember(const Hereditary& past, SimulatedSample* solved);
+  /// At rest with every command at zero and nothing on the body, with what it remembers of that.
+  SimulatedSample Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
   void Prepare(const Sample& sample, const Hereditary& past);
   /// [cables] which way they last went through their eyelets (DriveTrain::Sliding).
@@ -59,6 +54,7 @@ class SampleSolver {
   robot::RobotModel model_;
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;
+  Eigen::VectorXd cell_volume_m3_;
   Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_middle_m_;

@@ -19,16 +19,25 @@ struct HeldShape {
   std::vector<robot::CableCommand> commands;
 };
 
+/// What the past leaves for a sample: the body answers 1 + scale times as stiff, carries forces,
+/// and its cells are softened.
+struct Hereditary {
+  double scale = 0.0;
+  Eigen::VectorXd force_N;      ///< [3n], or empty: none
+  Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
+};
+
 /// One sample of a simulated experiment.
 struct SimulatedSample {
   Status status;
   HeldShape middle;
   /// In a motion: one shape for each other set of cables that are taut in parts of it.
   std::vector<HeldShape> beside;
-  Eigen::VectorXd elastic_N;   ///< [3n] F_int in the middle, without what the body remembers
-  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] mean over the sample, measurement frame
-  Eigen::Matrix3Xd bend_m;     ///< [3 x markers] by which that mean is not where the middle is
-  Eigen::MatrixXd jacobian_m;  ///< [3 markers x parameters] of them
+  Eigen::VectorXd elastic_N;    ///< [3n] F_int in the middle, without what the body remembers
+  Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material in the middle
+  Eigen::Matrix3Xd markers_m;   ///< [3 x markers] mean over the sample, measurement frame
+  Eigen::Matrix3Xd bend_m;      ///< [3 x markers] by which that mean is not where the middle is
+  Eigen::MatrixXd jacobian_m;   ///< [3 markers x parameters] of them
 };
 
 /// A simulated experiment.
@@ -37,6 +46,9 @@ struct Simulation {
   std::vector<SimulatedSample> samples;
   /// [3n] elastic forces with every command at zero: what the body is between recordings.
   Eigen::VectorXd rest_elastic_N;
+  Eigen::VectorXf rest_energy_J_m3;    ///< [cells] then
+  Eigen::MatrixXf below_largest_J_m3;  ///< [cells x samples] BelowLargest_J_m3 (damage.hpp)
+  std::vector<Hereditary> past;        ///< [samples] with which they are in balance
 };
 
 }  // namespace palpate::diagnosis

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <thread>
 
+#include "components/diagnosis/model/damage.hpp"
 #include "components/diagnosis/model/sample_differentiator.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
 
@@ -44,11 +45,9 @@ void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
   work(shares.front());
 }
 
-/// What the past leaves for each sample, after a first look at all of them.
-std::vector<Hereditary> PastOf(const ModelDraft& draft, const Memory& memory,
-                               const Simulation& simulation) {
-  std::vector<Hereditary> past(simulation.samples.size());
-  if (draft.creep.empty()) return past;
+/// What the past leaves of creep for each sample, after a first look at all of them.
+void Creep(const std::vector<CreepTerm>& terms, const Memory& memory, const Simulation& simulation,
+           std::vector<Hereditary>* past) {
   const Eigen::Index nodal = simulation.rest_elastic_N.size();
   const auto samples = std::ssize(simulation.samples);
   Eigen::MatrixXd elastic_N(nodal, samples + 1);
@@ -56,24 +55,26 @@ std::vector<Hereditary> PastOf(const ModelDraft& draft, const Memory& memory,
     elastic_N.col(s) = simulation.samples[static_cast<std::size_t>(s)].elastic_N;
   }
   elastic_N.col(samples) = simulation.rest_elastic_N;
-  for (const CreepTerm& term : draft.creep) {
+  for (Hereditary& left : *past) {
+    left.scale = 0.0;
+    left.force_N = Eigen::VectorXd::Zero(nodal);
+  }
+  for (const CreepTerm& term : terms) {
     const Eigen::MatrixXd& fading = memory.Fading(term.tau_s);
     for (Eigen::Index s = 0; s < samples; ++s) {
-      Hereditary& left = past[static_cast<std::size_t>(s)];
+      Hereditary& left = (*past)[static_cast<std::size_t>(s)];
       Eigen::VectorXd weights = fading.row(s).transpose();
       left.scale += term.g * weights[s];
       weights[s] = 0.0;
-      if (left.force_N.size() == 0) left.force_N = Eigen::VectorXd::Zero(nodal);
       left.force_N.noalias() -= term.g * (elastic_N * weights);
     }
   }
-  return past;
 }
 
 /// Sweeps through all samples until what they remember of each other is settled.
 int SweepsFor(const ModelDraft& draft) {
   constexpr double kLittle = 0.05;
-  double g = 0.0;
+  double g = draft.mullins ? draft.mullins->inverse_r : 0.0;
   for (const CreepTerm& term : draft.creep) g += std::abs(term.g);
   return g == 0.0 ? 1 : g < kLittle ? 2 : 4;
 }
@@ -118,6 +119,7 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
     if (part.status.ok() && MiddleStandsForAll(*simulated, part)) {
       part.bend_m = simulated->bend_m;
       part.markers_m += part.bend_m;
+      solver->Remember(past, &part);
       *simulated = std::move(part);
       return;
     }
@@ -127,7 +129,10 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
   std::map<std::vector<bool>, std::vector<HeldShape>> by_taut;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     solver->Solve(sample, parts[k].taken_in, past, &part);
-    if (k == middle || !part.status.ok()) *simulated = part;
+    if (k == middle || !part.status.ok()) {
+      solver->Remember(past, &part);
+      *simulated = part;
+    }
     if (!part.status.ok()) return;
     const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
     mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
@@ -169,7 +174,10 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
   } else {
     simulation.samples.resize(observed_.samples.size());
   }
-  std::vector<Hereditary> past(observed_.samples.size());
+  simulation.past.resize(observed_.samples.size());
+  if (draft.mullins && start != nullptr && start->past.size() == simulation.past.size()) {
+    simulation.past = start->past;
+  }
   const int sweeps = SweepsFor(draft);
   const auto shares = Shares(observed_, threads_);
   const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
@@ -177,19 +185,26 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     OnThreads(shares, [&](const std::vector<std::size_t>& share) {
       SampleSolver solver(draft, observed_);
-      if (&share == &shares.front()) simulation.rest_elastic_N = solver.RestElastic_N();
+      if (&share == &shares.front()) {
+        SimulatedSample rest = solver.Rest();
+        simulation.rest_elastic_N = std::move(rest.elastic_N);
+        simulation.rest_energy_J_m3 = std::move(rest.energy_J_m3);
+      }
       const fem::StaticState* before = nullptr;
       for (const std::size_t s : share) {
         SimulatedSample& sample = simulation.samples[s];
         solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
         fem::StaticState& state = sample.middle.state;
         if (state.x_m.size() == 0 && before != nullptr) state = *before;
-        SolveInParts(observed_.samples[s], parts[s], past[s], &solver, &sample);
+        SolveInParts(observed_.samples[s], parts[s], simulation.past[s], &solver, &sample);
         if (sample.status.ok()) before = &state;
       }
     });
-    if (sweep + 1 < sweeps) past = PastOf(draft, memory_, simulation);
+    if (sweep + 1 == sweeps) break;
+    if (!draft.creep.empty()) Creep(draft.creep, memory_, simulation, &simulation.past);
+    if (draft.mullins) Soften(*draft.mullins, memory_, simulation, &simulation.past);
   }
+  simulation.below_largest_J_m3 = BelowLargest_J_m3(memory_, simulation);
   simulation.status = Status::Ok();
   for (const SimulatedSample& sample : simulation.samples) {
     if (simulation.status.ok() && !sample.status.ok()) simulation.status = sample.status;
@@ -203,14 +218,13 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
   const std::vector<Eigen::MatrixXd> drive_change =
       DriveChanges(drives_, nominal, causes, z, draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
-  const std::vector<Hereditary> past = PastOf(draft, memory_, *simulation);
   OnThreads(Shares(observed_, threads_), [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
     SampleDifferentiator differentiator(draft, causes, z, drive_change, &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
       const auto column = static_cast<Eigen::Index>(s);
-      solver.Prepare(observed_.samples[s], past[s]);
+      solver.Prepare(observed_.samples[s], simulation->past[s]);
       solver.SetSliding(sliding.col(column));
       const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
         const CauseMoment at{.observed = observed_,

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/damage.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace palpate::diagnosis {
+
+Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
+  Eigen::VectorXd volume_m3(mesh.CellCount());
+  for (Eigen::Index cell = 0; cell < volume_m3.size(); ++cell) {
+    const Eigen::Vector3d origin_m = mesh.nodes_m.col(mesh.cells(0, cell));
+    const auto edge_m = [&](int corner) -> Eigen::Vector3d {
+      return mesh.nodes_m.col(mesh.cells(corner, cell)) - origin_m;
+    };
+    volume_m3[cell] = edge_m(1).cross(edge_m(2)).dot(edge_m(3)) / 6.0;
+  }
+  return volume_m3;
+}
+
+Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation) {
+  const auto samples = std::ssize(simulation.samples);
+  Eigen::MatrixXf energy_J_m3(simulation.rest_energy_J_m3.size(), samples + 1);
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    energy_J_m3.col(s) = simulation.samples[static_cast<std::size_t>(s)].energy_J_m3;
+  }
+  energy_J_m3.col(samples) = simulation.rest_energy_J_m3;
+  return memory.Largest(energy_J_m3) - energy_J_m3.leftCols(samples);
+}
+
+void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulation& simulation,
+            std::vector<Hereditary>* past) {
+  const Eigen::MatrixXf below_J_m3 = BelowLargest_J_m3(memory, simulation);
+  past->resize(simulation.samples.size());
+  for (std::size_t s = 0; s < past->size(); ++s) {
+    Eigen::VectorXd& factor = (*past)[s].cell_factor;
+    if (factor.size() == 0) factor.setOnes(below_J_m3.rows());
+    const Eigen::VectorXf& density_J_m3 = simulation.samples[s].energy_J_m3;
+    for (Eigen::Index cell = 0; cell < factor.size(); ++cell) {
+      const double below = double{below_J_m3(cell, static_cast<Eigen::Index>(s))} / mullins.m_J_m3;
+      const double wanted = 1.0 - mullins.inverse_r * std::erf(below);
+      const double answer = 4.0 * std::numbers::inv_sqrtpi * std::exp(-below * below) *
+                            double{density_J_m3[cell]} * mullins.inverse_r /
+                            (mullins.m_J_m3 * factor[cell]);
+      factor[cell] += (wanted - factor[cell]) / (1.0 + answer);
+    }
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/model/memory.hpp"
+#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/simulation.hpp"
+#include "libs/fem/tet_mesh.hpp"
+
+namespace palpate::diagnosis {
+
+/// [cells] by their corners.
+Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh);
+
+/// [cells x samples] by how much the energy density lies below the largest that each cell has seen
+/// until then, J/m^3.
+Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation);
+
+/// A step of the damage of all samples towards what MullinsSoftening asks for after the energies of
+/// `simulation`, the shorter the more these will answer (under a given load they go as 1 / eta^2).
+void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulation& simulation,
+            std::vector<Hereditary>* past);
+
+}  // namespace palpate::diagnosis
