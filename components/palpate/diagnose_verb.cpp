@@ -42,8 +42,7 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   return parts;
 }
 
-void CheckCause(const std::string& id) {
-  const std::vector<std::string> known = diagnosis::KnownCauses();
+void CheckCause(const std::string& id, const std::vector<std::string>& known) {
   if (!IndexOf(id, known)) throw InputError(Unknown("cause", id, known));
 }
 
@@ -123,8 +122,10 @@ int Diagnose(const DiagnoseOptions& options) {
   if (options.robot.empty()) throw InputError("which robot? palpate diagnose ROBOT ...");
   if (options.data.empty()) throw InputError("--data is missing");
   if (options.out.empty()) throw InputError("--out is missing");
-  for (const std::string& id : SplitAtCommas(options.without)) CheckCause(id);
-  if (!options.explain.empty()) CheckCause(options.explain);
+  for (const std::string& id : SplitAtCommas(options.without)) {
+    CheckCause(id, diagnosis::CatalogueIds());
+  }
+  if (!options.explain.empty()) CheckCause(options.explain, diagnosis::KnownCauses());
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);

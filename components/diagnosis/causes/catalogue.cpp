@@ -3,6 +3,8 @@
 
 #include "components/diagnosis/causes/catalogue.hpp"
 
+#include <iterator>
+
 #include "components/diagnosis/causes/makers.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/names.hpp"
@@ -45,6 +47,12 @@ constexpr Entry kCatalogue[] = {
     {"marker_misplacement", MakeMarkerMisplacement},
 };
 
+/// Of the catalogue as well, but not looked for.
+constexpr const char* kNotLookedFor[] = {
+    "hidden_obstacle", "cable_cutting", "depth_scale",   "depth_incidence_bias", "intrinsics",
+    "lens_distortion", "flying_pixels", "warm_up_drift", "discretisation",
+};
+
 }  // namespace
 
 std::vector<std::string> KnownCauses() {
@@ -53,9 +61,16 @@ std::vector<std::string> KnownCauses() {
   return ids;
 }
 
+std::vector<std::string> CatalogueIds() {
+  std::vector<std::string> ids = KnownCauses();
+  ids.insert(ids.end(), std::begin(kNotLookedFor), std::end(kNotLookedFor));
+  return ids;
+}
+
 std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without) {
+  const std::vector<std::string> ids = CatalogueIds();
   for (const std::string& id : without) {
-    if (!IndexOf(id, KnownCauses())) throw InputError(Unknown("cause", id, KnownCauses()));
+    if (!IndexOf(id, ids)) throw InputError(Unknown("cause", id, ids));
   }
   std::vector<CausePtr> causes;
   for (const Entry& entry : kCatalogue) {

@@ -20,10 +20,12 @@ struct CauseWorld {
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and
 /// `extrinsics`, which is never a fault. `without`: ids that are left out. Throws InputError for
-/// one that does not exist.
+/// one that is not of the catalogue.
 std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
 
-/// Ids of the catalogue that diagnosis knows.
+/// Ids of the catalogue that are looked for.
 std::vector<std::string> KnownCauses();
+/// All ids of the catalogue, those that nobody looks for yet, too.
+std::vector<std::string> CatalogueIds();
 
 }  // namespace palpate::diagnosis
