@@ -81,6 +81,9 @@ class LinearModelTest : public testing::Test {
              simulated.markers_m(coordinate % 3, coordinate / 3) + J.row(k).dot(z_);
     }
     covariance += common * common.transpose();
+    if (observed_.recordings[static_cast<std::size_t>(recording)].held_until_s) {
+      covariance.array() += observed_.reference_sigma_m * observed_.reference_sigma_m;
+    }
     const Eigen::MatrixXd inverse = covariance.inverse();
     Information information(kParameters);
     information.H = J.transpose() * inverse * J;
@@ -108,6 +111,12 @@ class LinearModelTest : public testing::Test {
   Eigen::VectorXd z_;
   NoiseModel noise_{.relative_error = 0.01};
 };
+
+TEST_F(LinearModelTest, AHeldReferenceIsAConstantOfEachSeries) {
+  observed_.recordings[0].held_until_s = 0.5;
+  observed_.reference_sigma_m = 2e-3;
+  ExpectAsDense(Model());
+}
 
 TEST_F(LinearModelTest, WeighsByNoiseOfFramesAndWhatTheMeshHasInCommon) { ExpectAsDense(Model()); }
 

@@ -97,6 +97,32 @@ TEST(Memory, IsTheConvolutionWithWhatGoesLinearly) {
   }
 }
 
+TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
+  ObservedExperiment observed;
+  observed.recordings.resize(1);
+  observed.recordings[0].held_until_s = 1.0;
+  observed.timeline.begin_s = {0.0};
+  observed.timeline.end_s = {9.0};
+  AddSample(0, 3.0, 9.0, true, {4.0}, &observed);
+  AddSample(0, 3.0, 9.0, true, {8.0}, &observed);
+  const Memory memory(observed);
+  constexpr double kTau_s = 2.5;
+  // From nothing to 2 at once, and there it stays; with zero commands it would be something else.
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * Eigen::Vector3d(2.0, 2.0, 5.0);
+  EXPECT_NEAR(remembered[0], 2.0 * std::exp(-3.0 / kTau_s), 1e-12);
+  EXPECT_NEAR(remembered[1], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
+}
+
+TEST(Memory, KnowsTheLargestUntilNow) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Eigen::VectorXd values = ValuesOf(observed, PathThroughBoth());
+  const Eigen::MatrixXf largest = Memory(observed).Largest(values.transpose().cast<float>());
+  // The first motion goes on to 3 beyond its last sample; later nothing is above that.
+  EXPECT_FLOAT_EQ(largest(0, 0), static_cast<float>(values[0]));
+  EXPECT_FLOAT_EQ(largest(0, 1), static_cast<float>(values[1]));
+  for (Eigen::Index s = 2; s < largest.cols(); ++s) EXPECT_FLOAT_EQ(largest(0, s), 3.0F) << s;
+}
+
 TEST(Memory, HasNothingOfWhatNeverChanges) {
   const ObservedExperiment observed = TwoRecordings();
   const Memory memory(observed);
