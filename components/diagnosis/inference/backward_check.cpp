@@ -45,14 +45,15 @@ void Drop(std::size_t k, std::vector<std::vector<int>>* rivals, Selection* selec
   selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-}  // namespace
-
+/// What a fit would be without one of its causes, by its linear model.
 Fit Without(const Fitter& fitter, const Fit& fit, int cause) {
   Fit without = fit;
   without.faults.erase(std::find(without.faults.begin(), without.faults.end(), cause));
   without.posterior = fitter.Guess(fit, without.faults);
   return without;
 }
+
+}  // namespace
 
 void CheckBackward(const Fitter& fitter, double clear_evidence,
                    std::vector<std::vector<int>>* rivals, Selection* selection) {
@@ -76,8 +77,12 @@ void CheckBackward(const Fitter& fitter, double clear_evidence,
       Drop(k, rivals, selection);
       continue;
     }
-    choice.held_out =
-        Compare(LeaveOneOut(fitter.book(), without), LeaveOneOut(fitter.book(), selection->best));
+    const HeldOut before = LeaveOneOut(fitter.book(), without);
+    const HeldOut after = LeaveOneOut(fitter.book(), selection->best);
+    choice.held_out = Compare(before, after);
+    for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
+      choice.ln_gain_of_recording[r] = after.ln_predicted[r] - before.ln_predicted[r];
+    }
     ++k;
   }
 }

@@ -9,9 +9,6 @@
 
 namespace palpate::diagnosis {
 
-/// What a fit would be without one of its causes, by its linear model.
-Fit Without(const Fitter& fitter, const Fit& fit, int cause);
-
 /// Once a further cause is named, those named before are put to the question: one of them is
 /// exchanged for a rival of its where the evidence of all together is better so, and any that the
 /// others leave no clear evidence for is dropped (DIAGNOSIS, "Method" 6). `rivals` [named] of each
