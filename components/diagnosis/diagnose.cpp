@@ -214,6 +214,10 @@ void Extend(const CauseBook& book, const Selection& selection, Diagnosis* diagno
   diagnosis->calibration->drives = drives;
 }
 
+double FirstFrame_s(const experiment::Recording& recording) {
+  return recording.markers->frames.front().t_s;
+}
+
 }  // namespace
 
 DiagnosisResult Unfit(const std::string& reason) {
@@ -251,6 +255,10 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   const Selection selection =
       SelectCauses(observed, fitter, as_built, settings.most_causes, report);
   DescribeGap(observed, body, book, as_built, selection, &result);
+  for (ComparedMoment& moment : result.moments) {
+    const auto r = static_cast<std::size_t>(moment.recording);
+    moment.t_s -= FirstFrame_s(experiment.recordings[r]) - FirstFrame_s(as_recorded.recordings[r]);
+  }
   DescribeVerdict(selection, &result);
   const double share = ExplainedShare(observed, book, as_built, selection.best);
   for (const Choice& choice : selection.named) {

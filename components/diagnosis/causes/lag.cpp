@@ -23,7 +23,8 @@ class Lag final : public Cause {
 
 }  // namespace
 
-void MakeLag(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+void MakeLag(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  if (world.body.cables.empty()) return;
   causes->push_back(std::make_unique<Lag>());
 }
 

@@ -27,7 +27,8 @@ constexpr double kRight_px = 12.0, kHighest_px = 300.0;
 constexpr double kMargin = 0.1;
 /// How long the largest residual is drawn, as a share of the body's longest side.
 constexpr double kLongest = 0.2;
-/// So many moments make a mean.
+/// So many moments make a mean; of a recording that has no more, half of them, for what its
+/// reference was off by has been taken off the mean of all.
 constexpr std::size_t kMeanOf = 5;
 /// More names than these cannot be read.
 constexpr Eigen::Index kMostNames = 16;
@@ -79,13 +80,18 @@ Stretch FindWorst(const DiagnosisResult& result) {
   Stretch worst;
   double largest_m = 0.0;
   for (std::size_t first = 0; first < result.moments.size(); ++first) {
+    const int recording = result.moments[first].recording;
+    const auto moments = static_cast<std::size_t>(
+        std::count_if(result.moments.begin(), result.moments.end(),
+                      [&](const ComparedMoment& moment) { return moment.recording == recording; }));
+    const std::size_t mean_of = moments > kMeanOf ? kMeanOf : (moments + 1) / 2;
     Stretch stretch{first, first};
-    while (stretch.last < std::min(first + kMeanOf, result.moments.size()) &&
-           result.moments[stretch.last].recording == result.moments[first].recording) {
+    while (stretch.last < std::min(first + mean_of, result.moments.size()) &&
+           result.moments[stretch.last].recording == recording) {
       ++stretch.last;
     }
-    const bool is_tail = first > 0 && stretch.last - first < kMeanOf &&
-                         result.moments[first - 1].recording == result.moments[first].recording;
+    const bool is_tail = first > 0 && stretch.last - first < mean_of &&
+                         result.moments[first - 1].recording == recording;
     if (is_tail) continue;  // of a longer stretch, and noisier
     const double rms_m = Rms(MeanResidual(result, stretch, &ComparedMoment::before_m));
     if (rms_m <= largest_m) continue;
