@@ -45,14 +45,6 @@ void Drop(std::size_t k, std::vector<std::vector<int>>* rivals, Selection* selec
   selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-/// What a fit would be without one of its causes, by its linear model.
-Fit Without(const Fitter& fitter, const Fit& fit, int cause) {
-  Fit without = fit;
-  without.faults.erase(std::find(without.faults.begin(), without.faults.end(), cause));
-  without.posterior = fitter.Guess(fit, without.faults);
-  return without;
-}
-
 }  // namespace
 
 void CheckBackward(const Fitter& fitter, double clear_evidence,
@@ -70,15 +62,20 @@ void CheckBackward(const Fitter& fitter, double clear_evidence,
   }
   for (std::size_t k = 0; k < selection->named.size();) {
     Choice& choice = selection->named[k];
-    const Fit without = Without(fitter, selection->best, choice.cause);
-    choice.ln_bayes_factor = selection->best.posterior.ln_evidence - without.posterior.ln_evidence;
+    const Fit& best = selection->best;
+    std::vector<int> others = best.faults;
+    std::erase(others, choice.cause);
+    choice.ln_bayes_factor = best.posterior.ln_evidence - fitter.Guess(best, others).ln_evidence;
     if (choice.ln_bayes_factor < clear_evidence) {
-      selection->best = fitter.Refine(without.faults, selection->best);
-      Drop(k, rivals, selection);
-      continue;
+      Fit without = fitter.Refine(others, best);
+      if (without.status.ok()) {
+        selection->best = std::move(without);
+        Drop(k, rivals, selection);
+        continue;
+      }
     }
-    const HeldOut before = LeaveOneOut(fitter.book(), without);
-    const HeldOut after = LeaveOneOut(fitter.book(), selection->best);
+    const HeldOut before = LeaveOneOut(fitter.book(), best.model, others);
+    const HeldOut after = LeaveOneOut(fitter.book(), best.model, best.faults);
     choice.held_out = Compare(before, after);
     for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
       choice.ln_gain_of_recording[r] = after.ln_predicted[r] - before.ln_predicted[r];

@@ -7,16 +7,17 @@
 
 namespace palpate::diagnosis {
 
-HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit) {
+HeldOut LeaveOneOut(const CauseBook& book, const LinearModel& model,
+                    const std::vector<int>& faults) {
   HeldOut out;
-  out.residual = fit.model.y;
-  const Posterior all = book.InferWithin(fit.model.All(), fit.faults);
+  out.residual = model.y;
+  const Posterior all = book.InferWithin(model.All(), faults);
   Eigen::Index first = 0;
-  for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
-    const Information& own = fit.model.of_recording[r];
-    const Information others = fit.model.AllBut(r);
-    const Posterior posterior = book.InferWithin(others, fit.faults);
-    const auto J = fit.model.J.middleRows(first, own.rows);
+  for (std::size_t r = 0; r < model.of_recording.size(); ++r) {
+    const Information& own = model.of_recording[r];
+    const Information others = model.AllBut(r);
+    const Posterior posterior = book.InferWithin(others, faults);
+    const auto J = model.J.middleRows(first, own.rows);
     auto residual = out.residual.segment(first, own.rows);
     residual -= J * posterior.mean;
     out.chi_squared.push_back(residual.squaredNorm());

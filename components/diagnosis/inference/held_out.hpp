@@ -18,7 +18,8 @@ struct HeldOut {
 };
 
 /// Leaves out one recording at a time, never a frame: frames of one recording hang together.
-HeldOut LeaveOneOut(const CauseBook& book, const Fit& fit);
+HeldOut LeaveOneOut(const CauseBook& book, const LinearModel& model,
+                    const std::vector<int>& faults);
 
 /// Whether a prediction is better than another: recordings that were left out are more probable
 /// under it, and more than 3 % of the misfit beyond the noise is gone.

@@ -131,7 +131,7 @@ class NextCause {
       return false;
     }
     RefineTheBest();
-    const HeldOut held_out = LeaveOneOut(fitter_.book(), before_);
+    const HeldOut held_out = LeaveOneOut(fitter_.book(), before_.model, before_.faults);
     for (std::size_t k = 0; k < candidates_.size() && candidates_[k].refined; ++k) {
       if (!IsClear(held_out, k)) continue;
       found_ = k;
@@ -211,7 +211,7 @@ class NextCause {
       candidate.why_not = "it is within what a healthy robot may have";
       return false;
     }
-    const HeldOut after = LeaveOneOut(fitter_.book(), fits_[k]);
+    const HeldOut after = LeaveOneOut(fitter_.book(), fits_[k].model, fits_[k].faults);
     Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
     choice.held_out = Compare(before, after);
     for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {

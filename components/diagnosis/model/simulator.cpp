@@ -86,13 +86,6 @@ std::vector<bool> TautCables(const fem::StaticState& state) {
   return taut;
 }
 
-/// Whether the middle of a sample and how it bends stand for all of its parts: the cables that are
-/// taut in the middle were so in all parts, of a robot that was a little different.
-bool MiddleStandsForAll(const SimulatedSample& before, const SimulatedSample& middle) {
-  return before.bend_m.size() > 0 && before.beside.empty() &&
-         TautCables(before.middle.state) == TautCables(middle.middle.state);
-}
-
 /// Beside the middle: shapes with other cables taut than there.
 void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_taut,
                 SimulatedSample* simulated) {
@@ -114,9 +107,11 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
   const std::size_t middle = parts.size() / 2;
   SimulatedSample part;
   part.middle = simulated->middle;
+  // Where one set of cables was taut throughout, of a robot that was a little different, and still
+  // is in the middle, the middle and how the sample bent stand for all parts.
   if (simulated->bend_m.size() > 0 && simulated->beside.empty()) {
     solver->Solve(sample, parts[middle].taken_in, past, &part);
-    if (part.status.ok() && MiddleStandsForAll(*simulated, part)) {
+    if (part.status.ok() && TautCables(part.middle.state) == TautCables(simulated->middle.state)) {
       part.bend_m = simulated->bend_m;
       part.markers_m += part.bend_m;
       solver->Remember(past, &part);

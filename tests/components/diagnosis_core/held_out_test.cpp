@@ -16,13 +16,18 @@ namespace {
 
 constexpr unsigned kSeed = 11;
 
+HeldOut LeftOut(const CauseBook& book, const ToyData& data, const Eigen::VectorXd& y,
+                const std::vector<int>& faults) {
+  return LeaveOneOut(book, data.FitTo(book, y, faults).model, faults);
+}
+
 TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
   const CauseBook book = ToyBook();
   ToyData data(book, kSeed);
   const std::vector<int> faults{0};
   const Belief belief = book.BeliefWith(faults);
   const Eigen::VectorXd y = data.Draw(belief);
-  const HeldOut out = LeaveOneOut(book, data.FitTo(book, y, faults));
+  const HeldOut out = LeftOut(book, data, y, faults);
   const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
   const Eigen::MatrixXd all =
       data.J() * S * data.J().transpose() + Eigen::MatrixXd::Identity(data.rows(), data.rows());
@@ -50,16 +55,16 @@ TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {
   const CauseBook book = ToyBook();
   ToyData data(book, kSeed);
   const Eigen::VectorXd y = data.Draw(book.BeliefWith({})) + 6.0 * data.J().col(book.first(2));
-  const HeldOut without = LeaveOneOut(book, data.FitTo(book, y, {}));
-  const HeldOutGain right = Compare(without, LeaveOneOut(book, data.FitTo(book, y, {2})));
+  const HeldOut without = LeftOut(book, data, y, {});
+  const HeldOutGain right = Compare(without, LeftOut(book, data, y, {2}));
   EXPECT_TRUE(right.clear);
   EXPECT_GT(right.relative, 0.9);
   const HeldOutGain none = Compare(without, without);
   EXPECT_FALSE(none.clear);
   EXPECT_EQ(none.ln_gain, 0.0);
   const Eigen::VectorXd healthy = data.Draw(book.BeliefWith({}));
-  const HeldOutGain wrong = Compare(LeaveOneOut(book, data.FitTo(book, healthy, {})),
-                                    LeaveOneOut(book, data.FitTo(book, healthy, {3})));
+  const HeldOutGain wrong =
+      Compare(LeftOut(book, data, healthy, {}), LeftOut(book, data, healthy, {3}));
   EXPECT_LT(wrong.ln_gain, 0.0) << "seed " << kSeed;
   EXPECT_FALSE(wrong.clear);
 }
