@@ -8,6 +8,8 @@
 #include <iostream>
 #include <string>
 
+#include "tests/benchmarks/diagnosed_robot.hpp"
+#include "tests/benchmarks/lazy.hpp"
 #include "tests/system/blind/blind_set.hpp"
 #include "tests/system/blind/score.hpp"
 
@@ -44,22 +46,53 @@ void CountAll(benchmark::State& state, const blind::Score& score) {
   state.counters["calibration_error"] = blind::CalibrationError(score.forecasts);
 }
 
+using Robot = std::shared_ptr<Lazy<DiagnosedRobot>>;
+
+Benchmark Timed(const Robot& robot, const std::string& name,
+                const std::function<void(DiagnosedRobot&)>& work) {
+  return {.name = "diagnosis/" + name,
+          .measure =
+              [robot, work](benchmark::State& state) {
+                DiagnosedRobot& one = robot->Get();
+                for ([[maybe_unused]] auto iteration : state) work(one);
+                state.counters["moments"] = one.Moments();
+                state.counters["parameters"] = one.Parameters();
+              },
+          .threads = DiagnosedRobot::kThreads,
+          .max_repetitions = 3};
+}
+
+Block StepBlock() {
+  const Robot robot = MakeLazy<DiagnosedRobot>([] { return std::make_unique<DiagnosedRobot>(); });
+  return {
+      .heading = "diagnosis of four_leg in tet10 from config/scenarios/diagnose.yaml",
+      .benchmarks = {Timed(robot, "simulate", [](auto& one) { one.Simulate(); }),
+                     Timed(robot, "differentiate_one", [](auto& one) { one.DifferentiateOne(); }),
+                     Timed(robot, "differentiate_all", [](auto& one) { one.DifferentiateAll(); }),
+                     Timed(robot, "screen", [](auto& one) { one.ScreenAll(); })}};
+}
+
+Block BlindBlock() {
+  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
+  return {.heading = "diagnosis of hidden causes: whole sets",
+          .benchmarks = {{.name = "diagnosis/blind",
+                          .measure =
+                              [set](benchmark::State& state) {
+                                blind::Score score;
+                                for ([[maybe_unused]] auto iteration : state) {
+                                  score = blind::Judge(blind::RunBlind(set, std::cout));
+                                }
+                                CountAll(state, score);
+                              },
+                          .max_repetitions = 1}}};
+}
+
 }  // namespace
 
 std::vector<Block> DiagnosisBlocks() {
-  if (std::getenv("PALPATE_BLIND_CASES") == nullptr) return {};
-  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
-  return {{.heading = "diagnosis of hidden causes: whole sets",
-           .benchmarks = {{.name = "diagnosis/blind",
-                           .measure =
-                               [set](benchmark::State& state) {
-                                 blind::Score score;
-                                 for ([[maybe_unused]] auto iteration : state) {
-                                   score = blind::Judge(blind::RunBlind(set, std::cout));
-                                 }
-                                 CountAll(state, score);
-                               },
-                           .max_repetitions = 1}}}};
+  std::vector<Block> blocks = {StepBlock()};
+  if (std::getenv("PALPATE_BLIND_CASES") != nullptr) blocks.push_back(BlindBlock());
+  return blocks;
 }
 
 }  // namespace palpate::benchmarks

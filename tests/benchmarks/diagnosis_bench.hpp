@@ -9,10 +9,12 @@
 
 namespace palpate::benchmarks {
 
-/// `diagnosis/blind`: PALPATE_BLIND_CASES hidden causes through `palpate simulate` and `palpate
-/// diagnose`, from PALPATE_BLIND_SEED on (tests/system/blind). Each case takes minutes, so that
-/// there is no such benchmark where PALPATE_BLIND_CASES is not set. It prints its own table; the
-/// figures are its counters, too. Throws InputError for what is no number.
+/// `diagnosis/simulate`, `differentiate_one`, `differentiate_all`, `screen`: the steps of a
+/// diagnosis, each over all moments of an experiment. `diagnosis/blind`: PALPATE_BLIND_CASES hidden
+/// causes through `palpate simulate` and `palpate diagnose`, from PALPATE_BLIND_SEED on
+/// (tests/system/blind). Each case takes minutes, so that there is no such benchmark where
+/// PALPATE_BLIND_CASES is not set. It prints its own table; the figures are its counters, too.
+/// Throws InputError for what is no number.
 std::vector<Block> DiagnosisBlocks();
 
 }  // namespace palpate::benchmarks

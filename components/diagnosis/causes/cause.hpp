@@ -39,6 +39,8 @@ struct CauseParameter {
   double least = -std::numeric_limits<double>::infinity();  ///< of z: what can be
   double most = std::numeric_limits<double>::infinity();
   Scale scale = Scale::kLinear;
+  /// Of |z|: beyond, something else looks like it (DIAGNOSIS, "Method" 5).
+  double plausible = std::numeric_limits<double>::infinity();
 
   double ValueOf(double z) const {
     switch (scale) {

@@ -18,7 +18,8 @@ class Density final : public Cause {
                 .nominal = 1.0,
                 .tolerance = 0.01,
                 .fault = 0.15,
-                .scale = CauseParameter::Scale::kFactor}}) {}
+                .scale = CauseParameter::Scale::kFactor,
+                .plausible = 0.5}}) {}  // silicones differ by less
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     draft->body.node_mass_kg *= std::exp(z[0]);

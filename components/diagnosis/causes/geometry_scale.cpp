@@ -19,7 +19,8 @@ class GeometryScale final : public Cause {
                 .nominal = 1.0,
                 .tolerance = 0.005,
                 .fault = 0.03,
-                .scale = CauseParameter::Scale::kFactor}}),
+                .scale = CauseParameter::Scale::kFactor,
+                .plausible = 0.1}}),  // shrinkage is some per cent
         middle_m_(middle_m) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {

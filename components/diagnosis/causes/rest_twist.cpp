@@ -11,12 +11,14 @@ namespace palpate::diagnosis {
 
 namespace {
 
+constexpr double kFault_rad = 0.1;  ///< of the far end
+
 /// The body was cast twisted about the way from the middle of its base to its own.
 class RestTwist final : public Cause {
  public:
-  RestTwist(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& axis)
+  RestTwist(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& axis, double length_m)
       : Cause({"rest_twist", {"body"}}, "twist of the undeformed body",
-              {{.name = "rate_rad_m", .fault = 2.0}}),
+              {{.name = "rate_rad_m", .fault = kFault_rad / length_m}}),
         middle_m_(middle_m),
         axis_(axis) {}
 
@@ -56,7 +58,10 @@ void MakeRestTwist(const CauseWorld& world, std::vector<CausePtr>* causes) {
   const Eigen::Vector3d middle_m = MiddleOfBase(world.body);
   const Eigen::Vector3d along_m = world.body.mesh.nodes_m.rowwise().mean() - middle_m;
   if (along_m.norm() == 0.0) return;
-  causes->push_back(std::make_unique<RestTwist>(middle_m, along_m.normalized()));
+  const Eigen::Vector3d axis = along_m.normalized();
+  const double length_m =
+      (axis.transpose() * (world.body.mesh.nodes_m.colwise() - middle_m)).maxCoeff();
+  causes->push_back(std::make_unique<RestTwist>(middle_m, axis, length_m));
 }
 
 }  // namespace palpate::diagnosis

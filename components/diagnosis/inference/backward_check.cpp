@@ -4,62 +4,85 @@
 #include "components/diagnosis/inference/backward_check.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
+
+#include "components/diagnosis/inference/fault_size.hpp"
 
 namespace palpate::diagnosis {
 
 namespace {
+
+/// A named cause for another one.
+struct Exchange {
+  std::size_t named = 0;
+  int other = -1;
+  double ln_gain = 0.0;  ///< of the evidence of all together, as linear models have it
+};
 
 std::vector<int> Exchanged(std::vector<int> faults, int from, int to) {
   std::replace(faults.begin(), faults.end(), from, to);
   return faults;
 }
 
-struct Exchange {
-  std::size_t named = 0;
-  int rival = -1;
-  double ln_gain = 0.0;  ///< as the healthy robot's linear model has it
-};
-
-/// The most promising of all exchanges.
-std::optional<Exchange> BestExchange(const Fitter& fitter,
-                                     const std::vector<std::vector<int>>& rivals,
-                                     const Selection& selection) {
-  constexpr double kWorthALook = -20.0;  // the linear model is far from where the fits are
-  const std::vector<int>& faults = selection.best.faults;
-  const double present = fitter.Guess(selection.healthy, faults).ln_evidence;
-  std::optional<Exchange> best;
-  for (std::size_t k = 0; k < rivals.size(); ++k) {
-    for (const int rival : rivals[k]) {
-      if (std::find(faults.begin(), faults.end(), rival) != faults.end()) continue;
-      const std::vector<int> other = Exchanged(faults, selection.named[k].cause, rival);
-      const double gain = fitter.Guess(selection.healthy, other).ln_evidence - present;
-      if (gain > (best ? best->ln_gain : kWorthALook)) best = Exchange{k, rival, gain};
-    }
-  }
-  return best;
+/// Whether the book's cause k is named already, at another place or with another time, too.
+bool IsNamed(const CauseBook& book, const std::vector<int>& faults, int k) {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](int f) { return book.cause(f).name() == book.cause(k).name(); });
 }
 
-void Drop(std::size_t k, std::vector<std::vector<int>>* rivals, Selection* selection) {
-  rivals->erase(rivals->begin() + static_cast<std::ptrdiff_t>(k));
-  selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
-}
-
-}  // namespace
-
-void CheckBackward(const Fitter& fitter, double clear_evidence,
-                   std::vector<std::vector<int>>* rivals, Selection* selection) {
-  if (const auto exchange = BestExchange(fitter, *rivals, *selection)) {
-    Choice& choice = selection->named[exchange->named];
-    Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.cause, exchange->rival),
-                              selection->healthy);
-    if (other.status.ok() && other.posterior.ln_evidence > selection->best.posterior.ln_evidence) {
-      std::vector<int>& own = (*rivals)[exchange->named];
-      std::replace(own.begin(), own.end(), exchange->rival, choice.cause);
-      choice.cause = exchange->rival;
-      selection->best = std::move(other);
+/// What could stand in the place of each that is named, the most promising first, each cause by the
+/// best of its name. The linear model about the fit tells within one or two of ln p what a refit
+/// gives: named causes are far from none, but rivals do about the same as them.
+std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& selection) {
+  constexpr double kWorthALook = -8.0;
+  const CauseBook& book = fitter.book();
+  const Fit& best = selection.best;
+  std::vector<Exchange> exchanges;
+  for (std::size_t n = 0; n < selection.named.size(); ++n) {
+    for (int k = 0; k < book.size(); ++k) {
+      if (!book.CanBeFault(k) || IsNamed(book, best.faults, k)) continue;
+      const std::vector<int> others = Exchanged(best.faults, selection.named[n].cause, k);
+      const double promised = fitter.Guess(best, others).ln_evidence - best.posterior.ln_evidence;
+      if (promised < kWorthALook) continue;
+      const auto same = std::find_if(exchanges.begin(), exchanges.end(), [&](const Exchange& one) {
+        return one.named == n && book.cause(one.other).name() == book.cause(k).name();
+      });
+      if (same == exchanges.end()) {
+        exchanges.push_back({n, k, promised});
+      } else if (promised > same->ln_gain) {
+        *same = {n, k, promised};
+      }
     }
   }
+  std::sort(exchanges.begin(), exchanges.end(),
+            [](const auto& a, const auto& b) { return a.ln_gain > b.ln_gain; });
+  return exchanges;
+}
+
+/// The first of the promising exchanges that keeps its promise. What was named last was chosen
+/// beside all others: it stays.
+void ExchangeOne(const Fitter& fitter, Selection* selection) {
+  constexpr double kWorthAFit = -3.0;
+  constexpr int kMostTried = 2;
+  int tried = 0;
+  for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
+    if (exchange.ln_gain < kWorthAFit || tried == kMostTried) break;
+    if (exchange.named + 1 == selection->named.size()) continue;
+    ++tried;
+    Choice& choice = selection->named[exchange.named];
+    Fit other = fitter.Complete(fitter.Refine(
+        Exchanged(selection->best.faults, choice.cause, exchange.other), selection->best));
+    const double ln_gain = other.posterior.ln_evidence - selection->best.posterior.ln_evidence;
+    if (!other.status.ok() || ln_gain <= 0.0) continue;
+    if (!WhyNoFault(fitter.book(), other.posterior, exchange.other).empty()) continue;
+    choice.cause = exchange.other;
+    selection->best = std::move(other);
+    return;
+  }
+}
+
+/// What each of the named adds to all others; one that adds nothing clear is dropped.
+void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* selection) {
   for (std::size_t k = 0; k < selection->named.size();) {
     Choice& choice = selection->named[k];
     const Fit& best = selection->best;
@@ -67,10 +90,10 @@ void CheckBackward(const Fitter& fitter, double clear_evidence,
     std::erase(others, choice.cause);
     choice.ln_bayes_factor = best.posterior.ln_evidence - fitter.Guess(best, others).ln_evidence;
     if (choice.ln_bayes_factor < clear_evidence) {
-      Fit without = fitter.Refine(others, best);
+      Fit without = fitter.Complete(fitter.Refine(others, best));
       if (without.status.ok()) {
         selection->best = std::move(without);
-        Drop(k, rivals, selection);
+        selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
         continue;
       }
     }
@@ -82,6 +105,28 @@ void CheckBackward(const Fitter& fitter, double clear_evidence,
     }
     ++k;
   }
+}
+
+/// Each against nothing, and against all that could stand in its place.
+void WeighEach(const Fitter& fitter, Selection* selection) {
+  const std::vector<Exchange> exchanges = PromisingExchanges(fitter, *selection);
+  const double ln_causes = std::log(static_cast<double>(fitter.book().size()));
+  for (std::size_t n = 0; n < selection->named.size(); ++n) {
+    Choice& choice = selection->named[n];
+    double others = std::exp(ln_causes - choice.ln_bayes_factor);
+    for (const Exchange& one : exchanges) {
+      if (one.named == n) others += std::exp(one.ln_gain);
+    }
+    choice.probability = 1.0 / (1.0 + others);
+  }
+}
+
+}  // namespace
+
+void CheckBackward(const Fitter& fitter, double clear_evidence, Selection* selection) {
+  ExchangeOne(fitter, selection);
+  DropTheUnclear(fitter, clear_evidence, selection);
+  WeighEach(fitter, selection);
 }
 
 }  // namespace palpate::diagnosis

@@ -65,19 +65,9 @@ Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>
   }
 }
 
-std::vector<int> CauseBook::ActiveIn(const Belief& belief) const {
-  std::vector<int> active;
-  for (int k = 0; k < size(); ++k) {
-    const bool believed = !belief.sigma.segment(first(k), count(k)).isZero(0.0) ||
-                          !belief.mean.segment(first(k), count(k)).isZero(0.0);
-    if (believed) active.push_back(k);
-  }
-  return active;
-}
-
-CauseList CauseBook::ListOf(const std::vector<int>& numbers) const {
+CauseList CauseBook::All() const {
   CauseList list;
-  for (const int k : numbers) list.push_back(&cause(k));
+  for (const CausePtr& cause : causes_) list.push_back(cause.get());
   return list;
 }
 

@@ -35,9 +35,7 @@ class CauseBook {
   /// its bound.
   Posterior InferWithin(const Information& data, const std::vector<int>& faults) const;
 
-  /// Those of which something is believed, with their numbers.
-  std::vector<int> ActiveIn(const Belief& belief) const;
-  CauseList ListOf(const std::vector<int>& numbers) const;
+  CauseList All() const;
   /// The parameters of these causes, one after the other.
   std::vector<Eigen::Index> ParametersOf(const std::vector<int>& numbers) const;
 

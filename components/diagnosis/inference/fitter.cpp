@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace palpate::diagnosis {
 
@@ -13,6 +12,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
                const CauseBook& book, const NoiseModel& noise, int threads)
     : observed_(observed),
       book_(book),
+      causes_(book.All()),
       noise_(noise),
       nominal_(DraftOf(body, observed)),
       simulator_(observed, threads),
@@ -23,25 +23,21 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
   }
 }
 
-void Fitter::LineariseAt(const Eigen::VectorXd& z, const std::vector<int>& columns,
-                         const Simulation* start, Fit* fit) const {
-  const CauseList causes = book_.ListOf(columns);
-  const std::vector<Eigen::Index> parameters = book_.ParametersOf(columns);
-  const Eigen::VectorXd z_of_columns = z(parameters);
-  const ModelDraft draft = DraftWith(nominal_, causes, z_of_columns);
-  fit->z = z;
-  fit->simulation = simulator_.Run(draft, start);
-  simulator_.Differentiate(draft, causes, z_of_columns, nominal_, &fit->simulation);
-  for (SimulatedSample& sample : fit->simulation.samples) {
-    const auto s = static_cast<std::size_t>(&sample - fit->simulation.samples.data());
-    Eigen::MatrixXd all_m = start != nullptr
-                                ? start->samples[s].jacobian_m
-                                : Eigen::MatrixXd::Zero(sample.jacobian_m.rows(), z.size());
-    all_m(Eigen::all, parameters) = sample.jacobian_m;
-    sample.jacobian_m = std::move(all_m);
+/// What the `wanted` causes do at fit->z; of the rest what they do in `others`.
+void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
+                           Fit* fit) const {
+  const ModelDraft draft = DraftWith(nominal_, causes_, fit->z);
+  Simulation& simulation = fit->simulation;
+  simulator_.Differentiate(draft, causes_, fit->z, wanted, nominal_, &simulation);
+  for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
+    for (int k = 0; k < book_.size(); ++k) {
+      if (wanted[static_cast<std::size_t>(k)]) continue;
+      simulation.samples[s].jacobian_m.middleCols(book_.first(k), book_.count(k)) =
+          others->samples[s].jacobian_m.middleCols(book_.first(k), book_.count(k));
+    }
   }
-  fit->model = Linearise(observed_, fit->simulation, z, marker_rest_m_, noise_);
-  fit->status = fit->simulation.status;
+  fit->model = Linearise(observed_, simulation, fit->z, marker_rest_m_, noise_);
+  fit->posterior = Guess(*fit, fit->faults);
 }
 
 Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const {
@@ -50,10 +46,16 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
 
 Fit Fitter::AsBuilt() const {
   Fit fit;
-  std::vector<int> all(static_cast<std::size_t>(book_.size()));
-  std::iota(all.begin(), all.end(), 0);
-  LineariseAt(Eigen::VectorXd::Zero(book_.parameter_count()), all, nullptr, &fit);
-  fit.posterior = Guess(fit, {});
+  fit.z = Eigen::VectorXd::Zero(book_.parameter_count());
+  fit.simulation = simulator_.Run(nominal_);
+  fit.status = fit.simulation.status;
+  return Complete(std::move(fit));
+}
+
+Fit Fitter::Complete(Fit fit) const {
+  if (fit.complete) return fit;
+  Differentiate(std::vector<bool>(causes_.size(), true), nullptr, &fit);
+  fit.complete = true;
   return fit;
 }
 
@@ -86,17 +88,19 @@ bool Fitter::IsNear(const Fit& fit) const {
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   constexpr int kMostRounds = 4;
   constexpr double kNothing = 0.5;  // of ln evidence
-  const std::vector<int> believed = book_.ActiveIn(book_.BeliefWith(faults));
+  std::vector<bool> wanted(causes_.size(), false);
+  for (const int fault : faults) wanted[static_cast<std::size_t>(fault)] = true;
   Fit fit;
-  fit.faults = faults;
   fit.posterior = Guess(start, faults);
   const Simulation* from = &start.simulation;
   for (int round = 0; round < kMostRounds; ++round) {
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
-    LineariseAt(PointOf(fit.posterior, faults), believed, from, &next);
-    next.posterior = Guess(next, faults);
+    next.z = PointOf(fit.posterior, faults);
+    next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from);
+    next.status = next.simulation.status;
+    Differentiate(wanted, from, &next);
     fit = std::move(next);
     from = &fit.simulation;
     const bool settled = std::abs(fit.posterior.ln_evidence - before) < kNothing;

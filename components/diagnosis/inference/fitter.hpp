@@ -18,8 +18,9 @@ struct Fit {
   std::vector<int> faults;  ///< numbers in the CauseBook
   Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
   Simulation simulation;
-  LinearModel model;    ///< columns of causes that were left out are 0
-  Posterior posterior;  ///< of all parameters
+  LinearModel model;
+  bool complete = false;  ///< all columns of `model` are of this place
+  Posterior posterior;    ///< of all parameters
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
@@ -33,10 +34,12 @@ class Fitter {
 
   /// The robot as its file has it, its linear model, and what a healthy robot makes of it.
   Fit AsBuilt() const;
-  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches. What
-  /// other causes would do is taken from `start`: good enough to look for them, and they are
-  /// refined before they are named.
+  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches. Only
+  /// what the faults do is worked out anew on the way: what others do, tolerances as well, is taken
+  /// from `start`, which is good enough to find the place, not to stand on it (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
+  /// The same fit, with what every cause does worked out where it is.
+  Fit Complete(Fit fit) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
 
@@ -47,11 +50,11 @@ class Fitter {
 
  private:
   Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
-  void LineariseAt(const Eigen::VectorXd& z, const std::vector<int>& columns,
-                   const Simulation* start, Fit* fit) const;
+  void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;
   const CauseBook& book_;
+  CauseList causes_;  ///< all of the book
   NoiseModel noise_;
   ModelDraft nominal_;
   Simulator simulator_;

@@ -3,14 +3,13 @@
 
 #include "components/diagnosis/inference/selection.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "components/diagnosis/inference/backward_check.hpp"
+#include "components/diagnosis/inference/fault_size.hpp"
+#include "components/diagnosis/inference/screening.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::diagnosis {
@@ -21,101 +20,6 @@ constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
 constexpr double kWorthALook = 6.0;      ///< below the best, ln BF, to be simulated anew
 constexpr int kMostRefined = 4;
-constexpr double kBeyondTolerance = 3.0;
-
-std::vector<int> With(std::vector<int> faults, int cause) {
-  faults.push_back(cause);
-  return faults;
-}
-
-/// ln of the mean of exp.
-double LogMeanExp(const std::vector<double>& values) {
-  const double most = *std::max_element(values.begin(), values.end());
-  double sum = 0.0;
-  for (const double value : values) sum += std::exp(value - most);
-  return most + std::log(sum / static_cast<double>(values.size()));
-}
-
-/// All causes that could be next, screened; the best of each name stands for it.
-std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
-                              const std::vector<int>& faults) {
-  const CauseBook& book = fitter.book();
-  std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
-  for (int k = 0; k < book.size(); ++k) {
-    const CauseName& name = book.cause(k).name();
-    const bool named = std::any_of(faults.begin(), faults.end(),
-                                   [&](int f) { return book.cause(f).name() == name; });
-    if (named || !book.CanBeFault(k)) continue;
-    const double ln_bayes_factor =
-        fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
-    by_name[{name.id, name.where}].push_back({.cause = k, .ln_bayes_factor = ln_bayes_factor});
-  }
-  std::vector<Candidate> candidates;
-  for (auto& [name, of_name] : by_name) {
-    std::vector<double> values;
-    for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
-    Candidate best = *std::max_element(
-        of_name.begin(), of_name.end(),
-        [](const auto& a, const auto& b) { return a.ln_bayes_factor < b.ln_bayes_factor; });
-    best.ln_bayes_factor = LogMeanExp(values);
-    candidates.push_back(best);
-  }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
-  return candidates;
-}
-
-/// The largest canonical correlation between what two causes do, what building tolerances can make
-/// up for taken out.
-double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
-  const Belief belief = book.BeliefWith({});
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
-    const bool own = (p >= book.first(a) && p < book.first(a) + book.count(a)) ||
-                     (p >= book.first(b) && p < book.first(b) + book.count(b));
-    if (belief.sigma[p] > 0.0 && !own) free.push_back(p);
-  }
-  const Eigen::VectorXd sigma = belief.sigma(free);
-  const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
-  Eigen::MatrixXd A = clutter.transpose() * clutter;
-  A.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  const auto basis = [&](int k) -> Eigen::MatrixXd {
-    Eigen::MatrixXd effect = model.J.middleCols(book.first(k), book.count(k));
-    effect -= clutter * factor.solve(clutter.transpose() * effect);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(effect);
-    if (qr.rank() == 0) return {};
-    return qr.householderQ() * Eigen::MatrixXd::Identity(effect.rows(), qr.rank());
-  };
-  const Eigen::MatrixXd of_a = basis(a);
-  const Eigen::MatrixXd of_b = basis(b);
-  if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
-  return std::min(1.0,
-                  Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b).singularValues()[0]);
-}
-
-/// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
-/// robot has nothing of, of which the evidence says all.
-double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int cause) {
-  double most = -1.0;
-  for (Eigen::Index p = 0; p < book.count(cause); ++p) {
-    const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
-    const Eigen::Index column = book.first(cause) + p;
-    const double z = posterior.mean[column];
-    if (tolerance > 0.0) {
-      most = std::max(most, std::abs(z) / tolerance);
-      continue;
-    }
-    // A size that begins at nothing, beside one that a healthy robot may have.
-    const CauseParameter& parameter = book.cause(cause).parameters()[static_cast<std::size_t>(p)];
-    const bool is_size =
-        parameter.scale == CauseParameter::Scale::kLinear && parameter.least == 0.0;
-    if (is_size && z > kBeyondTolerance * std::sqrt(posterior.covariance(column, column))) {
-      return std::numeric_limits<double>::infinity();
-    }
-  }
-  return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
-}
 
 /// Looks for one further cause.
 class NextCause {
@@ -145,16 +49,6 @@ class NextCause {
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
 
-  /// The most probable of the others.
-  std::vector<int> Rivals() const {
-    constexpr std::size_t kMost = 4;
-    std::vector<int> rivals;
-    for (std::size_t k = 0; k < candidates_.size() && rivals.size() < kMost; ++k) {
-      if (k != found_) rivals.push_back(candidates_[k].cause);
-    }
-    return rivals;
-  }
-
   /// Those that fit as well as what was found.
   std::vector<Candidate> Alike() const {
     std::vector<Candidate> alike;
@@ -182,6 +76,18 @@ class NextCause {
       fits_.push_back(std::move(fit));
     }
     SortRefined();
+    for (std::size_t k = fits_.size(); k-- > 0;) {
+      const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
+      if (behind < kAlike) Complete(k);
+    }
+    SortRefined();
+  }
+
+  /// With what tolerances do where the fit is.
+  void Complete(std::size_t k) {
+    const double before = fits_[k].posterior.ln_evidence;
+    fits_[k] = fitter_.Complete(std::move(fits_[k]));
+    candidates_[k].ln_bayes_factor += fits_[k].posterior.ln_evidence - before;
   }
 
   void SortRefined() {
@@ -202,15 +108,14 @@ class NextCause {
 
   bool IsClear(const HeldOut& before, std::size_t k) {
     Candidate& candidate = candidates_[k];
+    if (candidate.ln_bayes_factor >= kClearEvidence) Complete(k);
     if (candidate.ln_bayes_factor < kClearEvidence) {
       candidate.why_not = "the evidence for it is not clear (ln BF " +
                           FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
       return false;
     }
-    if (SizeInTolerances(fitter_.book(), fits_[k].posterior, candidate.cause) < kBeyondTolerance) {
-      candidate.why_not = "it is within what a healthy robot may have";
-      return false;
-    }
+    candidate.why_not = WhyNoFault(fitter_.book(), fits_[k].posterior, candidate.cause);
+    if (!candidate.why_not.empty()) return false;
     const HeldOut after = LeaveOneOut(fitter_.book(), fits_[k].model, fits_[k].faults);
     Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
     choice.held_out = Compare(before, after);
@@ -282,6 +187,20 @@ class NextCause {
   Choice choice_;
 };
 
+/// Whether a cause that fitted as well as one that was named still could stand in its place, now
+/// that others are named beside.
+bool IsAlike(const Fitter& fitter, const Selection& selection, int cause) {
+  const std::vector<int>& faults = selection.best.faults;
+  if (std::find(faults.begin(), faults.end(), cause) != faults.end()) return false;
+  if (faults.size() < 2) return true;
+  return std::any_of(faults.begin(), faults.end(), [&](int named) {
+    std::vector<int> others = faults;
+    std::replace(others.begin(), others.end(), named, cause);
+    return fitter.Guess(selection.best, others).ln_evidence >
+           selection.best.posterior.ln_evidence - kAlike;
+  });
+}
+
 /// How alike the most probable candidates are to each other.
 void CompareCandidates(const CauseBook& book, Selection* selection) {
   constexpr std::size_t kMost = 8;
@@ -308,9 +227,9 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
-  selection.healthy = fitter.IsNear(as_built) ? as_built : fitter.Refine({}, as_built);
+  selection.healthy =
+      fitter.IsNear(as_built) ? as_built : fitter.Complete(fitter.Refine({}, as_built));
   selection.best = selection.healthy;
-  std::vector<std::vector<int>> rivals;
   for (int number = 0; number < most; ++number) {
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
     NextCause next(observed, fitter, selection.best);
@@ -318,16 +237,13 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
     selection.named.push_back(next.choice());
-    rivals.push_back(next.Rivals());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
     selection.best = next.fit();
-    if (number > 0) CheckBackward(fitter, kClearEvidence, &rivals, &selection);
+    if (number > 0) CheckBackward(fitter, kClearEvidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
-  std::erase_if(selection.alike, [&](const Candidate& alike) {
-    return std::find(selection.best.faults.begin(), selection.best.faults.end(), alike.cause) !=
-           selection.best.faults.end();
-  });
+  std::erase_if(selection.alike,
+                [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike.cause); });
   report(steps - 1, steps, "looking at what is left");
   selection.guard = Guard(observed, fitter.book(), selection.best);
   CompareCandidates(fitter.book(), &selection);

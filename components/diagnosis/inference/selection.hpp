@@ -10,17 +10,9 @@
 #include "components/diagnosis/inference/fitter.hpp"
 #include "components/diagnosis/inference/guard.hpp"
 #include "components/diagnosis/inference/held_out.hpp"
+#include "components/diagnosis/inference/screening.hpp"
 
 namespace palpate::diagnosis {
-
-/// A cause that was looked at as the next one, and what became of it.
-struct Candidate {
-  int cause = -1;  ///< the best of those that have its name (places, relaxation times)
-  double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
-  double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
-  bool refined = false;      ///< simulated anew where it fits best
-  std::string why_not = {};  ///< empty: named
-};
 
 /// One cause that was named.
 struct Choice {

@@ -14,18 +14,19 @@ namespace palpate::diagnosis {
 
 std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
                                           const CauseList& causes, const Eigen::VectorXd& z,
+                                          const std::vector<bool>& wanted,
                                           const DriveSettings& drives) {
   constexpr double kStep = 1e-3;  // of the parameter's fault sigma
   const Eigen::MatrixXd taken_in = train.At(drives);
   std::vector<Eigen::MatrixXd> changes;
   Eigen::Index column = 0;
-  for (const Cause* cause : causes) {
-    for (const CauseParameter& parameter : cause->parameters()) {
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    for (const CauseParameter& parameter : causes[k]->parameters()) {
       changes.emplace_back();
       const double step = kStep * parameter.fault;
       Eigen::VectorXd beside = z;
       beside[column++] += step;
-      if (!cause->OnDrives()) continue;
+      if (!wanted[k] || !causes[k]->OnDrives()) continue;
       changes.back() = (train.At(DraftWith(nominal, causes, beside).drives) - taken_in) / step;
     }
   }
@@ -34,11 +35,13 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
 
 SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
                                            const Eigen::VectorXd& z,
+                                           const std::vector<bool>& wanted,
                                            const std::vector<Eigen::MatrixXd>& drive_change,
                                            SampleSolver* solver)
     : draft_(draft),
       causes_(causes),
       z_(z),
+      wanted_(wanted),
       drive_change_(drive_change),
       solver_(*solver),
       sensitivity_(solver->model()) {
@@ -51,9 +54,11 @@ void SampleDifferentiator::Collect(const CauseMoment& at) {
   acting_.clear();
   column_of_.clear();
   Eigen::Index column = 0;
-  for (const Cause* cause : causes_) {
+  for (std::size_t k = 0; k < causes_.size(); ++k) {
+    const Cause* cause = causes_[k];
     const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
     for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
+      if (!wanted_[k]) continue;
       const Eigen::MatrixXd& change = drive_change_[static_cast<std::size_t>(column)];
       auto sum = std::make_unique<SumOfParameters>();
       if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
@@ -104,9 +109,11 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
       at.observed.recordings[recording].T_measurement_robot.linear();
   Eigen::Index column = 0;
   Eigen::Matrix3Xd seen_m(3, markers);
-  for (const Cause* cause : causes_) {
+  for (std::size_t k = 0; k < causes_.size(); ++k) {
+    const Cause* cause = causes_[k];
     const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
     for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
+      if (!wanted_[k]) continue;
       seen_m = R_seen * jacobian_m.col(column).reshaped(3, markers);
       cause->OnView(p, own, at, &seen_m);
       jacobian_m.col(column) = (R_measurement * seen_m).reshaped();

@@ -13,9 +13,11 @@
 namespace palpate::diagnosis {
 
 /// [parameters][cables x samples] what dz of each parameter changes of what the drives take in;
-/// empty for those of causes that do not act on drives. `drives` are those at `z`.
+/// empty for those of causes that do not act on drives, or are not `wanted` [causes]. `drives` are
+/// those at `z`.
 std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
                                           const CauseList& causes, const Eigen::VectorXd& z,
+                                          const std::vector<bool>& wanted,
                                           const DriveSettings& drives);
 
 /// How the markers move with the parameters of causes. What compliant cables give way by when their
@@ -24,9 +26,11 @@ class SampleDifferentiator {
  public:
   /// All must outlive it. `solver` is prepared for each sample before.
   SampleDifferentiator(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
+                       const std::vector<bool>& wanted,
                        const std::vector<Eigen::MatrixXd>& drive_change, SampleSolver* solver);
 
-  /// [3 markers x parameters] m per z, measurement frame. NaN where there are no derivatives.
+  /// [3 markers x parameters] m per z, measurement frame; 0 for causes that are not wanted. NaN
+  /// where there are no derivatives.
   Eigen::MatrixXd At(const CauseMoment& at);
 
  private:
@@ -36,6 +40,7 @@ class SampleDifferentiator {
   const ModelDraft& draft_;
   const CauseList& causes_;
   const Eigen::VectorXd& z_;  ///< [parameters of all]
+  const std::vector<bool>& wanted_;
   const std::vector<Eigen::MatrixXd>& drive_change_;
   SampleSolver& solver_;
   robot::SensitivitySolver sensitivity_;

@@ -208,14 +208,14 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
 }
 
 void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
-                              const Eigen::VectorXd& z, const ModelDraft& nominal,
-                              Simulation* simulation) const {
+                              const Eigen::VectorXd& z, const std::vector<bool>& wanted,
+                              const ModelDraft& nominal, Simulation* simulation) const {
   const std::vector<Eigen::MatrixXd> drive_change =
-      DriveChanges(drives_, nominal, causes, z, draft.drives);
+      DriveChanges(drives_, nominal, causes, z, wanted, draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
   OnThreads(Shares(observed_, threads_), [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
-    SampleDifferentiator differentiator(draft, causes, z, drive_change, &solver);
+    SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
       const auto column = static_cast<Eigen::Index>(s);

@@ -28,9 +28,11 @@ class Simulator {
   Simulation Run(const ModelDraft& draft, const Simulation* start = nullptr) const;
 
   /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
-  /// `z` [parameters of all]; `draft` is what these made.
+  /// `z` [parameters of all]; `draft` is what these made. Of causes that are not `wanted` [causes]
+  /// the columns are 0.
   void Differentiate(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
-                     const ModelDraft& nominal, Simulation* simulation) const;
+                     const std::vector<bool>& wanted, const ModelDraft& nominal,
+                     Simulation* simulation) const;
 
   const Memory& memory() const { return memory_; }
 

@@ -60,7 +60,8 @@ class CauseDerivatives : public testing::Test {
   Eigen::MatrixXd Analytic(const CauseList& causes, const Eigen::VectorXd& z) const {
     const ModelDraft draft = DraftWith(nominal_, causes, z);
     Simulation run = simulator_.Run(draft, &at_rest_);
-    simulator_.Differentiate(draft, causes, z, nominal_, &run);
+    simulator_.Differentiate(draft, causes, z, std::vector<bool>(causes.size(), true), nominal_,
+                             &run);
     Eigen::MatrixXd all_m(12 * std::ssize(run.samples), z.size());
     for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
       all_m.middleRows<12>(12 * s) = run.samples[static_cast<std::size_t>(s)].jacobian_m;
@@ -238,7 +239,8 @@ TEST_F(CauseDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
       const ModelDraft draft = DraftWith(nominal_, one, Eigen::VectorXd::Constant(1, z));
       Simulation run = simulator.Run(draft, nullptr);
       if (differentiate) {
-        simulator.Differentiate(draft, one, Eigen::VectorXd::Constant(1, z), nominal_, &run);
+        simulator.Differentiate(draft, one, Eigen::VectorXd::Constant(1, z), {true}, nominal_,
+                                &run);
       }
       Eigen::VectorXd all(12 * std::ssize(run.samples));
       for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {

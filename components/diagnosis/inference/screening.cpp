@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/screening.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// ln of the mean of exp.
+double LogMeanExp(const std::vector<double>& values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double value : values) sum += std::exp(value - most);
+  return most + std::log(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+std::vector<int> With(std::vector<int> faults, int cause) {
+  faults.push_back(cause);
+  return faults;
+}
+
+std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
+                              const std::vector<int>& faults) {
+  const CauseBook& book = fitter.book();
+  std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
+  for (int k = 0; k < book.size(); ++k) {
+    const CauseName& name = book.cause(k).name();
+    const bool named = std::any_of(faults.begin(), faults.end(),
+                                   [&](int f) { return book.cause(f).name() == name; });
+    if (named || !book.CanBeFault(k)) continue;
+    const double ln_bayes_factor =
+        fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
+    by_name[{name.id, name.where}].push_back({.cause = k, .ln_bayes_factor = ln_bayes_factor});
+  }
+  std::vector<Candidate> candidates;
+  for (auto& [name, of_name] : by_name) {
+    std::vector<double> values;
+    for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
+    Candidate best = *std::max_element(
+        of_name.begin(), of_name.end(),
+        [](const auto& a, const auto& b) { return a.ln_bayes_factor < b.ln_bayes_factor; });
+    best.ln_bayes_factor = LogMeanExp(values);
+    candidates.push_back(best);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
+  return candidates;
+}
+
+double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
+  const Belief belief = book.BeliefWith({});
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
+    const bool own = (p >= book.first(a) && p < book.first(a) + book.count(a)) ||
+                     (p >= book.first(b) && p < book.first(b) + book.count(b));
+    if (belief.sigma[p] > 0.0 && !own) free.push_back(p);
+  }
+  const Eigen::VectorXd sigma = belief.sigma(free);
+  const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
+  Eigen::MatrixXd A = clutter.transpose() * clutter;
+  A.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  const auto basis = [&](int k) -> Eigen::MatrixXd {
+    Eigen::MatrixXd effect = model.J.middleCols(book.first(k), book.count(k));
+    effect -= clutter * factor.solve(clutter.transpose() * effect);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(effect);
+    if (qr.rank() == 0) return {};
+    return qr.householderQ() * Eigen::MatrixXd::Identity(effect.rows(), qr.rank());
+  };
+  const Eigen::MatrixXd of_a = basis(a);
+  const Eigen::MatrixXd of_b = basis(b);
+  if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
+  return std::min(1.0,
+                  Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b).singularValues()[0]);
+}
+
+}  // namespace palpate::diagnosis
