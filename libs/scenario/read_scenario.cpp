@@ -90,9 +90,14 @@ Motion ReadMotion(const ConfigNode& node) {
   return motion;
 }
 
-MarkerSpec ReadMarkers(const ConfigNode& node) {
+/// `camera`: whether the scenario has one.
+MarkerSpec ReadMarkers(const ConfigNode& node, bool camera) {
   MapReader reader(node);
   MarkerSpec markers;
+  if (const ConfigNode* frame = reader.Optional("frame")) {
+    markers.by_depth_camera = ReadChoice(*frame, {"camera"}) == "camera";
+    if (!camera) Refuse(*frame, "the scenario has no camera that could measure them");
+  }
   if (const ConfigNode* sigma = reader.Optional("sigma_m")) {
     markers.sigma_m = sigma->kind == ConfigNode::Kind::kList
                           ? ReadVector3(*sigma, kPositive)
@@ -148,7 +153,9 @@ Scenario ReadScenario(const fs::path& file, const ConfigLoader& load) {
     scenario.camera = ReadCameraSpec(*node, folder, load);
   }
   if (const ConfigNode* node = reader.Optional("stage")) scenario.stage = ReadStage(*node);
-  if (const ConfigNode* node = reader.Optional("markers")) scenario.markers = ReadMarkers(*node);
+  if (const ConfigNode* node = reader.Optional("markers")) {
+    scenario.markers = ReadMarkers(*node, scenario.camera.has_value());
+  }
   scenario.rest_between_s = reader.Number("rest_between_s", scenario.rest_between_s, kNonNegative);
   scenario.recordings = ReadRecordings(reader.Require("recordings"), scenario);
   reader.Finish();

@@ -151,6 +151,9 @@ struct Stage {
 struct MarkerSpec {
   Eigen::Vector3d sigma_m{3e-4, 3e-4, 3e-4};  ///< > 0
   double rate_hz = 30.0;
+  /// The depth camera finds them, with its faults, in place of taking pictures; else a tracker
+  /// does, which has none, in that camera's frame where there is one.
+  bool by_depth_camera = false;
 };
 
 /// scenario.yaml: a virtual bench, and what is done on it. Format and every key: README.md here.
@@ -171,6 +174,7 @@ struct Scenario {
   std::vector<RecordingPlan> recordings;  ///< at least one; names rising
 
   const Tool& ToolNamed(const std::string& name) const;
+  bool TakesPictures() const { return camera && !(markers && markers->by_depth_camera); }
 };
 
 /// Reads strictly: unknown keys, wrong units, a tool, cable or effect that does not exist are

@@ -48,7 +48,7 @@ RecordingWriter::RecordingWriter(const robot::RobotDescription& robot,
       plan_{plan},
       folder_{std::move(folder)} {
   experiment::CreateFolder(folder_);
-  if (scenario.camera) {
+  if (scenario.TakesPictures()) {
     experiment::CreateFolder(folder_ / "depth");
     if (scenario.camera->camera.color.width_px > 0) experiment::CreateFolder(folder_ / "color");
   }
@@ -85,7 +85,7 @@ void RecordingWriter::AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       seen_m[axis] += scenario_.markers->sigma_m[axis] * noise->Normal();
     }
-    frame.positions_m.emplace_back(seen_m);
+    frame.positions_m.push_back(seen_m.allFinite() ? std::optional(seen_m) : std::nullopt);
   }
   markers_.frames.push_back(std::move(frame));
 }

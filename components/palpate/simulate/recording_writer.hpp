@@ -26,7 +26,7 @@ class RecordingWriter {
 
   /// Readings of the drives in the order of the robot's cables; NaN: not driven.
   void AddCables(double t_s, const std::vector<virtual_robot::CableReading>& readings);
-  /// [3 x markers] m, true positions in the measurement frame; the noise is added here.
+  /// [3 x markers] m, in the measurement frame without noise, which is added here; NaN: not seen.
   void AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m, scenario::Random* noise);
   void AddImage(const rgbd::RgbdFrame& frame);
 

@@ -60,7 +60,7 @@ std::vector<Instant> SampleTimes(const scenario::Schedule& schedule, int recordi
   Moments moments(schedule.Begin_s(recording), plan.duration_s);
   moments.At(0.0);
   if (scenario.markers) moments.AtRate(scenario.markers->rate_hz, &Instant::markers);
-  if (scenario.camera) moments.AtRate(scenario.camera->rate_hz, &Instant::image);
+  if (scenario.TakesPictures()) moments.AtRate(scenario.camera->rate_hz, &Instant::image);
   for (const scenario::CommandRow& row : plan.commands.rows) moments.At(row.t_s);
   for (const scenario::HungWeight& weight : plan.weights) moments.At(weight.t_s);
   for (const scenario::ToolPath& path : plan.tool_paths) {

@@ -161,7 +161,10 @@ class Run {
     writer->AddCables(t_s, bench_->Cables());
     if (instant.markers) {
       const Eigen::Isometry3d T_measurement_robot = truth->T_robot_camera.inverse();
-      writer->AddMarkers(t_s, T_measurement_robot * bench_->Markers_m(), &marker_noise_);
+      const Eigen::Matrix3Xd measured_m = scenario_.markers->by_depth_camera
+                                              ? bench_->MarkersByCamera_m(moment)
+                                              : T_measurement_robot * bench_->Markers_m();
+      writer->AddMarkers(t_s, measured_m, &marker_noise_);
       ++counts_.marker_frames;
     }
     if (instant.image) {
@@ -178,11 +181,15 @@ class Run {
     experiment.robot = job_.robot.file;
     if (scenario_.camera) {
       experiment.frame = experiment::MeasurementFrame::kCamera;
+      if (job_.tell_camera_pose || !scenario_.TakesPictures()) {
+        experiment.T_robot_camera = scenario_.camera->T_robot_camera;
+      }
+    }
+    if (scenario_.TakesPictures()) {
       const scenario::DepthNoise& noise = scenario_.camera->noise;
       const bool stereo = noise.sensor == scenario::DepthSensor::kStereo;
       experiment.depth_noise = {.subpixel_px = stereo ? noise.subpixel_px : 0.0,
                                 .unit_m = scenario_.camera->camera.depth_unit_m};
-      if (job_.tell_camera_pose) experiment.T_robot_camera = scenario_.camera->T_robot_camera;
     }
     if (scenario_.markers) experiment.markers_sigma_m = scenario_.markers->sigma_m;
     experiment.rest_between_s = scenario_.rest_between_s;

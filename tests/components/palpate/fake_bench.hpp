@@ -61,6 +61,11 @@ class FakeBench : public SimulatedBench {
     if (inputs_.displacement_m[0] > 0.0) moved_m(2, 0) += inputs_.displacement_m[0];
     return moved_m;
   }
+  Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const override {
+    Eigen::Matrix3Xd measured_m = TrueCameraPose(moment).inverse() * Markers_m();
+    measured_m.row(2) *= 1.5;  // such a camera it is
+    return measured_m;
+  }
   std::vector<virtual_robot::TrueForce> Forces() const override {
     if (inputs_.tools.empty()) return {};
     return {{inputs_.tools[0].tool, {0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, {0.0, 0.0, -1.5}}};

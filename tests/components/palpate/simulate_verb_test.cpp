@@ -124,6 +124,25 @@ TEST_F(SimulateTest, WritesImagesWithTheDataSheetsCameraAndMarkersInItsFrame) {
   EXPECT_EQ(log_.moments[2].t_s, 1.3);
 }
 
+TEST_F(SimulateTest, ADepthCameraMeasuresMarkersInItsFrameAndTakesNoPictures) {
+  Scenario(kCamera + "markers: {frame: camera, sigma_m: 1.0e-4, rate_hz: 10}\n" + kRecordings);
+  ASSERT_EQ(Run(), 0);
+  const experiment::Experiment experiment = Read();
+  EXPECT_EQ(experiment.frame, experiment::MeasurementFrame::kCamera);
+  EXPECT_TRUE(experiment.T_robot_camera->translation().isApprox(Vector(0, -1, 0)));
+  EXPECT_FALSE(experiment.depth_noise);
+  EXPECT_THAT(log_.moments, IsEmpty());
+  for (const experiment::Recording& recording : experiment.recordings) {
+    EXPECT_THAT(recording.depth_images, IsEmpty());
+    ASSERT_TRUE(recording.camera_file);
+    EXPECT_EQ(rgbd::ReadCameraFile(*recording.camera_file, app::LoadYaml).depth.fx_px, 3.0);
+    EXPECT_FALSE(fs::exists(recording.folder / "depth"));
+  }
+  // The marker tip stands 1.01 m before the camera, which says half as much again.
+  const auto mean = MeanOver(*experiment.recordings[0].markers, {0.0, 9.0})[0];
+  EXPECT_TRUE(mean.mean_m.isApprox(Vector(0.08, -0.02, 1.515), 1e-3)) << mean.mean_m.transpose();
+}
+
 TEST_F(SimulateTest, TellsTheCamerasPlannedPoseOnRequestAndWhereItWasMovedOnPurpose) {
   std::string text = kCamera + kRecordings;
   text += "    eye_m: [0, -2, 0]\n    target_m: [0, 0, 0]\n";

@@ -77,6 +77,29 @@ TEST_F(SimulateVirtualBench, TheCameraSeesTheBarWhereItIs) {
   EXPECT_NE(*frame.depth.Pixel(25, 5), at_bar);
 }
 
+TEST_F(SimulateVirtualBench, MarkersThatTheCameraMeasuresHaveItsErrors) {
+  const auto tips_m = [&](const std::string& effects) {
+    fs::remove_all(options_.out);
+    fs::remove(folder_ / "exp.answer.json");
+    std::string text = kPush;
+    text.replace(text.find("markers: {"), 10, "markers: {frame: camera, ");
+    Scenario(effects + text);
+    EXPECT_EQ(SimulateOrCheck(options_), 0);
+    const experiment::Recording recording = Read().recordings[1];
+    return std::pair(*recording.markers->frames.front().positions_m[0],
+                     *recording.markers->frames.back().positions_m[0]);
+  };
+  const auto [begin_m, end_m] = tips_m("");
+  EXPECT_GT(end_m.y(), begin_m.y() + 1e-3);  // pushed down
+  const auto scaled_m = tips_m("effects: [{id: depth_scale, s: 0.02}]\n").first;
+  EXPECT_LT((scaled_m - 1.02 * begin_m).norm(), 1e-5);
+  const auto focal_m = tips_m("effects: [{id: intrinsics, focal: -0.03}]\n").first;
+  EXPECT_LT((focal_m - Eigen::Vector3d(0.97, 0.97, 1.0).cwiseProduct(begin_m)).norm(), 1e-5);
+  const auto askew_m = tips_m("effects: [{id: depth_incidence_bias, b_m: 0.004}]\n").first;
+  EXPECT_GT((askew_m - begin_m).norm(), 1e-4);
+  EXPECT_LT((askew_m - begin_m).normalized().cross(begin_m.normalized()).norm(), 0.05);
+}
+
 TEST_F(SimulateVirtualBench, SameSeedSameData) {
   Simulate();
   const std::string first = AnswerJson()["data_sha256"];

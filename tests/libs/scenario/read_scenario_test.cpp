@@ -103,6 +103,13 @@ TEST(ReadScenario, ReadsTheCameraFromAFileBesideTheScenario) {
   EXPECT_EQ(ReadScenario(file, app::LoadYaml).camera->camera.depth, camera.depth);
 }
 
+TEST(ReadScenario, ADepthCameraThatMeasuresMarkersTakesNoPictures) {
+  const Scenario scenario = Parse(FullWith("markers: {", "markers: {frame: camera, "));
+  EXPECT_TRUE(scenario.markers->by_depth_camera);
+  EXPECT_FALSE(scenario.TakesPictures());
+  EXPECT_FALSE(Parse(kShort).TakesPictures());
+}
+
 TEST(ReadScenario, ReadsStageMarkersAndRest) {
   const Scenario scenario = Parse(kFullScenario);
   const Stage& stage = scenario.stage;
@@ -117,6 +124,8 @@ TEST(ReadScenario, ReadsStageMarkersAndRest) {
   EXPECT_EQ(stage.light, 0.8);
   EXPECT_EQ(scenario.markers->sigma_m, Vector(1e-4, 2e-4, 3e-4));
   EXPECT_EQ(scenario.markers->rate_hz, 60.0);
+  EXPECT_FALSE(scenario.markers->by_depth_camera);
+  EXPECT_TRUE(scenario.TakesPictures());
   EXPECT_EQ(scenario.rest_between_s, 2.5);
   EXPECT_EQ(scenario.clutter, 0.5);
   EXPECT_EQ(Parse("markers: {sigma_m: 0.001}\n" + kShort).markers->sigma_m, Vector::Constant(1e-3));

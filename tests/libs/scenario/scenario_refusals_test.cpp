@@ -171,6 +171,8 @@ TEST(ScenarioRefusals, EffectsOnWhatIsNotThere) {
   std::string text = "name: s\nmarkers: {}\nrecordings: [{name: a, duration_s: 1}]\neffects: [";
   EXPECT_THAT(RefusalOf(text + "{id: depth_scale, s: 0.01}]"),
               AllOf(HasSubstr("s.yaml:4:11"), HasSubstr("the scenario has no camera")));
+  EXPECT_THAT(RefusalOf("name: s\nmarkers: {frame: camera}\nrecordings: []\n"),
+              AllOf(HasSubstr("s.yaml:2:"), HasSubstr("no camera that could measure them")));
   text.replace(text.find("markers: {}\n"), 12, "");
   EXPECT_THAT(RefusalOf(text + "{id: marker_misplacement, d_m: 0.01}]"),
               HasSubstr("the scenario has no markers"));
