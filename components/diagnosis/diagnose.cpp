@@ -93,6 +93,17 @@ std::size_t PlacesOfLoads(const ObservedExperiment& observed) {
   return places_m.size();
 }
 
+/// Whether depth cameras saw all their recordings from one place.
+bool SeenFromOnePlace(const ObservedExperiment& observed) {
+  const ObservedRecording* first = nullptr;
+  for (const ObservedRecording& recording : observed.recordings) {
+    if (!recording.by_depth_camera) continue;
+    if (first == nullptr) first = &recording;
+    if (!recording.T_measurement_robot.isApprox(first->T_measurement_robot, 1e-6)) return false;
+  }
+  return first != nullptr;
+}
+
 std::vector<std::string> Identities(const ObservedExperiment& observed) {
   const bool loaded = std::any_of(observed.samples.begin(), observed.samples.end(),
                                   [](const Sample& sample) { return !sample.loads.empty(); });
@@ -117,6 +128,11 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
         "Without a tilted base a mass on the body, that of its markers, too, and a force downwards "
         "are the same, and gravity's direction and a sideways force nearly so: tilt the base by 15 "
         "degrees.");
+  }
+  if (SeenFromOnePlace(observed)) {
+    identities.emplace_back(
+        "From one place a camera's depth scale and its distance are nearly the same, and its image "
+        "centre and where it looks: record again from another place that is known.");
   }
   return identities;
 }
@@ -238,7 +254,9 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   DiagnosisResult& result = diagnosis.result;
   if (!result.reason.empty()) return diagnosis;
   const robot::RobotBody body = robot::BuildRobotBody(robot);
-  ObservedExperiment observed = Observe(experiment, body, {.most_samples = settings.most_samples});
+  ObservedExperiment observed =
+      Observe(experiment, body,
+              {.most_samples = settings.most_samples, .depth_cameras = settings.depth_cameras});
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
   const CauseBook book(MakeCauses({.body = body,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "components/diagnosis/diagnosis_result.hpp"
 #include "components/diagnosis/inference/selection.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -22,6 +24,8 @@ struct DiagnosisSettings {
   int most_samples = 120;  ///< moments that are compared
   int threads = 2;
   NoiseModel noise;
+  /// By recording: what its camera.yaml says of the depth camera.
+  std::map<std::string, rgbd::CameraModel> depth_cameras = {};
 };
 
 /// What a diagnosis found, for people and for the other verbs.

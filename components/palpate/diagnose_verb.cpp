@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <memory>
 
 #include "components/diagnosis/causes/catalogue.hpp"
@@ -25,6 +26,7 @@
 #include "libs/core/names.hpp"
 #include "libs/core/utc_text.hpp"
 #include "libs/experiment/folders.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
 
 namespace palpate::command {
 
@@ -54,6 +56,15 @@ std::string HashOf(const experiment::Experiment& experiment) {
   return HashRecordings(recordings);
 }
 
+std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experiment& experiment) {
+  std::map<std::string, rgbd::CameraModel> cameras;
+  for (const experiment::Recording& recording : experiment.recordings) {
+    if (!recording.camera_file) continue;
+    cameras[recording.name] = rgbd::ReadCameraFile(*recording.camera_file, app::LoadYaml).depth;
+  }
+  return cameras;
+}
+
 /// What is wrong with the data is a verdict; what is wrong with the robot or the options is not.
 diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot) {
@@ -67,12 +78,14 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
   try {
     const experiment::Experiment experiment =
         experiment::ReadExperiment(options.data, app::LoadYaml);
-    diagnosis::Diagnosis diagnosis = diagnosis::Diagnose(robot, experiment,
-                                                         {.without = SplitAtCommas(options.without),
-                                                          .most_samples = options.most_samples,
-                                                          .threads = options.threads,
-                                                          .noise = {}},
-                                                         report);
+    diagnosis::Diagnosis diagnosis =
+        diagnosis::Diagnose(robot, experiment,
+                            {.without = SplitAtCommas(options.without),
+                             .most_samples = options.most_samples,
+                             .threads = options.threads,
+                             .noise = {},
+                             .depth_cameras = DepthCamerasOf(experiment)},
+                            report);
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;
   } catch (const InputError& error) {

@@ -44,13 +44,21 @@ constexpr Entry kCatalogue[] = {
     {"drive_coupling", MakeDriveCoupling},
     {"lag", MakeLag},
     {"camera_moved", MakeCameraMoved},
+    {"depth_scale", MakeDepthScale},
+    {"depth_incidence_bias", MakeDepthIncidenceBias},
+    {"intrinsics", MakeIntrinsics},
+    {"lens_distortion", MakeLensDistortion},
+    {"warm_up_drift", MakeWarmUpDrift},
     {"marker_misplacement", MakeMarkerMisplacement},
 };
 
-/// Of the catalogue as well, but not looked for.
+/// Of the catalogue as well, but not looked for. Flying pixels lie along depth edges: a marker
+/// inside a surface has none.
 constexpr const char* kNotLookedFor[] = {
-    "hidden_obstacle", "cable_cutting", "depth_scale",   "depth_incidence_bias", "intrinsics",
-    "lens_distortion", "flying_pixels", "warm_up_drift", "discretisation",
+    "hidden_obstacle",
+    "cable_cutting",
+    "flying_pixels",
+    "discretisation",
 };
 
 }  // namespace

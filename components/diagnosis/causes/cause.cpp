@@ -59,4 +59,7 @@ robot::ParameterPtr Cause::OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*
 void Cause::OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/,
                    Eigen::Matrix3Xd* /*motion_m*/) const {}
 
+void Cause::OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                          const CauseMoment& /*at*/, Eigen::Matrix3Xd* /*motion_m*/) const {}
+
 }  // namespace palpate::diagnosis

@@ -14,6 +14,7 @@
 #include "components/diagnosis/diagnosis_result.hpp"
 #include "components/diagnosis/model/memory.hpp"
 #include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/sight.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 #include "components/diagnosis/model/sum_of_parameters.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -61,6 +62,7 @@ struct CauseMoment {
   int sample = 0;
   const HeldShape& shape;    ///< one of the sample's
   robot::RobotModel& model;  ///< its linearisation is at that shape
+  Sight sight = {};          ///< the markers of that shape, where a cause is asked what it shows
 
   const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
   const SimulatedSample& simulated() const {
@@ -107,6 +109,10 @@ class Cause {
   /// frame of the robot as it is seen (ModelDraft::T_seen).
   virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
                       Eigen::Matrix3Xd* motion_m) const;
+  /// Adds what it does to where a depth camera measures markers (CauseMoment::sight has one) that
+  /// stay where they are, [3 x markers], m, that camera's frame.
+  virtual void OnMeasurement(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
+                             Eigen::Matrix3Xd* motion_m) const;
 
  private:
   CauseName name_;

@@ -36,6 +36,11 @@ void MakeSwappedCables(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeDriveCoupling(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeLag(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeCameraMoved(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeDepthScale(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeDepthIncidenceBias(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeIntrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeLensDistortion(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeWarmUpDrift(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
 

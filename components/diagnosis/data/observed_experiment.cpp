@@ -178,7 +178,28 @@ class Sampler {
   Eigen::Matrix3Xd reference_m_;
 };
 
+/// A depth camera measures nothing behind itself.
+void FindDepthCameras(const std::map<std::string, rgbd::CameraModel>& cameras,
+                      ObservedExperiment* observed) {
+  for (ObservedRecording& recording : observed->recordings) {
+    recording.by_depth_camera = recording.camera_frame && !recording.held_until_s;
+    const auto camera = cameras.find(recording.name);
+    if (camera == cameras.end()) continue;
+    recording.focal_px = Eigen::Vector2d(camera->second.fx_px, camera->second.fy_px);
+  }
+  for (const Sample& sample : observed->samples) {
+    auto& recording = observed->recordings[static_cast<std::size_t>(sample.recording)];
+    const bool behind = (sample.position_m.row(2).array() <= 0.0).any();  // NaN is not
+    recording.by_depth_camera = recording.by_depth_camera && !behind;
+  }
+}
+
 }  // namespace
+
+bool HasDepthCamera(const ObservedExperiment& observed) {
+  return std::any_of(observed.recordings.begin(), observed.recordings.end(),
+                     [](const ObservedRecording& recording) { return recording.by_depth_camera; });
+}
 
 ObservedExperiment Observe(const experiment::Experiment& experiment, const robot::RobotBody& body,
                            const ObservationSettings& settings) {
@@ -209,6 +230,7 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
   observed.reference_sigma_m =
       told != experiment.tolerances.end() ? told->second : kReferenceSigma_m;
   observed.sigma_m = scatter.Sigma_m(experiment.markers_sigma_m);
+  FindDepthCameras(settings.depth_cameras, &observed);
   return observed;
 }
 

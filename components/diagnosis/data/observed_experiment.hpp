@@ -5,12 +5,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "components/diagnosis/data/timeline.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/robot_body.hpp"
 
 namespace palpate::diagnosis {
@@ -35,6 +37,11 @@ struct ObservedRecording {
   Eigen::Isometry3d T_measurement_robot = Eigen::Isometry3d::Identity();
   bool knows_pose = true;  ///< else the data have to tell T_measurement_robot
   bool camera_frame = false;
+  /// A depth camera saw the markers: they are in its frame, all before it, and do not count from a
+  /// held shape, as those of motion capture do.
+  bool by_depth_camera = false;
+  /// fx, fy of that camera's data sheet; nothing: nobody says.
+  std::optional<Eigen::Vector2d> focal_px = {};
   /// R of `base_tilt_deg`; gravity in the robot frame is R' g.
   Eigen::Matrix3d base_rotation = Eigen::Matrix3d::Identity();
   /// Positions count from the body in its undeformed shape, in which it was held until then.
@@ -54,7 +61,12 @@ struct ObservedExperiment {
 
 struct ObservationSettings {
   int most_samples = 120;  ///< moments of all recordings together
+  /// By recording: what its camera.yaml says of the depth camera.
+  std::map<std::string, rgbd::CameraModel> depth_cameras = {};
 };
+
+/// Whether a depth camera saw the markers of any recording.
+bool HasDepthCamera(const ObservedExperiment& observed);
 
 /// Cuts the recordings where commands or loads turn, and averages the markers over parts of these
 /// pieces: of a motion up to four, of a hold over times that double. Throws InputError (file:line)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/diagnosis/data/observed_experiment.hpp"
+#include "components/diagnosis/model/camera_view.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/node_weights.hpp"
@@ -70,6 +71,7 @@ struct ModelDraft {
   /// [recordings] how what is seen lies to the robot frame: p_seen = T_seen p_robot, before
   /// T_measurement_robot.
   std::vector<Eigen::Isometry3d> T_seen;
+  CameraErrors camera;  ///< of the depth camera, in recordings that one saw
 };
 
 /// The robot file's.

@@ -103,6 +103,20 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
     jacobian_m.col(column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
   }
+  ShowTo(at, &jacobian_m);
+  return jacobian_m;
+}
+
+/// From how the markers move on the body to how what is measured of them does. What the body's
+/// skin turns by is left out where it is measured askew.
+void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const {
+  const auto markers = std::ssize(solver_.markers());
+  CauseMoment at = of;
+  at.sight = solver_.SightOf(at.seen(), at.shape.state.x_m);
+  std::vector<Eigen::Matrix3d> slopes;  // [markers]
+  for (const SeenPoint& point : at.sight.points) {
+    if (at.sight.camera) slopes.push_back(at.sight.camera->Slope(point));
+  }
   const auto recording = static_cast<std::size_t>(at.seen().recording);
   const Eigen::Matrix3d R_seen = draft_.T_seen[recording].linear();
   const Eigen::Matrix3d R_measurement =
@@ -114,12 +128,16 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
     const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
     for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
       if (!wanted_[k]) continue;
-      seen_m = R_seen * jacobian_m.col(column).reshaped(3, markers);
+      seen_m = R_seen * jacobian_m->col(column).reshaped(3, markers);
       cause->OnView(p, own, at, &seen_m);
-      jacobian_m.col(column) = (R_measurement * seen_m).reshaped();
+      seen_m = R_measurement * seen_m.eval();
+      for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
+        seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
+      }
+      if (at.sight.camera) cause->OnMeasurement(p, own, at, &seen_m);
+      jacobian_m->col(column) = seen_m.reshaped();
     }
   }
-  return jacobian_m;
 }
 
 }  // namespace palpate::diagnosis

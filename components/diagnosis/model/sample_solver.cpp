@@ -47,6 +47,7 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
       model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
+      skin_(draft),
       cell_volume_m3_(CellVolumes_m3(draft.body.mesh)),
       zero_shift_m_(model_.CableCount()),
       base_middle_m_(MiddleOfBase(draft.body)) {
@@ -214,15 +215,23 @@ Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadSta
   return {StatusCode::kNotConverged, "cables or base give way without an end"};
 }
 
-void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) const {
+Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const {
   const auto recording = static_cast<std::size_t>(sample.recording);
   const Eigen::Isometry3d T_measurement_robot =
       observed_.recordings[recording].T_measurement_robot * draft_.T_seen[recording];
-  solved->markers_m.resize(3, std::ssize(markers_));
+  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample)};
   for (std::size_t m = 0; m < markers_.size(); ++m) {
-    solved->markers_m.col(static_cast<Eigen::Index>(m)) =
-        T_measurement_robot * markers_[m].Position(solved->middle.state.x_m);
+    sight.points.push_back({T_measurement_robot * markers_[m].Position(x_m),
+                            T_measurement_robot.linear() * skin_.Normal(m, x_m)});
   }
+  return sight;
+}
+
+void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) const {
+  const Sight sight = SightOf(sample, solved->middle.state.x_m);
+  solved->markers_m.resize(3, std::ssize(markers_));
+  for (Eigen::Index m = 0; m < std::ssize(markers_); ++m)
+    solved->markers_m.col(m) = sight.Measured(m);
 }
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,

@@ -7,7 +7,9 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "components/diagnosis/model/marker_skin.hpp"
 #include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/sight.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -24,6 +26,9 @@ class SampleSolver {
   robot::RobotModel& model() { return model_; }
   /// [markers] points of the body that the markers sit at, offsets included.
   const std::vector<fem::NodeWeights>& markers() const { return markers_; }
+
+  /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
+  Sight SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
   /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
@@ -54,6 +59,7 @@ class SampleSolver {
   robot::RobotModel model_;
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;
+  MarkerSkin skin_;
   Eigen::VectorXd cell_volume_m3_;
   Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();

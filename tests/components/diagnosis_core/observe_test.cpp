@@ -142,6 +142,31 @@ TEST_F(ObserveTest, AReferenceWindowStandsForTheRestPositionsInTheFrameThatMeasu
   }
 }
 
+TEST_F(ObserveTest, ADepthCameraSeesWhatIsBeforeItAndNothingThatCountsFromAHeldShape) {
+  const auto seen_at = [&](double z_m) {
+    return [z_m](double /*t_s*/, int marker) {
+      return std::optional<Eigen::Vector3d>({0.0, 0.0, marker == 2 ? z_m : 0.4});
+    };
+  };
+  const auto add = [&](double begin_s, double z_m) -> experiment::Recording& {
+    experiment::Recording& recording =
+        Add({{begin_s, {0.003}}, {begin_s + 4.0, {0.003}}}, seen_at(z_m));
+    recording.frame = experiment::MeasurementFrame::kCamera;
+    return recording;
+  };
+  add(0.0, 0.5);
+  add(10.0, -0.5);
+  add(20.0, 0.5).reference = experiment::Reference{{20.0, 21.0}};
+  add(30.0, 0.5).frame = experiment::MeasurementFrame::kRobot;
+  const ObservedExperiment observed = Observed();
+  ASSERT_EQ(observed.recordings.size(), 4U);
+  EXPECT_TRUE(observed.recordings[0].by_depth_camera);
+  EXPECT_FALSE(observed.recordings[1].by_depth_camera);
+  EXPECT_FALSE(observed.recordings[2].by_depth_camera);
+  EXPECT_FALSE(observed.recordings[3].by_depth_camera);
+  EXPECT_TRUE(HasDepthCamera(observed));
+}
+
 TEST_F(ObserveTest, AReferenceInEquilibriumIsNotTheUndeformedShape) {
   const Eigen::Vector3d sagged_m(0.0, 0.0, -0.004);
   Add({{0.0, {0.003}}, {10.0, {0.003}}}, [&](double /*t_s*/, int marker) {

@@ -40,10 +40,12 @@ void AddCables(const fem::PointLocator& locator, robot::RobotBody* body) {
   AddCable("down", down_m, locator, body);
 }
 
-Eigen::Isometry3d CameraPose(double turn_rad, const Eigen::Vector3d& at_m) {
+/// A camera that looks past the beam's middle, and is not level.
+Eigen::Isometry3d CameraPose(const Eigen::Vector3d& at_m) {
+  const Eigen::Vector3d z = (Eigen::Vector3d(0.03, 0.02, 0.01) - at_m).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d(0.2, 0.3, 0.9)).normalized();
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
-  T_robot_camera.linear() =
-      Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  T_robot_camera.linear() << x, z.cross(x), z;
   T_robot_camera.translation() = at_m;
   return T_robot_camera;
 }
@@ -140,13 +142,23 @@ experiment::Experiment SmallExperiment(const robot::RobotBody& body) {
   experiment::Recording& tilt = experiment.recordings.back();
   tilt.base_tilt_deg = Eigen::Vector2d(20.0, -15.0);
   tilt.frame = MeasurementFrame::kCamera;
-  tilt.T_robot_camera = CameraPose(0.8, {0.1, 0.2, 0.3});
+  tilt.T_robot_camera = CameraPose({0.1, 0.2, 0.3});
   experiment.recordings.push_back(
       MakeRecording("d_camera", body, {{42.0, high}, {44.0, high}}, 0.1));
   experiment::Recording& moved = experiment.recordings.back();
   moved.frame = MeasurementFrame::kCamera;
-  moved.T_robot_camera = CameraPose(-1.3, {0.3, -0.1, 0.2});
+  moved.T_robot_camera = CameraPose({0.3, -0.1, 0.2});
   return experiment;
+}
+
+std::map<std::string, rgbd::CameraModel> SmallCameras() {
+  const rgbd::CameraModel camera{.width_px = 640,
+                                 .height_px = 480,
+                                 .fx_px = 420.0,
+                                 .fy_px = 400.0,
+                                 .cx_px = 320.0,
+                                 .cy_px = 240.0};
+  return {{"c_tilt", camera}, {"d_camera", camera}};
 }
 
 }  // namespace palpate::diagnosis

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "libs/experiment/experiment.hpp"
+#include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/robot_body.hpp"
 
 namespace palpate::diagnosis {
@@ -34,5 +36,7 @@ experiment::Recording MakeRecording(const std::string& name, const robot::RobotB
 /// Everything that causes act on: a ramp up and down, a long hold under a hanging weight and a side
 /// load, a tilted base seen by a camera that rides on it, the camera at another place.
 experiment::Experiment SmallExperiment(const robot::RobotBody& body);
+/// What is known of the camera of its last two recordings.
+std::map<std::string, rgbd::CameraModel> SmallCameras();
 
 }  // namespace palpate::diagnosis
