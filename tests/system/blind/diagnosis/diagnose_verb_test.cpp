@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -47,9 +48,9 @@ class DiagnoseVerb : public testing::Test {
   }
   ~DiagnoseVerb() override { fs::remove_all(folder_); }
 
-  /// An experiment of config/scenarios/diagnose.yaml with this hidden in it.
-  void Make(const std::string& effect) {
-    std::string scenario = ReadFile(kSource / "config/scenarios/diagnose.yaml");
+  /// An experiment of this scenario of config/scenarios with this hidden in it.
+  void Make(const std::string& effect, const std::string& of = "diagnose.yaml") {
+    std::string scenario = ReadFile(kSource / "config/scenarios" / of);
     Replace("four_leg_coarse.msh", (kSource / "config/scenarios/four_leg_coarse.msh").string(),
             &scenario);
     Replace("effects: []", "effects: [" + effect + "]", &scenario);
@@ -62,10 +63,12 @@ class DiagnoseVerb : public testing::Test {
     ASSERT_EQ(made, 0) << "seed " << kSeed << "\n" << ReadFile(folder_ / "simulate.log");
   }
 
-  std::optional<int> Diagnose() {
-    return Palpate({"diagnose", "four_leg", "--data", (folder_ / "exp").string(), "--out",
-                    (folder_ / "out").string()},
-                   folder_ / "diagnose.log");
+  std::optional<int> Diagnose(const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words = {"diagnose", "four_leg",
+                                      "--data",   (folder_ / "exp").string(),
+                                      "--out",    (folder_ / "out").string()};
+    words.insert(words.end(), options.begin(), options.end());
+    return Palpate(words, folder_ / "diagnose.log");
   }
   Json Verdict() const { return Json::parse(ReadFile(folder_ / "out/verdict.json")); }
 
@@ -95,6 +98,20 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   EXPECT_EQ(Palpate({"info", (folder_ / "out/robot.extended.yaml").string()}, folder_ / "info.log"),
             0);
   EXPECT_THAT(ReadFile(folder_ / "out/report.html"), testing::HasSubstr("<svg"));
+}
+
+TEST_F(DiagnoseVerb, NamesTheDepthScaleOfTheCameraThatMeasuredTheMarkers) {
+  constexpr double kScale = -0.019;
+  Make("{id: depth_scale, s: -0.019}", "diagnose_camera.yaml");
+  ASSERT_EQ(Diagnose({"--samples", "50"}), 0) << ReadFile(folder_ / "diagnose.log");
+  const Json verdict = Verdict();
+  ASSERT_EQ(verdict["causes"].size(), 1U) << verdict["reason"];
+  EXPECT_EQ(verdict["causes"][0]["id"], "depth_scale");
+  EXPECT_EQ(verdict["causes"][0]["where"], "camera");
+  const Json& s = verdict["causes"][0]["parameters"]["s"];
+  const double half = 0.5 * (s["ci95"][1].get<double>() - s["ci95"][0].get<double>());
+  EXPECT_LT(half, 0.1 * std::abs(kScale));
+  EXPECT_NEAR(s["value"].get<double>(), kScale, 2.0 * half);  // four sigma
 }
 
 TEST_F(DiagnoseVerb, SaysNothingOfACameraThatStoodStill) {
