@@ -33,12 +33,14 @@ class FromMarkers : public FrameEstimator {
     const ForceEstimate& estimate = estimator_.Update(frame);
     const bool usable = IsUsable(estimate.status);
     x_m_ = estimate.x_m;
+    last_gap_ = gap_.Measure(frame, estimate);
     return {input.head,
             estimate,
-            gap_.Measure(frame, estimate),
+            last_gap_,
             usable,
             usable ? Status::Ok() : estimate.status,
-            drift_.report()};
+            drift_.report(),
+            gap_watch_.report()};
   }
 
   /// Each frame: markers are few, and what they say of a motion is their noise over the root of
@@ -46,6 +48,7 @@ class FromMarkers : public FrameEstimator {
   void AfterUpdate(const FrameInput& input) override {
     const MarkerFrame& frame = std::get<MarkerFrame>(input.frame);
     if (frame.reference != ReferenceShape::kNone) return;
+    gap_watch_.Add(frame.t_s, last_gap_);
     drift_.Add(frame.t_s, SeeMotion(estimator_.Misfit(), MarkersOf(x_m_), middle_m_));
   }
 
@@ -63,6 +66,8 @@ class FromMarkers : public FrameEstimator {
   std::vector<fem::BodyPoint> points_;  ///< of the markers
   Eigen::Vector3d middle_m_;            ///< of the markers, at rest
   Eigen::VectorXd x_m_;                 ///< [3n] of the last frame
+  ModelGapReport last_gap_;
+  GapWatch gap_watch_;
   DriftWatch drift_{"what carries the markers"};
 };
 
@@ -100,12 +105,15 @@ class FromShape : public FrameEstimator {
     result.state = result.state_is_known && stands ? Status::Ok() : status;
     if (!seen.looked.ok() && status.code() == StatusCode::kNoRobotSeen) status = seen.looked;
     result.drift = drift_.report();
+    last_gap_ = result.gap;
+    result.gap_so_far = gap_watch_.report();
     return result;
   }
 
   void AfterUpdate(const FrameInput& input) override {
     estimator_.PrepareNext();
     const ShapeFrame& frame = std::get<SeenShape>(input.frame).frame;
+    gap_watch_.Add(frame.t_s, last_gap_);
     const double since_s = frame.t_s - watched_s_;
     if (since_s >= 0.0 && since_s < kBetweenWatches_s) return;
     watched_s_ = frame.t_s;
@@ -120,6 +128,8 @@ class FromShape : public FrameEstimator {
   Eigen::VectorXd nodes_m_;  ///< [3n] of the last frame that says where they are; empty before
   ShapeForceEstimator estimator_;
   FeatureGapMeter gap_;
+  ModelGapReport last_gap_;
+  GapWatch gap_watch_;
   HeldSkin held_skin_;
   DriftWatch drift_;
   double watched_s_ = -kBetweenWatches_s;

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "components/force_estimation/drift/drift_watch.hpp"
+#include "components/force_estimation/drift/gap_watch.hpp"
+#include "components/force_estimation/drift/model_gap.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
-#include "components/force_estimation/node/model_gap.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 
 namespace palpate::force_estimation {
@@ -60,6 +61,7 @@ struct FrameResult {
   bool state_is_known = false;  ///< estimate.x_m may be shown to others
   Status state;                 ///< ok: x_m is where the robot is believed to be
   DriftReport drift = {};       ///< of the camera, before this frame
+  GapReport gap_so_far = {};    ///< of the sequence, before this frame
 };
 
 }  // namespace palpate::force_estimation

@@ -225,6 +225,8 @@ void ForceEstimationNode::PublishResults() {
     last_status_ = result->estimate.status;
     if (ToString(result->drift.state) != ToString(drift_.state)) SayDrift(result->drift);
     drift_ = result->drift;
+    if (result->gap_so_far.state != gap_.state) SayGap(result->gap_so_far);
+    gap_ = result->gap_so_far;
     outputs_.Publish(*result);
   }
 }
@@ -241,6 +243,7 @@ void ForceEstimationNode::ReportHealth() {
       {"writers_of_" + source_->name(), std::to_string(source_->writers())},
       {"incompatible_qos", std::to_string(source_->incompatible_qos())}};
   AppendDrift(drift_, &values);
+  AppendGap(gap_, &values);
   health_.Report(status, counts, values, Clock::now());
 }
 
@@ -249,6 +252,12 @@ void ForceEstimationNode::SayDrift(const DriftReport& drift) {
   log_.Write(moved ? Severity::kWarning : Severity::kInfo,
              "calibration of the camera: " + ToString(drift.state) +
                  (moved ? ": " + drift.advice : std::string()));
+}
+
+void ForceEstimationNode::SayGap(const GapReport& gap) {
+  const bool grown = gap.state == GapReport::State::kGrown;
+  log_.Write(grown ? Severity::kWarning : Severity::kInfo,
+             "model gap: " + ToString(gap.state) + (grown ? ": " + gap.advice : std::string()));
 }
 
 bool ForceEstimationNode::IsSilent() const {

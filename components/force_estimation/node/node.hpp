@@ -56,6 +56,7 @@ class ForceEstimationNode {
   bool IsSilent() const;
   Status CurrentStatus() const;
   void SayDrift(const DriftReport& drift);
+  void SayGap(const GapReport& gap);
 
   NodeConfig config_;
   dds::Participant participant_;
@@ -78,6 +79,7 @@ class ForceEstimationNode {
   dds::HealthCounts counts_;
   Status last_status_;
   DriftReport drift_;
+  GapReport gap_;
   Clock::time_point last_frame_;
   std::string last_refusal_;
   std::unique_ptr<FrameSource> source_;

@@ -259,18 +259,20 @@ TEST_F(ForceEstimationNodeTest, ShutsDownInTheMiddleOfAFlood) {
 
 TEST_F(ForceEstimationNodeTest, ReportsItsHealthOnDiagnostics) {
   auto diagnostics = test_.participant.CreateReader(dds::kDiagnosticsTopic);
-  std::string message, drift;
+  std::string message, drift, model_gap;
   test_.loop.Attach(diagnostics, [&] {
     for (const auto& array : diagnostics.Take()) {
       message = dds::Text(array.status._buffer[0].message);
       for (const auto& value : dds::Elements(array.status._buffer[0].values)) {
         if (dds::Text(value.key) == "drift") drift = dds::Text(value.value);
+        if (dds::Text(value.key) == "model_gap") model_gap = dds::Text(value.value);
       }
     }
   });
   ASSERT_TRUE(test_.WaitFor([&] { return !message.empty(); }));
   EXPECT_THAT(message, HasSubstr("no markers"));
   EXPECT_EQ(drift, "learning");
+  EXPECT_EQ(model_gap, "learning");
 }
 
 }  // namespace
