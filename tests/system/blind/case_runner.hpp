@@ -38,7 +38,7 @@ class CaseRunner {
     std::filesystem::path robot_file;
     std::filesystem::path folder;  ///< is there
     bool keep = false;             ///< what a case leaves in it
-    int longest_diagnosis_s = 900;
+    int longest_diagnosis_s = 1200;
   };
 
   explicit CaseRunner(Settings settings);

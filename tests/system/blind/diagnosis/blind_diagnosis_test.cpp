@@ -13,10 +13,11 @@
 namespace palpate::blind {
 namespace {
 
-/// Six minutes of two cores, with what making them takes.
-constexpr int kFewCases = 20;
+/// Some six minutes of two cores, with what making them takes. So few condemn nobody by chance;
+/// what is found in all of them does.
+constexpr int kFewCases = 4;
 
-TEST(BlindDiagnosis, DISABLED_ReachesWhatIsWanted) {
+TEST(BlindDiagnosis, ReachesWhatIsWanted) {
   const BlindSet set = BlindSet::FromEnvironment(kFewCases);
   EXPECT_THAT(Missed(Judge(RunBlind(set, std::cout))), testing::IsEmpty());
 }
