@@ -3,13 +3,15 @@
 
 #include "components/palpate/simulate/simulated_bench.hpp"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 
+#include "components/palpate/simulate/marked_skin.hpp"
 #include "components/virtual_camera/camera_faults.hpp"
 #include "components/virtual_camera/measured_points.hpp"
 #include "components/virtual_camera/virtual_camera.hpp"
 #include "libs/core/check.hpp"
-#include "libs/geometry/closest_point.hpp"
 
 namespace palpate::command {
 
@@ -21,8 +23,14 @@ class VirtualBench : public SimulatedBench {
                const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed)
       : robot_{robot, scenario, effects, seed},
         faults_{virtual_camera::FaultsFrom(effects, seed)},
-        facets_{FacetsUnder(robot_.MarkerPositions_m())} {
-    if (scenario.camera) data_sheet_ = scenario.camera->camera.depth;
+        skin_{robot_.mesh(), robot_.boundary(), robot_.MarkerPositions_m(),
+              scenario.stage.marker_radius_m},
+        rest_markers_m_{robot_.MarkerPositions_m()},  // nothing has moved yet
+        rest_normals_{skin_.Normals(robot_.mesh().nodes_m.reshaped())} {
+    if (scenario.camera) {
+      data_sheet_ = scenario.camera->camera.depth;
+      grazing_cosine_ = std::cos(scenario.camera->noise.grazing_angle_rad);
+    }
     if (!scenario.TakesPictures()) return;
     virtual_camera::Skin skin;
     skin.rest_m = robot_.mesh().nodes_m;
@@ -43,15 +51,20 @@ class VirtualBench : public SimulatedBench {
   Eigen::Matrix3Xd Markers_m() const override { return robot_.MarkerPositions_m(); }
   Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const override {
     const Eigen::Isometry3d T_camera_robot = TrueCameraPose(moment).inverse();
-    const Eigen::VectorXd& x_m = robot_.positions_m();
-    Eigen::Matrix3Xd normals(3, facets_.cols());
-    for (Eigen::Index m = 0; m < facets_.cols(); ++m) {
-      const auto corner_m = [&](int k) { return x_m.segment<3>(3 * facets_(k, m)); };
-      normals.col(m) = (corner_m(1) - corner_m(0)).cross(corner_m(2) - corner_m(0)).normalized();
+    Eigen::Matrix3Xd measured_m = virtual_camera::MeasurePoints(
+        faults_, data_sheet_, moment.t_s, T_camera_robot * Markers_m(),
+        T_camera_robot.linear() * skin_.Normals(robot_.positions_m()));
+    // At rest and from where the camera is planned to be: what is seen does not tell what is
+    // hidden.
+    for (Eigen::Index m = 0; m < measured_m.cols(); ++m) {
+      const Eigen::Vector3d to_camera_m =
+          moment.T_robot_camera.translation() - rest_markers_m_.col(m);
+      const double cosine = rest_normals_.col(m).dot(to_camera_m.normalized());
+      if (cosine < grazing_cosine_) {
+        measured_m.col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
     }
-    return virtual_camera::MeasurePoints(faults_, data_sheet_, moment.t_s,
-                                         T_camera_robot * Markers_m(),
-                                         T_camera_robot.linear() * normals);
+    return measured_m;
   }
   std::vector<virtual_robot::TrueForce> Forces() const override { return robot_.forces(); }
   std::string MeshHash() const override { return robot_.mesh_hash(); }
@@ -74,21 +87,13 @@ class VirtualBench : public SimulatedBench {
   }
 
  private:
-  /// [3 x markers] corners of the facet of the skin that each sits on.
-  Eigen::Matrix3Xi FacetsUnder(const Eigen::Matrix3Xd& markers_m) const {
-    const Eigen::Matrix3Xi corners = robot_.boundary().CornerTriangles();
-    const geometry::SurfaceIndex skin(fem::RestSurface(robot_.mesh(), robot_.boundary()));
-    Eigen::Matrix3Xi facets(3, markers_m.cols());
-    for (Eigen::Index m = 0; m < markers_m.cols(); ++m) {
-      facets.col(m) = corners.col(skin.Closest(markers_m.col(m)).triangle);
-    }
-    return facets;
-  }
-
   virtual_robot::VirtualRobot robot_;
   virtual_camera::CameraFaults faults_;
-  Eigen::Matrix3Xi facets_;
+  MarkedSkin skin_;
+  Eigen::Matrix3Xd rest_markers_m_;
+  Eigen::Matrix3Xd rest_normals_;
   rgbd::CameraModel data_sheet_;
+  double grazing_cosine_ = 0.0;
   std::unique_ptr<virtual_camera::VirtualCamera> camera_;
   virtual_camera::View view_;
 };

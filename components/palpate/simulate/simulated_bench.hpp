@@ -39,7 +39,8 @@ class SimulatedBench {
 
   virtual std::vector<virtual_robot::CableReading> Cables() const = 0;  ///< of the robot file
   virtual Eigen::Matrix3Xd Markers_m() const = 0;  ///< [3 x markers of the robot file] robot frame
-  /// The same as the depth camera measures them without noise, its frame; NaN: out of its picture.
+  /// The same as the depth camera measures them without noise, its frame; NaN: out of its picture,
+  /// or on skin that at rest is beyond its grazing angle.
   virtual Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const = 0;
   virtual std::vector<virtual_robot::TrueForce> Forces() const = 0;
   virtual std::string MeshHash() const = 0;  ///< of the body as it really is

@@ -40,6 +40,16 @@ class SimulateVirtualBench : public SimulateTest {
     Scenario(effects + kPush);
     ASSERT_EQ(SimulateOrCheck(options_), 0);
   }
+  /// Markers measured by the camera, from `eye_m`.
+  void SimulateMarkersByCamera(const std::string& effects, const std::string& eye_m) {
+    fs::remove_all(options_.out);
+    fs::remove(folder_ / "exp.answer.json");
+    std::string text = kPush;
+    text.replace(text.find("markers: {"), 10, "markers: {frame: camera, ");
+    text.replace(text.find("[0.04, -0.2, 0.01]"), 18, eye_m);
+    Scenario(effects + text);
+    ASSERT_EQ(SimulateOrCheck(options_), 0);
+  }
   /// Of the marker at the tip, frame of the camera: y points down.
   double TipDepth_m(const experiment::Recording& recording, std::size_t frame) const {
     return recording.markers->frames.at(frame).positions_m[0]->y();
@@ -79,18 +89,13 @@ TEST_F(SimulateVirtualBench, TheCameraSeesTheBarWhereItIs) {
 
 TEST_F(SimulateVirtualBench, MarkersThatTheCameraMeasuresHaveItsErrors) {
   const auto tips_m = [&](const std::string& effects) {
-    fs::remove_all(options_.out);
-    fs::remove(folder_ / "exp.answer.json");
-    std::string text = kPush;
-    text.replace(text.find("markers: {"), 10, "markers: {frame: camera, ");
-    Scenario(effects + text);
-    EXPECT_EQ(SimulateOrCheck(options_), 0);
+    SimulateMarkersByCamera(effects, "[0.04, -0.1, 0.2]");
     const experiment::Recording recording = Read().recordings[1];
-    return std::pair(*recording.markers->frames.front().positions_m[0],
-                     *recording.markers->frames.back().positions_m[0]);
+    return std::pair(recording.markers->frames.front().positions_m[0].value(),
+                     recording.markers->frames.back().positions_m[0].value());
   };
   const auto [begin_m, end_m] = tips_m("");
-  EXPECT_GT(end_m.y(), begin_m.y() + 1e-3);  // pushed down
+  EXPECT_GT(end_m.z(), begin_m.z() + 1e-3);  // pushed down
   const auto scaled_m = tips_m("effects: [{id: depth_scale, s: 0.02}]\n").first;
   EXPECT_LT((scaled_m - 1.02 * begin_m).norm(), 1e-5);
   const auto focal_m = tips_m("effects: [{id: intrinsics, focal: -0.03}]\n").first;
@@ -98,6 +103,14 @@ TEST_F(SimulateVirtualBench, MarkersThatTheCameraMeasuresHaveItsErrors) {
   const auto askew_m = tips_m("effects: [{id: depth_incidence_bias, b_m: 0.004}]\n").first;
   EXPECT_GT((askew_m - begin_m).norm(), 1e-4);
   EXPECT_LT((askew_m - begin_m).normalized().cross(begin_m.normalized()).norm(), 0.05);
+}
+
+TEST_F(SimulateVirtualBench, TheCameraMeasuresNoMarkerThatItSeesTooMuchAside) {
+  // The marker sits on the bar's upper side, level with which the camera looks.
+  SimulateMarkersByCamera("", "[0.04, -0.2, 0.02]");
+  const experiment::Recording recording = Read().recordings[1];
+  ASSERT_THAT(recording.markers->frames, SizeIs(5));
+  for (const auto& frame : recording.markers->frames) EXPECT_FALSE(frame.positions_m[0]);
 }
 
 TEST_F(SimulateVirtualBench, SameSeedSameData) {
