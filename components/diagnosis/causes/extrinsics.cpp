@@ -31,8 +31,9 @@ class Extrinsics final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    const bool here =
-        std::find(recordings_.begin(), recordings_.end(), at.seen().recording) != recordings_.end();
+    const int pose_of = at.recording().pose_of;
+    const int from = pose_of >= 0 ? pose_of : at.seen().recording;
+    const bool here = std::find(recordings_.begin(), recordings_.end(), from) != recordings_.end();
     if (here) AddSeenMove(parameter, z, middle_m_, Eigen::Isometry3d::Identity(), at, motion_m);
   }
 

@@ -46,6 +46,7 @@ struct ObservedRecording {
   Eigen::Matrix3d base_rotation = Eigen::Matrix3d::Identity();
   /// Positions count from the body in its undeformed shape, in which it was held until then.
   std::optional<double> held_until_s = {};
+  int pose_of = -1;  ///< recording from the same place as which it is planned; -1: it was made
 };
 
 /// An experiment as diagnosis looks at it.

@@ -47,6 +47,7 @@ class Fitter {
   bool IsNear(const Fit& fit) const;
 
   const CauseBook& book() const { return book_; }
+  const NoiseModel& noise() const { return noise_; }
 
  private:
   Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
