@@ -11,6 +11,8 @@
 #include "components/diagnosis/data/fitness.hpp"
 #include "components/diagnosis/data/one_clock.hpp"
 #include "components/diagnosis/gap.hpp"
+#include "components/diagnosis/plan/next_experiment.hpp"
+#include "components/diagnosis/report/verdict_words.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::diagnosis {
@@ -230,6 +232,23 @@ void Extend(const CauseBook& book, const Selection& selection, Diagnosis* diagno
   diagnosis->calibration->drives = drives;
 }
 
+/// What tells the causes apart that are left: the report's ranking, and the best of it to be made.
+void PlanNext(const experiment::Experiment& experiment, const ObservedExperiment& observed,
+              const robot::RobotBody& body, const Fitter& fitter, const Selection& selection,
+              const Question& question, int threads, Diagnosis* diagnosis) {
+  std::vector<RankedProposal> ranked =
+      RankProposals(experiment, observed, body, fitter, selection, question, threads);
+  DiagnosisResult& result = diagnosis->result;
+  result.experiments = Describe(question, ranked);
+  if (ranked.empty()) return;
+  PlannedRecording& next = diagnosis->next.emplace();
+  next.name = NextName(experiment, ranked.front().proposal.recording.kind);
+  next.tells = WordsFor(question.best.name, result) + " from " +
+               WordsFor(ranked.front().worst_rival, result);
+  next.rest_s = experiment.rest_between_s.value_or(next.rest_s);
+  next.ranked = std::move(ranked.front());
+}
+
 double FirstFrame_s(const experiment::Recording& recording) {
   return recording.markers->frames.front().t_s;
 }
@@ -286,6 +305,10 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   DescribeRivals(book, selection, &result);
   result.identities = Identities(observed);
   Extend(book, selection, &diagnosis);
+  const Question question = QuestionOf(fitter, selection);
+  if (question.rivals.empty()) return diagnosis;
+  report(settings.most_causes + 2, settings.most_causes + 3, "ranking what to do next");
+  PlanNext(experiment, observed, body, fitter, selection, question, settings.threads, &diagnosis);
   return diagnosis;
 }
 

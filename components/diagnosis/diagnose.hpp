@@ -11,6 +11,7 @@
 
 #include "components/diagnosis/diagnosis_result.hpp"
 #include "components/diagnosis/inference/selection.hpp"
+#include "components/diagnosis/plan/plan_files.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -36,6 +37,7 @@ struct Diagnosis {
   /// What belongs to the drives, for `calibration` of the other verbs; nothing: no cause does.
   std::optional<robot::CalibrationFile> calibration;
   std::vector<std::string> not_in_files;  ///< words of causes that neither file can say
+  std::optional<PlannedRecording> next;   ///< the best experiment; nothing: none is in question
 };
 
 /// Says what the simulation of a robot gets wrong in an experiment (DIAGNOSIS). Data that cannot

@@ -111,6 +111,17 @@ void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
   WriteCalibrationFile(calibration, folder / "calibration.extended.yaml");
 }
 
+void WriteNext(const fs::path& folder, const diagnosis::Diagnosis& diagnosis) {
+  if (!diagnosis.next) {
+    diagnosis::RemovePlan(folder);
+    fmt::print("no experiment is planned: no two causes are in question\n");
+    return;
+  }
+  diagnosis::WritePlan(*diagnosis.next, folder);
+  fmt::print("the next experiment is in {}: {}\n", folder.string(),
+             diagnosis.next->ranked.proposal.title);
+}
+
 void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& result) {
   bool found = false;
   for (const diagnosis::NamedCause& cause : result.causes) {
@@ -159,6 +170,7 @@ int Diagnose(const DiagnoseOptions& options) {
         "{}: neither robot file nor calibration can say it; the extended files are without\n",
         words);
   }
+  if (options.plan) WriteNext(options.out / "plan", diagnosis);
   if (!options.explain.empty()) PrintExplanation(options.explain, result);
   return result.verdict == diagnosis::Verdict::kDataUnfit ? app::kExitFailed : app::kExitDone;
 }
@@ -176,6 +188,9 @@ app::Verb DiagnoseVerb() {
             arguments.Option("--without", &options->without,
                              "causes that are not believed in, ID[,ID]");
             arguments.Option("--explain", &options->explain, "cause: say why it was not named");
+            arguments.Flag("--plan", &options->plan,
+                           "write the next experiment, as files that a person, a robot or the "
+                           "virtual bench can run, into OUT/plan");
             arguments.Option("--samples", &options->most_samples, 10, 2000,
                              "moments that are compared, at most");
             arguments.Option("--threads", &options->threads, 1, 64, "recordings worked on at once");

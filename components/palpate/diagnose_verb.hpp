@@ -18,10 +18,12 @@ struct DiagnoseOptions {
   std::string explain;         ///< id of a cause that a person wonders about
   int most_samples = 120;
   int threads = 2;
+  bool plan = false;  ///< write the next experiment, too
 };
 
 /// `palpate diagnose`: writes verdict.json, report.html, robot.extended.yaml and, where drives are
-/// at fault, calibration.extended.yaml, and prints the verdict. Data that cannot be read or cannot
+/// at fault, calibration.extended.yaml, and prints the verdict; with `plan` the next experiment as
+/// plan/. Data that cannot be read or cannot
 /// tell have a verdict too (data_unfit). Returns 0, or 1 for data_unfit. Throws InputError where
 /// the robot or the options are wrong, RunError where nothing can be written.
 int Diagnose(const DiagnoseOptions& options);

@@ -153,6 +153,7 @@ std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {
   for (const Rival& rival : result.rivals) {
     if (rival.name == name && !rival.words.empty()) return rival.words;
   }
+  if (name.id == "no_fault") return "a healthy robot";
   return name.where.empty() ? name.id : name.id + " (" + Joined(name.where) + ")";
 }
 
