@@ -12,6 +12,7 @@ namespace palpate::robot {
 namespace {
 
 using Mode = fem::ConstraintCommand::Mode;
+using ConstraintList = std::vector<fem::ScalarConstraint*>;
 
 std::vector<Cable> MakeCables(const RobotBody& body, const Eigen::VectorXd& rest_m) {
   std::vector<Cable> cables;
@@ -36,12 +37,12 @@ CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<d
 }
 
 RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
-                       const fem::SolverSettings& solver)
+                       const fem::SolverSettings& solver, const ConstraintList& further)
     : body_(std::move(body)),
       locator_(body_.mesh),
       elastic_body_(body_.mesh, body_.materials, body_.material_of_cell),
       cables_(MakeCables(body_, elastic_body_.rest_m())),
-      linearisation_(elastic_body_, Constraints(), body_.fixed, solver),
+      linearisation_(elastic_body_, Constraints(further), body_.fixed, solver),
       static_solver_(linearisation_, settings),
       cable_rest_length_m_(static_cast<Eigen::Index>(cables_.size())),
       gravity_m_s2_(body_.gravity_m_s2),
@@ -49,9 +50,10 @@ RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
   for (int c = 0; c < CableCount(); ++c) cable_rest_length_m_[c] = cable(c).rest_length_m();
 }
 
-std::vector<fem::ScalarConstraint*> RobotModel::Constraints() {
-  std::vector<fem::ScalarConstraint*> constraints;
+ConstraintList RobotModel::Constraints(const ConstraintList& further) {
+  ConstraintList constraints;
   for (Cable& cable : cables_) constraints.push_back(&cable);
+  constraints.insert(constraints.end(), further.begin(), further.end());
   return constraints;
 }
 
@@ -133,6 +135,7 @@ fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
   for (int c = 0; c < CableCount(); ++c) {
     state.commands.push_back(ToConstraint(c, cables[static_cast<size_t>(c)]));
   }
+  state.commands.resize(linearisation_.constraints().size());
   return state;
 }
 

@@ -61,8 +61,11 @@ struct DeadLoad {
 /// equilibria of the paper's eq. (1). Not copied or moved: its parts point at each other.
 class RobotModel {
  public:
+  /// `further` constraints, which must outlive it, come after those of the cables; Loads leaves
+  /// them off.
   explicit RobotModel(RobotBody body, const fem::StaticSettings& settings = {},
-                      const fem::SolverSettings& solver = {});
+                      const fem::SolverSettings& solver = {},
+                      const std::vector<fem::ScalarConstraint*>& further = {});
   RobotModel(const RobotModel&) = delete;
   RobotModel& operator=(const RobotModel&) = delete;
 
@@ -119,7 +122,8 @@ class RobotModel {
   CableState StateOfCable(int cable, const fem::StaticState& state) const;
 
  private:
-  std::vector<fem::ScalarConstraint*> Constraints();
+  std::vector<fem::ScalarConstraint*> Constraints(
+      const std::vector<fem::ScalarConstraint*>& further);
 
   RobotBody body_;
   fem::PointLocator locator_;
