@@ -12,6 +12,7 @@
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/model/camera_view.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
+#include "components/diagnosis/model/wall.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_body.hpp"
@@ -67,6 +68,7 @@ struct ModelDraft {
   double modulus_change_at_end = 0.0;  ///< grows linearly with time
   std::vector<CreepTerm> creep;
   std::optional<MullinsSoftening> mullins;
+  std::optional<Wall> wall;          ///< rides with the base
   Eigen::Matrix3Xd marker_offset_m;  ///< [3 x markers] through the undeformed body
   /// [recordings] how what is seen lies to the robot frame: p_seen = T_seen p_robot, before
   /// T_measurement_robot.

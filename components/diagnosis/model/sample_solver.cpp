@@ -39,12 +39,19 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
   return points;
 }
 
+std::vector<fem::ScalarConstraint*> AsConstraints(WallContact* wall) {
+  if (wall == nullptr) return {};
+  return {wall};
+}
+
 }  // namespace
 
 SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed)
     : draft_(draft),
       observed_(observed),
-      model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}),
+      wall_(draft.wall ? std::make_unique<WallContact>(*draft.wall) : nullptr),
+      model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}, {},
+             AsConstraints(wall_.get())),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
       skin_(draft),
@@ -130,6 +137,10 @@ fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
   for (int c = 0; c < model_.CableCount(); ++c) {
     const auto cable = static_cast<std::size_t>(c);
     loads.commands[cable] = model_.ToConstraint(c, solved.middle.commands[cable]);
+  }
+  if (wall_) {
+    loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
+                             .value = WallContact::kThere_N};
   }
   if (base_turn_rad_.isZero()) return loads;
   const double angle_rad = base_turn_rad_.norm();
@@ -237,7 +248,11 @@ void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) con
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
                          const Hereditary& past, SimulatedSample* solved) {
   Prepare(sample, past);
-  if (solved->middle.state.x_m.size() == 0) solved->middle.state = model_.RestState();
+  fem::StaticState& state = solved->middle.state;
+  if (state.x_m.size() == 0) state = model_.RestState();
+  // It may come from a robot without the wall, or with one.
+  state.multipliers_N.conservativeResizeLike(Eigen::VectorXd::Zero(
+      static_cast<Eigen::Index>(model_.linearisation().constraints().size())));
   // Cables that give way begin from what they gave way by before.
   std::vector<robot::CableCommand> commands = Commands(taken_in);
   for (std::size_t c = 0; c < commands.size() && !solved->middle.commands.empty(); ++c) {
@@ -250,9 +265,15 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
   if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
   solved->status = GiveWay(taken_in, loads, solved);
+  solved->middle.at_wall = wall_ && WallClearance_m(wall_->wall(), state.x_m) < 0.0;
   solved->markers_m =
       Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
   if (solved->status.ok()) SeeMarkers(sample, solved);
+}
+
+bool SampleSolver::IsNearWall(const fem::StaticState& state) const {
+  constexpr double kNear_m = 1e-3;
+  return wall_ && WallClearance_m(wall_->wall(), state.x_m) < kNear_m;
 }
 
 void SampleSolver::Remember(const Hereditary& past, SimulatedSample* solved) {

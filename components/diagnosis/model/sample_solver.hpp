@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
 #include "components/diagnosis/model/marker_skin.hpp"
@@ -34,6 +35,8 @@ class SampleSolver {
   /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
   void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const Hereditary& past,
              SimulatedSample* solved);
+  /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
+  bool IsNearWall(const fem::StaticState& state) const;
   /// Fills in what a body remembers of where it is now.
   void Remember(const Hereditary& past, SimulatedSample* solved);
   /// At rest with every command at zero and nothing on the body, with what it remembers of that.
@@ -56,6 +59,7 @@ class SampleSolver {
 
   const ModelDraft& draft_;
   const ObservedExperiment& observed_;
+  std::unique_ptr<WallContact> wall_;  ///< the draft's, or none
   robot::RobotModel model_;
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;

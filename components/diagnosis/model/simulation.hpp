@@ -17,6 +17,7 @@ struct HeldShape {
   double share = 1.0;  ///< of a sample's frames that it stands for
   fem::StaticState state;
   std::vector<robot::CableCommand> commands;
+  bool at_wall = false;  ///< the body touches the draft's wall
 };
 
 /// What the past leaves for a sample: the body answers 1 + scale times as stiff, carries forces,

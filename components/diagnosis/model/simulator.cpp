@@ -79,20 +79,24 @@ int SweepsFor(const ModelDraft& draft) {
   return g == 0.0 ? 1 : g < kLittle ? 2 : 4;
 }
 
-std::vector<bool> TautCables(const fem::StaticState& state) {
+/// Which cables pull, and whether the body is at a wall.
+std::vector<bool> WhatHolds(const HeldShape& shape) {
   constexpr double kNothing_N = 1e-6;
-  std::vector<bool> taut;
-  for (const double tension_N : state.multipliers_N) taut.push_back(tension_N > kNothing_N);
-  return taut;
+  const auto cables = std::ssize(shape.commands);
+  std::vector<bool> holds{shape.at_wall};
+  for (const double tension_N : shape.state.multipliers_N.head(cables)) {
+    holds.push_back(tension_N > kNothing_N);
+  }
+  return holds;
 }
 
-/// Beside the middle: shapes with other cables taut than there.
-void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_taut,
+/// Beside the middle: shapes that are held by something else.
+void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_what_holds,
                 SimulatedSample* simulated) {
-  const std::vector<bool> taut_in_the_middle = TautCables(simulated->middle.state);
+  const std::vector<bool> in_the_middle = WhatHolds(simulated->middle);
   simulated->middle.share = 1.0;
-  for (const auto& [taut, shapes] : by_taut) {
-    if (taut == taut_in_the_middle) continue;
+  for (const auto& [what, shapes] : by_what_holds) {
+    if (what == in_the_middle) continue;
     HeldShape& one = simulated->beside.emplace_back(shapes[shapes.size() / 2]);
     one.share = 0.0;
     for (const HeldShape& shape : shapes) one.share += shape.share;
@@ -109,9 +113,10 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
   part.middle = simulated->middle;
   // Where one set of cables was taut throughout, of a robot that was a little different, and still
   // is in the middle, the middle and how the sample bent stand for all parts.
-  if (simulated->bend_m.size() > 0 && simulated->beside.empty()) {
+  const bool may_keep = simulated->bend_m.size() > 0 && simulated->beside.empty();
+  if (may_keep && !solver->IsNearWall(simulated->middle.state)) {
     solver->Solve(sample, parts[middle].taken_in, past, &part);
-    if (part.status.ok() && TautCables(part.middle.state) == TautCables(simulated->middle.state)) {
+    if (part.status.ok() && WhatHolds(part.middle) == WhatHolds(simulated->middle)) {
       part.bend_m = simulated->bend_m;
       part.markers_m += part.bend_m;
       solver->Remember(past, &part);
@@ -121,7 +126,7 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
     part.middle = simulated->middle;
   }
   Eigen::Matrix3Xd mean_m;
-  std::map<std::vector<bool>, std::vector<HeldShape>> by_taut;
+  std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     solver->Solve(sample, parts[k].taken_in, past, &part);
     if (k == middle || !part.status.ok()) {
@@ -131,12 +136,11 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
     if (!part.status.ok()) return;
     const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
     mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
-    by_taut[TautCables(part.middle.state)].push_back(
-        {parts[k].share, part.middle.state, part.middle.commands});
+    by_what_holds[WhatHolds(part.middle)].emplace_back(part.middle).share = parts[k].share;
   }
   simulated->bend_m = mean_m - simulated->markers_m;
   simulated->markers_m = std::move(mean_m);
-  KeepOthers(by_taut, simulated);
+  KeepOthers(by_what_holds, simulated);
 }
 
 }  // namespace

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/wall.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "libs/robot/sensitivity/equilibrium_point.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Over twice this depth the force begins: with a kink Newton's method would not settle.
+constexpr double kOnset_m = 3e-6;
+/// Depth beyond the onset at the pressure of the body's modulus.
+constexpr double kDepthAtModulus_m = 1e-5;
+
+/// A wall that moves while the body stands.
+class WallMoveParameter final : public robot::Parameter {
+ public:
+  WallMoveParameter(const Wall& wall, const Eigen::Vector3d& normal_change, double offset_change_m)
+      : wall_(wall), normal_change_(normal_change), offset_change_m_(offset_change_m) {}
+
+  void Describe(const robot::EquilibriumPoint& at, robot::ParameterColumn* column) const override {
+    const WallSurface& surface = *wall_.surface;
+    for (const int node : surface.nodes) {
+      const double depth_m = wall_.Depth_m(node, at.x_m());
+      if (depth_m <= 0.0) continue;
+      const double deeper = offset_change_m_ - normal_change_.dot(at.x_m().segment<3>(3 * node));
+      column->force_N().segment<3>(3 * node) += surface.Slope_N_m(depth_m) * deeper * wall_.normal +
+                                                surface.Force_N(depth_m) * normal_change_;
+    }
+  }
+
+ private:
+  Wall wall_;
+  Eigen::Vector3d normal_change_;
+  double offset_change_m_;
+};
+
+}  // namespace
+
+double WallSurface::Force_N(double depth_m) const {
+  if (depth_m <= 0.0) return 0.0;
+  if (depth_m < 2.0 * kOnset_m) return stiffness_N_m * depth_m * depth_m / (4.0 * kOnset_m);
+  return stiffness_N_m * (depth_m - kOnset_m);
+}
+
+double WallSurface::Slope_N_m(double depth_m) const {
+  return stiffness_N_m * std::clamp(depth_m / (2.0 * kOnset_m), 0.0, 1.0);
+}
+
+double WallSurface::Energy_J(double depth_m) const {
+  if (depth_m <= 0.0) return 0.0;
+  if (depth_m < 2.0 * kOnset_m) return depth_m / 3.0 * Force_N(depth_m);
+  const double beyond_m = depth_m - kOnset_m;
+  return stiffness_N_m * (0.5 * beyond_m * beyond_m + kOnset_m * kOnset_m / 6.0);
+}
+
+WallSurface SurfaceForWalls(const robot::RobotBody& body) {
+  std::set<int> nodes;
+  double area_m2 = 0.0;
+  const Eigen::Matrix3Xd& X_m = body.mesh.nodes_m;
+  for (const auto& face : body.boundary.faces.colwise()) {
+    bool held = true;
+    for (const int node : face) held = held && body.fixed.col(node).all();
+    if (held) continue;
+    nodes.insert(face.begin(), face.end());
+    const Eigen::Vector3d along_m = X_m.col(face[1]) - X_m.col(face[0]);
+    area_m2 += 0.5 * along_m.cross(X_m.col(face[2]) - X_m.col(face[0])).norm();
+  }
+  double modulus_Pa = 0.0;
+  for (const fem::Material& material : body.materials) {
+    modulus_Pa = std::max(modulus_Pa, material.youngs_modulus_Pa);
+  }
+  const double share_m2 = area_m2 / static_cast<double>(std::max<std::size_t>(1, nodes.size()));
+  return {.nodes = {nodes.begin(), nodes.end()},
+          .stiffness_N_m = modulus_Pa * share_m2 / kDepthAtModulus_m};
+}
+
+double NearestAlong(const WallSurface& surface, const Eigen::Vector3d& normal,
+                    const Eigen::VectorXd& x_m) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const int node : surface.nodes) {
+    nearest_m = std::min(nearest_m, normal.dot(x_m.segment<3>(3 * node)));
+  }
+  return nearest_m;
+}
+
+Eigen::VectorXd WallForces_N(const Wall& wall, const Eigen::VectorXd& x_m) {
+  Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m.size());
+  for (const int node : wall.surface->nodes) {
+    const double depth_m = wall.Depth_m(node, x_m);
+    if (depth_m > 0.0) force_N.segment<3>(3 * node) = wall.surface->Force_N(depth_m) * wall.normal;
+  }
+  return force_N;
+}
+
+robot::ParameterPtr WallMove(const Wall& wall, const Eigen::Vector3d& normal_change,
+                             double offset_change_m) {
+  return std::make_unique<WallMoveParameter>(wall, normal_change, offset_change_m);
+}
+
+double WallContact::Value(const Eigen::VectorXd& x_m) const {
+  double energy_J = 0.0;
+  for (const int node : wall_.surface->nodes) {
+    energy_J += wall_.surface->Energy_J(wall_.Depth_m(node, x_m));
+  }
+  return energy_J / kThere_N;
+}
+
+void WallContact::AddGradient(const Eigen::VectorXd& x_m, double factor,
+                              Eigen::VectorXd& nodal) const {
+  for (const int node : wall_.surface->nodes) {
+    const double depth_m = wall_.Depth_m(node, x_m);
+    if (depth_m <= 0.0) continue;
+    nodal.segment<3>(3 * node) -=
+        factor / kThere_N * wall_.surface->Force_N(depth_m) * wall_.normal;
+  }
+}
+
+void WallContact::BindTo(const fem::StiffnessMatrix& stiffness) {
+  slots_.clear();
+  for (const int node : wall_.surface->nodes) slots_.push_back(stiffness.Slot(node, node));
+}
+
+void WallContact::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
+                               fem::StiffnessMatrix& stiffness) const {
+  const Eigen::Matrix3d along = wall_.normal * wall_.normal.transpose();
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    const double depth_m = wall_.Depth_m(wall_.surface->nodes[k], x_m);
+    if (depth_m <= 0.0) continue;
+    const Eigen::Matrix3d block = multiplier / kThere_N * wall_.surface->Slope_N_m(depth_m) * along;
+    stiffness.Add(slots_[k], block);
+  }
+}
+
+}  // namespace palpate::diagnosis
