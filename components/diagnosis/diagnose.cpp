@@ -278,15 +278,17 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
               {.most_samples = settings.most_samples, .depth_cameras = settings.depth_cameras});
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
+  report(0, settings.most_causes + 3, "simulating the robot as its file has it");
+  const Simulation simulation = Simulator(observed, settings.threads).Run(DraftOf(body, observed));
   const CauseBook book(MakeCauses({.body = body,
                                    .observed = observed,
                                    .extrinsics_m = Tolerance(experiment, "extrinsics_m"),
-                                   .extrinsics_rad = Tolerance(experiment, "extrinsics_rad")},
+                                   .extrinsics_rad = Tolerance(experiment, "extrinsics_rad"),
+                                   .as_built = &simulation},
                                   settings.without),
                        CauseTolerances(experiment));
   const Fitter fitter(observed, body, book, settings.noise, settings.threads);
-  report(0, settings.most_causes + 3, "simulating the robot as its file has it");
-  const Fit as_built = fitter.AsBuilt();
+  const Fit as_built = fitter.AsBuilt(&simulation);
   result = Unfit(WhyUnfit(observed, as_built.simulation));
   if (!result.reason.empty()) return diagnosis;
   const Selection selection =

@@ -34,6 +34,7 @@ constexpr Entry kCatalogue[] = {
     {"gravity_direction", MakeGravityDirection},
     {"payload", MakePayload},
     {"permanent_force", MakePermanentForce},
+    {"hidden_obstacle", MakeHiddenObstacle},
     {"cable_friction", MakeCableFriction},
     {"cable_elasticity", MakeCableElasticity},
     {"cable_gain", MakeCableGainCause},
@@ -55,7 +56,6 @@ constexpr Entry kCatalogue[] = {
 /// Of the catalogue as well, but not looked for. Flying pixels lie along depth edges: a marker
 /// inside a surface has none.
 constexpr const char* kNotLookedFor[] = {
-    "hidden_obstacle",
     "cable_cutting",
     "flying_pixels",
     "discretisation",

@@ -16,6 +16,8 @@ struct CauseWorld {
   const ObservedExperiment& observed;
   double extrinsics_m = 0.0;  ///< sigma of given poses, where it is known (experiment.yaml)
   double extrinsics_rad = 0.0;
+  /// How the robot moves as its file has it; none: no causes that ask for it.
+  const Simulation* as_built = nullptr;
 };
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and

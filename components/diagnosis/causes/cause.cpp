@@ -56,6 +56,10 @@ robot::ParameterPtr Cause::OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*
   return nullptr;
 }
 
+std::optional<Push> Cause::PushOf(const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/) const {
+  return std::nullopt;
+}
+
 void Cause::OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& /*at*/,
                    Eigen::Matrix3Xd* /*motion_m*/) const {}
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +74,14 @@ struct CauseMoment {
   }
 };
 
+/// What something in the body's way does to it as a whole: a force on the body as it is without
+/// what the draft has in its way. Per z of each of a cause's parameters
+struct Push {
+  Eigen::VectorXd force_N;     ///< [3n]
+  Eigen::VectorXd times;       ///< [parameters] so many times that force, and
+  Eigen::VectorXd give_way_m;  ///< [parameters] as often as makes force' x (in N) grow by so much
+};
+
 /// Something that a simulation may get wrong, at one place of the robot (DIAGNOSIS, "Catalogue").
 /// What it does is said twice: Apply changes a draft by any z; the other functions give what a
 /// small z does at a moment of a simulation, to first order, which a test holds against Apply.
@@ -99,12 +108,17 @@ class Cause {
   /// it.
   virtual bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
                       std::vector<robot::CalibratedDrive>* drives) const;
+  /// Where what it does has kinks a linear model says little: then the most probable causes of its
+  /// name are simulated before one stands for all, of those with the same number here only one.
+  virtual std::optional<int> Start() const { return std::nullopt; }
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
   virtual bool OnDrives() const { return false; }
   /// What dz of one parameter does to the body where this cause is at `z` [parameters];
   /// nullptr: nothing.
   virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                                      const CauseMoment& at) const;
+  /// What it does that no small z can say; none: nothing.
+  virtual std::optional<Push> PushOf(const Eigen::VectorXd& z, const CauseMoment& at) const;
   /// Adds what it does to where markers are seen with the body where it is, [3 x markers], m,
   /// frame of the robot as it is seen (ModelDraft::T_seen).
   virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,

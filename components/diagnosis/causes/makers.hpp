@@ -26,6 +26,7 @@ void MakeBaseCompliance(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeGravityDirection(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakePayload(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakePermanentForce(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeHiddenObstacle(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeCableFriction(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeCableElasticity(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeCableGainCause(const CauseWorld& world, std::vector<CausePtr>* causes);

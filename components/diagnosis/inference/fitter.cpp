@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palpate::diagnosis {
 
@@ -44,10 +45,10 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
   return book_.InferWithin(about.model.All(), faults);
 }
 
-Fit Fitter::AsBuilt() const {
+Fit Fitter::AsBuilt(const Simulation* simulated) const {
   Fit fit;
   fit.z = Eigen::VectorXd::Zero(book_.parameter_count());
-  fit.simulation = simulator_.Run(nominal_);
+  fit.simulation = simulated != nullptr ? *simulated : simulator_.Run(nominal_);
   fit.status = fit.simulation.status;
   return Complete(std::move(fit));
 }
@@ -85,24 +86,50 @@ bool Fitter::IsNear(const Fit& fit) const {
   return true;
 }
 
+/// Chi-squared of data and belief where the fit's simulation is.
+double Fitter::MisfitAt(const Fit& fit) const {
+  const Information data = fit.model.All();
+  const Belief belief = book_.BeliefWith(fit.faults);
+  double misfit = data.c + fit.z.dot(data.H * fit.z - 2.0 * data.b);
+  for (Eigen::Index p = 0; p < fit.z.size(); ++p) {
+    if (belief.sigma[p] == 0.0) continue;
+    misfit += std::pow((fit.z[p] - belief.mean[p]) / belief.sigma[p], 2);
+  }
+  return misfit;
+}
+
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   constexpr int kMostRounds = 4;
+  constexpr int kMostRoundsOverKinks = 10;
   constexpr double kNothing = 0.5;  // of ln evidence
+  constexpr double kWorse = 1.0;    // of chi-squared
+  const bool has_kinks = std::any_of(faults.begin(), faults.end(),
+                                     [&](int k) { return book_.cause(k).Start().has_value(); });
+  const int most_rounds = has_kinks ? kMostRoundsOverKinks : kMostRounds;
   std::vector<bool> wanted(causes_.size(), false);
   for (const int fault : faults) wanted[static_cast<std::size_t>(fault)] = true;
   Fit fit;
   fit.posterior = Guess(start, faults);
   const Simulation* from = &start.simulation;
-  for (int round = 0; round < kMostRounds; ++round) {
+  Eigen::VectorXd to = PointOf(fit.posterior, faults);
+  double misfit = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < most_rounds; ++round) {
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
-    next.z = PointOf(fit.posterior, faults);
+    next.z = to;
     next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from);
     next.status = next.simulation.status;
     Differentiate(wanted, from, &next);
+    const double now = MisfitAt(next);
+    if (round > 0 && (!next.status.ok() || now > misfit + kWorse)) {
+      to = 0.5 * (fit.z + to);
+      continue;
+    }
+    misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
+    to = PointOf(fit.posterior, faults);
     const bool settled = std::abs(fit.posterior.ln_evidence - before) < kNothing;
     if (!fit.status.ok() || settled || IsNear(fit)) break;
   }

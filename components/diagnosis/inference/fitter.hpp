@@ -32,9 +32,11 @@ class Fitter {
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body, const CauseBook& book,
          const NoiseModel& noise, int threads);
 
-  /// The robot as its file has it, its linear model, and what a healthy robot makes of it.
-  Fit AsBuilt() const;
-  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches. Only
+  /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
+  /// and what a healthy robot makes of it.
+  Fit AsBuilt(const Simulation* simulated = nullptr) const;
+  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches; a step
+  /// after which the data fit worse is halved. Only
   /// what the faults do is worked out anew on the way: what others do, tolerances as well, is taken
   /// from `start`, which is good enough to find the place, not to stand on it (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
@@ -51,6 +53,7 @@ class Fitter {
 
  private:
   Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
+  double MisfitAt(const Fit& fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;

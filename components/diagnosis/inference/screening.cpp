@@ -22,6 +22,19 @@ double LogMeanExp(const std::vector<double>& values) {
   return most + std::log(sum / static_cast<double>(values.size()));
 }
 
+/// Which of one name to simulate; `of_name`: the most probable first.
+std::vector<int> StartsOf(const CauseBook& book, const std::vector<Candidate>& of_name) {
+  constexpr std::size_t kMost = 3;
+  std::vector<int> starts;
+  for (const Candidate& one : of_name) {
+    const bool there = std::any_of(starts.begin(), starts.end(), [&](int k) {
+      return book.cause(k).Start() == book.cause(one.cause).Start();
+    });
+    if (!there && starts.size() < kMost) starts.push_back(one.cause);
+  }
+  return starts;
+}
+
 }  // namespace
 
 std::vector<int> With(std::vector<int> faults, int cause) {
@@ -44,13 +57,15 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
   }
   std::vector<Candidate> candidates;
   for (auto& [name, of_name] : by_name) {
+    std::stable_sort(of_name.begin(), of_name.end(), [](const auto& a, const auto& b) {
+      return a.ln_bayes_factor > b.ln_bayes_factor;
+    });
     std::vector<double> values;
     for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
-    Candidate best = *std::max_element(
-        of_name.begin(), of_name.end(),
-        [](const auto& a, const auto& b) { return a.ln_bayes_factor < b.ln_bayes_factor; });
+    Candidate best = of_name.front();
     best.ln_bayes_factor = LogMeanExp(values);
-    candidates.push_back(best);
+    best.starts = StartsOf(book, of_name);
+    candidates.push_back(std::move(best));
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });

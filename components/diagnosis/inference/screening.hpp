@@ -17,6 +17,7 @@ struct Candidate {
   double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
   bool refined = false;      ///< simulated anew where it fits best
   std::string why_not = {};  ///< empty: named
+  std::vector<int> starts = {};  ///< causes of its name to simulate, the most probable first
 };
 
 /// `faults`, and one more.

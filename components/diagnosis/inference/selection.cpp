@@ -66,9 +66,10 @@ class NextCause {
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
       if (candidate.ln_bayes_factor < std::max(kAlike, best - kWorthALook)) break;
-      Fit fit = fitter_.Refine(With(before_.faults, candidate.cause), before_);
       const double guess =
-          fitter_.Guess(before_, fit.faults).ln_evidence - before_.posterior.ln_evidence;
+          fitter_.Guess(before_, With(before_.faults, candidate.cause)).ln_evidence -
+          before_.posterior.ln_evidence;
+      Fit fit = RefineFromItsStarts(&candidate);
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
       candidate.ln_bayes_factor += fit.status.ok() ? now - guess : -1e9;
       candidate.refined = true;
@@ -81,6 +82,20 @@ class NextCause {
       if (behind < kAlike) Complete(k);
     }
     SortRefined();
+  }
+
+  /// The start that fits best becomes the candidate's cause.
+  Fit RefineFromItsStarts(Candidate* candidate) const {
+    Fit best;
+    for (const int cause : candidate->starts) {
+      Fit fit = fitter_.Refine(With(before_.faults, cause), before_);
+      const bool better = fit.status.ok() && (!best.status.ok() || fit.posterior.ln_evidence >
+                                                                       best.posterior.ln_evidence);
+      if (!better && !best.faults.empty()) continue;
+      candidate->cause = cause;
+      best = std::move(fit);
+    }
+    return best;
   }
 
   /// With what tolerances do where the fit is.

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <limits>
+#include <optional>
 
 #include "components/diagnosis/model/simulator.hpp"
 #include "components/diagnosis/model/sum_of_parameters.hpp"
@@ -89,6 +90,46 @@ void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
   motions_m->leftCols(acting) += motions_m->rightCols(count) * slope.partialPivLu().solve(given);
 }
 
+/// What stands in the body's way, in the robot frame, after all else.
+Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m) {
+  std::vector<Push> pushes;
+  std::vector<Eigen::Index> first_of;
+  std::vector<robot::ParameterPtr> forces;
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < causes_.size(); ++k) {
+    const auto count = std::ssize(causes_[k]->parameters());
+    std::optional<Push> push;
+    if (wanted_[k]) push = causes_[k]->PushOf(z_.segment(column, count), at);
+    if (push) {
+      forces.push_back(robot::NodalForce(push->force_N));
+      pushes.push_back(std::move(*push));
+      first_of.push_back(column);
+    }
+    column += count;
+  }
+  if (pushes.empty()) return Status::Ok();
+  fem::StaticState let_go = at.shape.state;
+  if (draft_.wall) let_go.multipliers_N.tail<1>().setZero();
+  const Status known =
+      sensitivity_.Compute(at.shape.commands, let_go, forces,
+                           draft_.wall ? robot::Factor::kRenew : robot::Factor::kPresent);
+  if (!known.ok()) return known;
+  Eigen::MatrixXd motions_m;
+  Eigen::VectorXd nodal_m;
+  sensitivity_.PointMotions(solver_.markers(), &motions_m);
+  for (std::size_t k = 0; k < pushes.size(); ++k) {
+    const auto push = static_cast<Eigen::Index>(k);
+    sensitivity_.NodalMotion(static_cast<int>(k), &nodal_m);
+    const double gives_way_m = pushes[k].force_N.dot(nodal_m);
+    if (!(gives_way_m > 0.0)) continue;  // it acts where the body is held
+    for (Eigen::Index p = 0; p < pushes[k].times.size(); ++p) {
+      jacobian_m->col(first_of[k] + p) +=
+          (pushes[k].times[p] + pushes[k].give_way_m[p] / gives_way_m) * motions_m.col(push);
+    }
+  }
+  return Status::Ok();
+}
+
 Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   const auto markers = std::ssize(solver_.markers());
   Eigen::MatrixXd jacobian_m = Eigen::MatrixXd::Zero(3 * markers, ParameterCount(causes_));
@@ -102,6 +143,9 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   if (!compliant_.empty()) GiveWay(&motions_m);
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
     jacobian_m.col(column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
+  }
+  if (!AddPushes(at, &jacobian_m).ok()) {
+    return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   ShowTo(at, &jacobian_m);
   return jacobian_m;

@@ -36,6 +36,7 @@ class SampleDifferentiator {
  private:
   void Collect(const CauseMoment& at);
   void GiveWay(Eigen::MatrixXd* motions_m) const;
+  Status AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m);
   void ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const;
 
   const ModelDraft& draft_;

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "components/diagnosis/causes/makers.hpp"
+#include "components/diagnosis/causes/walls_to_look_at.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr double kTiltSigma_rad = 0.2;
+constexpr double kMostTilt_rad = 0.6;
+
+/// z: whether the wall is there (1; 0: not; nothing between is believed in), how much farther from
+/// the body than where it is looked for, and two turns about the middle of where it is met there.
+class HiddenObstacle final : public Cause {
+ public:
+  HiddenObstacle(const WallToLookAt& at, std::shared_ptr<const WallSurface> surface,
+                 std::shared_ptr<const Eigen::VectorXd> undeformed_m)
+      : Cause({"hidden_obstacle", {"body"}}, "an obstacle in the body's way",
+              {{.name = "there", .fault = 1e-3, .fault_at = 1.0, .least = 0.0, .most = 1.0},
+               {.name = "farther_m",
+                .fault = at.shift_sigma_m,
+                .least = -at.gap_m,
+                .most = at.most_shift_m},
+               {.name = "tilt_1_rad",
+                .fault = kTiltSigma_rad,
+                .least = -kMostTilt_rad,
+                .most = kMostTilt_rad},
+               {.name = "tilt_2_rad",
+                .fault = kTiltSigma_rad,
+                .least = -kMostTilt_rad,
+                .most = kMostTilt_rad}}),
+        at_(at),
+        surface_(std::move(surface)),
+        undeformed_m_(std::move(undeformed_m)) {
+    const Eigen::Vector3d n = at_.normal;
+    tangents_.col(0) = n.unitOrthogonal();
+    tangents_.col(1) = n.cross(tangents_.col(0));
+  }
+
+  std::optional<int> Start() const override { return at_.way; }
+
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    if (IsThere(z)) draft->wall = WallAt(z);
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
+                             const CauseMoment& at) const override {
+    if (parameter == 0 || !IsThere(z) || !at.shape.at_wall) return nullptr;
+    const Wall wall = WallAt(z);
+    const Eigen::Vector3d turn = NormalChange(parameter, z);
+    return WallMove(wall, turn, OffsetChange(parameter, turn));
+  }
+
+  /// Where it is there: what it presses with. Where it is not: what pushes the nodes back that are
+  /// beyond it, the deeper the more, until on average they are not.
+  std::optional<Push> PushOf(const Eigen::VectorXd& z, const CauseMoment& at) const override {
+    const Eigen::VectorXd& x_m = at.shape.state.x_m;
+    const Wall wall = WallAt(z);
+    Push push{.force_N = {},
+              .times = Eigen::VectorXd::Zero(z.size()),
+              .give_way_m = Eigen::VectorXd::Zero(z.size())};
+    if (IsThere(z)) {
+      if (!at.shape.at_wall) return std::nullopt;
+      push.force_N = WallForces_N(wall, x_m);
+      push.times[0] = 1.0;
+      return push;
+    }
+    const Beyond beyond = LookBeyond(wall, x_m);
+    if (beyond.share.empty()) return std::nullopt;
+    push.force_N = Eigen::VectorXd::Zero(x_m.size());
+    for (const auto& [node, share] : beyond.share) {
+      push.force_N.segment<3>(3 * node) = share * wall.normal;
+    }
+    push.give_way_m[0] = beyond.depth_m;
+    for (int p = 1; p < std::ssize(parameters()); ++p) {
+      const Eigen::Vector3d turn = NormalChange(p, z);
+      push.give_way_m[p] = OffsetChange(p, turn) - turn.dot(beyond.middle_m);
+    }
+    return push;
+  }
+
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
+                                      const Eigen::MatrixXd& covariance) const override {
+    constexpr double k95 = 1.959964;
+    constexpr double kStep = 1e-4;  // of the fault sigma
+    const char* const names[] = {"gap_m", "nx", "ny", "nz"};
+    const Eigen::Vector4d value = GapAndNormal(z);
+    Eigen::MatrixXd slope(4, z.size());
+    for (Eigen::Index p = 0; p < z.size(); ++p) {
+      const double step = kStep * parameters()[static_cast<std::size_t>(p)].fault;
+      const Eigen::VectorXd beside = step * Eigen::VectorXd::Unit(z.size(), p);
+      slope.col(p) = (GapAndNormal(z + beside) - GapAndNormal(z - beside)) / (2.0 * step);
+    }
+    std::vector<FittedParameter> report;
+    for (int k = 0; k < 4; ++k) {
+      const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance));
+      const double low = k == 0 ? std::max(0.0, value[k] - half) : std::max(-1.0, value[k] - half);
+      const double high = k == 0 ? value[k] + half : std::min(1.0, value[k] + half);
+      report.push_back({names[k], value[k], low, high});
+    }
+    return report;
+  }
+
+ private:
+  static bool IsThere(const Eigen::VectorXd& z) { return z[0] > 0.5; }
+
+  Eigen::Vector3d Along(const Eigen::VectorXd& z) const {
+    return at_.normal + tangents_ * z.tail<2>();
+  }
+
+  Wall WallAt(const Eigen::VectorXd& z) const {
+    const Eigen::Vector3d normal = Along(z).normalized();
+    return {surface_, normal, normal.dot(at_.middle_m) - z[1]};
+  }
+
+  /// Of the normal with one of the turns; none with the others.
+  Eigen::Vector3d NormalChange(int parameter, const Eigen::VectorXd& z) const {
+    if (parameter < 2) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d along = Along(z);
+    const Eigen::Vector3d n = along.normalized();
+    const Eigen::Vector3d t = tangents_.col(parameter - 2);
+    return (t - n * n.dot(t)) / along.norm();
+  }
+
+  double OffsetChange(int parameter, const Eigen::Vector3d& normal_change) const {
+    return parameter == 1 ? -1.0 : normal_change.dot(at_.middle_m);
+  }
+
+  Eigen::Vector4d GapAndNormal(const Eigen::VectorXd& z) const {
+    const Wall wall = WallAt(z);
+    Eigen::Vector4d value;
+    value << WallClearance_m(wall, *undeformed_m_), wall.normal;
+    return value;
+  }
+
+  WallToLookAt at_;
+  std::shared_ptr<const WallSurface> surface_;
+  std::shared_ptr<const Eigen::VectorXd> undeformed_m_;
+  Eigen::Matrix<double, 3, 2> tangents_;
+};
+
+}  // namespace
+
+void MakeHiddenObstacle(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  if (world.as_built == nullptr) return;
+  const auto surface = std::make_shared<const WallSurface>(SurfaceForWalls(world.body));
+  const auto undeformed_m =
+      std::make_shared<const Eigen::VectorXd>(world.body.mesh.nodes_m.reshaped());
+  for (const WallToLookAt& at : WallsToLookAt(surface, *undeformed_m, *world.as_built)) {
+    causes->push_back(std::make_unique<HiddenObstacle>(at, surface, undeformed_m));
+  }
+}
+
+}  // namespace palpate::diagnosis

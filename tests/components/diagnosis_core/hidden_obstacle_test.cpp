@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/inference/fitter.hpp"
+#include "components/diagnosis/inference/selection.hpp"
+#include "components/diagnosis/model/sample_solver.hpp"
+#include "components/diagnosis/model/simulator.hpp"
+#include "tests/components/diagnosis_core/small_robot.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+/// The beam is bent sideways and up; a wall stands beside it at its tip.
+class HiddenObstacle : public testing::Test {
+ protected:
+  Simulation Run(const std::optional<Wall>& wall, const Simulation* start = nullptr) const {
+    ModelDraft draft = nominal_;
+    draft.wall = wall;
+    return simulator_.Run(draft, start);
+  }
+
+  /// A wall that ends `share` of how far the body goes along `way`.
+  Wall WallAcross(const Eigen::Vector3d& way, double share) const {
+    const Eigen::Vector3d normal = -way.normalized();
+    const double undeformed_m = NearestAlong(*surface_, normal, nominal_.assembled_m);
+    double reached_m = undeformed_m;
+    for (const SimulatedSample& sample : as_built_.samples) {
+      reached_m = std::min(reached_m, NearestAlong(*surface_, normal, sample.middle.state.x_m));
+    }
+    return {surface_, normal, undeformed_m + share * (reached_m - undeformed_m)};
+  }
+
+  robot::RobotBody body_ = SmallRobot();
+  experiment::Experiment experiment_ = SmallExperiment(body_);
+  ObservedExperiment observed_ = Observe(experiment_, body_, {.most_samples = 14});
+  ModelDraft nominal_ = DraftOf(body_, observed_);
+  Simulator simulator_{observed_, 1};
+  Simulation as_built_ = simulator_.Run(nominal_);
+  std::shared_ptr<const WallSurface> surface_ =
+      std::make_shared<const WallSurface>(SurfaceForWalls(body_));
+};
+
+TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouchedAndAlongItsNormalOnly) {
+  constexpr double kDeepest_m = 1e-5;
+  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.4);
+  const Simulation run = Run(wall, &as_built_);
+  ASSERT_TRUE(run.status.ok()) << run.status.message();
+  int touching = 0;
+  for (std::size_t s = 0; s < run.samples.size(); ++s) {
+    const Eigen::VectorXd& x_m = run.samples[s].middle.state.x_m;
+    EXPECT_GT(WallClearance_m(wall, x_m), -kDeepest_m) << "sample " << s;
+    const Eigen::Matrix3Xd force_N = WallForces_N(wall, x_m).reshaped(3, x_m.size() / 3);
+    EXPECT_EQ(run.samples[s].middle.at_wall, !force_N.isZero(0.0));
+    touching += run.samples[s].middle.at_wall;
+    for (int node = 0; node < body_.mesh.NodeCount(); ++node) {
+      EXPECT_GE(force_N.col(node).dot(wall.normal), 0.0);
+      EXPECT_LT(force_N.col(node).cross(wall.normal).norm(), 1e-15);
+      EXPECT_TRUE(wall.Depth_m(node, x_m) > 0.0 || force_N.col(node).isZero(0.0));
+    }
+  }
+  EXPECT_GT(touching, 2);
+  EXPECT_LT(touching, std::ssize(run.samples)) << "it is met in some of the moments only";
+}
+
+TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
+  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.4);
+  ModelDraft draft = nominal_;
+  draft.wall = wall;
+  SampleSolver solver(draft, observed_);
+  const DriveTrain train(observed_);
+  const Eigen::MatrixXd taken_in = train.At(draft.drives);
+  const auto most = std::max_element(as_built_.samples.begin(), as_built_.samples.end(),
+                                     [&](const auto& a, const auto& b) {
+                                       return WallClearance_m(wall, a.middle.state.x_m) >
+                                              WallClearance_m(wall, b.middle.state.x_m);
+                                     });
+  const auto s = most - as_built_.samples.begin();
+  SimulatedSample solved;
+  solver.Solve(observed_.samples[static_cast<std::size_t>(s)], taken_in.col(s), {}, &solved);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message();
+  ASSERT_TRUE(solved.middle.at_wall);
+  // Weight, loads, cables, wall and base: what the base gives is minus all else.
+  const Eigen::VectorXd& x_m = solved.middle.state.x_m;
+  Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + WallForces_N(wall, x_m);
+  robot::RobotModel& model = solver.model();
+  for (int c = 0; c < model.CableCount(); ++c) {
+    model.cable(c).AddGradient(x_m, -solved.middle.state.multipliers_N[c], nodal_N);
+  }
+  Eigen::VectorXd elastic_N = Eigen::VectorXd::Zero(x_m.size());
+  model.elastic_body().AddForces(x_m, elastic_N);
+  const auto moment_Nm = [&](const Eigen::VectorXd& force_N) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int node = 0; node < body_.mesh.NodeCount(); ++node) {
+      sum += x_m.segment<3>(3 * node).cross(force_N.segment<3>(3 * node));
+    }
+    return sum;
+  };
+  EXPECT_LT(moment_Nm(elastic_N).norm(), 1e-9) << "elastic forces have no moment";
+  const Eigen::VectorXd left_N = nodal_N - elastic_N;
+  for (int node = 0; node < body_.mesh.NodeCount(); ++node) {
+    if (body_.fixed.col(node).all()) continue;
+    EXPECT_LT(left_N.segment<3>(3 * node).norm(), 1e-7) << "node " << node;
+  }
+  EXPECT_GT(WallForces_N(wall, x_m).reshaped(3, x_m.size() / 3).rowwise().sum().norm(), 1e-3);
+}
+
+TEST_F(HiddenObstacle, FarAwayChangesNothing) {
+  const Simulation with = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), -1.0});
+  for (std::size_t s = 0; s < with.samples.size(); ++s) {
+    EXPECT_EQ(with.samples[s].middle.state.x_m, as_built_.samples[s].middle.state.x_m);
+    EXPECT_EQ(with.samples[s].markers_m, as_built_.samples[s].markers_m);
+  }
+}
+
+TEST_F(HiddenObstacle, IsMetWhereverASimulationStarts) {
+  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.3);
+  const Wall before = WallAcross({0.2, -0.2, 1.0}, 0.5);
+  const Simulation cold = Run(wall);
+  const Simulation from_free = Run(wall, &as_built_);
+  const Simulation beside = Run(before, &as_built_);
+  const Simulation from_beside = Run(wall, &beside);
+  ASSERT_TRUE(cold.status.ok() && from_free.status.ok() && from_beside.status.ok());
+  const Simulation free_again = Run(std::nullopt, &from_beside);
+  constexpr double kSame_m = 1e-6;  // how a sample bends is kept where the wall is far
+  for (std::size_t s = 0; s < cold.samples.size(); ++s) {
+    const auto differ_m = [&](const Simulation& a, const Simulation& b) {
+      return (a.samples[s].markers_m - b.samples[s].markers_m).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(differ_m(cold, from_free), kSame_m) << "sample " << s;
+    EXPECT_LT(differ_m(cold, from_beside), kSame_m) << "sample " << s;
+    EXPECT_LT(differ_m(free_again, as_built_), kSame_m) << "sample " << s;
+  }
+}
+
+/// All that can be said of an obstacle, from what is seen of one.
+class HiddenObstacleIsFound : public HiddenObstacle {
+ protected:
+  /// The markers where `truth` has them, with noise of 0.1 mm.
+  void Measure(const Simulation& truth) {
+    constexpr double kNoise_m = 1e-4;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (std::size_t s = 0; s < truth.samples.size(); ++s) {
+      Sample& sample = observed_.samples[s];
+      for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
+        const double sigma_m = kNoise_m / std::sqrt(std::max(1, sample.count[m]));
+        for (int axis = 0; axis < 3; ++axis) {
+          sample.position_m(axis, m) =
+              truth.samples[s].markers_m(axis, m) + sigma_m * normal(random);
+        }
+      }
+    }
+    observed_.sigma_m.setConstant(kNoise_m);
+  }
+
+  CauseBook Book() const {
+    return {MakeCauses({.body = body_, .observed = observed_, .as_built = &as_built_}, {}), {}};
+  }
+
+  /// Data and model are of one mesh.
+  Selection Select(const CauseBook& book) const {
+    const Fitter fitter(observed_, body_, book, {.relative_error = 1e-4}, 1);
+    return SelectCauses(observed_, fitter, fitter.AsBuilt(&as_built_), 1,
+                        [](int, int, const std::string&) {});
+  }
+};
+
+TEST_F(HiddenObstacleIsFound, ByWhatAWholeWallDoesToFirstOrder) {
+  // Where it is met somewhere else once the body leans on it the first order is far off.
+  constexpr double kTypically = 0.4;
+  const CauseBook book = Book();
+  std::vector<double> off_before;
+  std::vector<double> off_after;
+  for (int k = 0; k < book.size(); ++k) {
+    const Cause& cause = book.cause(k);
+    if (cause.name().id != "hidden_obstacle") continue;
+    const CauseList one{&cause};
+    Simulation healthy = as_built_;
+    simulator_.Differentiate(nominal_, one, Eigen::Vector4d::Zero(), {true}, nominal_, &healthy);
+    const Eigen::Vector4d there = Eigen::Vector4d::UnitX();
+    const ModelDraft draft = DraftWith(nominal_, one, there);
+    Simulation met = simulator_.Run(draft, &as_built_);
+    ASSERT_TRUE(met.status.ok()) << met.status.message();
+    simulator_.Differentiate(draft, one, there, {true}, nominal_, &met);
+    double effect = 0.0, before = 0.0, after = 0.0;
+    for (std::size_t s = 0; s < met.samples.size(); ++s) {
+      const Eigen::VectorXd moved_m =
+          (met.samples[s].markers_m - as_built_.samples[s].markers_m).reshaped();
+      effect += moved_m.squaredNorm();
+      before += (moved_m - healthy.samples[s].jacobian_m.col(0)).squaredNorm();
+      after += (moved_m - met.samples[s].jacobian_m.col(0)).squaredNorm();
+    }
+    off_before.push_back(std::sqrt(before / effect));
+    off_after.push_back(std::sqrt(after / effect));
+  }
+  ASSERT_GT(off_before.size(), 20U);
+  const auto median = [](std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
+    return values[values.size() / 2];
+  };
+  EXPECT_LT(median(off_before), kTypically) << "where it is not there";
+  EXPECT_LT(median(off_after), kTypically) << "where it is there";
+}
+
+TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
+  constexpr double kSigmas = 3.0;
+  constexpr double k95 = 1.959964;
+  constexpr double kMostTurn_rad = 0.35;  // a corner that touches tells little of turns about it
+  const Wall wall = WallAcross({0.15, -0.4, 1.0}, 0.6);
+  Measure(Run(wall, &as_built_));
+  const CauseBook book = Book();
+  const Selection selection = Select(book);
+  ASSERT_EQ(selection.named.size(), 1U);
+  const int k = selection.named[0].cause;
+  ASSERT_EQ(book.cause(k).name().id, "hidden_obstacle");
+  EXPECT_TRUE(selection.guard.passed) << selection.guard.worst;
+  const Posterior& posterior = selection.best.posterior;
+  const Eigen::Index first = book.first(k);
+  const std::vector<FittedParameter> report = book.cause(k).Report(
+      posterior.mean.segment<4>(first), posterior.covariance.block<4, 4>(first, first));
+  const auto expect_near = [&](const FittedParameter& fitted, const std::string& name,
+                               double truth) {
+    EXPECT_EQ(fitted.name, name);
+    const double sigma = (fitted.ci95_high - fitted.value) / k95;
+    EXPECT_NEAR(fitted.value, truth, kSigmas * sigma) << name;
+  };
+  expect_near(report[0], "gap_m", WallClearance_m(wall, nominal_.assembled_m));
+  expect_near(report[1], "nx", wall.normal.x());
+  expect_near(report[2], "ny", wall.normal.y());
+  expect_near(report[3], "nz", wall.normal.z());
+  const Eigen::Vector3d found{report[1].value, report[2].value, report[3].value};
+  EXPECT_GT(found.dot(wall.normal), std::cos(kMostTurn_rad));
+}
+
+TEST_F(HiddenObstacleIsFound, InNoHealthyRobot) {
+  Measure(as_built_);
+  const CauseBook book = Book();
+  EXPECT_TRUE(Select(book).named.empty());
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
