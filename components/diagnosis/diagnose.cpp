@@ -114,6 +114,9 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
       [](const ObservedRecording& recording) { return !recording.base_rotation.isIdentity(); });
   std::vector<std::string> identities = {
       "A negative zero of a drive and a slack cable are the same.",
+      "A mass on the body, that of its markers, too, and a force downwards are the same, however "
+      "the "
+      "base is tilted.",
       "A cable that ends where it first touches the body stretches and cuts in alike."};
   if (!loaded) {
     identities.emplace_back(
@@ -127,9 +130,8 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
   }
   if (!tilted) {
     identities.emplace_back(
-        "Without a tilted base a mass on the body, that of its markers, too, and a force downwards "
-        "are the same, and gravity's direction and a sideways force nearly so: tilt the base by 15 "
-        "degrees.");
+        "Without a tilted base gravity's direction and a sideways force are nearly the same: tilt "
+        "the base by 15 degrees.");
   }
   if (SeenFromOnePlace(observed)) {
     identities.emplace_back(
@@ -299,10 +301,9 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
     moment.t_s -= FirstFrame_s(experiment.recordings[r]) - FirstFrame_s(as_recorded.recordings[r]);
   }
   DescribeVerdict(selection, &result);
-  const double share = ExplainedShare(observed, book, as_built, selection.best);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(Describe(observed, book, selection.best.posterior, choice));
-    result.causes.back().explained_share = share;
+    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);
   result.identities = Identities(observed);

@@ -123,29 +123,31 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
   }
 }
 
-/// Parameters of the faults alone, a robot without any deviation otherwise.
-Eigen::VectorXd OfFaults(const CauseBook& book, const Fit& fit) {
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(book.parameter_count());
-  for (const Eigen::Index p : book.ParametersOf(fit.faults)) z[p] = fit.posterior.mean[p];
-  return z;
-}
-
 }  // namespace
 
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
-                      const Fit& as_built, const Fit& best) {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
-  const Residuals before_m = ResidualsOf(observed, as_built, {none});
-  const Residuals after_m = ResidualsOf(observed, best, {OfFaults(book, best)});
-  Squares before, after, noise;
+                      const Selection& selection, int cause) {
+  const Fit& best = selection.best;
+  const Fit& healthy = selection.healthy;
+  std::vector<int> others = best.faults;
+  std::erase(others, cause);
+  const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
+  // The only one is far from none: the healthy robot's own fit knows better than a linear model.
+  const Residuals without_m =
+      others.empty()
+          ? healthy_m
+          : ResidualsOf(observed, best, {book.InferWithin(best.model.All(), others).mean});
+  const Residuals with_m = ResidualsOf(observed, best, {best.posterior.mean});
+  Squares of_healthy, without, with, noise;
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-    if (!as_built.simulation.samples[s].status.ok()) continue;
-    before.Add(before_m[s]);
-    after.Add(after_m[s]);
+    if (!healthy.simulation.samples[s].status.ok()) continue;
+    of_healthy.Add(healthy_m[s]);
+    without.Add(without_m[s]);
+    with.Add(with_m[s]);
     noise.Add(Noise_m(observed, s));
   }
-  const double excess_m2 = before.sum_m2 - noise.sum_m2;
-  return excess_m2 > 0.0 ? std::clamp((before.sum_m2 - after.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
+  const double excess_m2 = of_healthy.sum_m2 - noise.sum_m2;
+  return excess_m2 > 0.0 ? std::clamp((without.sum_m2 - with.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
 }
 
 void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,

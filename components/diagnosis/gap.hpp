@@ -16,9 +16,9 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                  const CauseBook& book, const Fit& as_built, const Selection& selection,
                  DiagnosisResult* result);
 
-/// Share of the as-built squares beyond the noise that the faults of a fit make go away, building
-/// tolerances left as in the file: what the extended model gains.
+/// Share of the squares beyond the noise, as a robot within its tolerances leaves them, that would
+/// come back without one of the named causes, the others and the tolerances fitted again.
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
-                      const Fit& as_built, const Fit& best);
+                      const Selection& selection, int cause);
 
 }  // namespace palpate::diagnosis

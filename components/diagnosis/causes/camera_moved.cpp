@@ -11,45 +11,66 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// From one recording on the camera stands elsewhere: what is seen turns about the middle of the
-/// body, and moves.
+/// From one recording on the camera stands elsewhere than where it was put, by the same motion in
+/// its own frame: what it measures turns about where the middle of the body is, and moves.
 class CameraMoved final : public Cause {
  public:
-  CameraMoved(int from_recording, const std::string& recording, const Eigen::Vector3d& middle_m)
-      : Cause({"camera_moved", {"camera"}}, "camera moved before recording " + recording,
+  CameraMoved(int from_recording, const std::vector<ObservedRecording>& recordings,
+              const Eigen::Vector3d& middle_m)
+      : Cause({"camera_moved", {"camera"}},
+              "camera moved before recording " + NameOf(recordings, from_recording),
               {Move(), Move(), Move(), Turn(), Turn(), Turn()}),
         from_recording_(from_recording),
-        middle_m_(middle_m) {}
+        middle_m_(recordings[static_cast<std::size_t>(from_recording)].T_measurement_robot *
+                  middle_m) {
+    for (const ObservedRecording& one : recordings) {
+      T_measurement_robot_.push_back(one.T_measurement_robot);
+    }
+  }
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
     for (auto k = static_cast<std::size_t>(from_recording_); k < draft->T_seen.size(); ++k) {
-      draft->T_seen[k] = moved * draft->T_seen[k];
+      const Eigen::Isometry3d& T = T_measurement_robot_[k];
+      draft->T_seen[k] = T.inverse() * moved * T * draft->T_seen[k];
     }
   }
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
     if (at.seen().recording < from_recording_) return;
-    const Eigen::Isometry3d& T_seen =
-        at.draft.T_seen[static_cast<std::size_t>(at.seen().recording)];
-    AddSeenMove(parameter, z, middle_m_, T_seen * SeenMove(z, middle_m_).inverse(), at, motion_m);
+    const auto k = static_cast<std::size_t>(at.seen().recording);
+    const Eigen::Isometry3d T_after =
+        at.draft.T_seen[k] * T_measurement_robot_[k].inverse() * SeenMove(z, middle_m_).inverse();
+    AddSeenMove(parameter, z, middle_m_, T_after, at, motion_m);
   }
 
+  /// How far the camera itself is from where it was, and by how much it turned.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
                                       const Eigen::MatrixXd& covariance) const override {
+    const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
+    const Eigen::Vector3d turned_m = moved.linear() * middle_m_;
+    Eigen::Matrix<double, 3, 6> slope;
+    slope << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      slope.col(3 + axis) = turned_m.cross(Eigen::Vector3d::Unit(axis));
+    }
     const auto from = static_cast<double>(from_recording_);
-    return {SizeOf("translation_m", z.head<3>(), covariance.topLeftCorner<3, 3>()),
+    return {SizeOf("translation_m", moved.translation(), slope * covariance * slope.transpose()),
             SizeOf("rotation_rad", z.tail<3>(), covariance.bottomRightCorner<3, 3>()),
             {"from_recording", from, from, from}};
   }
 
  private:
+  static const std::string& NameOf(const std::vector<ObservedRecording>& recordings, int k) {
+    return recordings[static_cast<std::size_t>(k)].name;
+  }
   static CauseParameter Move() { return {.name = "translation_m", .fault = 0.01}; }
   static CauseParameter Turn() { return {.name = "rotation_rad", .fault = 0.04}; }
 
   int from_recording_;
-  Eigen::Vector3d middle_m_;
+  Eigen::Vector3d middle_m_;  ///< of the body, measurement frame of that recording
+  std::vector<Eigen::Isometry3d> T_measurement_robot_;  ///< [recordings]
 };
 
 }  // namespace
@@ -59,8 +80,7 @@ void MakeCameraMoved(const CauseWorld& world, std::vector<CausePtr>* causes) {
   const std::vector<ObservedRecording>& recordings = world.observed.recordings;
   for (std::size_t k = 1; k < recordings.size(); ++k) {
     if (!recordings[k].camera_frame) continue;
-    causes->push_back(
-        std::make_unique<CameraMoved>(static_cast<int>(k), recordings[k].name, middle_m));
+    causes->push_back(std::make_unique<CameraMoved>(static_cast<int>(k), recordings, middle_m));
   }
 }
 

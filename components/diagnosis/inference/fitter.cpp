@@ -101,11 +101,14 @@ double Fitter::MisfitAt(const Fit& fit) const {
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   constexpr int kMostRounds = 4;
   constexpr int kMostRoundsOverKinks = 10;
-  constexpr double kNothing = 0.5;  // of ln evidence
-  constexpr double kWorse = 1.0;    // of chi-squared
   const bool has_kinks = std::any_of(faults.begin(), faults.end(),
                                      [&](int k) { return book_.cause(k).Start().has_value(); });
-  const int most_rounds = has_kinks ? kMostRoundsOverKinks : kMostRounds;
+  return Refine(faults, start, has_kinks ? kMostRoundsOverKinks : kMostRounds);
+}
+
+Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds) const {
+  constexpr double kNothing = 0.5;  // of ln evidence
+  constexpr double kWorse = 1.0;    // of chi-squared
   std::vector<bool> wanted(causes_.size(), false);
   for (const int fault : faults) wanted[static_cast<std::size_t>(fault)] = true;
   Fit fit;

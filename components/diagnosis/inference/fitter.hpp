@@ -35,10 +35,12 @@ class Fitter {
   /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
   /// and what a healthy robot makes of it.
   Fit AsBuilt(const Simulation* simulated = nullptr) const;
-  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches; a step
-  /// after which the data fit worse is halved. Only
-  /// what the faults do is worked out anew on the way: what others do, tolerances as well, is taken
-  /// from `start`, which is good enough to find the place, not to stand on it (Complete).
+  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches, or
+  /// after so many rounds; a step after which the data fit worse is halved. Only what the faults do
+  /// is worked out anew on the way: what others do, tolerances as well, is taken from `start`,
+  /// which is good enough to find the place, not to stand on it (Complete).
+  Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds) const;
+  /// With as many rounds as such faults need.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
   /// The same fit, with what every cause does worked out where it is.
   Fit Complete(Fit fit) const;

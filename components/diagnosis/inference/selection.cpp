@@ -84,18 +84,23 @@ class NextCause {
     SortRefined();
   }
 
-  /// The start that fits best becomes the candidate's cause.
+  /// The start that fits best after a few rounds becomes the candidate's cause, and goes on.
   Fit RefineFromItsStarts(Candidate* candidate) const {
+    constexpr int kRoundsToCompare = 3;
+    if (candidate->starts.size() < 2) {
+      return fitter_.Refine(With(before_.faults, candidate->cause), before_);
+    }
     Fit best;
     for (const int cause : candidate->starts) {
-      Fit fit = fitter_.Refine(With(before_.faults, cause), before_);
+      Fit fit = fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare);
       const bool better = fit.status.ok() && (!best.status.ok() || fit.posterior.ln_evidence >
                                                                        best.posterior.ln_evidence);
       if (!better && !best.faults.empty()) continue;
       candidate->cause = cause;
       best = std::move(fit);
     }
-    return best;
+    if (!best.status.ok()) return best;
+    return fitter_.Refine(best.faults, best);
   }
 
   /// With what tolerances do where the fit is.
