@@ -74,16 +74,17 @@ BlindSet BlindSet::FromEnvironment(int cases) {
 
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
   fmt::print(out,
-             "{} blind cases from seed {} on; one again: PALPATE_BLIND_SEED=<its seed> "
-             "PALPATE_BLIND_CASES=1\n",
-             set.cases, set.seed);
+             "{} blind cases from seed {} on, {} moments each; one again: "
+             "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
+             set.cases, set.seed, set.samples);
   const TemporaryFolder temporary;
   const bool keep = !set.folder.empty();
   if (keep) fs::create_directories(set.folder);
   const CaseRunner runner(
       {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
        .folder = keep ? fs::absolute(set.folder) : temporary.path(),
-       .keep = keep});
+       .keep = keep,
+       .samples = set.samples});
   std::vector<CaseRecord> records(static_cast<std::size_t>(set.cases));
   std::atomic<std::size_t> next = 0;
   std::mutex printing;

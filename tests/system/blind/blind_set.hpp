@@ -19,6 +19,7 @@ struct BlindSet {
   int cases = 0;
   std::uint64_t seed = 0;
   std::filesystem::path folder = {};  ///< empty: a temporary one
+  int samples = 120;                  ///< moments that diagnosis compares, at most
 
   /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError
   /// for what is no number.

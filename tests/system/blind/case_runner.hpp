@@ -39,6 +39,7 @@ class CaseRunner {
     std::filesystem::path folder;  ///< is there
     bool keep = false;             ///< what a case leaves in it
     int longest_diagnosis_s = 1200;
+    int samples = 120;  ///< `palpate diagnose --samples`
   };
 
   explicit CaseRunner(Settings settings);
