@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/fault_size.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/components/diagnosis_core/toy_causes.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+/// Why a gain of this size, tolerance 0.005, at most 0.2 of which is believed, is no fault.
+std::string WhyNot(double gain) {
+  std::vector<CausePtr> causes;
+  causes.push_back(std::make_unique<ToyCause>(
+      "gain", std::vector<CauseParameter>{
+                  {.name = "g", .tolerance = 0.005, .fault = 0.08, .plausible = 0.2}}));
+  const CauseBook book(std::move(causes), {});
+  Posterior posterior;
+  posterior.mean = Eigen::VectorXd::Constant(1, gain);
+  posterior.covariance = Eigen::MatrixXd::Constant(1, 1, 1e-6);
+  return WhyNoFault(book, posterior, 0);
+}
+
+TEST(FaultSize, IsBeyondThreeTolerancesOnEitherSide) {
+  EXPECT_THAT(WhyNot(0.014), testing::HasSubstr("healthy"));
+  EXPECT_THAT(WhyNot(-0.014), testing::HasSubstr("healthy"));
+  EXPECT_EQ(WhyNot(0.016), "");
+  EXPECT_EQ(WhyNot(-0.016), "");
+}
+
+TEST(FaultSize, IsNotMoreThanARobotCanHave) {
+  EXPECT_EQ(WhyNot(0.19), "");
+  EXPECT_THAT(WhyNot(0.21), testing::HasSubstr("g = 0.21"));
+  EXPECT_THAT(WhyNot(-0.24), testing::HasSubstr("something else"));
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
