@@ -21,6 +21,10 @@ double Value(const Linearisation& linearisation, Eigen::Index c, const Eigen::Ve
   return linearisation.constraints()[static_cast<size_t>(c)]->Value(x_m);
 }
 
+bool IsBounded(const LoadState& loads, Eigen::Index c) {
+  return loads.command(c).mode == Mode::kUpperBound;
+}
+
 }  // namespace
 
 EquilibriumStep::EquilibriumStep(Linearisation& linearisation)
@@ -32,6 +36,7 @@ EquilibriumStep::EquilibriumStep(Linearisation& linearisation)
   columns_.resize(linearisation.Size(), constraints + 1);
   gradients_.resize(linearisation.Size(), constraints);
   multipliers_ = Eigen::VectorXd::Zero(constraints);
+  bounded_.resize(static_cast<size_t>(constraints));
 }
 
 void EquilibriumStep::ImposeMultipliers(const LoadState& loads, Eigen::VectorXd* multipliers_N) {
@@ -44,6 +49,7 @@ void EquilibriumStep::ImposeMultipliers(const LoadState& loads, Eigen::VectorXd*
 
 Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x_m,
                                 const Eigen::VectorXd& multipliers_N, bool allow_shift) {
+  factor_ = -1;
   if (Status status =
           linearisation_.Update(x_m, multipliers_N, loads.external_force_N, allow_shift);
       !status.ok()) {
@@ -51,7 +57,8 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
   }
   Eigen::Index bounded = 0;
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
-    if (loads.command(c).mode != Mode::kUpperBound) continue;
+    bounded_[static_cast<size_t>(c)] = IsBounded(loads, c);
+    if (!IsBounded(loads, c)) continue;
     nodal_.setZero();
     linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(x_m, -1.0, nodal_);
     linearisation_.matrix().Reduce(nodal_, gradients_.col(c));
@@ -60,7 +67,16 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
   columns_.col(bounded) = linearisation_.residual_N();
   linearisation_.Solve(columns_.leftCols(bounded + 1));
   step_ = columns_.col(bounded);
+  factor_ = linearisation_.factor_count();
   return SolveMultipliers(loads, x_m, multipliers_N);
+}
+
+bool EquilibriumStep::HasTangentFor(const LoadState& loads) const {
+  if (factor_ != linearisation_.factor_count() || linearisation_.shifted()) return false;
+  for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
+    if (bounded_[static_cast<size_t>(c)] != IsBounded(loads, c)) return false;
+  }
+  return true;
 }
 
 Status EquilibriumStep::ComputeChord(const LoadState& loads, const Eigen::VectorXd& x_m,
@@ -77,7 +93,7 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
   Eigen::Index bounded = 0;
   std::array<Eigen::Index, kMaxQpVariables> constraint{};
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
-    if (loads.command(c).mode == Mode::kUpperBound) constraint[static_cast<size_t>(bounded++)] = c;
+    if (IsBounded(loads, c)) constraint[static_cast<size_t>(bounded++)] = c;
   }
   if (bounded == 0) return Status::Ok();
   BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
@@ -115,7 +131,7 @@ double ConstraintError_m(const Linearisation& linearisation, const LoadState& lo
   double error = 0.0;
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
     const ConstraintCommand& command = loads.command(c);
-    if (command.mode != Mode::kUpperBound) continue;
+    if (!IsBounded(loads, c)) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the drive cannot pull harder
     const double excess = Value(linearisation, c, x_m) - command.value;
     error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
@@ -140,7 +156,7 @@ Status CheckLargestMultipliers(const Linearisation& linearisation, const LoadSta
                                double tolerance_m) {
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
     const ConstraintCommand& command = loads.command(c);
-    if (command.mode != Mode::kUpperBound) continue;
+    if (!IsBounded(loads, c)) continue;
     const double excess = Value(linearisation, c, x_m) - command.value;
     if (multipliers_N[c] >= command.max_multiplier_N && excess > tolerance_m) {
       return {StatusCode::kTensionLimit, "constraint " + std::to_string(c) + " needs more than " +

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "libs/core/status.hpp"
 #include "libs/fem/bounded_qp.hpp"
@@ -30,6 +31,10 @@ class EquilibriumStep {
   Status ComputeChord(const LoadState& loads, const Eigen::VectorXd& x_m,
                       const Eigen::VectorXd& multipliers_N);
 
+  /// Whether ComputeChord can be asked for these loads: the linearisation's factor is still,
+  /// unshifted, that of the last Compute, and the constraints under kUpperBound are the same.
+  bool HasTangentFor(const LoadState& loads) const;
+
   const Eigen::VectorXd& dx() const { return step_; }  ///< [Size], reduced
   /// [constraints] where the step leads.
   const Eigen::VectorXd& multipliers_N() const { return multipliers_; }
@@ -50,6 +55,8 @@ class EquilibriumStep {
   Eigen::VectorXd nodal_;      ///< [3n]
   Eigen::VectorXd step_;
   Eigen::VectorXd multipliers_;
+  std::vector<bool> bounded_;  ///< [constraints] in the last Compute that succeeded
+  int factor_ = -1;            ///< Linearisation::factor_count() after it
 };
 
 /// Distance by which the bounds are missed at a state, m: a taut constraint (multiplier above 0) by

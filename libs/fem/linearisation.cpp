@@ -71,6 +71,7 @@ Status Linearisation::Update(const Eigen::VectorXd& x_m, const Eigen::VectorXd& 
   matrix_.FixSingleDirections();
   if (Status state = Check(); !state.ok()) return state;
 
+  ++factor_count_;
   mean_diagonal_ = matrix_.MeanDiagonal();
   Status factorised = solver_->Factorize(matrix_.Values());
   constexpr double kSmallestShift = 1e-4;

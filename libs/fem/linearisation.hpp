@@ -51,6 +51,8 @@ class Linearisation {
   double internal_force_norm_N() const { return internal_norm_; }
   double min_J() const { return min_J_; }
   bool shifted() const { return shifted_; }
+  /// How many times K was factorised: equal while the factor is the same one.
+  int factor_count() const { return factor_count_; }
   /// Of K's diagonal at the last Update, N/m.
   double mean_diagonal_N_m() const { return mean_diagonal_; }
 
@@ -75,6 +77,7 @@ class Linearisation {
   double min_J_ = 0.0;
   double mean_diagonal_ = 0.0;
   bool shifted_ = false;
+  int factor_count_ = 0;
 };
 
 }  // namespace palpate::fem

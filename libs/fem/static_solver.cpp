@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libs/core/check.hpp"
 
@@ -120,8 +121,13 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
   EquilibriumStep::ImposeMultipliers(loads, &state->multipliers_N);
   const int most =
       steps == Steps::kFull ? settings_.max_full_steps : settings_.max_newton_iterations;
-  for (int iteration = 0; iteration <= most; ++iteration) {
-    const bool may_keep = steps == Steps::kFull && iteration > 0;
+  // Steps with a tangent that is kept are cheap and count less.
+  constexpr int kMostStepsPerTangent = 4;
+  const int tangents_before = linearisation_.factor_count();
+  const auto tangents = [&] { return linearisation_.factor_count() - tangents_before; };
+  result->residual_relative = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration <= kMostStepsPerTangent * most; ++iteration) {
+    const bool may_keep = steps == Steps::kFull && (iteration > 0 || step_.HasTangentFor(loads));
     if (Status status = Linearise(loads, *state, may_keep, result); !status.ok()) return status;
     result->constraint_error_m = ConstraintError(loads, *state);
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
@@ -131,7 +137,7 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
       return CheckLargestMultipliers(linearisation_, loads, state->x_m, state->multipliers_N,
                                      settings_.constraint_tolerance_m);
     }
-    if (iteration == most) break;
+    if (tangents() > most) break;
     if (budget_->Over()) return {StatusCode::kBudgetReached, "time used up"};
     ++result->iterations;
     const bool moved = steps == Steps::kFull ? TakeFullStep(state)

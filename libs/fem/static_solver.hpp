@@ -23,7 +23,8 @@ struct StaticSettings {
   /// of its iterations: bending bodies must pass through stretched states that it refuses.
   int max_full_steps = 15;
   /// A tangent is kept for the next full step where the last one brought the residual down to this
-  /// share of what it was; 0: every step has its own. For many equilibria near each other.
+  /// share of what it was, and from one Solve to the next; 0: every step has its own. For many
+  /// equilibria near each other.
   double keep_tangent_below = 0.0;
   int max_load_steps = 60;  ///< tried in all
   double smallest_load_step = 1e-4;

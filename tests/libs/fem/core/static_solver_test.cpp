@@ -144,6 +144,29 @@ TEST(StaticSolver, EndsInTheSameBalanceWithTangentsThatAreKept) {
     // Chords converge linearly: no fewer steps, but most without a factorisation.
     EXPECT_GE(with_kept.iterations, result.iterations);
   }
+  EXPECT_LT(2 * kept.linearisation.factor_count(), bar.linearisation.factor_count());
+}
+
+TEST(StaticSolver, KeepsATangentForTheNextBalanceNearby) {
+  StaticSettings keeping;
+  keeping.keep_tangent_below = 0.2;
+  Bar bar(kStable, keeping);
+  bar.PullTip({0.0, 0.02, -0.05});
+  ASSERT_TRUE(bar.solver.Solve(bar.target, &bar.state).status.ok());
+  const int factors = bar.linearisation.factor_count();
+  bar.PullTip({0.0, 0.02, -0.051});
+  const StaticResult near = bar.solver.Solve(bar.target, &bar.state);
+  ASSERT_TRUE(near.status.ok()) << near.status.message();
+  EXPECT_LE(near.residual_relative, StaticSettings{}.relative_tolerance);
+  EXPECT_EQ(bar.linearisation.factor_count(), factors);
+  // A factor that somebody else made in between is not taken for its own.
+  ASSERT_TRUE(
+      bar.linearisation
+          .Update(bar.body.rest_m(), bar.state.multipliers_N, bar.state.loads.external_force_N)
+          .ok());
+  bar.PullTip({0.0, 0.02, -0.052});
+  ASSERT_TRUE(bar.solver.Solve(bar.target, &bar.state).status.ok());
+  EXPECT_EQ(bar.linearisation.factor_count(), factors + 2);
 }
 
 TEST(StaticSolver, SaysThatItDidNotConverge) {
