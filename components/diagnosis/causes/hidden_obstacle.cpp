@@ -51,10 +51,10 @@ class HiddenObstacle final : public Cause {
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const CauseMoment& at) const override {
-    if (parameter == 0 || !IsThere(z) || !at.shape.at_wall) return nullptr;
+    if (parameter == 0 || !IsThere(z) || !at.shape.AtWall()) return nullptr;
     const Wall wall = WallAt(z);
     const Eigen::Vector3d turn = NormalChange(parameter, z);
-    return WallMove(wall, turn, OffsetChange(parameter, turn));
+    return WallMove(wall, at.shape.wall_force_N, turn, OffsetChange(parameter, turn));
   }
 
   /// Where it is there: what it presses with. Where it is not: what pushes the nodes back that are
@@ -66,8 +66,8 @@ class HiddenObstacle final : public Cause {
               .times = Eigen::VectorXd::Zero(z.size()),
               .give_way_m = Eigen::VectorXd::Zero(z.size())};
     if (IsThere(z)) {
-      if (!at.shape.at_wall) return std::nullopt;
-      push.force_N = WallForces_N(wall, x_m);
+      if (!at.shape.AtWall()) return std::nullopt;
+      push.force_N = NodalForces_N(wall, at.shape.wall_force_N, x_m.size());
       push.times[0] = 1.0;
       return push;
     }

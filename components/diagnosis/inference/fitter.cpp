@@ -55,6 +55,12 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
 
 Fit Fitter::Complete(Fit fit) const {
   if (fit.complete) return fit;
+  if (fit.detail == Detail::kMiddles) {
+    fit.simulation = simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation);
+    fit.status = fit.simulation.status;
+    fit.detail = Detail::kParts;
+    fit.bends_known = true;
+  }
   Differentiate(std::vector<bool>(causes_.size(), true), nullptr, &fit);
   fit.complete = true;
   return fit;
@@ -68,6 +74,18 @@ Eigen::VectorXd Fitter::PointOf(const Posterior& posterior, const std::vector<in
       const bool one_sided = book_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
       if (one_sided) z[book_.first(k) + p] = 0.0;
     }
+  }
+  return z;
+}
+
+/// Where a fault is most likely before the data, all else as `start` has it: steps that go too far
+/// are halved towards there.
+Eigen::VectorXd Fitter::WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const {
+  Eigen::VectorXd z = start.z;
+  const Belief belief = book_.BeliefWith(faults);
+  for (const int k : faults) {
+    if (std::find(start.faults.begin(), start.faults.end(), k) != start.faults.end()) continue;
+    z.segment(book_.first(k), book_.count(k)) = belief.mean.segment(book_.first(k), book_.count(k));
   }
   return z;
 }
@@ -98,43 +116,66 @@ double Fitter::MisfitAt(const Fit& fit) const {
   return misfit;
 }
 
+bool Fitter::HasKinks(const std::vector<int>& faults) const {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](int k) { return book_.cause(k).Start().has_value(); });
+}
+
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
   constexpr int kMostRounds = 4;
   constexpr int kMostRoundsOverKinks = 10;
-  const bool has_kinks = std::any_of(faults.begin(), faults.end(),
-                                     [&](int k) { return book_.cause(k).Start().has_value(); });
-  return Refine(faults, start, has_kinks ? kMostRoundsOverKinks : kMostRounds);
+  if (!HasKinks(faults)) return Refine(faults, start, kMostRounds, Detail::kParts);
+  const Fit near = Refine(faults, start, kMostRoundsOverKinks, Detail::kMiddles);
+  if (near.bends_known || !near.status.ok()) return near;
+  return Refine(faults, near, kMostRounds, Detail::kParts);
 }
 
-Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds) const {
+Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
+                   Detail detail) const {
   constexpr double kNothing = 0.5;  // of ln evidence
   constexpr double kWorse = 1.0;    // of chi-squared
+  // Over kinks chi-squared goes up and down by some hundredths from place to place.
+  const bool has_kinks = HasKinks(faults);
+  constexpr double kLittleOverKinks = 0.03;  // of chi-squared
+  const int most_in_vain = has_kinks ? 2 : most_rounds;
   std::vector<bool> wanted(causes_.size(), false);
   for (const int fault : faults) wanted[static_cast<std::size_t>(fault)] = true;
   Fit fit;
+  fit.z = WhereFaultsBegin(faults, start);
   fit.posterior = Guess(start, faults);
   const Simulation* from = &start.simulation;
   Eigen::VectorXd to = PointOf(fit.posterior, faults);
   double misfit = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < most_rounds; ++round) {
+  int in_vain = 0;
+  for (int round = 0; round < most_rounds && in_vain < most_in_vain; ++round) {
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
+    next.detail = detail;
+    next.bends_known = detail == Detail::kParts || (start.bends_known && HasKinks(start.faults));
     next.z = to;
-    next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from);
+    next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from, detail);
     next.status = next.simulation.status;
-    Differentiate(wanted, from, &next);
-    const double now = MisfitAt(next);
-    if (round > 0 && (!next.status.ok() || now > misfit + kWorse)) {
+    if (next.status.ok()) Differentiate(wanted, from, &next);
+    // Evidence of fewer data is none.
+    if (next.status.ok() && next.model.y.size() != start.model.y.size()) {
+      next.status = {StatusCode::kNotConverged, "what the causes do is not known at some moment"};
+    }
+    const double now = next.status.ok() ? MisfitAt(next) : misfit;
+    const bool placed = fit.status.ok();
+    if (!next.status.ok() || now > misfit + kWorse) {
       to = 0.5 * (fit.z + to);
+      in_vain += placed;
       continue;
     }
+    in_vain = 0;
+    const bool little = has_kinks && placed && now > (1.0 - kLittleOverKinks) * misfit;
     misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
     to = PointOf(fit.posterior, faults);
     const bool settled = std::abs(fit.posterior.ln_evidence - before) < kNothing;
-    if (!fit.status.ok() || settled || IsNear(fit)) break;
+    if (little || settled || IsNear(fit)) break;
   }
   return fit;
 }

@@ -19,6 +19,9 @@ struct Fit {
   Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
   Simulation simulation;
   LinearModel model;
+  Detail detail = Detail::kParts;  ///< of `simulation`
+  /// How samples bend about their middles is of a body held as with these faults.
+  bool bends_known = true;
   bool complete = false;  ///< all columns of `model` are of this place
   Posterior posterior;    ///< of all parameters
 };
@@ -39,10 +42,11 @@ class Fitter {
   /// after so many rounds; a step after which the data fit worse is halved. Only what the faults do
   /// is worked out anew on the way: what others do, tolerances as well, is taken from `start`,
   /// which is good enough to find the place, not to stand on it (Complete).
-  Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds) const;
-  /// With as many rounds as such faults need.
+  Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
+             Detail detail) const;
+  /// With as many rounds as such faults need, in all detail at the end.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit, with what every cause does worked out where it is.
+  /// The same fit in all detail, with what every cause does worked out where it is.
   Fit Complete(Fit fit) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
@@ -55,6 +59,8 @@ class Fitter {
 
  private:
   Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
+  bool HasKinks(const std::vector<int>& faults) const;
+  Eigen::VectorXd WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const;
   double MisfitAt(const Fit& fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 

@@ -92,7 +92,8 @@ class NextCause {
     }
     Fit best;
     for (const int cause : candidate->starts) {
-      Fit fit = fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare);
+      Fit fit =
+          fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare, Detail::kMiddles);
       const bool better = fit.status.ok() && (!best.status.ok() || fit.posterior.ln_evidence >
                                                                        best.posterior.ln_evidence);
       if (!better && !best.faults.empty()) continue;

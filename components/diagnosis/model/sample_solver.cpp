@@ -22,6 +22,8 @@ using Kind = robot::CableCommand::Kind;
 constexpr int kMostRounds = 12;
 constexpr double kSettled_m = 1e-10;
 constexpr double kSettled_rad = 1e-8;
+/// By which a wall may stand in the undeformed body: what file and mesh may be off.
+constexpr double kDeepest_m = 1e-3;
 
 std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
   std::vector<fem::NodeWeights> points;
@@ -39,6 +41,15 @@ std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
   return points;
 }
 
+/// What does not come to rest soon is a robot that nobody has.
+fem::StaticSettings Settings() {
+  return {.relative_tolerance = 1e-9,
+          .max_newton_iterations = 20,
+          .keep_tangent_below = 0.2,
+          .max_load_steps = 12,
+          .smallest_load_step = 0.02};
+}
+
 std::vector<fem::ScalarConstraint*> AsConstraints(WallContact* wall) {
   if (wall == nullptr) return {};
   return {wall};
@@ -50,8 +61,8 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
     : draft_(draft),
       observed_(observed),
       wall_(draft.wall ? std::make_unique<WallContact>(*draft.wall) : nullptr),
-      model_(draft.body, {.relative_tolerance = 1e-9, .keep_tangent_below = 0.2}, {},
-             AsConstraints(wall_.get())),
+      model_(draft.body, Settings(), {}, AsConstraints(wall_.get())),
+      at_wall_(wall_ ? std::make_unique<WallBalance>(wall_->wall(), &model_) : nullptr),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
       skin_(draft),
@@ -128,8 +139,10 @@ void SampleSolver::SetSliding(const Eigen::VectorXi& way) {
   }
 }
 
-Status SampleSolver::Balance(const fem::LoadState& loads, fem::StaticState* state) {
-  return model_.static_solver().Solve(loads, state).status;
+Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {
+  if (at_wall_) return at_wall_->Solve(shape->commands, loads, &shape->state, &shape->wall_force_N);
+  shape->wall_force_N.resize(0);
+  return model_.static_solver().Solve(loads, &shape->state).status;
 }
 
 fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
@@ -218,7 +231,7 @@ Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadSta
                              SimulatedSample* solved) {
   for (int round = 0; round < kMostRounds; ++round) {
     bool moved = false;
-    Status status = Balance(WithCommands(loads, *solved), &solved->middle.state);
+    Status status = Balance(WithCommands(loads, *solved), &solved->middle);
     if (status.ok()) status = StretchCables(taken_in, solved, &moved);
     if (status.ok()) status = TurnBase(loads, solved->middle.state, &moved);
     if (!status.ok() || !moved) return status;
@@ -247,6 +260,12 @@ void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) con
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
                          const Hereditary& past, SimulatedSample* solved) {
+  solved->markers_m =
+      Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
+  if (wall_ && WallClearance_m(wall_->wall(), draft_.assembled_m) < -kDeepest_m) {
+    solved->status = {StatusCode::kInvalidInput, "the wall stands in the undeformed body"};
+    return;
+  }
   Prepare(sample, past);
   fem::StaticState& state = solved->middle.state;
   if (state.x_m.size() == 0) state = model_.RestState();
@@ -265,9 +284,6 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
   if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
   solved->status = GiveWay(taken_in, loads, solved);
-  solved->middle.at_wall = wall_ && WallClearance_m(wall_->wall(), state.x_m) < 0.0;
-  solved->markers_m =
-      Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
   if (solved->status.ok()) SeeMarkers(sample, solved);
 }
 

@@ -12,6 +12,7 @@
 #include "components/diagnosis/model/model_draft.hpp"
 #include "components/diagnosis/model/sight.hpp"
 #include "components/diagnosis/model/simulation.hpp"
+#include "components/diagnosis/model/wall_balance.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
@@ -49,7 +50,7 @@ class SampleSolver {
  private:
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
   std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
-  Status Balance(const fem::LoadState& loads, fem::StaticState* state);
+  Status Balance(const fem::LoadState& loads, HeldShape* shape);
   Status GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
                  SimulatedSample* solved);
   Status StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved, bool* moved);
@@ -61,6 +62,7 @@ class SampleSolver {
   const ObservedExperiment& observed_;
   std::unique_ptr<WallContact> wall_;  ///< the draft's, or none
   robot::RobotModel model_;
+  std::unique_ptr<WallBalance> at_wall_;  ///< with the wall
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;
   MarkerSkin skin_;

@@ -17,7 +17,10 @@ struct HeldShape {
   double share = 1.0;  ///< of a sample's frames that it stands for
   fem::StaticState state;
   std::vector<robot::CableCommand> commands;
-  bool at_wall = false;  ///< the body touches the draft's wall
+  /// [nodes of WallSurface] with which the draft's wall presses on the body; empty: nowhere.
+  Eigen::VectorXd wall_force_N;
+
+  bool AtWall() const { return wall_force_N.size() > 0; }
 };
 
 /// What the past leaves for a sample: the body answers 1 + scale times as stiff, carries forces,
@@ -38,6 +41,7 @@ struct SimulatedSample {
   Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material in the middle
   Eigen::Matrix3Xd markers_m;   ///< [3 x markers] mean over the sample, measurement frame
   Eigen::Matrix3Xd bend_m;      ///< [3 x markers] by which that mean is not where the middle is
+  bool bend_is_own = true;      ///< and not that of another robot
   Eigen::MatrixXd jacobian_m;   ///< [3 markers x parameters] of them
 };
 

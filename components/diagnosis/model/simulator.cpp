@@ -4,6 +4,7 @@
 #include "components/diagnosis/model/simulator.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -83,7 +84,7 @@ int SweepsFor(const ModelDraft& draft) {
 std::vector<bool> WhatHolds(const HeldShape& shape) {
   constexpr double kNothing_N = 1e-6;
   const auto cables = std::ssize(shape.commands);
-  std::vector<bool> holds{shape.at_wall};
+  std::vector<bool> holds{shape.AtWall()};
   for (const double tension_N : shape.state.multipliers_N.head(cables)) {
     holds.push_back(tension_N > kNothing_N);
   }
@@ -104,25 +105,38 @@ void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_wh
   }
 }
 
+/// The middle of a sample, about which the markers' mean lies as it did in `simulated`, which it
+/// replaces.
+void KeepTheBend(SimulatedSample part, SimulatedSample* simulated) {
+  part.bend_m = std::move(simulated->bend_m);
+  if (part.status.ok()) part.markers_m += part.bend_m;
+  *simulated = std::move(part);
+}
+
 /// The middle of a sample, the mean of where its markers are seen, and the shapes beside; begins
 /// from what `simulated` was.
 void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const Hereditary& past, SampleSolver* solver, SimulatedSample* simulated) {
+                  const Hereditary& past, Detail detail, SampleSolver* solver,
+                  SimulatedSample* simulated) {
   const std::size_t middle = parts.size() / 2;
   SimulatedSample part;
   part.middle = simulated->middle;
   // Where one set of cables was taut throughout, of a robot that was a little different, and still
   // is in the middle, the middle and how the sample bent stand for all parts.
-  const bool may_keep = simulated->bend_m.size() > 0 && simulated->beside.empty();
-  if (may_keep && !solver->IsNearWall(simulated->middle.state)) {
+  const bool is_known = simulated->bend_m.size() > 0;
+  const bool only_the_middle = is_known && detail == Detail::kMiddles;
+  const bool may_keep = is_known && simulated->bend_is_own && simulated->beside.empty();
+  if (only_the_middle || (may_keep && !solver->IsNearWall(simulated->middle.state))) {
     solver->Solve(sample, parts[middle].taken_in, past, &part);
-    if (part.status.ok() && WhatHolds(part.middle) == WhatHolds(simulated->middle)) {
-      part.bend_m = simulated->bend_m;
-      part.markers_m += part.bend_m;
+    const bool alike = part.status.ok() && WhatHolds(part.middle) == WhatHolds(simulated->middle);
+    if (only_the_middle || alike) {
       solver->Remember(past, &part);
-      *simulated = std::move(part);
+      part.middle.share = 1.0;
+      part.bend_is_own = !only_the_middle;
+      KeepTheBend(std::move(part), simulated);
       return;
     }
+    part = {};
     part.middle = simulated->middle;
   }
   Eigen::Matrix3Xd mean_m;
@@ -139,6 +153,7 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
     by_what_holds[WhatHolds(part.middle)].emplace_back(part.middle).share = parts[k].share;
   }
   simulated->bend_m = mean_m - simulated->markers_m;
+  simulated->bend_is_own = true;
   simulated->markers_m = std::move(mean_m);
   KeepOthers(by_what_holds, simulated);
 }
@@ -166,7 +181,7 @@ ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const E
 Simulator::Simulator(const ObservedExperiment& observed, int threads)
     : observed_(observed), threads_(threads), drives_(observed), memory_(observed) {}
 
-Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) const {
+Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Detail detail) const {
   Simulation simulation;
   if (start != nullptr) {
     simulation.samples = start->samples;
@@ -181,7 +196,8 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
   const auto shares = Shares(observed_, threads_);
   const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  std::atomic<bool> failed = false;
+  for (int sweep = 0; sweep < sweeps && !failed; ++sweep) {
     OnThreads(shares, [&](const std::vector<std::size_t>& share) {
       SampleSolver solver(draft, observed_);
       if (&share == &shares.front()) {
@@ -189,14 +205,24 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start) cons
         simulation.rest_elastic_N = std::move(rest.elastic_N);
         simulation.rest_energy_J_m3 = std::move(rest.energy_J_m3);
       }
-      const fem::StaticState* before = nullptr;
+      const HeldShape* before = nullptr;
       for (const std::size_t s : share) {
         SimulatedSample& sample = simulation.samples[s];
         solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
-        fem::StaticState& state = sample.middle.state;
-        if (state.x_m.size() == 0 && before != nullptr) state = *before;
-        SolveInParts(observed_.samples[s], parts[s], simulation.past[s], &solver, &sample);
-        if (sample.status.ok()) before = &state;
+        if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
+          sample.middle.state = before->state;
+          sample.middle.wall_force_N = before->wall_force_N;
+        }
+        if (failed && start != nullptr) {
+          sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
+          continue;
+        }
+        SolveInParts(observed_.samples[s], parts[s], simulation.past[s], detail, &solver, &sample);
+        if (sample.status.ok()) {
+          before = &sample.middle;
+        } else {
+          failed = true;
+        }
       }
     });
     if (sweep + 1 == sweeps) break;

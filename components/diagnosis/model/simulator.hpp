@@ -15,6 +15,12 @@
 
 namespace palpate::diagnosis {
 
+/// What of a sample of a motion is simulated.
+enum class Detail {
+  kParts,    ///< as many parts of it as its bends need
+  kMiddles,  ///< its middle; how it bends about that is taken from another simulation
+};
+
 /// Works out where the markers would be seen at every sample of an experiment, if the robot were as
 /// a draft has it, and what a change of causes does to that. Recordings are shared by threads, each
 /// with a model of its own.
@@ -24,8 +30,10 @@ class Simulator {
   Simulator(const ObservedExperiment& observed, int threads);
 
   /// Equilibria of all samples. A sample that fails has a status that says so and no markers (NaN).
-  /// Begins from those of `start` where there is one, of the same mesh.
-  Simulation Run(const ModelDraft& draft, const Simulation* start = nullptr) const;
+  /// Begins from those of `start` where there is one, of the same mesh, and ends then where a first
+  /// one fails.
+  Simulation Run(const ModelDraft& draft, const Simulation* start = nullptr,
+                 Detail detail = Detail::kParts) const;
 
   /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
   /// `z` [parameters of all]; `draft` is what these made. Of causes that are not `wanted` [causes]

@@ -14,52 +14,38 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Over twice this depth the force begins: with a kink Newton's method would not settle.
-constexpr double kOnset_m = 3e-6;
-/// Depth beyond the onset at the pressure of the body's modulus.
+/// Depth at the pressure of the body's modulus.
 constexpr double kDepthAtModulus_m = 1e-5;
 
 /// A wall that moves while the body stands.
 class WallMoveParameter final : public robot::Parameter {
  public:
-  WallMoveParameter(const Wall& wall, const Eigen::Vector3d& normal_change, double offset_change_m)
-      : wall_(wall), normal_change_(normal_change), offset_change_m_(offset_change_m) {}
+  WallMoveParameter(const Wall& wall, const Eigen::VectorXd& force_N,
+                    const Eigen::Vector3d& normal_change, double offset_change_m)
+      : wall_(wall),
+        force_N_(force_N),
+        normal_change_(normal_change),
+        offset_change_m_(offset_change_m) {}
 
   void Describe(const robot::EquilibriumPoint& at, robot::ParameterColumn* column) const override {
     const WallSurface& surface = *wall_.surface;
-    for (const int node : surface.nodes) {
-      const double depth_m = wall_.Depth_m(node, at.x_m());
-      if (depth_m <= 0.0) continue;
+    for (Eigen::Index k = 0; k < force_N_.size(); ++k) {
+      if (force_N_[k] <= 0.0) continue;
+      const int node = surface.nodes[static_cast<std::size_t>(k)];
       const double deeper = offset_change_m_ - normal_change_.dot(at.x_m().segment<3>(3 * node));
-      column->force_N().segment<3>(3 * node) += surface.Slope_N_m(depth_m) * deeper * wall_.normal +
-                                                surface.Force_N(depth_m) * normal_change_;
+      column->force_N().segment<3>(3 * node) +=
+          surface.stiffness_N_m * deeper * wall_.normal + force_N_[k] * normal_change_;
     }
   }
 
  private:
   Wall wall_;
+  Eigen::VectorXd force_N_;
   Eigen::Vector3d normal_change_;
   double offset_change_m_;
 };
 
 }  // namespace
-
-double WallSurface::Force_N(double depth_m) const {
-  if (depth_m <= 0.0) return 0.0;
-  if (depth_m < 2.0 * kOnset_m) return stiffness_N_m * depth_m * depth_m / (4.0 * kOnset_m);
-  return stiffness_N_m * (depth_m - kOnset_m);
-}
-
-double WallSurface::Slope_N_m(double depth_m) const {
-  return stiffness_N_m * std::clamp(depth_m / (2.0 * kOnset_m), 0.0, 1.0);
-}
-
-double WallSurface::Energy_J(double depth_m) const {
-  if (depth_m <= 0.0) return 0.0;
-  if (depth_m < 2.0 * kOnset_m) return depth_m / 3.0 * Force_N(depth_m);
-  const double beyond_m = depth_m - kOnset_m;
-  return stiffness_N_m * (0.5 * beyond_m * beyond_m + kOnset_m * kOnset_m / 6.0);
-}
 
 WallSurface SurfaceForWalls(const robot::RobotBody& body) {
   std::set<int> nodes;
@@ -91,24 +77,25 @@ double NearestAlong(const WallSurface& surface, const Eigen::Vector3d& normal,
   return nearest_m;
 }
 
-Eigen::VectorXd WallForces_N(const Wall& wall, const Eigen::VectorXd& x_m) {
-  Eigen::VectorXd force_N = Eigen::VectorXd::Zero(x_m.size());
-  for (const int node : wall.surface->nodes) {
-    const double depth_m = wall.Depth_m(node, x_m);
-    if (depth_m > 0.0) force_N.segment<3>(3 * node) = wall.surface->Force_N(depth_m) * wall.normal;
+Eigen::VectorXd NodalForces_N(const Wall& wall, const Eigen::VectorXd& force_N, Eigen::Index size) {
+  Eigen::VectorXd nodal_N = Eigen::VectorXd::Zero(size);
+  for (Eigen::Index k = 0; k < force_N.size(); ++k) {
+    const int node = wall.surface->nodes[static_cast<std::size_t>(k)];
+    nodal_N.segment<3>(3 * node) = force_N[k] * wall.normal;
   }
-  return force_N;
+  return nodal_N;
 }
 
-robot::ParameterPtr WallMove(const Wall& wall, const Eigen::Vector3d& normal_change,
-                             double offset_change_m) {
-  return std::make_unique<WallMoveParameter>(wall, normal_change, offset_change_m);
+robot::ParameterPtr WallMove(const Wall& wall, const Eigen::VectorXd& force_N,
+                             const Eigen::Vector3d& normal_change, double offset_change_m) {
+  return std::make_unique<WallMoveParameter>(wall, force_N, normal_change, offset_change_m);
 }
 
 double WallContact::Value(const Eigen::VectorXd& x_m) const {
   double energy_J = 0.0;
   for (const int node : wall_.surface->nodes) {
-    energy_J += wall_.surface->Energy_J(wall_.Depth_m(node, x_m));
+    const double depth_m = wall_.Depth_m(node, x_m);
+    energy_J += 0.5 * depth_m * wall_.surface->Force_N(depth_m);
   }
   return energy_J / kThere_N;
 }
@@ -134,7 +121,7 @@ void WallContact::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     const double depth_m = wall_.Depth_m(wall_.surface->nodes[k], x_m);
     if (depth_m <= 0.0) continue;
-    const Eigen::Matrix3d block = multiplier / kThere_N * wall_.surface->Slope_N_m(depth_m) * along;
+    const Eigen::Matrix3d block = multiplier / kThere_N * wall_.surface->stiffness_N_m * along;
     stiffness.Add(slots_[k], block);
   }
 }

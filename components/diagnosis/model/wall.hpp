@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -19,9 +20,7 @@ struct WallSurface {
   std::vector<int> nodes;      ///< of the faces that are not held altogether
   double stiffness_N_m = 0.0;  ///< of a wall against each of them
 
-  double Force_N(double depth_m) const;
-  double Slope_N_m(double depth_m) const;
-  double Energy_J(double depth_m) const;
+  double Force_N(double depth_m) const { return stiffness_N_m * std::max(0.0, depth_m); }
 };
 
 WallSurface SurfaceForWalls(const robot::RobotBody& body);
@@ -47,14 +46,16 @@ inline double WallClearance_m(const Wall& wall, const Eigen::VectorXd& x_m) {
   return NearestAlong(*wall.surface, wall.normal, x_m) - wall.offset_m;
 }
 
-/// [3n] with which the wall presses on the body.
-Eigen::VectorXd WallForces_N(const Wall& wall, const Eigen::VectorXd& x_m);
+/// [3n] of a wall that presses with `force_N` on the nodes of its surface.
+Eigen::VectorXd NodalForces_N(const Wall& wall, const Eigen::VectorXd& force_N, Eigen::Index size);
 
-/// What the wall presses with where its normal and its offset change by so much per p.
-robot::ParameterPtr WallMove(const Wall& wall, const Eigen::Vector3d& normal_change,
-                             double offset_change_m);
+/// What the wall presses with where its normal and its offset change by so much per p; it presses
+/// with `force_N` [nodes of its surface].
+robot::ParameterPtr WallMove(const Wall& wall, const Eigen::VectorXd& force_N,
+                             const Eigen::Vector3d& normal_change, double offset_change_m);
 
-/// The wall for a static solver: its energy is what a constraint with a given multiplier adds.
+/// The wall in a body's tangent: its energy is what a constraint with a given multiplier adds.
+/// Where the body comes to rest at it: WallBalance.
 class WallContact final : public fem::ScalarConstraint {
  public:
   /// The multiplier that a wall has which is there. Far below any force, since what a balance may

@@ -51,8 +51,9 @@ class HiddenObstacle : public testing::Test {
       std::make_shared<const WallSurface>(SurfaceForWalls(body_));
 };
 
-TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouchedAndAlongItsNormalOnly) {
+TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouched) {
   constexpr double kDeepest_m = 1e-5;
+  constexpr double kExact_m = 2e-9;
   const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.4);
   const Simulation run = Run(wall, &as_built_);
   ASSERT_TRUE(run.status.ok()) << run.status.message();
@@ -60,13 +61,12 @@ TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouchedAndAlongItsNormalOnly) {
   for (std::size_t s = 0; s < run.samples.size(); ++s) {
     const Eigen::VectorXd& x_m = run.samples[s].middle.state.x_m;
     EXPECT_GT(WallClearance_m(wall, x_m), -kDeepest_m) << "sample " << s;
-    const Eigen::Matrix3Xd force_N = WallForces_N(wall, x_m).reshaped(3, x_m.size() / 3);
-    EXPECT_EQ(run.samples[s].middle.at_wall, !force_N.isZero(0.0));
-    touching += run.samples[s].middle.at_wall;
-    for (int node = 0; node < body_.mesh.NodeCount(); ++node) {
-      EXPECT_GE(force_N.col(node).dot(wall.normal), 0.0);
-      EXPECT_LT(force_N.col(node).cross(wall.normal).norm(), 1e-15);
-      EXPECT_TRUE(wall.Depth_m(node, x_m) > 0.0 || force_N.col(node).isZero(0.0));
+    const Eigen::VectorXd& force_N = run.samples[s].middle.wall_force_N;
+    touching += run.samples[s].middle.AtWall();
+    for (Eigen::Index k = 0; k < force_N.size(); ++k) {
+      const double depth_m = wall.Depth_m(surface_->nodes[static_cast<std::size_t>(k)], x_m);
+      EXPECT_GE(force_N[k], 0.0);
+      EXPECT_NEAR(std::max(0.0, depth_m), force_N[k] / surface_->stiffness_N_m, kExact_m);
     }
   }
   EXPECT_GT(touching, 2);
@@ -89,10 +89,11 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
   SimulatedSample solved;
   solver.Solve(observed_.samples[static_cast<std::size_t>(s)], taken_in.col(s), {}, &solved);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message();
-  ASSERT_TRUE(solved.middle.at_wall);
+  ASSERT_TRUE(solved.middle.AtWall());
   // Weight, loads, cables, wall and base: what the base gives is minus all else.
   const Eigen::VectorXd& x_m = solved.middle.state.x_m;
-  Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + WallForces_N(wall, x_m);
+  const Eigen::VectorXd wall_N = NodalForces_N(wall, solved.middle.wall_force_N, x_m.size());
+  Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + wall_N;
   robot::RobotModel& model = solver.model();
   for (int c = 0; c < model.CableCount(); ++c) {
     model.cable(c).AddGradient(x_m, -solved.middle.state.multipliers_N[c], nodal_N);
@@ -112,14 +113,20 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
     if (body_.fixed.col(node).all()) continue;
     EXPECT_LT(left_N.segment<3>(3 * node).norm(), 1e-7) << "node " << node;
   }
-  EXPECT_GT(WallForces_N(wall, x_m).reshaped(3, x_m.size() / 3).rowwise().sum().norm(), 1e-3);
+  EXPECT_GT(wall_N.reshaped(3, x_m.size() / 3).rowwise().sum().norm(), 1e-3);
 }
 
 TEST_F(HiddenObstacle, FarAwayChangesNothing) {
+  constexpr double kSettled_m = 2e-9;
   const Simulation with = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), -1.0});
   for (std::size_t s = 0; s < with.samples.size(); ++s) {
-    EXPECT_EQ(with.samples[s].middle.state.x_m, as_built_.samples[s].middle.state.x_m);
-    EXPECT_EQ(with.samples[s].markers_m, as_built_.samples[s].markers_m);
+    const auto differ_m = [&](const auto& a, const auto& b) {
+      return (a - b).cwiseAbs().maxCoeff();
+    };
+    EXPECT_FALSE(with.samples[s].middle.AtWall());
+    EXPECT_LT(differ_m(with.samples[s].middle.state.x_m, as_built_.samples[s].middle.state.x_m),
+              kSettled_m);
+    EXPECT_LT(differ_m(with.samples[s].markers_m, as_built_.samples[s].markers_m), kSettled_m);
   }
 }
 
