@@ -125,9 +125,27 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
   constexpr int kMostStepsPerTangent = 4;
   const int tangents_before = linearisation_.factor_count();
   const auto tangents = [&] { return linearisation_.factor_count() - tangents_before; };
-  result->residual_relative = std::numeric_limits<double>::infinity();
+  // A step with the tangent of another balance, where it leads as near as a kept one must.
+  const auto helps = [&] {
+    result->residual_relative = std::numeric_limits<double>::infinity();
+    if (!Linearise(loads, *state, true, result).ok()) return false;
+    const double before = result->residual_relative;
+    if (before <= settings_.relative_tolerance) return true;
+    const StaticState start = *state;
+    const bool moved =
+        TakeFullStep(state) &&
+        linearisation_.UpdateResidual(state->x_m, state->multipliers_N, loads.external_force_N)
+            .ok();
+    const double after = linearisation_.residual_N().norm() /
+                         ForceScale_N(linearisation_, loads, state->multipliers_N);
+    if (moved && after < settings_.keep_tangent_below * before) return true;
+    *state = start;
+    return false;
+  };
+  const bool has_tangent =
+      steps == Steps::kFull && settings_.keep_tangent_below > 0.0 && step_.HasTangentFor(loads);
+  bool may_keep = has_tangent && helps();
   for (int iteration = 0; iteration <= kMostStepsPerTangent * most; ++iteration) {
-    const bool may_keep = steps == Steps::kFull && (iteration > 0 || step_.HasTangentFor(loads));
     if (Status status = Linearise(loads, *state, may_keep, result); !status.ok()) return status;
     result->constraint_error_m = ConstraintError(loads, *state);
     const bool balanced = result->residual_relative <= settings_.relative_tolerance ||
@@ -140,6 +158,7 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
     if (tangents() > most) break;
     if (budget_->Over()) return {StatusCode::kBudgetReached, "time used up"};
     ++result->iterations;
+    may_keep = steps == Steps::kFull;
     const bool moved = steps == Steps::kFull ? TakeFullStep(state)
                                              : TakeStep(loads, result->residual_relative, state);
     if (!moved) {

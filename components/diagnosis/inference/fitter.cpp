@@ -9,6 +9,15 @@
 
 namespace palpate::diagnosis {
 
+namespace {
+
+/// Evidence of fewer data than another has is none.
+Status FewerData() {
+  return {StatusCode::kNotConverged, "what the causes do is not known at some moment"};
+}
+
+}  // namespace
+
 Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
                const CauseBook& book, const NoiseModel& noise, int threads)
     : observed_(observed),
@@ -54,14 +63,16 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
 }
 
 Fit Fitter::Complete(Fit fit) const {
-  if (fit.complete) return fit;
+  if (fit.complete || fit.simulation.samples.empty()) return fit;
   if (fit.detail == Detail::kMiddles) {
     fit.simulation = simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation);
     fit.status = fit.simulation.status;
     fit.detail = Detail::kParts;
     fit.bends_known = true;
   }
+  const Eigen::Index data = fit.model.y.size();
   Differentiate(std::vector<bool>(causes_.size(), true), nullptr, &fit);
+  if (fit.model.y.size() < data) fit.status = FewerData();
   fit.complete = true;
   return fit;
 }
@@ -157,10 +168,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from, detail);
     next.status = next.simulation.status;
     if (next.status.ok()) Differentiate(wanted, from, &next);
-    // Evidence of fewer data is none.
-    if (next.status.ok() && next.model.y.size() != start.model.y.size()) {
-      next.status = {StatusCode::kNotConverged, "what the causes do is not known at some moment"};
-    }
+    if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
     const double now = next.status.ok() ? MisfitAt(next) : misfit;
     const bool placed = fit.status.ok();
     if (!next.status.ok() || now > misfit + kWorse) {

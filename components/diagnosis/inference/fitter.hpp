@@ -46,7 +46,8 @@ class Fitter {
              Detail detail) const;
   /// With as many rounds as such faults need, in all detail at the end.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit in all detail, with what every cause does worked out where it is.
+  /// The same fit in all detail, with what every cause does worked out where it is. One that could
+  /// not be simulated stays as it is.
   Fit Complete(Fit fit) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;

@@ -20,6 +20,7 @@ constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
 constexpr double kWorthALook = 6.0;      ///< below the best, ln BF, to be simulated anew
 constexpr int kMostRefined = 4;
+constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 /// Looks for one further cause.
 class NextCause {
@@ -71,7 +72,7 @@ class NextCause {
           before_.posterior.ln_evidence;
       Fit fit = RefineFromItsStarts(&candidate);
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
-      candidate.ln_bayes_factor += fit.status.ok() ? now - guess : -1e9;
+      candidate.ln_bayes_factor += fit.status.ok() ? now - guess : kImpossible;
       candidate.refined = true;
       best = std::max(best, candidate.ln_bayes_factor);
       fits_.push_back(std::move(fit));
@@ -108,7 +109,8 @@ class NextCause {
   void Complete(std::size_t k) {
     const double before = fits_[k].posterior.ln_evidence;
     fits_[k] = fitter_.Complete(std::move(fits_[k]));
-    candidates_[k].ln_bayes_factor += fits_[k].posterior.ln_evidence - before;
+    const double now = fits_[k].posterior.ln_evidence;
+    candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
   }
 
   void SortRefined() {

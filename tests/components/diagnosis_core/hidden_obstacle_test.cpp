@@ -250,6 +250,41 @@ TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
   EXPECT_GT(found.dot(wall.normal), std::cos(kMostTurn_rad));
 }
 
+/// A wall through the body, however far it is moved.
+class WallThroughTheBody final : public Cause {
+ public:
+  explicit WallThroughTheBody(std::shared_ptr<const WallSurface> surface)
+      : Cause({"hidden_obstacle", {"body"}}, "a wall through the body",
+              {{.name = "gap_m", .fault = 1.0, .fault_at = 1.0}}),
+        surface_(std::move(surface)) {}
+
+  void Apply(const Eigen::VectorXd& /*z*/, ModelDraft* draft) const override {
+    draft->wall = Wall{surface_, Eigen::Vector3d::UnitZ(), 1.0};
+  }
+  /// As if it explained what is measured.
+  void OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+              Eigen::Matrix3Xd* seen_m) const override {
+    *seen_m = at.seen().position_m - at.simulated().markers_m;
+  }
+
+ private:
+  std::shared_ptr<const WallSurface> surface_;
+};
+
+TEST_F(HiddenObstacleIsFound, NowhereThatTheBodyCannotBe) {
+  const Wall wall = WallAcross({0.15, -0.4, 1.0}, 0.6);
+  Measure(Run(wall, &as_built_));
+  std::vector<CausePtr> causes;
+  causes.push_back(std::make_unique<WallThroughTheBody>(surface_));
+  const CauseBook book(std::move(causes), {});
+  const Fitter fitter(observed_, body_, book, {.relative_error = 1e-4}, 1);
+  const Fit as_built = fitter.AsBuilt(&as_built_);
+  ASSERT_GT(fitter.Guess(as_built, {0}).ln_evidence, as_built.posterior.ln_evidence + 10.0);
+  const Fit fit = fitter.Complete(fitter.Refine({0}, as_built));
+  EXPECT_FALSE(fit.status.ok());
+  EXPECT_TRUE(Select(book).named.empty());
+}
+
 TEST_F(HiddenObstacleIsFound, InNoHealthyRobot) {
   Measure(as_built_);
   const CauseBook book = Book();
