@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <thread>
@@ -215,6 +216,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
         }
         if (failed && start != nullptr) {
           sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
+          sample.markers_m.setConstant(std::numeric_limits<double>::quiet_NaN());
           continue;
         }
         SolveInParts(observed_.samples[s], parts[s], simulation.past[s], detail, &solver, &sample);

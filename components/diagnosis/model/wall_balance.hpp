@@ -8,16 +8,17 @@
 
 #include "components/diagnosis/model/wall.hpp"
 #include "libs/core/status.hpp"
+#include "libs/fem/equilibrium_step.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
 namespace palpate::diagnosis {
 
-/// Brings a robot into balance at a wall. What the wall presses with is looked for outside of the
-/// equilibrium, in turn with it: from how far the nodes give way to each other's forces (W, as eq.
-/// 4 of the paper has it for cables) follows a linear complementarity problem for the forces, under
-/// which the body is brought into balance anew. So one tangent of the free body serves all of it,
-/// whatever touches.
+/// Brings a robot into balance at a wall. From how far the nodes near it give way to each other's
+/// forces (W, as eq. 4 of the paper has it for cables) follows a linear complementarity problem for
+/// what the wall presses with; the body goes a step on towards balance under that, and so in turn.
+/// The tangents are the free body's: one serves whatever touches, and many equilibria near each
+/// other.
 class WallBalance {
  public:
   /// Both must outlive it; the model's last constraint is the wall (WallContact).

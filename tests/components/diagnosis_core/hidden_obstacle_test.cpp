@@ -63,6 +63,7 @@ TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouched) {
     EXPECT_GT(WallClearance_m(wall, x_m), -kDeepest_m) << "sample " << s;
     const Eigen::VectorXd& force_N = run.samples[s].middle.wall_force_N;
     touching += run.samples[s].middle.AtWall();
+    EXPECT_TRUE(run.samples[s].middle.AtWall() || WallClearance_m(wall, x_m) > -kExact_m);
     for (Eigen::Index k = 0; k < force_N.size(); ++k) {
       const double depth_m = wall.Depth_m(surface_->nodes[static_cast<std::size_t>(k)], x_m);
       EXPECT_GE(force_N[k], 0.0);
@@ -282,6 +283,11 @@ TEST_F(HiddenObstacleIsFound, NowhereThatTheBodyCannotBe) {
   ASSERT_GT(fitter.Guess(as_built, {0}).ln_evidence, as_built.posterior.ln_evidence + 10.0);
   const Fit fit = fitter.Complete(fitter.Refine({0}, as_built));
   EXPECT_FALSE(fit.status.ok());
+  const Simulation none = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), 1.0}, &as_built_);
+  EXPECT_FALSE(none.status.ok());
+  for (const SimulatedSample& sample : none.samples) {
+    EXPECT_TRUE(!sample.status.ok() && sample.markers_m.array().isNaN().all());
+  }
   EXPECT_TRUE(Select(book).named.empty());
 }
 
