@@ -25,9 +25,10 @@ Scenario Shipped(const std::string& name) {
   return ReadScenario(kSource / "config/scenarios" / (name + ".yaml"), app::LoadYaml);
 }
 
-RobotNames FourLeg() {
-  return NamesOf(robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml));
+RobotNames Robot(const std::string& name) {
+  return NamesOf(robot::ReadRobotFile(kSource / "config/robots" / (name + ".yaml"), app::LoadYaml));
 }
+RobotNames FourLeg() { return Robot("four_leg"); }
 
 std::set<std::string> KindsOf(const Scenario& scenario) {
   std::set<std::string> kinds;
@@ -76,6 +77,14 @@ TEST(ShippedScenarios, IdentifyHasEveryKindOfRecordingThatTellsCausesApart) {
                                              "ramp", "repeat", "rest", "second_speed"));
   EXPECT_EQ(scenario.recordings.front().kind, "rest");
   EXPECT_EQ(scenario.recordings.back().kind, "rest");
+}
+
+TEST(ShippedScenarios, DiagnoseRodIsForTheRodAndDoesWhatDiagnoseDoes) {
+  const Scenario scenario = Shipped("diagnose_rod");
+  EXPECT_NO_THROW(CheckAgainst(scenario, Robot("rod")));
+  EXPECT_TRUE(scenario.effects.empty());
+  EXPECT_EQ(scenario.clutter, 1.0);
+  EXPECT_EQ(KindsOf(scenario), KindsOf(Shipped("diagnose")));
 }
 
 TEST(ShippedScenarios, KindsAreThoseOfAnExperiment) {
