@@ -57,15 +57,19 @@ PointStress::PointStress(const TetMesh& mesh, std::vector<int> material_of_cell)
   }
 }
 
+PointStress::CellNodes PointStress::NodesOf(int cell, const Eigen::VectorXd& x_m) const {
+  CellNodes x(3, nodes_per_cell_);
+  for (int a = 0; a < nodes_per_cell_; ++a) x.col(a) = x_m.segment<3>(3 * cells_(a, cell));
+  return x;
+}
+
 void PointStress::Evaluate(const std::vector<Material>& materials,
                            const Eigen::VectorXd& factor_of_cell, const Eigen::VectorXd& x_m,
                            Eigen::Matrix<double, 6, Eigen::Dynamic>* stress_Pa) const {
   stress_Pa->resize(6, PointCount());
   for (int cell = 0; cell < cells_.cols(); ++cell) {
     const Material& material = materials[At(material_of_cell_[At(cell)])];
-    PALPATE_CHECK(material.model != MaterialModel::kLinear);
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 10> x(3, nodes_per_cell_);
-    for (int a = 0; a < nodes_per_cell_; ++a) x.col(a) = x_m.segment<3>(3 * cells_(a, cell));
+    const CellNodes x = NodesOf(cell, x_m);
     std::array<Eigen::Matrix3d, kMaxPoints> F;
     std::array<double, kMaxPoints> J;
     double volume = 0.0;
@@ -101,7 +105,7 @@ void PointStress::SetMatrix(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stre
   matrix->SetZero();
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10> local(nodes_per_cell_,
                                                                          nodes_per_cell_);
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 10> stressed(3, nodes_per_cell_);
+  CellNodes stressed(3, nodes_per_cell_);
   for (int cell = 0; cell < cells_.cols(); ++cell) {
     local.setZero();
     for (int q = 0; q < points_per_cell_; ++q) {
@@ -112,6 +116,26 @@ void PointStress::SetMatrix(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stre
       local.noalias() += gradients.transpose().lazyProduct(stressed);
     }
     matrix->AddCell(cell, local);
+  }
+}
+
+void PointStress::AddForces(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress_Pa,
+                            const Eigen::VectorXd& x_m, Eigen::VectorXd* force_N) const {
+  PALPATE_CHECK(stress_Pa.cols() == PointCount(), stress_Pa.cols(), PointCount());
+  CellNodes of_cell_N(3, nodes_per_cell_);
+  for (int cell = 0; cell < cells_.cols(); ++cell) {
+    const CellNodes x = NodesOf(cell, x_m);
+    of_cell_N.setZero();
+    for (int q = 0; q < points_per_cell_; ++q) {
+      const int point = cell * points_per_cell_ + q;
+      const Gradients gradients = GradientsAt(point);
+      const Eigen::Matrix3d F = x.lazyProduct(gradients.transpose());
+      const Eigen::Matrix3d P = weights_[At(point)] * F * Unpack(stress_Pa.col(point));
+      of_cell_N.noalias() += P.lazyProduct(gradients);
+    }
+    for (int a = 0; a < nodes_per_cell_; ++a) {
+      force_N->segment<3>(3 * cells_(a, cell)) += of_cell_N.col(a);
+    }
   }
 }
 

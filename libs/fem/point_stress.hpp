@@ -23,8 +23,8 @@ class PointStress {
   int PointCount() const { return static_cast<int>(weights_.size()); }
 
   /// Overwrites `stress_Pa` [6 x points] (xx, yy, zz, xy, yz, zx) with S at the positions `x_m`
-  /// [3n]: of the materials, times `factor_of_cell` [cells]. A material without frame-indifferent
-  /// stress (linear) has no S.
+  /// [3n]: of the materials, times `factor_of_cell` [cells]. A linear material, whose stress is not
+  /// frame-indifferent, has one to first order in its strains and turns.
   void Evaluate(const std::vector<Material>& materials, const Eigen::VectorXd& factor_of_cell,
                 const Eigen::VectorXd& x_m,
                 Eigen::Matrix<double, 6, Eigen::Dynamic>* stress_Pa) const;
@@ -35,9 +35,16 @@ class PointStress {
   void SetMatrix(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress_Pa,
                  NodeMatrix* matrix) const;
 
+  /// Adds those forces to `force_N` [3n], without the matrix.
+  void AddForces(const Eigen::Matrix<double, 6, Eigen::Dynamic>& stress_Pa,
+                 const Eigen::VectorXd& x_m, Eigen::VectorXd* force_N) const;
+
  private:
   using Gradients = Eigen::Map<const Eigen::Matrix3Xd>;
+  using CellNodes = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 10>;
 
+  /// [3 x nodes of the cell]
+  CellNodes NodesOf(int cell, const Eigen::VectorXd& x_m) const;
   Gradients GradientsAt(int point) const {
     return {gradients_.data() + static_cast<size_t>(3 * nodes_per_cell_ * point), 3,
             nodes_per_cell_};
