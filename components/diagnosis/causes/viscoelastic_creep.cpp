@@ -9,8 +9,8 @@ namespace palpate::diagnosis {
 namespace {
 
 /// One Prony term with a relaxation time near one that it is looked for at. What it does at a
-/// moment is a force: the elastic forces of the past, as far as they have not faded
-/// (Memory::Fading), held by the body as it is. Turns of the body meanwhile are left out.
+/// moment is the force of a stress: the elastic ones of the past, as far as they have not faded
+/// (Memory::Fading), which have stayed with the material.
 class ViscoelasticCreep final : public Cause {
  public:
   ViscoelasticCreep(double tau_s, double tolerance)
@@ -38,15 +38,12 @@ class ViscoelasticCreep final : public Cause {
   }
 
  private:
-  /// Sum of the elastic forces of all samples, so weighted.
+  /// Of the elastic stresses of all samples, so weighted.
   static robot::ParameterPtr Force(const CauseMoment& at, const Eigen::RowVectorXd& weights) {
-    constexpr double kNothing = 1e-7;
-    const auto samples = std::ssize(at.simulation.samples);
-    Eigen::VectorXd force_N = weights[samples] * at.simulation.rest_elastic_N;
-    for (Eigen::Index s = 0; s < samples; ++s) {
-      if (std::abs(weights[s]) < kNothing) continue;
-      force_N += weights[s] * at.simulation.samples[static_cast<std::size_t>(s)].elastic_N;
-    }
+    PointStresses stress_Pa = PointStresses::Zero(6, at.points.PointCount());
+    AddRemembered(at.simulation, weights.transpose(), &stress_Pa);
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(at.shape.state.x_m.size());
+    at.points.AddForces(stress_Pa.cast<double>(), at.shape.state.x_m, &force_N);
     return robot::NodalForce(std::move(force_N));
   }
 };

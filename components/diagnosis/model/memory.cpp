@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/model/memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -20,6 +21,11 @@ std::optional<double> StampOf(const std::vector<experiment::KnownLoad>& loads) {
 Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
   const std::vector<Sample>& samples = observed.samples;
   const Timeline& timeline = observed.timeline;
+  largest_command_ = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
+  for (const Eigen::VectorXd& command : timeline.command) {
+    largest_command_ = command.array().isNaN().select(
+        largest_command_, command.cwiseAbs().cwiseMax(largest_command_));
+  }
   std::size_t first = 0;
   while (first < samples.size()) {
     std::size_t last = first;
@@ -33,9 +39,8 @@ Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
     if (ends && last + 1 < samples.size()) {
       const auto next = static_cast<std::size_t>(samples[last + 1].recording);
       const auto recording = static_cast<std::size_t>(samples[first].recording);
-      Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(std::ssize(samples) + 1);
-      if (!observed.recordings[next].held_until_s) zero[zero.size() - 1] = 1.0;
-      Add(0.5 * (timeline.end_s[recording] + timeline.begin_s[next]), std::move(zero));
+      const double middle_s = 0.5 * (timeline.end_s[recording] + timeline.begin_s[next]);
+      Add({middle_s, (observed.recordings[next].held_until_s ? 0.0 : 1.0) * Zero()});
     }
     first = last + 1;
   }
@@ -47,47 +52,91 @@ Eigen::RowVectorXd Memory::Only(std::size_t sample) const {
   return share;
 }
 
-Eigen::RowVectorXd Memory::CarriedOn(std::size_t from, std::size_t over, double to_s) const {
-  const double from_s = observed_.samples[from].t_s;
-  const double over_s = observed_.samples[over].t_s;
-  if (from == over || observed_.samples[from].still) return Only(over);
-  const double beyond = (to_s - from_s) / (over_s - from_s);
-  return (1.0 - beyond) * Only(from) + beyond * Only(over);
+Eigen::RowVectorXd Memory::Zero() const { return Only(observed_.samples.size()); }
+
+/// Whether the robot is at a time of a sample's recording as it is in the rests, near enough.
+bool Memory::IsAtZero(std::size_t sample, double t_s) const {
+  constexpr double kNearlyNothing = 0.1;  // of the largest command
+  const Sample& seen = observed_.samples[sample];
+  const ObservedRecording& recording =
+      observed_.recordings[static_cast<std::size_t>(seen.recording)];
+  const bool as_built = recording.base_rotation.isIdentity() && !recording.held_until_s;
+  if (largest_command_.isZero() || !seen.loads.empty() || !as_built) return false;
+  const Eigen::ArrayXd command = observed_.timeline.CommandAt(t_s).array();
+  return (command.isNaN() || command.abs() <= kNearlyNothing * largest_command_.array()).all();
 }
 
-/// Where two pieces meet, the mean of what both carry there.
-void Memory::Add(double t_s, Eigen::RowVectorXd share) {
+/// Where two pieces meet, what is sure of the one, or the mean of what both carry there.
+void Memory::Add(Node node) {
   constexpr double kSame_s = 1e-9;
-  if (!nodes_.empty() && t_s <= nodes_.back().t_s + kSame_s) {
-    nodes_.back().share = 0.5 * (nodes_.back().share + share);
+  if (nodes_.empty() || node.t_s > nodes_.back().t_s + kSame_s) {
+    nodes_.push_back(std::move(node));
     return;
   }
-  nodes_.push_back({t_s, std::move(share)});
+  Node& there = nodes_.back();
+  if (there.sure == node.sure) there.share = 0.5 * (there.share + node.share);
+  if (node.sure && !there.sure) there.share = std::move(node.share);
+  there.sure = there.sure || node.sure;
+}
+
+/// Of a piece: where it begins, its samples, where it ends.
+std::vector<Memory::Node> Memory::NodesOf(std::size_t first, std::size_t last) const {
+  const std::vector<Sample>& samples = observed_.samples;
+  const double begin_s = samples[first].piece_begin_s;
+  const double end_s = samples[last].piece_end_s;
+  std::vector<Node> known;
+  const bool still = samples[first].still;
+  if (still) {
+    known.push_back({begin_s, Only(first)});
+  } else if (IsAtZero(first, begin_s)) {
+    known.push_back({begin_s, Zero()});
+  }
+  for (std::size_t s = first; s <= last; ++s) {
+    if (known.empty() || samples[s].t_s > known.back().t_s) {
+      known.push_back({samples[s].t_s, Only(s)});
+    }
+  }
+  if (still) {
+    known.push_back({end_s, Only(last)});
+  } else if (IsAtZero(last, end_s) && end_s > known.back().t_s) {
+    known.push_back({end_s, Zero()});
+  }
+  const auto carried_on = [&](const Node& from, const Node& over, double to_s) -> Node {
+    const double beyond = from.t_s == over.t_s ? 1.0 : (to_s - from.t_s) / (over.t_s - from.t_s);
+    return {to_s, (1.0 - beyond) * from.share + beyond * over.share, /*sure=*/false};
+  };
+  const std::size_t count = known.size();
+  if (known.back().t_s < end_s) {
+    known.push_back(carried_on(known[count > 1 ? count - 2 : 0], known[count - 1], end_s));
+  }
+  if (known.front().t_s > begin_s) {
+    known.insert(known.begin(), carried_on(known[count > 1 ? 1 : 0], known[0], begin_s));
+  }
+  return known;
 }
 
 void Memory::AddPiece(std::size_t first, std::size_t last) {
   const std::vector<Sample>& samples = observed_.samples;
-  const std::size_t second = std::min(first + 1, last);
-  const double begin_s = samples[first].piece_begin_s;
-  Eigen::RowVectorXd at_begin = CarriedOn(second, first, begin_s);
+  std::vector<Node> nodes = NodesOf(first, last);
+  const double begin_s = nodes.front().t_s;
   const auto recording = static_cast<std::size_t>(samples[first].recording);
   const std::optional<double> held_until_s = observed_.recordings[recording].held_until_s;
   const bool released = held_until_s && *held_until_s < begin_s &&
                         (first == 0 || samples[first - 1].recording != samples[first].recording);
   if (released) {
-    Add(*held_until_s, Eigen::RowVectorXd::Zero(at_begin.size()));
-    nodes_.push_back({*held_until_s, at_begin});
+    Add({*held_until_s, 0.0 * Zero()});
+    nodes_.push_back({*held_until_s, nodes.front().share});
   }
   const bool jumps = first > 0 && samples[first - 1].recording == samples[first].recording &&
                      StampOf(samples[first - 1].loads) != StampOf(samples[first].loads);
-  if (jumps) {
-    nodes_.push_back({std::max(begin_s, nodes_.back().t_s), std::move(at_begin)});
-  } else {
-    Add(begin_s, std::move(at_begin));
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (k == 0 && jumps) {
+      nodes.front().t_s = std::max(begin_s, nodes_.back().t_s);
+      nodes_.push_back(std::move(nodes.front()));
+    } else {
+      Add(std::move(nodes[k]));
+    }
   }
-  for (std::size_t s = first; s <= last; ++s) Add(samples[s].t_s, Only(s));
-  const std::size_t before = last > first ? last - 1 : last;
-  Add(samples[last].piece_end_s, CarriedOn(before, last, samples[last].piece_end_s));
 }
 
 const Eigen::MatrixXd& Memory::Fading(double tau_s) const {

@@ -14,8 +14,9 @@ namespace palpate::diagnosis {
 
 /// What a body remembers of the experiment. A quantity that was worked out at the samples, and with
 /// every command at zero, is followed through all times: linearly from sample to sample, carried on
-/// to where a piece begins and ends, and to that of zero commands in the rests. Where a load comes
-/// or goes it jumps, and where a body is let go that was held in its undeformed shape.
+/// to where a piece begins and ends, and to that of zero commands in the rests and where a piece
+/// begins or ends with them. Where nothing is moved it stays, until a motion begins. Where a load
+/// comes or goes it jumps, and where a body is let go that was held in its undeformed shape.
 class Memory {
  public:
   explicit Memory(const ObservedExperiment& observed);
@@ -34,15 +35,19 @@ class Memory {
   struct Node {
     double t_s = 0.0;
     Eigen::RowVectorXd share;  ///< [samples + 1]
+    bool sure = true;          ///< else carried on from elsewhere
   };
   Eigen::MatrixXd WorkOutFading(double tau_s) const;
   void AddPiece(std::size_t first, std::size_t last);
-  void Add(double t_s, Eigen::RowVectorXd share);
+  std::vector<Node> NodesOf(std::size_t first, std::size_t last) const;
+  void Add(Node node);
   Eigen::RowVectorXd Only(std::size_t sample) const;
-  Eigen::RowVectorXd CarriedOn(std::size_t from, std::size_t over, double to_s) const;
+  Eigen::RowVectorXd Zero() const;
+  bool IsAtZero(std::size_t sample, double t_s) const;
 
   const ObservedExperiment& observed_;
-  std::vector<Node> nodes_;  ///< by time
+  Eigen::VectorXd largest_command_;  ///< [cables], m or N
+  std::vector<Node> nodes_;          ///< by time
   mutable std::mutex mutex_;
   mutable std::map<double, Eigen::MatrixXd> fading_;  ///< by tau
 };

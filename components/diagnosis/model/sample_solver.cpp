@@ -50,9 +50,9 @@ fem::StaticSettings Settings() {
           .smallest_load_step = 0.02};
 }
 
-std::vector<fem::ScalarConstraint*> AsConstraints(WallContact* wall) {
-  if (wall == nullptr) return {};
-  return {wall};
+std::vector<fem::ScalarConstraint*> AsConstraints(KeptStress* kept, WallContact* wall) {
+  if (wall == nullptr) return {kept};
+  return {kept, wall};
 }
 
 }  // namespace
@@ -60,8 +60,10 @@ std::vector<fem::ScalarConstraint*> AsConstraints(WallContact* wall) {
 SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed)
     : draft_(draft),
       observed_(observed),
+      points_(draft.body.mesh, draft.body.material_of_cell),
+      kept_(draft.body.mesh),
       wall_(draft.wall ? std::make_unique<WallContact>(*draft.wall) : nullptr),
-      model_(draft.body, Settings(), {}, AsConstraints(wall_.get())),
+      model_(draft.body, Settings(), {}, AsConstraints(&kept_, wall_.get())),
       at_wall_(wall_ ? std::make_unique<WallBalance>(wall_->wall(), &model_) : nullptr),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
@@ -126,6 +128,7 @@ void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
                                              ? past.cell_factor
                                              : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
+  kept_.Set(points_, past.stress_Pa);
   model_.SetGravity(
       GravityIn(draft_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
 }
@@ -151,6 +154,7 @@ fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
     const auto cable = static_cast<std::size_t>(c);
     loads.commands[cable] = model_.ToConstraint(c, solved.middle.commands[cable]);
   }
+  loads.commands[static_cast<std::size_t>(model_.CableCount())] = kept_.Command();
   if (wall_) {
     loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
                              .value = WallContact::kThere_N};
@@ -282,7 +286,6 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   solved->middle.commands = std::move(commands);
   base_turn_rad_.setZero();
   fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
-  if (past.force_N.size() > 0) loads.external_force_N += past.force_N;
   solved->status = GiveWay(taken_in, loads, solved);
   if (solved->status.ok()) SeeMarkers(sample, solved);
 }
@@ -294,16 +297,19 @@ bool SampleSolver::IsNearWall(const fem::StaticState& state) const {
 
 void SampleSolver::Remember(const Hereditary& past, SimulatedSample* solved) {
   const Eigen::VectorXd& x_m = solved->middle.state.x_m;
-  solved->elastic_N = Eigen::VectorXd::Zero(x_m.size());
+  solved->elastic_Pa = PointStresses::Zero(6, points_.PointCount());
   solved->energy_J_m3 = Eigen::VectorXf::Zero(cell_volume_m3_.size());
   if (!solved->status.ok()) return;
   const fem::ElasticBody& body = model_.elastic_body();
-  body.AddForces(x_m, solved->elastic_N);
-  solved->elastic_N /= 1.0 + past.scale;
+  const bool softened = past.cell_factor.size() > 0;
+  const Eigen::VectorXd undamaged = Eigen::VectorXd::Ones(cell_volume_m3_.size());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> elastic_Pa;
+  points_.Evaluate(body.materials(), softened ? past.cell_factor : undamaged, x_m, &elastic_Pa);
+  solved->elastic_Pa = (elastic_Pa / (1.0 + past.scale)).cast<float>();
   Eigen::VectorXd energy_J;
   body.CellEnergies(x_m, &energy_J);
   energy_J = energy_J.cwiseQuotient(cell_volume_m3_) / (1.0 + past.scale);
-  if (past.cell_factor.size() > 0) energy_J = energy_J.cwiseQuotient(past.cell_factor);
+  if (softened) energy_J = energy_J.cwiseQuotient(past.cell_factor);
   solved->energy_J_m3 = energy_J.cast<float>();
 }
 

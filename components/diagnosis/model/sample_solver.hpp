@@ -26,6 +26,7 @@ class SampleSolver {
   SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed);
 
   robot::RobotModel& model() { return model_; }
+  const fem::PointStress& points() const { return points_; }
   /// [markers] points of the body that the markers sit at, offsets included.
   const std::vector<fem::NodeWeights>& markers() const { return markers_; }
 
@@ -38,7 +39,7 @@ class SampleSolver {
              SimulatedSample* solved);
   /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
   bool IsNearWall(const fem::StaticState& state) const;
-  /// Fills in what a body remembers of where it is now.
+  /// Fills in what a body will remember of where it is now.
   void Remember(const Hereditary& past, SimulatedSample* solved);
   /// At rest with every command at zero and nothing on the body, with what it remembers of that.
   SimulatedSample Rest();
@@ -60,7 +61,9 @@ class SampleSolver {
 
   const ModelDraft& draft_;
   const ObservedExperiment& observed_;
-  std::unique_ptr<WallContact> wall_;  ///< the draft's, or none
+  fem::PointStress points_;
+  KeptStress kept_;                    ///< the first constraint after the cables
+  std::unique_ptr<WallContact> wall_;  ///< the draft's, or none: the last
   robot::RobotModel model_;
   std::unique_ptr<WallBalance> at_wall_;  ///< with the wall
   robot::SensitivitySolver sensitivity_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/diagnosis/model/kept_stress.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/load_state.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -23,11 +24,11 @@ struct HeldShape {
   bool AtWall() const { return wall_force_N.size() > 0; }
 };
 
-/// What the past leaves for a sample: the body answers 1 + scale times as stiff, carries forces,
+/// What the past leaves for a sample: the body answers 1 + scale times as stiff, keeps stresses,
 /// and its cells are softened.
 struct Hereditary {
   double scale = 0.0;
-  Eigen::VectorXd force_N;      ///< [3n], or empty: none
+  PointStresses stress_Pa;      ///< or empty: none
   Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
 };
 
@@ -37,7 +38,7 @@ struct SimulatedSample {
   HeldShape middle;
   /// In a motion: one shape for each other set of cables that are taut in parts of it.
   std::vector<HeldShape> beside;
-  Eigen::VectorXd elastic_N;    ///< [3n] F_int in the middle, without what the body remembers
+  PointStresses elastic_Pa;     ///< in the middle, without what the body remembers
   Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material in the middle
   Eigen::Matrix3Xd markers_m;   ///< [3 x markers] mean over the sample, measurement frame
   Eigen::Matrix3Xd bend_m;      ///< [3 x markers] by which that mean is not where the middle is
@@ -49,11 +50,15 @@ struct SimulatedSample {
 struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
-  /// [3n] elastic forces with every command at zero: what the body is between recordings.
-  Eigen::VectorXd rest_elastic_N;
+  PointStresses rest_elastic_Pa;       ///< with every command at zero, as between recordings
   Eigen::VectorXf rest_energy_J_m3;    ///< [cells] then
   Eigen::MatrixXf below_largest_J_m3;  ///< [cells x samples] BelowLargest_J_m3 (damage.hpp)
   std::vector<Hereditary> past;        ///< [samples] with which they are in balance
 };
+
+/// Adds the elastic stresses of all samples, and with every command at zero, each so often:
+/// `weights` [samples + 1], of which those that matter nowhere are left out.
+void AddRemembered(const Simulation& simulation, const Eigen::VectorXd& weights,
+                   PointStresses* stress_Pa);
 
 }  // namespace palpate::diagnosis

@@ -50,16 +50,10 @@ void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
 /// What the past leaves of creep for each sample, after a first look at all of them.
 void Creep(const std::vector<CreepTerm>& terms, const Memory& memory, const Simulation& simulation,
            std::vector<Hereditary>* past) {
-  const Eigen::Index nodal = simulation.rest_elastic_N.size();
   const auto samples = std::ssize(simulation.samples);
-  Eigen::MatrixXd elastic_N(nodal, samples + 1);
-  for (Eigen::Index s = 0; s < samples; ++s) {
-    elastic_N.col(s) = simulation.samples[static_cast<std::size_t>(s)].elastic_N;
-  }
-  elastic_N.col(samples) = simulation.rest_elastic_N;
   for (Hereditary& left : *past) {
     left.scale = 0.0;
-    left.force_N = Eigen::VectorXd::Zero(nodal);
+    left.stress_Pa.setZero(6, simulation.rest_elastic_Pa.cols());
   }
   for (const CreepTerm& term : terms) {
     const Eigen::MatrixXd& fading = memory.Fading(term.tau_s);
@@ -68,7 +62,7 @@ void Creep(const std::vector<CreepTerm>& terms, const Memory& memory, const Simu
       Eigen::VectorXd weights = fading.row(s).transpose();
       left.scale += term.g * weights[s];
       weights[s] = 0.0;
-      left.force_N.noalias() -= term.g * (elastic_N * weights);
+      AddRemembered(simulation, term.g * weights, &left.stress_Pa);
     }
   }
 }
@@ -203,7 +197,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
       SampleSolver solver(draft, observed_);
       if (&share == &shares.front()) {
         SimulatedSample rest = solver.Rest();
-        simulation.rest_elastic_N = std::move(rest.elastic_N);
+        simulation.rest_elastic_Pa = std::move(rest.elastic_Pa);
         simulation.rest_energy_J_m3 = std::move(rest.energy_J_m3);
       }
       const HeldShape* before = nullptr;
@@ -260,7 +254,8 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
                              .memory = memory_,
                              .sample = static_cast<int>(s),
                              .shape = shape,
-                             .model = solver.model()};
+                             .model = solver.model(),
+                             .points = solver.points()};
         return shape.share * differentiator.At(at);
       };
       Eigen::MatrixXd mean_m = jacobian_m(sample.middle);

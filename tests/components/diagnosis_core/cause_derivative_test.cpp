@@ -92,9 +92,10 @@ class CauseDerivatives : public testing::Test {
     return (at(1.0) - at(-1.0)) / (2.0 * h);
   }
 
-  /// In each recording alike: what is small beside another must be right, too.
+  /// In each recording alike: what is small beside another must be right, too, down to a share of
+  /// all recordings together.
   void ExpectAlike(const Eigen::VectorXd& analytic, const Eigen::VectorXd& difference,
-                   double tolerance, const std::string& what) const {
+                   double tolerance, const std::string& what, double least_share = 1e-3) const {
     for (int r = 0; r < std::ssize(observed_.recordings); ++r) {
       double off = 0.0;
       double size = 0.0;
@@ -103,7 +104,7 @@ class CauseDerivatives : public testing::Test {
         off += (analytic - difference).segment<12>(12 * s).squaredNorm();
         size += difference.segment<12>(12 * s).squaredNorm();
       }
-      const double floor_m = 1e-3 * difference.norm() + kNothing_m;
+      const double floor_m = least_share * difference.norm() + kNothing_m;
       EXPECT_LE(std::sqrt(off) / std::max(std::sqrt(size), floor_m), tolerance)
           << what << " in " << observed_.recordings[static_cast<std::size_t>(r)].name << ", of "
           << std::sqrt(size) << " m";
@@ -111,14 +112,15 @@ class CauseDerivatives : public testing::Test {
   }
 
   /// Whether there is an obstacle is no matter of degree: hidden_obstacle_test.cpp.
-  void ExpectDerivative(const Cause& cause, const Eigen::VectorXd& z, double tolerance) const {
+  void ExpectDerivative(const Cause& cause, const Eigen::VectorXd& z, double tolerance,
+                        double least_share = 1e-3) const {
     const CauseList one{&cause};
     const Eigen::MatrixXd analytic = Analytic(one, z);
     for (Eigen::Index p = cause.name().id == "hidden_obstacle" ? 1 : 0; p < z.size(); ++p) {
       const CauseParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
       ExpectAlike(parameter.fault * analytic.col(p),
                   parameter.fault * Difference(one, z, p, parameter), tolerance,
-                  cause.words() + ", " + parameter.name);
+                  cause.words() + ", " + parameter.name, least_share);
     }
   }
 
@@ -173,7 +175,8 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   /// What the base turns by when its moment changes is left out: of the order of what the
   /// compliance of this body is changed by, here 0.4 %.
   constexpr double kToleranceOfBase = 1e-2;
-  /// What elastic forces of the past change by with g is left out: of the order of g, 0.08.
+  /// What elastic stresses of the past change by with g is left out: of the order of g, 0.08, of
+  /// what creep does as a whole.
   constexpr double kToleranceOfCreep = 0.08;
   /// What energies answer to the softening is left out: up to twice 1 / r, here 0.12.
   constexpr double kToleranceOfDamage = 0.4;
@@ -188,7 +191,8 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
                      id == "viscoelastic_creep" ? kToleranceOfCreep
                      : id == "mullins"          ? kToleranceOfDamage
                      : id == "base_compliance"  ? kToleranceOfBase
-                                                : kTolerance);
+                                                : kTolerance,
+                     id == "viscoelastic_creep" ? 1.0 : 1e-3);
   }
 }
 

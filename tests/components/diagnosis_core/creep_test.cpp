@@ -76,8 +76,45 @@ TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
   const ObservedExperiment observed = Observe(experiment, body);
   const Simulation simulation = Simulator(observed, 1).Run(DraftOf(body, observed));
   ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
-  const Eigen::VectorXd& elastic_N = simulation.samples.front().elastic_N;
-  EXPECT_LT((simulation.rest_elastic_N - elastic_N).norm(), 1e-6 * elastic_N.norm());
+  const PointStresses& elastic_Pa = simulation.samples.front().elastic_Pa;
+  EXPECT_LT((simulation.rest_elastic_Pa - elastic_Pa).norm(), 1e-5F * elastic_Pa.norm());
+}
+
+/// Bent far and let go, it stays a little bent that way: the stress that it keeps has turned with
+/// the material.
+TEST(Creep, OfABodyThatWasHeldBentIsALittleOfThatBend) {
+  constexpr double kG = 0.1;
+  constexpr double kTau_s = 20.0;
+  constexpr double kLetGo_s = 200.0;
+  LoadedBeam beam;
+  beam.recording = MakeRecording("hold", beam.body, {{0.0, {}}, {210.0, {}}}, 0.25);
+  beam.recording.actuation.reset();
+  const Eigen::Vector3d tip_m(0.095, 0.01, 0.01);
+  beam.recording.loads = {{0.0, tip_m, {0.0, 0.25, 0.0}, 0.0, {}},
+                          {kLetGo_s, tip_m, Eigen::Vector3d::Zero(), 0.0, {}}};
+  beam.experiment.recordings = {beam.recording};
+  const ObservedExperiment observed = Observe(beam.experiment, beam.body);
+  ModelDraft draft = DraftOf(beam.body, observed);
+  draft.creep = {{.g = kG, .tau_s = kTau_s}};
+  const Simulation creeping = Simulator(observed, 1).Run(draft);
+  ASSERT_TRUE(creeping.status.ok()) << creeping.status.message();
+  const double rest_m = beam.body.markers[0].point.rest_m.y();
+  double held_m = 0.0;
+  int let_go = 0;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const double moved_m = creeping.samples[s].markers_m(1, 0) - rest_m;
+    const double since_s = observed.samples[s].t_s - kLetGo_s;
+    if (since_s < 0.0) {
+      held_m = moved_m;
+      continue;
+    }
+    ++let_go;
+    // With a modulus that relaxes by g / (1 + g), what is left fades with tau (1 + g).
+    const double expected = kG / (1.0 + kG) * std::exp(-since_s / (kTau_s * (1.0 + kG)));
+    EXPECT_NEAR(moved_m / held_m, expected, 0.1 * expected) << since_s << " s later";
+  }
+  EXPECT_GE(let_go, 2);
+  EXPECT_GT(held_m, 0.02) << "a bend of more than ten degrees";
 }
 
 TEST(Creep, LeavesTheInstantaneousModulusAtOnce) {

@@ -97,6 +97,41 @@ TEST(Memory, IsTheConvolutionWithWhatGoesLinearly) {
   }
 }
 
+/// A pull, a hold and the way back, of each motion one sample: where a hold and zero commands begin
+/// and end is known without.
+TEST(Memory, KnowsHoldsAndZeroCommandsBetweenFewSamples) {
+  ObservedExperiment observed;
+  observed.recordings.resize(2);
+  Timeline& timeline = observed.timeline;
+  timeline.cables = {"pull", "tendon"};
+  timeline.by_tension = {false, true};
+  timeline.t_s = {0.0, 2.0, 12.0, 14.0, 18.0, 20.0};
+  // Metres are not small beside newtons.
+  for (const double command_m : {0.0, 0.01, 0.01, 0.0}) {
+    timeline.command.emplace_back(Eigen::Vector2d(command_m, 0.0));
+  }
+  for (int k = 0; k < 2; ++k) timeline.command.emplace_back(Eigen::Vector2d(0.0, 5.0));
+  timeline.begin_s = {0.0, 18.0};
+  timeline.end_s = {14.0, 20.0};
+  AddSample(0, 0.0, 2.0, false, {0.8, 1.2}, &observed);
+  AddSample(0, 2.0, 12.0, true, {3.0, 5.0}, &observed);
+  AddSample(0, 12.0, 14.0, false, {12.7, 13.1}, &observed);
+  AddSample(1, 18.0, 20.0, true, {18.5, 19.0}, &observed);
+  const Path path{{0.0, 2.0, 12.0, 14.0, 20.0}, {kAtZero, 3.0, 3.0, kAtZero, kAtZero}};
+  const Memory memory(observed);
+  for (const double tau_s : {0.4, 3.0, 40.0}) {
+    const Eigen::VectorXd remembered = memory.Fading(tau_s) * ValuesOf(observed, path);
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      double expected = 0.0;
+      for (const double t_s : observed.samples[s].frame_t_s) {
+        expected += 0.5 * path.Fading(t_s, tau_s);
+      }
+      EXPECT_NEAR(remembered[static_cast<Eigen::Index>(s)], expected, 2e-4)
+          << "tau " << tau_s << ", sample " << s;
+    }
+  }
+}
+
 TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
   ObservedExperiment observed;
   observed.recordings.resize(1);
