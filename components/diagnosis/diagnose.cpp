@@ -184,27 +184,35 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
   }
 }
 
-/// Probabilities of the hypotheses for the first place; causes that were named have theirs.
+/// Probabilities of the hypotheses for the first place; causes that were named have theirs, and
+/// such as one of these is a special case of are none.
 void DescribeRivals(const CauseBook& book, const Selection& selection, DiagnosisResult* result) {
   const auto& candidates = selection.candidates;
   const double ln_share =
       -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
   std::vector<double> ln_weights{0.0};  // of no fault, then of the candidates
-  for (const Candidate& one : candidates) ln_weights.push_back(one.ln_bayes_factor + ln_share);
+  for (const Candidate& one : candidates) {
+    const bool general = std::any_of(
+        selection.named.begin(), selection.named.end(),
+        [&](const Choice& choice) { return book.IsSpecialCase(choice.cause, one.cause); });
+    ln_weights.push_back(general ? -std::numeric_limits<double>::infinity()
+                                 : one.ln_bayes_factor + ln_share);
+  }
   const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
   double all = 0.0;
   for (const double ln_weight : ln_weights) all += std::exp(ln_weight - ln_most);
   const double other = selection.guard.passed ? kOtherPassed : kOtherFailed;
   result->other_probability = other;
   result->no_fault_probability = (1.0 - other) * std::exp(-ln_most) / all;
-  for (const Candidate& one : candidates) {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& one = candidates[k];
     const bool named = std::any_of(selection.named.begin(), selection.named.end(),
                                    [&](const Choice& choice) { return choice.cause == one.cause; });
     if (named) continue;
     result->rivals.push_back(
         {.name = book.cause(one.cause).name(),
          .words = book.cause(one.cause).words(),
-         .probability = (1.0 - other) * std::exp(one.ln_bayes_factor + ln_share - ln_most) / all,
+         .probability = (1.0 - other) * std::exp(ln_weights[k + 1] - ln_most) / all,
          .ln_bayes_factor = one.ln_bayes_factor,
          .likeness = one.likeness,
          .why_not = one.why_not});

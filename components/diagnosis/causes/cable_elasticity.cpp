@@ -35,6 +35,12 @@ class CableElasticity final : public Cause {
     return robot::CableCompliance(index_);
   }
 
+  /// What the mesh gives way by is in what was fitted, and nobody knows how much it is.
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
+                                      const Eigen::MatrixXd& covariance) const override {
+    return Cause::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N);
+  }
+
  private:
   int index_;
 };

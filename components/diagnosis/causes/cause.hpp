@@ -63,7 +63,8 @@ struct CauseMoment {
   int sample = 0;
   const HeldShape& shape;    ///< one of the sample's
   robot::RobotModel& model;  ///< its linearisation is at that shape
-  Sight sight = {};          ///< the markers of that shape, where a cause is asked what it shows
+  const fem::PointStress& points;
+  Sight sight = {};  ///< the markers of that shape, where a cause is asked what it shows
 
   const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
   const SimulatedSample& simulated() const {
@@ -111,6 +112,9 @@ class Cause {
   /// Where what it does has kinks a linear model says little: then the most probable causes of its
   /// name are simulated before one stands for all, of those with the same number here only one.
   virtual std::optional<int> Start() const { return std::nullopt; }
+  /// Id of a simpler cause that is a special case of this one, and stands in its place as long as
+  /// this one is not clearly better; empty: there is none.
+  virtual std::string SpecialCase() const { return {}; }
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
   virtual bool OnDrives() const { return false; }
   /// What dz of one parameter does to the body where this cause is at `z` [parameters];

@@ -23,6 +23,8 @@ class PermanentForce final : public Cause {
         near_m_(near_m),
         locator_(std::move(locator)) {}
 
+  /// A mass is a force downwards: both turn with a tilted base alike.
+  std::string SpecialCase() const override { return "payload"; }
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     draft->forces.push_back({locator_->Embed(near_m_ + z.tail<3>()).weights, z.head<3>()});
   }

@@ -61,7 +61,7 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
 
 /// The first of the promising exchanges that keeps its promise. What was named last was chosen
 /// beside all others: it stays.
-void ExchangeOne(const Fitter& fitter, Selection* selection) {
+void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selection) {
   constexpr double kWorthAFit = -3.0;
   constexpr int kMostTried = 2;
   int tried = 0;
@@ -73,7 +73,8 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
     Fit other = fitter.Complete(fitter.Refine(
         Exchanged(selection->best.faults, choice.cause, exchange.other), selection->best));
     const double ln_gain = other.posterior.ln_evidence - selection->best.posterior.ln_evidence;
-    if (!other.status.ok() || ln_gain <= 0.0) continue;
+    const bool general = fitter.book().IsSpecialCase(choice.cause, exchange.other);
+    if (!other.status.ok() || ln_gain <= (general ? clear_evidence : 0.0)) continue;
     if (!WhyNoFault(fitter.book(), other.posterior, exchange.other).empty()) continue;
     choice.cause = exchange.other;
     selection->best = std::move(other);
@@ -124,7 +125,7 @@ void WeighEach(const Fitter& fitter, Selection* selection) {
 }  // namespace
 
 void CheckBackward(const Fitter& fitter, double clear_evidence, Selection* selection) {
-  ExchangeOne(fitter, selection);
+  ExchangeOne(fitter, clear_evidence, selection);
   DropTheUnclear(fitter, clear_evidence, selection);
   WeighEach(fitter, selection);
 }

@@ -44,8 +44,10 @@ Belief CauseBook::BeliefWith(const std::vector<int>& faults) const {
   return belief;
 }
 
-Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>& faults) const {
+Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>& faults,
+                                 const std::vector<Eigen::Index>& at_zero) const {
   Belief belief = BeliefWith(faults);
+  belief.sigma(at_zero).setZero();
   while (true) {
     Posterior posterior = Infer(data, belief);
     bool inside = true;

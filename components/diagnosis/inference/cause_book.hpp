@@ -27,13 +27,18 @@ class CauseBook {
   Eigen::Index count(int k) const { return first(k + 1) - first(k); }
   double ToleranceOf(int k, int parameter) const;
 
+  /// Whether the one is a special case of the other (Cause::SpecialCase).
+  bool IsSpecialCase(int special, int of) const {
+    return cause(of).SpecialCase() == cause(special).name().id;
+  }
   /// Whether a robot may have it as a fault: beyond what a healthy one has of it.
   bool CanBeFault(int k) const;
   /// A robot within its building tolerances, but for the causes in `faults`.
   Belief BeliefWith(const std::vector<int>& faults) const;
   /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
-  /// its bound.
-  Posterior InferWithin(const Information& data, const std::vector<int>& faults) const;
+  /// its bound. The parameters `at_zero` are held there.
+  Posterior InferWithin(const Information& data, const std::vector<int>& faults,
+                        const std::vector<Eigen::Index>& at_zero = {}) const;
 
   CauseList All() const;
   /// The parameters of these causes, one after the other.

@@ -59,10 +59,10 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
   fit.z = Eigen::VectorXd::Zero(book_.parameter_count());
   fit.simulation = simulated != nullptr ? *simulated : simulator_.Run(nominal_);
   fit.status = fit.simulation.status;
-  return Complete(std::move(fit));
+  return InAllDetail(std::move(fit));
 }
 
-Fit Fitter::Complete(Fit fit) const {
+Fit Fitter::InAllDetail(Fit fit) const {
   if (fit.complete || fit.simulation.samples.empty()) return fit;
   if (fit.detail == Detail::kMiddles) {
     fit.simulation = simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation);
@@ -77,16 +77,63 @@ Fit Fitter::Complete(Fit fit) const {
   return fit;
 }
 
-Eigen::VectorXd Fitter::PointOf(const Posterior& posterior, const std::vector<int>& faults) const {
-  Eigen::VectorXd z = posterior.mean;
+Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
+  Fit moved;
+  moved.faults = fit.faults;
+  moved.z = z;
+  moved.simulation = simulator_.Run(DraftWith(nominal_, causes_, z), &fit.simulation);
+  moved.status = moved.simulation.status;
+  if (!moved.status.ok()) return moved;
+  for (std::size_t s = 0; s < moved.simulation.samples.size(); ++s) {
+    moved.simulation.samples[s].jacobian_m = fit.simulation.samples[s].jacobian_m;
+  }
+  moved.model = Linearise(observed_, moved.simulation, z, marker_rest_m_, noise_);
+  if (moved.model.y.size() < fit.model.y.size()) moved.status = FewerData();
+  return moved;
+}
+
+/// Tolerances may matter more than faults let see: a cable that is about to get taut moves nothing
+/// as long as its drive's zero is where the file has it.
+Fit Fitter::Complete(Fit fit) const {
+  constexpr int kMostSteps = 4;
+  constexpr double kKept = 2.0;  // of chi-squared, between what is promised and what is found
+  fit = InAllDetail(std::move(fit));
+  if (!fit.status.ok()) return fit;
+  Eigen::VectorXd to = PointFrom(fit, fit.faults);
+  for (int step = 0; step < kMostSteps; ++step) {
+    Fit next = MovedTo(to, fit);
+    if (!next.status.ok()) return fit;
+    const double found = MisfitAt(next, to);
+    if (std::abs(found - MisfitAt(fit, to)) < kKept) return fit;
+    if (found > MisfitAt(fit, fit.z)) {
+      to = 0.5 * (fit.z + to);
+      continue;
+    }
+    next = InAllDetail(std::move(next));
+    if (!next.status.ok()) return fit;
+    fit = std::move(next);
+    to = PointFrom(fit, fit.faults);
+  }
+  return fit;
+}
+
+/// Where to simulate next: what is most probable of robots with little of what has one sign only,
+/// as far as it is no fault, with none of it.
+Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults) const {
+  constexpr double kLittle = 2.0;  // tolerances
+  const Information data = about.model.All();
+  const Posterior all = book_.InferWithin(data, faults);
+  std::vector<Eigen::Index> at_zero;
   for (int k = 0; k < book_.size(); ++k) {
-    const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
-    for (Eigen::Index p = 0; p < book_.count(k) && !fault; ++p) {
+    if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
+    for (Eigen::Index p = 0; p < book_.count(k); ++p) {
+      const Eigen::Index column = book_.first(k) + p;
       const bool one_sided = book_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
-      if (one_sided) z[book_.first(k) + p] = 0.0;
+      const bool little = all.mean[column] < kLittle * healthy_.sigma[column];
+      if (one_sided && little) at_zero.push_back(column);
     }
   }
-  return z;
+  return book_.InferWithin(data, faults, at_zero).mean;
 }
 
 /// Where a fault is most likely before the data, all else as `start` has it: steps that go too far
@@ -105,7 +152,7 @@ bool Fitter::IsNear(const Fit& fit) const {
   constexpr double kOfFault = 0.5;  // of what it is known to
   constexpr double kOfTolerance = 1.5;
   const Belief belief = book_.BeliefWith(fit.faults);
-  const Eigen::VectorXd step = PointOf(fit.posterior, fit.faults) - fit.z;
+  const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     const double known = std::sqrt(fit.posterior.covariance(p, p));
     const bool fault = belief.sigma[p] != healthy_.sigma[p];
@@ -115,14 +162,13 @@ bool Fitter::IsNear(const Fit& fit) const {
   return true;
 }
 
-/// Chi-squared of data and belief where the fit's simulation is.
-double Fitter::MisfitAt(const Fit& fit) const {
+double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
   const Information data = fit.model.All();
   const Belief belief = book_.BeliefWith(fit.faults);
-  double misfit = data.c + fit.z.dot(data.H * fit.z - 2.0 * data.b);
-  for (Eigen::Index p = 0; p < fit.z.size(); ++p) {
+  double misfit = data.c + z.dot(data.H * z - 2.0 * data.b);
+  for (Eigen::Index p = 0; p < z.size(); ++p) {
     if (belief.sigma[p] == 0.0) continue;
-    misfit += std::pow((fit.z[p] - belief.mean[p]) / belief.sigma[p], 2);
+    misfit += std::pow((z[p] - belief.mean[p]) / belief.sigma[p], 2);
   }
   return misfit;
 }
@@ -133,7 +179,7 @@ bool Fitter::HasKinks(const std::vector<int>& faults) const {
 }
 
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
-  constexpr int kMostRounds = 4;
+  constexpr int kMostRounds = 6;
   constexpr int kMostRoundsOverKinks = 10;
   if (!HasKinks(faults)) return Refine(faults, start, kMostRounds, Detail::kParts);
   const Fit near = Refine(faults, start, kMostRoundsOverKinks, Detail::kMiddles);
@@ -144,7 +190,8 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
                    Detail detail) const {
   constexpr double kNothing = 0.5;  // of ln evidence
-  constexpr double kWorse = 1.0;    // of chi-squared
+  constexpr double kAlike = 0.01;   // of chi-squared, from where smaller steps find little
+  constexpr double kStillToGo = 0.2;
   // Over kinks chi-squared goes up and down by some hundredths from place to place.
   const bool has_kinks = HasKinks(faults);
   constexpr double kLittleOverKinks = 0.03;  // of chi-squared
@@ -155,7 +202,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   fit.z = WhereFaultsBegin(faults, start);
   fit.posterior = Guess(start, faults);
   const Simulation* from = &start.simulation;
-  Eigen::VectorXd to = PointOf(fit.posterior, faults);
+  Eigen::VectorXd to = PointFrom(start, faults);
   double misfit = std::numeric_limits<double>::infinity();
   int in_vain = 0;
   for (int round = 0; round < most_rounds && in_vain < most_in_vain; ++round) {
@@ -169,9 +216,10 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     next.status = next.simulation.status;
     if (next.status.ok()) Differentiate(wanted, from, &next);
     if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
-    const double now = next.status.ok() ? MisfitAt(next) : misfit;
+    const double now = next.status.ok() ? MisfitAt(next, next.z) : misfit;
     const bool placed = fit.status.ok();
-    if (!next.status.ok() || now > misfit + kWorse) {
+    if (next.status.ok() && now > misfit && now < (1.0 + kAlike) * misfit) break;
+    if (!next.status.ok() || now > misfit) {
       to = 0.5 * (fit.z + to);
       in_vain += placed;
       continue;
@@ -181,8 +229,9 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
-    to = PointOf(fit.posterior, faults);
-    const bool settled = std::abs(fit.posterior.ln_evidence - before) < kNothing;
+    to = PointFrom(fit, faults);
+    const bool there = misfit < (1.0 + kStillToGo) * MisfitAt(fit, to);
+    const bool settled = there && std::abs(fit.posterior.ln_evidence - before) < kNothing;
     if (little || settled || IsNear(fit)) break;
   }
   return fit;

@@ -27,7 +27,7 @@ struct Fit {
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
-/// Of a healthy robot what has one sign only (play, creep, delay) stays linear: it is small, and
+/// Of a healthy robot what has one sign only (play, creep, delay) stays linear while it is small:
 /// its derivative has two sides.
 class Fitter {
  public:
@@ -46,23 +46,27 @@ class Fitter {
              Detail detail) const;
   /// With as many rounds as such faults need, in all detail at the end.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit in all detail, with what every cause does worked out where it is. One that could
-  /// not be simulated stays as it is.
+  /// The same fit in all detail, with what every cause does worked out where it is, and taken
+  /// further until the data fit where it leads as well as it promises. One that could not be
+  /// simulated stays as it is.
   Fit Complete(Fit fit) const;
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
-
-  /// Whether a fit's linear model was made where its posterior is.
-  bool IsNear(const Fit& fit) const;
 
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }
 
  private:
-  Eigen::VectorXd PointOf(const Posterior& posterior, const std::vector<int>& faults) const;
+  Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults) const;
   bool HasKinks(const std::vector<int>& faults) const;
   Eigen::VectorXd WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const;
-  double MisfitAt(const Fit& fit) const;
+  /// Chi-squared of data and belief at `z`, as the linear model of `fit` has it.
+  double MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const;
+  /// Whether a fit's linear model was made where its posterior is.
+  bool IsNear(const Fit& fit) const;
+  /// With the same faults at `z`, what causes do there taken from `fit`.
+  Fit MovedTo(const Eigen::VectorXd& z, const Fit& fit) const;
+  Fit InAllDetail(Fit fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;

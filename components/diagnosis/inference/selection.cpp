@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
-constexpr double kWorthALook = 6.0;      ///< below the best, ln BF, to be simulated anew
+constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
 constexpr int kMostRefined = 4;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
@@ -35,6 +35,7 @@ class NextCause {
       Explain();
       return false;
     }
+    PutSpecialCasesNext();
     RefineTheBest();
     const HeldOut held_out = LeaveOneOut(fitter_.book(), before_.model, before_.faults);
     for (std::size_t k = 0; k < candidates_.size() && candidates_[k].refined; ++k) {
@@ -42,6 +43,7 @@ class NextCause {
       found_ = k;
       break;
     }
+    if (found_ < candidates_.size()) PreferASpecialCase(held_out);
     Explain();
     return found_ < candidates_.size();
   }
@@ -50,23 +52,57 @@ class NextCause {
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
 
-  /// Those that fit as well as what was found.
+  /// Those that fit as well as what was found, but for such as it is a special case of: no data
+  /// tell these from it.
   std::vector<Candidate> Alike() const {
     std::vector<Candidate> alike;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const bool close =
           candidates_[k].ln_bayes_factor > candidates_[found_].ln_bayes_factor - kAlike;
-      if (k != found_ && close) alike.push_back(candidates_[k]);
+      if (k != found_ && close && !IsSpecialCaseOf(found_, k)) alike.push_back(candidates_[k]);
     }
     return alike;
   }
 
  private:
+  bool IsSpecialCaseOf(std::size_t special, std::size_t k) const {
+    return fitter_.book().IsSpecialCase(candidates_[special].cause, candidates_[k].cause);
+  }
+
+  /// Behind those that they are special cases of, as far as these are looked at.
+  void PutSpecialCasesNext() {
+    for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
+      for (std::size_t special = k + 1; special < candidates_.size(); ++special) {
+        if (!IsSpecialCaseOf(special, k)) continue;
+        const auto next = candidates_.begin() + static_cast<std::ptrdiff_t>(k + 1);
+        std::rotate(next, candidates_.begin() + static_cast<std::ptrdiff_t>(special),
+                    candidates_.begin() + static_cast<std::ptrdiff_t>(special + 1));
+      }
+    }
+  }
+
+  void PreferASpecialCase(const HeldOut& held_out) {
+    const double found = candidates_[found_].ln_bayes_factor;
+    for (std::size_t k = 0; k < fits_.size(); ++k) {
+      if (!IsSpecialCaseOf(k, found_)) continue;
+      if (candidates_[k].ln_bayes_factor < found - kClearEvidence) continue;
+      const Choice general = choice_;
+      const bool clear = IsClear(held_out, k);
+      if (clear && candidates_[k].ln_bayes_factor >= found - kClearEvidence) {
+        candidates_[found_].why_not = "a simpler cause does nearly as well";
+        found_ = k;
+        return;
+      }
+      choice_ = general;
+    }
+  }
+
   void RefineTheBest() {
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
-      if (candidate.ln_bayes_factor < std::max(kAlike, best - kWorthALook)) break;
+      const bool special = k > 0 && IsSpecialCaseOf(k, k - 1);
+      if (!special && candidate.ln_bayes_factor < std::max(kAlike, best - kWorthALook)) break;
       const double guess =
           fitter_.Guess(before_, With(before_.faults, candidate.cause)).ln_evidence -
           before_.posterior.ln_evidence;
@@ -145,8 +181,12 @@ class NextCause {
     for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
       choice.ln_gain_of_recording.push_back(after.ln_predicted[r] - before.ln_predicted[r]);
     }
-    if (!choice.held_out.clear && SeenIn(k) > 1) {
-      candidate.why_not = "with it recordings that it was not fitted to are predicted no better";
+    if (!choice.held_out.clear && SeenIn(k) > 1 && !KeepsTolerances(k)) {
+      candidate.why_not =
+          "with it recordings that it was not fitted to are predicted no better (ln BF " +
+          FormatNumber(std::round(10.0 * choice.held_out.ln_gain) / 10.0) + ", " +
+          FormatNumber(std::round(100.0 * choice.held_out.relative)) +
+          " % of the error beyond the noise)";
       return false;
     }
     choice.probability = Probability(k);
@@ -158,10 +198,28 @@ class NextCause {
   double Probability(std::size_t k) const {
     const double ln_share = -std::log(static_cast<double>(candidates_.size()));
     double others = std::exp(-candidates_[k].ln_bayes_factor - ln_share);
-    for (const Candidate& other : candidates_) {
-      others += std::exp(other.ln_bayes_factor - candidates_[k].ln_bayes_factor);
+    for (std::size_t other = 0; other < candidates_.size(); ++other) {
+      if (IsSpecialCaseOf(k, other)) continue;
+      others += std::exp(candidates_[other].ln_bayes_factor - candidates_[k].ln_bayes_factor);
     }
     return 1.0 / others;
+  }
+
+  /// Whether the robot without the cause fits only far off its tolerances, and with it near them:
+  /// it may then predict as well, but no healthy robot does.
+  bool KeepsTolerances(std::size_t k) const {
+    const std::vector<Eigen::Index> own = fitter_.book().ParametersOf(fits_[k].faults);
+    const Belief belief = fitter_.book().BeliefWith({});
+    const auto off = [&](const Fit& fit) {
+      double sum = 0.0;
+      for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
+        const bool is_own = std::find(own.begin(), own.end(), p) != own.end();
+        if (is_own || belief.sigma[p] == 0.0) continue;
+        sum += std::pow(fit.posterior.mean[p] / belief.sigma[p], 2);
+      }
+      return sum;
+    };
+    return off(before_) - off(fits_[k]) > 2.0 * kClearEvidence;
   }
 
   /// In how many recordings the fit is clearly better with the cause.
@@ -250,8 +308,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
-  selection.healthy =
-      fitter.IsNear(as_built) ? as_built : fitter.Complete(fitter.Refine({}, as_built));
+  selection.healthy = fitter.Complete(as_built);
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");

@@ -5,59 +5,15 @@
 
 #include <gmock/gmock.h>
 
-#include <random>
-
-#include "components/diagnosis/causes/catalogue.hpp"
-#include "tests/components/diagnosis_core/small_robot.hpp"
+#include "tests/components/diagnosis_core/hidden_causes.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 constexpr double kClearEvidence = 10.0;
 
-/// SmallRobot with causes hidden in it, measured with 0.1 mm.
-class BackwardCheck : public testing::Test {
+class BackwardCheck : public HiddenCauses {
  protected:
-  /// z of the first parameter of the cause of this id at this place.
-  struct Hidden {
-    std::string id;
-    std::string where;
-    double z;
-  };
-
-  BackwardCheck()
-      : body_(SmallRobot()),
-        observed_(Observe(SmallExperiment(body_), body_, {.most_samples = 40})),
-        book_(MakeCauses({.body = body_, .observed = observed_}, {}), {}) {
-    observed_.sigma_m.setConstant(kSigma_m);
-  }
-
-  int Number(const std::string& id, const std::string& where) const {
-    for (int k = 0; k < book_.size(); ++k) {
-      if (book_.cause(k).name() == CauseName{id, {where}}) return k;
-    }
-    ADD_FAILURE() << "no " << id << " of " << where;
-    return -1;
-  }
-
-  void Measure(const std::vector<Hidden>& hidden) {
-    Eigen::VectorXd z = Eigen::VectorXd::Zero(book_.parameter_count());
-    for (const Hidden& one : hidden) z[book_.first(Number(one.id, one.where))] = one.z;
-    const Simulation truth =
-        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), book_.All(), z));
-    ASSERT_TRUE(truth.status.ok());
-    std::mt19937 random(kSeed);
-    std::normal_distribution<double> normal;
-    for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
-      Sample& sample = observed_.samples[s];
-      sample.position_m = truth.samples[s].markers_m;
-      for (Eigen::Index k = 0; k < sample.position_m.size(); ++k) {
-        sample.position_m.reshaped()[k] +=
-            kSigma_m / std::sqrt(sample.count[k / 3]) * normal(random);
-      }
-    }
-  }
-
   /// As it would stand where these were named one after the other.
   Selection Named(const Fitter& fitter, const std::vector<int>& faults) const {
     Selection selection;
@@ -69,12 +25,6 @@ class BackwardCheck : public testing::Test {
     }
     return selection;
   }
-
-  static constexpr double kSigma_m = 1e-4;
-  static constexpr unsigned kSeed = 3;
-  robot::RobotBody body_;
-  ObservedExperiment observed_;
-  CauseBook book_;
 };
 
 TEST_F(BackwardCheck, ExchangesAWrongCauseForTheRightOneOnceAnotherIsKnown) {
