@@ -182,6 +182,10 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
     result->verdict = Verdict::kCause;
     result->reason = "The causes that are named explain the gap.";
   }
+  result->search_complete = selection.complete;
+  if (!selection.complete) {
+    result->reason += " The time was over before all causes were tried: give it more.";
+  }
 }
 
 /// Probabilities of the hypotheses for the first place; causes that were named have theirs, and
@@ -276,6 +280,7 @@ DiagnosisResult Unfit(const std::string& reason) {
 
 Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& as_recorded,
                    const DiagnosisSettings& settings, const ReportStep& report) {
+  const TimeLimit limit(settings.longest_s);
   Diagnosis diagnosis;
   const experiment::Experiment experiment = OnOneClock(as_recorded);
   diagnosis.result = Unfit(WhyUnfit(experiment));
@@ -297,7 +302,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
                                    .as_built = &simulation},
                                   settings.without),
                        CauseTolerances(experiment));
-  const Fitter fitter(observed, body, book, settings.noise, settings.threads);
+  const Fitter fitter(observed, body, book, settings.noise, settings.threads, limit);
   const Fit as_built = fitter.AsBuilt(&simulation);
   result = Unfit(WhyUnfit(observed, as_built.simulation));
   if (!result.reason.empty()) return diagnosis;

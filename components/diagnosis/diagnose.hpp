@@ -24,6 +24,7 @@ struct DiagnosisSettings {
   int most_causes = 4;
   int most_samples = 120;  ///< moments that are compared
   int threads = 2;
+  double longest_s = 0.0;  ///< after which no further cause is looked for; 0: without an end
   NoiseModel noise;
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};

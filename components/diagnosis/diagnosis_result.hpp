@@ -99,7 +99,8 @@ struct ExperimentProposal {
 /// Everything that a report says. Lists are sorted, the most important first.
 struct DiagnosisResult {
   Verdict verdict = Verdict::kDataUnfit;
-  std::string reason;  ///< one sentence
+  std::string reason;           ///< a sentence or two
+  bool search_complete = true;  ///< else it ended at its time limit
   std::vector<NamedCause> causes;
   std::vector<Rival> rivals;
   std::vector<CauseName> indistinguishable_from;  ///< of the first cause

@@ -83,6 +83,7 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                             {.without = SplitAtCommas(options.without),
                              .most_samples = options.most_samples,
                              .threads = options.threads,
+                             .longest_s = 60.0 * options.most_minutes,
                              .noise = {},
                              .depth_cameras = DepthCamerasOf(experiment)},
                             report);
@@ -193,6 +194,8 @@ app::Verb DiagnoseVerb() {
                            "virtual bench can run, into OUT/plan");
             arguments.Option("--samples", &options->most_samples, 10, 2000,
                              "moments that are compared, at most");
+            arguments.Option("--minutes", &options->most_minutes, 0, 100000,
+                             "after which no further cause is looked for; 0: without an end");
             arguments.Option("--threads", &options->threads, 1, 64, "recordings worked on at once");
             return [options] { return Diagnose(*options); };
           }};

@@ -18,7 +18,8 @@ struct DiagnoseOptions {
   std::string explain;         ///< id of a cause that a person wonders about
   int most_samples = 120;
   int threads = 2;
-  bool plan = false;  ///< write the next experiment, too
+  int most_minutes = 10;  ///< after which no further cause is looked for; 0: without an end
+  bool plan = false;      ///< write the next experiment, too
 };
 
 /// `palpate diagnose`: writes verdict.json, report.html, robot.extended.yaml and, where drives are

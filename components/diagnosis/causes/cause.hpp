@@ -117,6 +117,9 @@ class Cause {
   virtual std::string SpecialCase() const { return {}; }
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
   virtual bool OnDrives() const { return false; }
+  /// Whether OnBody leaves out at `z` what matters, as of a body that answers to its own past: then
+  /// differences of simulations tell it (Simulator::DifferentiateByRuns).
+  virtual bool NeedsRuns(const Eigen::VectorXd& /*z*/) const { return false; }
   /// What dz of one parameter does to the body where this cause is at `z` [parameters];
   /// nullptr: nothing.
   virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,

@@ -31,6 +31,9 @@ class Mullins final : public Cause {
     if (z[0] > 0.0) draft->mullins = MullinsSoftening{z[0], parameters()[1].ValueOf(z[1])};
   }
 
+  /// What energies answer to the softening is up to twice 1 / r of it.
+  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.02; }
+
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const CauseMoment& at) const override {
     if (parameter == 1 && z[0] == 0.0) return nullptr;

@@ -26,6 +26,9 @@ class ViscoelasticCreep final : public Cause {
     draft->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
   }
 
+  /// What stresses of the past answer to g is of the order of g.
+  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
+
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const CauseMoment& at) const override {
     const double tau_s = parameters()[1].ValueOf(z[1]);

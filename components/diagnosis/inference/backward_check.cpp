@@ -66,7 +66,8 @@ void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selecti
   constexpr int kMostTried = 2;
   int tried = 0;
   for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
-    if (exchange.ln_gain < kWorthAFit || tried == kMostTried) break;
+    const int most_tried = fitter.IsOutOfTime() ? 1 : kMostTried;
+    if (exchange.ln_gain < kWorthAFit || tried >= most_tried) break;
     if (exchange.named + 1 == selection->named.size()) continue;
     ++tried;
     Choice& choice = selection->named[exchange.named];

@@ -19,13 +19,14 @@ Status FewerData() {
 }  // namespace
 
 Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
-               const CauseBook& book, const NoiseModel& noise, int threads)
+               const CauseBook& book, const NoiseModel& noise, int threads, TimeLimit limit)
     : observed_(observed),
       book_(book),
       causes_(book.All()),
       noise_(noise),
       nominal_(DraftOf(body, observed)),
       simulator_(observed, threads),
+      limit_(limit),
       marker_rest_m_(3, std::ssize(body.markers)),
       healthy_(book.BeliefWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
@@ -33,12 +34,16 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
   }
 }
 
-/// What the `wanted` causes do at fit->z; of the rest what they do in `others`.
+/// What the `wanted` causes do at fit->z, of the rest what they do in `others`; all in all detail,
+/// where there are no others.
 void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
                            Fit* fit) const {
   const ModelDraft draft = DraftWith(nominal_, causes_, fit->z);
   Simulation& simulation = fit->simulation;
   simulator_.Differentiate(draft, causes_, fit->z, wanted, nominal_, &simulation);
+  if (others == nullptr) {
+    simulator_.DifferentiateByRuns(nominal_, causes_, fit->z, &simulation);
+  }
   for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
     for (int k = 0; k < book_.size(); ++k) {
       if (wanted[static_cast<std::size_t>(k)]) continue;
@@ -62,16 +67,14 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
   return InAllDetail(std::move(fit));
 }
 
-Fit Fitter::InAllDetail(Fit fit) const {
+Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   if (fit.complete || fit.simulation.samples.empty()) return fit;
-  if (fit.detail == Detail::kMiddles) {
-    fit.simulation = simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation);
-    fit.status = fit.simulation.status;
-    fit.detail = Detail::kParts;
-    fit.bends_known = true;
-  }
   const Eigen::Index data = fit.model.y.size();
-  Differentiate(std::vector<bool>(causes_.size(), true), nullptr, &fit);
+  std::vector<bool> wanted(causes_.size(), true);
+  for (int k = 0; k < book_.size() && near != nullptr; ++k) {
+    wanted[static_cast<std::size_t>(k)] = !IsKnownByRuns(k, *near);
+  }
+  Differentiate(wanted, near != nullptr ? &near->simulation : nullptr, &fit);
   if (fit.model.y.size() < data) fit.status = FewerData();
   fit.complete = true;
   return fit;
@@ -92,24 +95,41 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
   return moved;
 }
 
+Fit Fitter::Complete(Fit fit) const {
+  if (fit.arrived) return fit;
+  if (fit.status.ok() && !fit.complete) {
+    fit.simulation =
+        simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation, Detail::kAllParts);
+    fit.status = fit.simulation.status;
+    fit.bends_known = true;
+  }
+  fit = InAllDetail(std::move(fit));
+  if (fit.status.ok()) fit = TakenFurther(std::move(fit));
+  fit.arrived = true;
+  return fit;
+}
+
 /// Tolerances may matter more than faults let see: a cable that is about to get taut moves nothing
 /// as long as its drive's zero is where the file has it.
-Fit Fitter::Complete(Fit fit) const {
+Fit Fitter::TakenFurther(Fit fit) const {
   constexpr int kMostSteps = 4;
-  constexpr double kKept = 2.0;  // of chi-squared, between what is promised and what is found
-  fit = InAllDetail(std::move(fit));
-  if (!fit.status.ok()) return fit;
+  constexpr int kMostInVain = 2;
+  constexpr double kLittle = 2.0;  // of chi-squared
+  int in_vain = 0;
   Eigen::VectorXd to = PointFrom(fit, fit.faults);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostSteps && in_vain < kMostInVain && !IsOutOfTime(); ++step) {
+    const double promised = MisfitAt(fit, to);
+    if (MisfitAt(fit, fit.z) - promised < kLittle) return fit;
     Fit next = MovedTo(to, fit);
     if (!next.status.ok()) return fit;
     const double found = MisfitAt(next, to);
-    if (std::abs(found - MisfitAt(fit, to)) < kKept) return fit;
+    if (std::abs(found - promised) < kLittle) return fit;
     if (found > MisfitAt(fit, fit.z)) {
       to = 0.5 * (fit.z + to);
+      ++in_vain;
       continue;
     }
-    next = InAllDetail(std::move(next));
+    next = InAllDetail(std::move(next), &fit);
     if (!next.status.ok()) return fit;
     fit = std::move(next);
     to = PointFrom(fit, fit.faults);
@@ -162,6 +182,10 @@ bool Fitter::IsNear(const Fit& fit) const {
   return true;
 }
 
+bool Fitter::IsKnownByRuns(int k, const Fit& fit) const {
+  return fit.complete && book_.cause(k).NeedsRuns(fit.z.segment(book_.first(k), book_.count(k)));
+}
+
 double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
   const Information data = fit.model.All();
   const Belief belief = book_.BeliefWith(fit.faults);
@@ -192,12 +216,13 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   constexpr double kNothing = 0.5;  // of ln evidence
   constexpr double kAlike = 0.01;   // of chi-squared, from where smaller steps find little
   constexpr double kStillToGo = 0.2;
+  constexpr int kRoundsToHope = 3;
   // Over kinks chi-squared goes up and down by some hundredths from place to place.
   const bool has_kinks = HasKinks(faults);
   constexpr double kLittleOverKinks = 0.03;  // of chi-squared
   const int most_in_vain = has_kinks ? 2 : most_rounds;
   std::vector<bool> wanted(causes_.size(), false);
-  for (const int fault : faults) wanted[static_cast<std::size_t>(fault)] = true;
+  for (const int k : faults) wanted[static_cast<std::size_t>(k)] = !IsKnownByRuns(k, start);
   Fit fit;
   fit.z = WhereFaultsBegin(faults, start);
   fit.posterior = Guess(start, faults);
@@ -209,7 +234,6 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
-    next.detail = detail;
     next.bends_known = detail == Detail::kParts || (start.bends_known && HasKinks(start.faults));
     next.z = to;
     next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from, detail);
@@ -232,7 +256,9 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     to = PointFrom(fit, faults);
     const bool there = misfit < (1.0 + kStillToGo) * MisfitAt(fit, to);
     const bool settled = there && std::abs(fit.posterior.ln_evidence - before) < kNothing;
-    if (little || settled || IsNear(fit)) break;
+    const bool hopeless = round + 1 >= kRoundsToHope && faults.size() > start.faults.size() &&
+                          fit.posterior.ln_evidence < start.posterior.ln_evidence;
+    if (little || settled || hopeless || IsNear(fit) || IsOutOfTime()) break;
   }
   return fit;
 }

@@ -7,6 +7,7 @@
 
 #include "components/diagnosis/inference/cause_book.hpp"
 #include "components/diagnosis/inference/linear_model.hpp"
+#include "components/diagnosis/inference/time_limit.hpp"
 #include "components/diagnosis/model/simulator.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -19,10 +20,10 @@ struct Fit {
   Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
   Simulation simulation;
   LinearModel model;
-  Detail detail = Detail::kParts;  ///< of `simulation`
   /// How samples bend about their middles is of a body held as with these faults.
   bool bends_known = true;
   bool complete = false;  ///< all columns of `model` are of this place
+  bool arrived = false;   ///< and it cannot be taken further
   Posterior posterior;    ///< of all parameters
 };
 
@@ -31,17 +32,18 @@ struct Fit {
 /// its derivative has two sides.
 class Fitter {
  public:
-  /// All must outlive it.
+  /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at.
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body, const CauseBook& book,
-         const NoiseModel& noise, int threads);
+         const NoiseModel& noise, int threads, TimeLimit limit = {});
 
   /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
   /// and what a healthy robot makes of it.
   Fit AsBuilt(const Simulation* simulated = nullptr) const;
   /// With these faults, from what `start` is fitted to. Ends where the linear model reaches, or
-  /// after so many rounds; a step after which the data fit worse is halved. Only what the faults do
-  /// is worked out anew on the way: what others do, tolerances as well, is taken from `start`,
-  /// which is good enough to find the place, not to stand on it (Complete).
+  /// after so many rounds, or where the evidence with a further fault stays below that of `start`;
+  /// a step after which the data fit worse is halved. Only what the faults do is worked out anew on
+  /// the way: what others do, tolerances as well, is taken from `start`, which is good enough to
+  /// find the place, not to stand on it (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
              Detail detail) const;
   /// With as many rounds as such faults need, in all detail at the end.
@@ -55,6 +57,7 @@ class Fitter {
 
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }
+  bool IsOutOfTime() const { return limit_.IsOver(); }
 
  private:
   Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults) const;
@@ -66,7 +69,11 @@ class Fitter {
   bool IsNear(const Fit& fit) const;
   /// With the same faults at `z`, what causes do there taken from `fit`.
   Fit MovedTo(const Eigen::VectorXd& z, const Fit& fit) const;
-  Fit InAllDetail(Fit fit) const;
+  /// With what every cause does there; what only runs tell, from `near` where there is one.
+  Fit InAllDetail(Fit fit, const Fit* near = nullptr) const;
+  Fit TakenFurther(Fit fit) const;
+  /// Whether the columns of cause k in a fit are of simulations.
+  bool IsKnownByRuns(int k, const Fit& fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;
@@ -75,6 +82,7 @@ class Fitter {
   NoiseModel noise_;
   ModelDraft nominal_;
   Simulator simulator_;
+  TimeLimit limit_;
   Eigen::Matrix3Xd marker_rest_m_;
   Belief healthy_;
 };

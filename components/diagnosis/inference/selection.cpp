@@ -19,6 +19,7 @@ namespace {
 constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
 constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
+constexpr double kMayGetClear = 5.0;     ///< ln BF that a further cause promises before
 constexpr int kMostRefined = 4;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
@@ -50,6 +51,8 @@ class NextCause {
 
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
+  /// Whether all was tried that is worth a look.
+  bool complete() const { return complete_; }
   std::vector<Candidate>& candidates() { return candidates_; }
 
   /// Those that fit as well as what was found, but for such as it is a special case of: no data
@@ -98,11 +101,14 @@ class NextCause {
   }
 
   void RefineTheBest() {
+    const double least = before_.faults.empty() ? kAlike : kMayGetClear;
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
       Candidate& candidate = candidates_[k];
       const bool special = k > 0 && IsSpecialCaseOf(k, k - 1);
-      if (!special && candidate.ln_bayes_factor < std::max(kAlike, best - kWorthALook)) break;
+      if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
+      complete_ = k == 0 || !fitter_.IsOutOfTime();
+      if (!complete_) break;
       const double guess =
           fitter_.Guess(before_, With(before_.faults, candidate.cause)).ln_evidence -
           before_.posterior.ln_evidence;
@@ -129,6 +135,7 @@ class NextCause {
     }
     Fit best;
     for (const int cause : candidate->starts) {
+      if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
       Fit fit =
           fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare, Detail::kMiddles);
       const bool better = fit.status.ok() && (!best.status.ok() || fit.posterior.ln_evidence >
@@ -137,7 +144,8 @@ class NextCause {
       candidate->cause = cause;
       best = std::move(fit);
     }
-    if (!best.status.ok()) return best;
+    const bool hopeless = best.posterior.ln_evidence < before_.posterior.ln_evidence;
+    if (!best.status.ok() || hopeless) return best;
     return fitter_.Refine(best.faults, best);
   }
 
@@ -265,6 +273,7 @@ class NextCause {
   std::vector<Candidate> candidates_;
   std::vector<Fit> fits_;  ///< of the first candidates, that were refined
   std::size_t found_ = static_cast<std::size_t>(-1);
+  bool complete_ = true;
   Choice choice_;
 };
 
@@ -311,9 +320,12 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   selection.healthy = fitter.Complete(as_built);
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
+    selection.complete = number == 0 || !fitter.IsOutOfTime();
+    if (!selection.complete) break;
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
     NextCause next(observed, fitter, selection.best);
     const bool found = next.Look();
+    selection.complete = next.complete();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
     selection.named.push_back(next.choice());

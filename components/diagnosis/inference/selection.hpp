@@ -30,6 +30,7 @@ struct Selection {
   std::vector<Choice> named;          ///< as they were found
   std::vector<Candidate> candidates;  ///< for the first place, the most probable first
   std::vector<Candidate> alike;       ///< that fit as well as what was named
+  bool complete = true;               ///< else the fitter's time was over before the search was
   GuardResult guard;                  ///< of `best`
   std::vector<int> compared;          ///< the causes of the most probable candidates
   Eigen::MatrixXd likeness;           ///< [compared x compared] as Candidate::likeness, in [0, 1]

@@ -15,11 +15,13 @@ namespace palpate::diagnosis {
 
 /// A shape of the body and what holds it.
 struct HeldShape {
-  double share = 1.0;  ///< of a sample's frames that it stands for
+  double share = 1.0;    ///< of a sample's frames that it stands for
+  std::size_t part = 0;  ///< of its parts, in which it is
   fem::StaticState state;
   std::vector<robot::CableCommand> commands;
   /// [nodes of WallSurface] with which the draft's wall presses on the body; empty: nowhere.
   Eigen::VectorXd wall_force_N;
+  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] as they would be seen, measurement frame
 
   bool AtWall() const { return wall_force_N.size() > 0; }
 };
@@ -38,6 +40,8 @@ struct SimulatedSample {
   HeldShape middle;
   /// In a motion: one shape for each other set of cables that are taut in parts of it.
   std::vector<HeldShape> beside;
+  std::size_t parts = 0;        ///< that these were chosen among; 0: not simulated yet
+  int choices = 0;              ///< how often they were chosen
   PointStresses elastic_Pa;     ///< in the middle, without what the body remembers
   Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material in the middle
   Eigen::Matrix3Xd markers_m;   ///< [3 x markers] mean over the sample, measurement frame

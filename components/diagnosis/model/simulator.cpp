@@ -8,12 +8,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <thread>
 
 #include "components/diagnosis/model/damage.hpp"
+#include "components/diagnosis/model/past.hpp"
 #include "components/diagnosis/model/sample_differentiator.hpp"
+#include "components/diagnosis/model/sample_in_parts.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
 
 namespace palpate::diagnosis {
@@ -21,9 +22,11 @@ namespace palpate::diagnosis {
 namespace {
 
 /// Samples of the same recording follow each other and start from each other. [threads]
-std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed, int threads) {
+std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
+                                             const std::vector<bool>& is_to_do, int threads) {
   std::vector<std::vector<std::size_t>> of_recording(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    if (!is_to_do[s]) continue;
     of_recording[static_cast<std::size_t>(observed.samples[s].recording)].push_back(s);
   }
   std::sort(of_recording.begin(), of_recording.end(),
@@ -45,112 +48,6 @@ void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
     threads.emplace_back([&work, &share = shares[k]] { work(share); });
   }
   work(shares.front());
-}
-
-/// What the past leaves of creep for each sample, after a first look at all of them.
-void Creep(const std::vector<CreepTerm>& terms, const Memory& memory, const Simulation& simulation,
-           std::vector<Hereditary>* past) {
-  const auto samples = std::ssize(simulation.samples);
-  for (Hereditary& left : *past) {
-    left.scale = 0.0;
-    left.stress_Pa.setZero(6, simulation.rest_elastic_Pa.cols());
-  }
-  for (const CreepTerm& term : terms) {
-    const Eigen::MatrixXd& fading = memory.Fading(term.tau_s);
-    for (Eigen::Index s = 0; s < samples; ++s) {
-      Hereditary& left = (*past)[static_cast<std::size_t>(s)];
-      Eigen::VectorXd weights = fading.row(s).transpose();
-      left.scale += term.g * weights[s];
-      weights[s] = 0.0;
-      AddRemembered(simulation, term.g * weights, &left.stress_Pa);
-    }
-  }
-}
-
-/// Sweeps through all samples until what they remember of each other is settled.
-int SweepsFor(const ModelDraft& draft) {
-  constexpr double kLittle = 0.05;
-  double g = draft.mullins ? draft.mullins->inverse_r : 0.0;
-  for (const CreepTerm& term : draft.creep) g += std::abs(term.g);
-  return g == 0.0 ? 1 : g < kLittle ? 2 : 4;
-}
-
-/// Which cables pull, and whether the body is at a wall.
-std::vector<bool> WhatHolds(const HeldShape& shape) {
-  constexpr double kNothing_N = 1e-6;
-  const auto cables = std::ssize(shape.commands);
-  std::vector<bool> holds{shape.AtWall()};
-  for (const double tension_N : shape.state.multipliers_N.head(cables)) {
-    holds.push_back(tension_N > kNothing_N);
-  }
-  return holds;
-}
-
-/// Beside the middle: shapes that are held by something else.
-void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_what_holds,
-                SimulatedSample* simulated) {
-  const std::vector<bool> in_the_middle = WhatHolds(simulated->middle);
-  simulated->middle.share = 1.0;
-  for (const auto& [what, shapes] : by_what_holds) {
-    if (what == in_the_middle) continue;
-    HeldShape& one = simulated->beside.emplace_back(shapes[shapes.size() / 2]);
-    one.share = 0.0;
-    for (const HeldShape& shape : shapes) one.share += shape.share;
-    simulated->middle.share -= one.share;
-  }
-}
-
-/// The middle of a sample, about which the markers' mean lies as it did in `simulated`, which it
-/// replaces.
-void KeepTheBend(SimulatedSample part, SimulatedSample* simulated) {
-  part.bend_m = std::move(simulated->bend_m);
-  if (part.status.ok()) part.markers_m += part.bend_m;
-  *simulated = std::move(part);
-}
-
-/// The middle of a sample, the mean of where its markers are seen, and the shapes beside; begins
-/// from what `simulated` was.
-void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const Hereditary& past, Detail detail, SampleSolver* solver,
-                  SimulatedSample* simulated) {
-  const std::size_t middle = parts.size() / 2;
-  SimulatedSample part;
-  part.middle = simulated->middle;
-  // Where one set of cables was taut throughout, of a robot that was a little different, and still
-  // is in the middle, the middle and how the sample bent stand for all parts.
-  const bool is_known = simulated->bend_m.size() > 0;
-  const bool only_the_middle = is_known && detail == Detail::kMiddles;
-  const bool may_keep = is_known && simulated->bend_is_own && simulated->beside.empty();
-  if (only_the_middle || (may_keep && !solver->IsNearWall(simulated->middle.state))) {
-    solver->Solve(sample, parts[middle].taken_in, past, &part);
-    const bool alike = part.status.ok() && WhatHolds(part.middle) == WhatHolds(simulated->middle);
-    if (only_the_middle || alike) {
-      solver->Remember(past, &part);
-      part.middle.share = 1.0;
-      part.bend_is_own = !only_the_middle;
-      KeepTheBend(std::move(part), simulated);
-      return;
-    }
-    part = {};
-    part.middle = simulated->middle;
-  }
-  Eigen::Matrix3Xd mean_m;
-  std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    solver->Solve(sample, parts[k].taken_in, past, &part);
-    if (k == middle || !part.status.ok()) {
-      solver->Remember(past, &part);
-      *simulated = part;
-    }
-    if (!part.status.ok()) return;
-    const Eigen::Matrix3Xd shared_m = parts[k].share * part.markers_m;
-    mean_m = k == 0 ? shared_m : Eigen::Matrix3Xd(mean_m + shared_m);
-    by_what_holds[WhatHolds(part.middle)].emplace_back(part.middle).share = parts[k].share;
-  }
-  simulated->bend_m = mean_m - simulated->markers_m;
-  simulated->bend_is_own = true;
-  simulated->markers_m = std::move(mean_m);
-  KeepOthers(by_what_holds, simulated);
 }
 
 }  // namespace
@@ -176,54 +73,65 @@ ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const E
 Simulator::Simulator(const ObservedExperiment& observed, int threads)
     : observed_(observed), threads_(threads), drives_(observed), memory_(observed) {}
 
-Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Detail detail) const {
-  Simulation simulation;
-  if (start != nullptr) {
-    simulation.samples = start->samples;
-  } else {
-    simulation.samples.resize(observed_.samples.size());
-  }
-  simulation.past.resize(observed_.samples.size());
-  if (draft.mullins && start != nullptr && start->past.size() == simulation.past.size()) {
-    simulation.past = start->past;
-  }
-  const int sweeps = SweepsFor(draft);
-  const auto shares = Shares(observed_, threads_);
+/// Brings samples that are `to_do` to balance, and where it is not known, what rests. False: one
+/// failed, and of such as begin from a robot that was not far from there the others were left.
+bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
+                      const std::vector<bool>& is_to_do, Simulation* simulation) const {
   const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  const auto shares = Shares(observed_, is_to_do, threads_);
   std::atomic<bool> failed = false;
-  for (int sweep = 0; sweep < sweeps && !failed; ++sweep) {
-    OnThreads(shares, [&](const std::vector<std::size_t>& share) {
-      SampleSolver solver(draft, observed_);
-      if (&share == &shares.front()) {
-        SimulatedSample rest = solver.Rest();
-        simulation.rest_elastic_Pa = std::move(rest.elastic_Pa);
-        simulation.rest_energy_J_m3 = std::move(rest.energy_J_m3);
+  OnThreads(shares, [&](const std::vector<std::size_t>& share) {
+    SampleSolver solver(draft, observed_);
+    if (&share == &shares.front() && simulation->rest_elastic_Pa.size() == 0) {
+      SimulatedSample rest = solver.Rest();
+      simulation->rest_elastic_Pa = std::move(rest.elastic_Pa);
+      simulation->rest_energy_J_m3 = std::move(rest.energy_J_m3);
+    }
+    const HeldShape* before = nullptr;
+    for (const std::size_t s : share) {
+      SimulatedSample& sample = simulation->samples[s];
+      solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
+      if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
+        sample.middle.state = before->state;
+        sample.middle.wall_force_N = before->wall_force_N;
       }
-      const HeldShape* before = nullptr;
-      for (const std::size_t s : share) {
-        SimulatedSample& sample = simulation.samples[s];
-        solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
-        if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
-          sample.middle.state = before->state;
-          sample.middle.wall_force_N = before->wall_force_N;
-        }
-        if (failed && start != nullptr) {
-          sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
-          sample.markers_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-          continue;
-        }
-        SolveInParts(observed_.samples[s], parts[s], simulation.past[s], detail, &solver, &sample);
-        if (sample.status.ok()) {
-          before = &sample.middle;
-        } else {
-          failed = true;
-        }
+      if (failed && is_near) {
+        sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
+        sample.markers_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+        continue;
       }
-    });
-    if (sweep + 1 == sweeps) break;
-    if (!draft.creep.empty()) Creep(draft.creep, memory_, simulation, &simulation.past);
-    if (draft.mullins) Soften(*draft.mullins, memory_, simulation, &simulation.past);
+      SolveInParts(observed_.samples[s], parts[s], simulation->past[s], detail, &solver, &sample);
+      if (sample.status.ok()) {
+        before = &sample.middle;
+      } else {
+        failed = true;
+      }
+    }
+  });
+  return !failed;
+}
+
+Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Detail detail) const {
+  constexpr int kMostSweeps = 8;  // through what the samples remember of each other
+  Simulation simulation;
+  std::vector<bool> is_to_do(observed_.samples.size(), true);
+  if (start != nullptr) simulation = *start;
+  simulation.samples.resize(observed_.samples.size());
+  simulation.past.resize(observed_.samples.size());
+  for (Hereditary& past : simulation.past) {
+    if (draft.creep.empty()) past.stress_Pa.resize(6, 0);
+    if (draft.creep.empty()) past.scale = 0.0;
+    if (!draft.mullins) past.cell_factor.resize(0);
+  }
+  if (start != nullptr) UpdatePast(draft, memory_, simulation, &simulation.past);
+  simulation.rest_elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &simulation);
+    if (detail == Detail::kAllParts) detail = Detail::kParts;
+    if (!known || !Remembers(draft) || sweep + 1 == kMostSweeps) break;
+    is_to_do = UpdatePast(draft, memory_, simulation, &simulation.past);
+    if (std::none_of(is_to_do.begin(), is_to_do.end(), [](bool one) { return one; })) break;
   }
   simulation.below_largest_J_m3 = BelowLargest_J_m3(memory_, simulation);
   simulation.status = Status::Ok();
@@ -239,7 +147,9 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
   const std::vector<Eigen::MatrixXd> drive_change =
       DriveChanges(drives_, nominal, causes, z, wanted, draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
-  OnThreads(Shares(observed_, threads_), [&](const std::vector<std::size_t>& share) {
+  const auto shares =
+      Shares(observed_, std::vector<bool>(observed_.samples.size(), true), threads_);
+  OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
     SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, &solver);
     for (const std::size_t s : share) {
@@ -263,6 +173,31 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
       sample.jacobian_m = std::move(mean_m);
     }
   });
+}
+
+void Simulator::DifferentiateByRuns(const ModelDraft& nominal, const CauseList& causes,
+                                    const Eigen::VectorXd& z, Simulation* simulation) const {
+  constexpr double kStep = 0.1;  // of the parameter's fault sigma: pasts are settled to 1e-4
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const auto count = std::ssize(causes[k]->parameters());
+    const bool by_runs = causes[k]->NeedsRuns(z.segment(first, count));
+    for (Eigen::Index p = 0; p < count && by_runs; ++p) {
+      const double step = kStep * causes[k]->parameters()[static_cast<std::size_t>(p)].fault;
+      Eigen::VectorXd beside_z = z;
+      beside_z[first + p] += step;
+      const Simulation beside = Run(DraftWith(nominal, causes, beside_z), simulation);
+      if (!beside.status.ok()) continue;
+      for (std::size_t s = 0; s < beside.samples.size(); ++s) {
+        SimulatedSample& sample = simulation->samples[s];
+        // Of other shapes the mean would differ by more than what the step does.
+        if (beside.samples[s].choices != sample.choices) continue;
+        sample.jacobian_m.col(first + p) =
+            (beside.samples[s].markers_m - sample.markers_m).reshaped() / step;
+      }
+    }
+    first += count;
+  }
 }
 
 }  // namespace palpate::diagnosis

@@ -11,15 +11,10 @@
 #include "components/diagnosis/model/drive_train.hpp"
 #include "components/diagnosis/model/memory.hpp"
 #include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/sample_in_parts.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 
 namespace palpate::diagnosis {
-
-/// What of a sample of a motion is simulated.
-enum class Detail {
-  kParts,    ///< as many parts of it as its bends need
-  kMiddles,  ///< its middle; how it bends about that is taken from another simulation
-};
 
 /// Works out where the markers would be seen at every sample of an experiment, if the robot were as
 /// a draft has it, and what a change of causes does to that. Recordings are shared by threads, each
@@ -42,9 +37,17 @@ class Simulator {
                      const std::vector<bool>& wanted, const ModelDraft& nominal,
                      Simulation* simulation) const;
 
+  /// Puts differences of simulations in the place of the columns of causes of which Differentiate
+  /// leaves out what matters (Cause::NeedsRuns); one that cannot be simulated there keeps them.
+  void DifferentiateByRuns(const ModelDraft& nominal, const CauseList& causes,
+                           const Eigen::VectorXd& z, Simulation* simulation) const;
+
   const Memory& memory() const { return memory_; }
 
  private:
+  bool Sweep(const ModelDraft& draft, bool is_near, Detail detail,
+             const std::vector<bool>& is_to_do, Simulation* simulation) const;
+
   const ObservedExperiment& observed_;
   int threads_;
   DriveTrain drives_;

@@ -91,6 +91,7 @@ Json List(const std::vector<T>& items) {
 std::string FormatVerdict(const DiagnosisResult& result) {
   const Json json = {{"verdict", ToString(result.verdict)},
                      {"reason", result.reason},
+                     {"search_complete", result.search_complete},
                      {"causes", List(result.causes)},
                      {"alternatives", List(result.rivals)},
                      {"indistinguishable_from", List(result.indistinguishable_from)},

@@ -35,7 +35,7 @@ TEST_F(SpecialCase, StandsWhereTheGeneralCauseIsNotClearlyBetter) {
   ASSERT_EQ(selection.named.size(), 1U);
   const double better =
       LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
-  ASSERT_NEAR(better, 0.0, 2.0) << "else it would not be alike; seed " << kSeed;
+  ASSERT_NEAR(better, 0.0, 3.0) << "else it would not be alike; seed " << kSeed;
   EXPECT_EQ(IdOf(selection.named[0].cause), "payload");
   EXPECT_GT(selection.named[0].probability, 0.9);
   for (const Candidate& alike : selection.alike) EXPECT_NE(IdOf(alike.cause), "permanent_force");

@@ -89,9 +89,11 @@ void CaseRunner::Diagnose(const BlindCase& drawn, const fs::path& data, const fs
   const fs::path robot = drawn.corruption == Corruption::kOtherRobot
                              ? OtherRobotFile(drawn.seed, robot_, data.parent_path())
                              : settings_.robot_file;
-  std::vector<std::string> arguments = {
-      "diagnose", robot.string(), "--data",    data.string(),
-      "--out",    out.string(),   "--samples", std::to_string(settings_.samples)};
+  std::vector<std::string> arguments = {"diagnose",  robot.string(),
+                                        "--data",    data.string(),
+                                        "--out",     out.string(),
+                                        "--samples", std::to_string(settings_.samples),
+                                        "--minutes", std::to_string(settings_.minutes)};
   if (!drawn.without.empty())
     arguments.insert(arguments.end(), {"--without", Joined(drawn.without)});
   const auto begin = steady_clock::now();

@@ -40,6 +40,7 @@ class CaseRunner {
     bool keep = false;             ///< what a case leaves in it
     int longest_diagnosis_s = 1200;
     int samples = 120;  ///< `palpate diagnose --samples`
+    int minutes = 5;    ///< `palpate diagnose --minutes`
   };
 
   explicit CaseRunner(Settings settings);

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/sample_in_parts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Which cables pull, and whether the body is at a wall.
+std::vector<bool> WhatHolds(const HeldShape& shape) {
+  constexpr double kNothing_N = 1e-6;
+  const auto cables = std::ssize(shape.commands);
+  std::vector<bool> holds{shape.AtWall()};
+  for (const double tension_N : shape.state.multipliers_N.head(cables)) {
+    holds.push_back(tension_N > kNothing_N);
+  }
+  return holds;
+}
+
+/// One sample of a motion.
+class SampleInParts {
+ public:
+  SampleInParts(const Sample& sample, const std::vector<SamplePart>& parts, const Hereditary& past,
+                SampleSolver* solver)
+      : sample_(sample), parts_(parts), past_(past), solver_(*solver) {}
+
+  /// All parts, one from another.
+  void SolveAll(SimulatedSample* simulated) {
+    const std::size_t middle = parts_.size() / 2;
+    SimulatedSample solved;
+    solved.middle = simulated->middle;
+    Eigen::Matrix3Xd mean_m = Eigen::Matrix3Xd::Zero(3, std::ssize(solver_.markers()));
+    std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
+    const int choices = simulated->choices + 1;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      Solve(k, &solved);
+      if (k == middle || !solved.status.ok()) {
+        solver_.Remember(past_, &solved);
+        *simulated = solved;
+      }
+      if (!solved.status.ok()) return;
+      mean_m += parts_[k].share * solved.markers_m;
+      by_what_holds[WhatHolds(solved.middle)].emplace_back(solved.middle).share = parts_[k].share;
+    }
+    simulated->bend_m = mean_m - simulated->markers_m;
+    simulated->markers_m = std::move(mean_m);
+    simulated->parts = parts_.size();
+    simulated->choices = choices;
+    KeepOthers(by_what_holds, simulated);
+  }
+
+  /// The middle and the shapes beside it. False: what holds them is another than it was.
+  bool SolveShapes(SimulatedSample* simulated) {
+    SimulatedSample middle = Resolved(simulated->middle);
+    if (!IsHeldAs(simulated->middle, middle)) return false;
+    Eigen::Matrix3Xd mean_m = simulated->markers_m;
+    const auto move = [&](const HeldShape& from, const HeldShape& to) {
+      mean_m += from.share * (to.markers_m - from.markers_m);
+    };
+    move(simulated->middle, middle.middle);
+    for (const HeldShape& was : simulated->beside) {
+      SimulatedSample beside = Resolved(was);
+      if (!IsHeldAs(was, beside)) return false;
+      move(was, beside.middle);
+      middle.beside.push_back(std::move(beside.middle));
+    }
+    solver_.Remember(past_, &middle);
+    middle.bend_m = mean_m - middle.markers_m;
+    middle.markers_m = std::move(mean_m);
+    middle.parts = simulated->parts;
+    middle.choices = simulated->choices;
+    *simulated = std::move(middle);
+    return true;
+  }
+
+  /// The middle, about which the markers' mean lies as it did.
+  void SolveMiddle(SimulatedSample* simulated) {
+    SimulatedSample middle = Resolved(simulated->middle);
+    solver_.Remember(past_, &middle);
+    middle.middle.share = 1.0;
+    middle.bend_m = std::move(simulated->bend_m);
+    middle.bend_is_own = false;
+    middle.parts = simulated->parts;
+    middle.choices = simulated->choices;
+    if (middle.status.ok()) middle.markers_m += middle.bend_m;
+    *simulated = std::move(middle);
+  }
+
+ private:
+  void Solve(std::size_t part, SimulatedSample* solved) {
+    solver_.Solve(sample_, parts_[part].taken_in, past_, solved);
+    solved->middle.part = part;
+    solved->middle.markers_m = solved->markers_m;
+  }
+
+  /// A shape of a robot that was a little different.
+  SimulatedSample Resolved(const HeldShape& was) {
+    SimulatedSample solved;
+    solved.middle = was;
+    Solve(was.part, &solved);
+    return solved;
+  }
+
+  static bool IsHeldAs(const HeldShape& was, const SimulatedSample& solved) {
+    return solved.status.ok() && WhatHolds(solved.middle) == WhatHolds(was);
+  }
+
+  /// Beside the middle: shapes that are held by something else.
+  static void KeepOthers(const std::map<std::vector<bool>, std::vector<HeldShape>>& by_what_holds,
+                         SimulatedSample* simulated) {
+    const std::vector<bool> in_the_middle = WhatHolds(simulated->middle);
+    simulated->middle.share = 1.0;
+    for (const auto& [what, shapes] : by_what_holds) {
+      if (what == in_the_middle) continue;
+      HeldShape& one = simulated->beside.emplace_back(shapes[shapes.size() / 2]);
+      one.share = 0.0;
+      for (const HeldShape& shape : shapes) one.share += shape.share;
+      simulated->middle.share -= one.share;
+    }
+  }
+
+  const Sample& sample_;
+  const std::vector<SamplePart>& parts_;
+  const Hereditary& past_;
+  SampleSolver& solver_;
+};
+
+/// Whether no shape is so near a wall that the body may touch it elsewhere in the sample.
+bool IsClearOfWalls(const SampleSolver& solver, const SimulatedSample& simulated) {
+  return !solver.IsNearWall(simulated.middle.state) &&
+         std::none_of(simulated.beside.begin(), simulated.beside.end(),
+                      [&](const HeldShape& one) { return solver.IsNearWall(one.state); });
+}
+
+}  // namespace
+
+void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
+                  const Hereditary& past, Detail detail, SampleSolver* solver,
+                  SimulatedSample* simulated) {
+  SampleInParts motion(sample, parts, past, solver);
+  const bool is_known = simulated->status.ok() && simulated->parts == parts.size();
+  if (is_known && detail == Detail::kMiddles) {
+    motion.SolveMiddle(simulated);
+    return;
+  }
+  const bool may_keep = is_known && detail == Detail::kParts && simulated->bend_is_own &&
+                        IsClearOfWalls(*solver, *simulated);
+  if (!may_keep || !motion.SolveShapes(simulated)) motion.SolveAll(simulated);
+}
+
+}  // namespace palpate::diagnosis

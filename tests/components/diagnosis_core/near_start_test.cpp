@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/diagnosis/model/simulator.hpp"
+#include "tests/components/diagnosis_core/hidden_causes.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+/// Simulations that begin from one of a robot that was a little different.
+class NearStart : public HiddenCauses {
+ protected:
+  ModelDraft DraftOfOne(const std::string& id, const std::string& where, double z) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(book_.parameter_count());
+    all[ColumnOf(id, where)] = z;
+    return DraftWith(DraftOf(body_, observed_), book_.All(), all);
+  }
+  static double Apart_m(const Simulation& a, const Simulation& b) {
+    double most_m = 0.0;
+    for (std::size_t s = 0; s < a.samples.size(); ++s) {
+      most_m =
+          std::max(most_m, (a.samples[s].markers_m - b.samples[s].markers_m).cwiseAbs().maxCoeff());
+    }
+    return most_m;
+  }
+  static int Choices(const Simulation& simulation) {
+    int choices = 0;
+    for (const SimulatedSample& sample : simulation.samples) choices += sample.choices;
+    return choices;
+  }
+
+  Simulator simulator_{observed_, 1};
+  Simulation as_built_ = simulator_.Run(DraftOf(body_, observed_));
+};
+
+TEST_F(NearStart, LeadsToWhereARobotThatRemembersIsFromNothing) {
+  constexpr double kSettled = 0.02;  // of the effect; sweeps end before all is
+  for (const auto& [id, z] : {std::pair("viscoelastic_creep", 0.3), std::pair("mullins", 0.4)}) {
+    const ModelDraft draft = DraftOfOne(id, "body", z);
+    const Simulation from_nothing = simulator_.Run(draft);
+    const Simulation from_near = simulator_.Run(draft, &as_built_, Detail::kAllParts);
+    ASSERT_TRUE(from_nothing.status.ok() && from_near.status.ok()) << id;
+    const double effect_m = Apart_m(from_nothing, as_built_);
+    EXPECT_GT(effect_m, 1e-4) << id;
+    EXPECT_LT(Apart_m(from_nothing, from_near), kSettled * effect_m) << id;
+  }
+}
+
+TEST_F(NearStart, ForgetsAPastThatTheRobotHasNot) {
+  const Simulation crept = simulator_.Run(DraftOfOne("viscoelastic_creep", "body", 0.3));
+  const Simulation again = simulator_.Run(DraftOf(body_, observed_), &crept, Detail::kAllParts);
+  EXPECT_LT(Apart_m(again, as_built_), 1e-9);
+}
+
+TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
+  const ModelDraft draft = DraftOfOne("youngs_modulus", "body", 0.02);
+  const Simulation whole = simulator_.Run(draft, &as_built_, Detail::kAllParts);
+  const Simulation kept = simulator_.Run(draft, &as_built_);
+  EXPECT_EQ(Choices(whole), 2 * Choices(as_built_));
+  EXPECT_LT(Choices(kept), Choices(whole));
+  const double effect_m = Apart_m(whole, as_built_);
+  EXPECT_GT(effect_m, 1e-5);
+  EXPECT_LT(Apart_m(whole, kept), 0.1 * effect_m);
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
