@@ -103,7 +103,7 @@ Fit Fitter::Complete(Fit fit) const {
     fit.status = fit.simulation.status;
     fit.bends_known = true;
   }
-  fit = InAllDetail(std::move(fit));
+  if (fit.status.ok()) fit = InAllDetail(std::move(fit));
   if (fit.status.ok()) fit = TakenFurther(std::move(fit));
   fit.arrived = true;
   return fit;
