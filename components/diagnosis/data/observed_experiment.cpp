@@ -154,6 +154,7 @@ class Sampler {
         recording_.steady_window_s.value_or(TimeWindow{timeline_.begin_s[i], timeline_.end_s[i]});
     bool first = true;
     for (const Piece& piece : PiecesOf(recording_, timeline_, span.begin_s, span.end_s)) {
+      bool begins_piece = true;
       for (const TimeWindow& window : WindowsOf(piece, WindowCount(piece, cut))) {
         const auto frames = FramesIn(recording_, window, std::exchange(first, false));
         if (frames.empty()) continue;
@@ -163,6 +164,8 @@ class Sampler {
         sample.recording = index_;
         sample.piece_begin_s = piece.begin_s;
         sample.piece_end_s = piece.end_s;
+        sample.begins_piece = std::exchange(begins_piece, false);
+        if (!sample.begins_piece) samples->back().ends_piece = false;
         sample.still = piece.still;
         sample.loads = experiment::LoadsAt(recording_.loads, sample.t_s);
         samples->push_back(std::move(sample));

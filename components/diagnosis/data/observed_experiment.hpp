@@ -25,6 +25,8 @@ struct Sample {
   std::vector<double> frame_t_s;  ///< that were averaged
   double piece_begin_s = 0.0;     ///< of the piece that it is cut from
   double piece_end_s = 0.0;
+  bool begins_piece = true;                  ///< no other sample of it is before this one
+  bool ends_piece = true;                    ///< none is after it
   bool still = true;                         ///< the commands stay in that piece
   Eigen::Matrix3Xd position_m;               ///< [3 x markers] measurement frame; NaN: not seen
   Eigen::VectorXi count;                     ///< [markers] frames that saw it

@@ -22,13 +22,11 @@ Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
 }
 
 Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation) {
-  const auto samples = std::ssize(simulation.samples);
-  Eigen::MatrixXf energy_J_m3(simulation.rest_energy_J_m3.size(), samples + 1);
-  for (Eigen::Index s = 0; s < samples; ++s) {
-    energy_J_m3.col(s) = simulation.samples[static_cast<std::size_t>(s)].energy_J_m3;
+  Eigen::MatrixXf energy_J_m3(simulation.at_rest.energy_J_m3.size(), memory.ColumnCount());
+  for (Eigen::Index column = 0; column < energy_J_m3.cols(); ++column) {
+    energy_J_m3.col(column) = MemorableOf(simulation, column).energy_J_m3;
   }
-  energy_J_m3.col(samples) = simulation.rest_energy_J_m3;
-  return memory.Largest(energy_J_m3) - energy_J_m3.leftCols(samples);
+  return memory.Largest(energy_J_m3) - energy_J_m3.leftCols(std::ssize(simulation.samples));
 }
 
 void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulation& simulation,
@@ -38,7 +36,7 @@ void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulat
   for (std::size_t s = 0; s < past->size(); ++s) {
     Eigen::VectorXd& factor = (*past)[s].cell_factor;
     if (factor.size() == 0) factor.setOnes(below_J_m3.rows());
-    const Eigen::VectorXf& density_J_m3 = simulation.samples[s].energy_J_m3;
+    const Eigen::VectorXf& density_J_m3 = simulation.samples[s].in_the_middle.energy_J_m3;
     for (Eigen::Index cell = 0; cell < factor.size(); ++cell) {
       const double below = double{below_J_m3(cell, static_cast<Eigen::Index>(s))} / mullins.m_J_m3;
       const double wanted = 1.0 - mullins.inverse_r * std::erf(below);

@@ -104,8 +104,10 @@ std::vector<std::vector<SamplePart>> DriveTrain::PartsAt(const DriveSettings& se
       const std::size_t first = k * times.size() / count;
       const std::size_t end = (k + 1) * times.size() / count;
       SamplePart part{.taken_in = Eigen::VectorXd::Zero(path.rows())};
-      for (std::size_t f = first; f < end; ++f) part.taken_in += path.col(times[f]);
-      part.taken_in /= static_cast<double>(end - first);
+      for (std::size_t f = first; f < end; ++f) {
+        part.taken_in += path.col(times[f]) / static_cast<double>(end - first);
+        part.t_s += t_s_[static_cast<std::size_t>(times[f])] / static_cast<double>(end - first);
+      }
       part.share = static_cast<double>(end - first) / static_cast<double>(times.size());
       of_sample.push_back(std::move(part));
     }

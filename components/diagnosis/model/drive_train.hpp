@@ -27,6 +27,7 @@ struct DriveSettings {
 /// A part of a sample's frames, over which the body may be taken to stand still.
 struct SamplePart {
   double share = 0.0;        ///< of the sample's frames
+  double t_s = 0.0;          ///< mean of their stamps
   Eigen::VectorXd taken_in;  ///< [cables] as DriveTrain::At, mean over the part
 };
 

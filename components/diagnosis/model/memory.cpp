@@ -46,13 +46,19 @@ Memory::Memory(const ObservedExperiment& observed) : observed_(observed) {
   }
 }
 
-Eigen::RowVectorXd Memory::Only(std::size_t sample) const {
-  Eigen::RowVectorXd share = Eigen::RowVectorXd::Zero(std::ssize(observed_.samples) + 1);
-  share[static_cast<Eigen::Index>(sample)] = 1.0;
+Eigen::RowVectorXd Memory::Only(std::size_t column) const {
+  Eigen::RowVectorXd share = Eigen::RowVectorXd::Zero(ColumnCount());
+  share[static_cast<Eigen::Index>(column)] = 1.0;
   return share;
 }
 
-Eigen::RowVectorXd Memory::Zero() const { return Only(observed_.samples.size()); }
+Eigen::RowVectorXd Memory::BeginOf(std::size_t first) const {
+  return Only(observed_.samples.size() + 1 + 2 * first);
+}
+
+Eigen::RowVectorXd Memory::EndOf(std::size_t last) const {
+  return Only(observed_.samples.size() + 2 + 2 * last);
+}
 
 /// Whether the robot is at a time of a sample's recording as it is in the rests, near enough.
 bool Memory::IsAtZero(std::size_t sample, double t_s) const {
@@ -84,35 +90,19 @@ std::vector<Memory::Node> Memory::NodesOf(std::size_t first, std::size_t last) c
   const std::vector<Sample>& samples = observed_.samples;
   const double begin_s = samples[first].piece_begin_s;
   const double end_s = samples[last].piece_end_s;
-  std::vector<Node> known;
   const bool still = samples[first].still;
-  if (still) {
-    known.push_back({begin_s, Only(first)});
-  } else if (IsAtZero(first, begin_s)) {
-    known.push_back({begin_s, Zero()});
-  }
-  for (std::size_t s = first; s <= last; ++s) {
-    if (known.empty() || samples[s].t_s > known.back().t_s) {
-      known.push_back({samples[s].t_s, Only(s)});
-    }
-  }
-  if (still) {
-    known.push_back({end_s, Only(last)});
-  } else if (IsAtZero(last, end_s) && end_s > known.back().t_s) {
-    known.push_back({end_s, Zero()});
-  }
-  const auto carried_on = [&](const Node& from, const Node& over, double to_s) -> Node {
-    const double beyond = from.t_s == over.t_s ? 1.0 : (to_s - from.t_s) / (over.t_s - from.t_s);
-    return {to_s, (1.0 - beyond) * from.share + beyond * over.share, /*sure=*/false};
+  const auto at_end = [&](std::size_t sample, double t_s,
+                          const Eigen::RowVectorXd& moving) -> Node {
+    if (still) return {t_s, Only(sample)};
+    if (IsAtZero(sample, t_s)) return {t_s, Zero()};
+    return {t_s, moving, /*sure=*/false};
   };
-  const std::size_t count = known.size();
-  if (known.back().t_s < end_s) {
-    known.push_back(carried_on(known[count > 1 ? count - 2 : 0], known[count - 1], end_s));
+  std::vector<Node> nodes{at_end(first, begin_s, BeginOf(first))};
+  for (std::size_t s = first; s <= last; ++s) {
+    if (samples[s].t_s > nodes.back().t_s) nodes.push_back({samples[s].t_s, Only(s)});
   }
-  if (known.front().t_s > begin_s) {
-    known.insert(known.begin(), carried_on(known[count > 1 ? 1 : 0], known[0], begin_s));
-  }
-  return known;
+  if (end_s > nodes.back().t_s) nodes.push_back(at_end(last, end_s, EndOf(last)));
+  return nodes;
 }
 
 void Memory::AddPiece(std::size_t first, std::size_t last) {
@@ -148,8 +138,8 @@ const Eigen::MatrixXd& Memory::Fading(double tau_s) const {
 
 Eigen::MatrixXd Memory::WorkOutFading(double tau_s) const {
   const auto samples = std::ssize(observed_.samples);
-  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(samples, samples + 1);
-  Eigen::RowVectorXd now = Eigen::RowVectorXd::Zero(samples + 1);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(samples, ColumnCount());
+  Eigen::RowVectorXd now = Eigen::RowVectorXd::Zero(ColumnCount());
   const auto later = [&](const Node& from, const Eigen::RowVectorXd& to, double h_s) {
     const double kept = std::exp(-h_s / tau_s);
     const double taken = h_s > 0.0 ? (1.0 - kept) * tau_s / h_s : 1.0;

@@ -12,37 +12,42 @@
 
 namespace palpate::diagnosis {
 
-/// What a body remembers of the experiment. A quantity that was worked out at the samples, and with
-/// every command at zero, is followed through all times: linearly from sample to sample, carried on
-/// to where a piece begins and ends, and to that of zero commands in the rests and where a piece
-/// begins or ends with them. Where nothing is moved it stays, until a motion begins. Where a load
-/// comes or goes it jumps, and where a body is let go that was held in its undeformed shape.
+/// What a body remembers of the experiment. A quantity that was worked out at the samples, with
+/// every command at zero, and where motions begin and end, is followed through all times: linearly
+/// from one to the next, and to that of zero commands in the rests and where a piece begins or ends
+/// with them. Where nothing is moved it stays, until a motion begins. Where a load comes or goes it
+/// jumps, and where a body is let go that was held in its undeformed shape.
 class Memory {
  public:
   explicit Memory(const ObservedExperiment& observed);
 
-  /// [samples x samples + 1] weights W: the convolution integral of exp(-(t - s) / tau) dF/ds ds at
-  /// a sample, mean over its frames, is sum_k W(sample, k) F_k, the last k being zero commands.
-  /// Relaxed at the beginning. What was asked for once is kept; threads may ask at once.
+  /// Of what is remembered: the samples, zero commands, and for each sample where its piece begins
+  /// and where that ends (of its first and its last sample).
+  Eigen::Index ColumnCount() const { return 3 * std::ssize(observed_.samples) + 1; }
+
+  /// [samples x columns] weights W: the convolution integral of exp(-(t - s) / tau) dF/ds ds at a
+  /// sample, mean over its frames, is sum_k W(sample, k) F_k. Relaxed at the beginning. What was
+  /// asked for once is kept; threads may ask at once.
   const Eigen::MatrixXd& Fading(double tau_s) const;
 
-  /// [n x samples] the largest that each of n quantities was until then; `values`
-  /// [n x samples + 1], the last with zero commands.
+  /// [n x samples] the largest that each of n quantities was until then; `values` [n x columns].
   Eigen::MatrixXf Largest(const Eigen::MatrixXf& values) const;
 
  private:
   /// A time at which the quantity is a combination of those that were worked out.
   struct Node {
     double t_s = 0.0;
-    Eigen::RowVectorXd share;  ///< [samples + 1]
-    bool sure = true;          ///< else carried on from elsewhere
+    Eigen::RowVectorXd share;  ///< [columns]
+    bool sure = true;          ///< else carried on from parts of a sample
   };
   Eigen::MatrixXd WorkOutFading(double tau_s) const;
   void AddPiece(std::size_t first, std::size_t last);
   std::vector<Node> NodesOf(std::size_t first, std::size_t last) const;
   void Add(Node node);
-  Eigen::RowVectorXd Only(std::size_t sample) const;
-  Eigen::RowVectorXd Zero() const;
+  Eigen::RowVectorXd Only(std::size_t column) const;
+  Eigen::RowVectorXd Zero() const { return Only(observed_.samples.size()); }
+  Eigen::RowVectorXd BeginOf(std::size_t first) const;
+  Eigen::RowVectorXd EndOf(std::size_t last) const;
   bool IsAtZero(std::size_t sample, double t_s) const;
 
   const ObservedExperiment& observed_;

@@ -18,7 +18,7 @@ void Creep(const std::vector<CreepTerm>& terms, const Memory& memory, const Simu
   const auto samples = std::ssize(simulation.samples);
   for (Hereditary& left : *past) {
     left.scale = 0.0;
-    left.stress_Pa.setZero(6, simulation.rest_elastic_Pa.cols());
+    left.stress_Pa.setZero(6, simulation.at_rest.elastic_Pa.cols());
   }
   for (const CreepTerm& term : terms) {
     const Eigen::MatrixXd& fading = memory.Fading(term.tau_s);
@@ -74,15 +74,15 @@ std::vector<bool> UpdatePast(const ModelDraft& draft, const Memory& memory,
   double most_Pa = 0.0;
   double most_J_m3 = 0.0;
   for (const SimulatedSample& sample : simulation.samples) {
-    most_Pa = std::max(most_Pa, double{sample.elastic_Pa.norm()});
-    most_J_m3 = std::max(most_J_m3, double{sample.energy_J_m3.sum()});
+    most_Pa = std::max(most_Pa, double{sample.in_the_middle.elastic_Pa.norm()});
+    most_J_m3 = std::max(most_J_m3, double{sample.in_the_middle.energy_J_m3.sum()});
   }
   const double little = kLittle * StrengthOf(draft);
   std::vector<bool> is_other(past->size());
   for (std::size_t s = 0; s < past->size(); ++s) {
-    const SimulatedSample& sample = simulation.samples[s];
-    const double stress_Pa = Difference_Pa((*past)[s], before[s], double{sample.elastic_Pa.norm()});
-    const double energy_J_m3 = Difference_J_m3((*past)[s], before[s], sample.energy_J_m3);
+    const Memorable& now = simulation.samples[s].in_the_middle;
+    const double stress_Pa = Difference_Pa((*past)[s], before[s], double{now.elastic_Pa.norm()});
+    const double energy_J_m3 = Difference_J_m3((*past)[s], before[s], now.energy_J_m3);
     is_other[s] = stress_Pa > little * most_Pa || energy_J_m3 > little * most_J_m3;
   }
   return is_other;

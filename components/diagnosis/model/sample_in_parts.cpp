@@ -36,14 +36,16 @@ class SampleInParts {
     solved.middle = simulated->middle;
     Eigen::Matrix3Xd mean_m = Eigen::Matrix3Xd::Zero(3, std::ssize(solver_.markers()));
     std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
+    std::map<std::size_t, Memorable> of_part;
     const int choices = simulated->choices + 1;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       Solve(k, &solved);
       if (k == middle || !solved.status.ok()) {
-        solver_.Remember(past_, &solved);
         *simulated = solved;
+        simulated->in_the_middle = solver_.WhatIsMemorable(past_, solved);
       }
       if (!solved.status.ok()) return;
+      if (TellsAnEnd(k)) of_part[k] = solver_.WhatIsMemorable(past_, solved);
       mean_m += parts_[k].share * solved.markers_m;
       by_what_holds[WhatHolds(solved.middle)].emplace_back(solved.middle).share = parts_[k].share;
     }
@@ -52,6 +54,7 @@ class SampleInParts {
     simulated->parts = parts_.size();
     simulated->choices = choices;
     KeepOthers(by_what_holds, simulated);
+    FindEnds(of_part, simulated);
   }
 
   /// The middle and the shapes beside it. False: what holds them is another than it was.
@@ -69,7 +72,7 @@ class SampleInParts {
       move(was, beside.middle);
       middle.beside.push_back(std::move(beside.middle));
     }
-    solver_.Remember(past_, &middle);
+    Memorise(*simulated, &middle);
     middle.bend_m = mean_m - middle.markers_m;
     middle.markers_m = std::move(mean_m);
     middle.parts = simulated->parts;
@@ -81,7 +84,7 @@ class SampleInParts {
   /// The middle, about which the markers' mean lies as it did.
   void SolveMiddle(SimulatedSample* simulated) {
     SimulatedSample middle = Resolved(simulated->middle);
-    solver_.Remember(past_, &middle);
+    Memorise(*simulated, &middle);
     middle.middle.share = 1.0;
     middle.bend_m = std::move(simulated->bend_m);
     middle.bend_is_own = false;
@@ -104,6 +107,57 @@ class SampleInParts {
     solved.middle = was;
     Solve(was.part, &solved);
     return solved;
+  }
+
+  /// Of a motion's first and last sample the two parts at its beginning and at its end.
+  bool TellsAnEnd(std::size_t part) const {
+    const bool at_begin = sample_.begins_piece && part < 2;
+    return parts_.size() > 1 && (at_begin || (sample_.ends_piece && part + 3 > parts_.size()));
+  }
+
+  /// Carried on from the last two parts to where the piece begins or ends.
+  void FindEnds(const std::map<std::size_t, Memorable>& of_part, SimulatedSample* simulated) const {
+    if (parts_.size() < 2) return;
+    const std::size_t last = parts_.size() - 1;
+    if (sample_.begins_piece) {
+      simulated->at_ends[0] = CarriedOn(of_part, 1, 0, sample_.piece_begin_s);
+    }
+    if (sample_.ends_piece) {
+      simulated->at_ends[1] = CarriedOn(of_part, last - 1, last, sample_.piece_end_s);
+    }
+  }
+
+  Memorable CarriedOn(const std::map<std::size_t, Memorable>& of_part, std::size_t from,
+                      std::size_t over, double to_s) const {
+    constexpr double kFarthest = 2.0;
+    const double step_s = parts_[over].t_s - parts_[from].t_s;
+    const auto beyond = static_cast<float>(std::min(kFarthest, (to_s - parts_[over].t_s) / step_s));
+    const Memorable& a = of_part.at(from);
+    const Memorable& b = of_part.at(over);
+    return {b.elastic_Pa + beyond * (b.elastic_Pa - a.elastic_Pa),
+            (b.energy_J_m3 + beyond * (b.energy_J_m3 - a.energy_J_m3)).cwiseMax(0.0F)};
+  }
+
+  /// What is memorable in the middle; where the piece begins and ends it has grown alike since
+  /// `was`, and what it changed by beside that is the same.
+  void Memorise(const SimulatedSample& was, SimulatedSample* now) {
+    now->in_the_middle = solver_.WhatIsMemorable(past_, *now);
+    const Memorable& before = was.in_the_middle;
+    const Memorable& after = now->in_the_middle;
+    const float held = before.elastic_Pa.squaredNorm();
+    const float grown =
+        held > 0.0F ? before.elastic_Pa.cwiseProduct(after.elastic_Pa).sum() / held : 1.0F;
+    for (std::size_t k = 0; k < was.at_ends.size(); ++k) {
+      const Memorable& end = was.at_ends[k];
+      if (end.elastic_Pa.size() == 0) continue;
+      now->at_ends[k].elastic_Pa =
+          grown * end.elastic_Pa + after.elastic_Pa - grown * before.elastic_Pa;
+      now->at_ends[k].energy_J_m3 = end.energy_J_m3.cwiseProduct(
+          after.energy_J_m3.binaryExpr(before.energy_J_m3, [](float a, float b) {
+            constexpr float kMost = 4.0F;  // of cells that held next to nothing
+            return b > 0.0F ? std::min(kMost, a / b) : 1.0F;
+          }));
+    }
   }
 
   static bool IsHeldAs(const HeldShape& was, const SimulatedSample& solved) {

@@ -295,25 +295,25 @@ bool SampleSolver::IsNearWall(const fem::StaticState& state) const {
   return wall_ && WallClearance_m(wall_->wall(), state.x_m) < kNear_m;
 }
 
-void SampleSolver::Remember(const Hereditary& past, SimulatedSample* solved) {
-  const Eigen::VectorXd& x_m = solved->middle.state.x_m;
-  solved->elastic_Pa = PointStresses::Zero(6, points_.PointCount());
-  solved->energy_J_m3 = Eigen::VectorXf::Zero(cell_volume_m3_.size());
-  if (!solved->status.ok()) return;
+Memorable SampleSolver::WhatIsMemorable(const Hereditary& past, const SimulatedSample& solved) {
+  const Eigen::VectorXd& x_m = solved.middle.state.x_m;
+  if (!solved.status.ok()) {
+    return {PointStresses::Zero(6, points_.PointCount()),
+            Eigen::VectorXf::Zero(cell_volume_m3_.size())};
+  }
   const fem::ElasticBody& body = model_.elastic_body();
   const bool softened = past.cell_factor.size() > 0;
   const Eigen::VectorXd undamaged = Eigen::VectorXd::Ones(cell_volume_m3_.size());
   Eigen::Matrix<double, 6, Eigen::Dynamic> elastic_Pa;
   points_.Evaluate(body.materials(), softened ? past.cell_factor : undamaged, x_m, &elastic_Pa);
-  solved->elastic_Pa = (elastic_Pa / (1.0 + past.scale)).cast<float>();
   Eigen::VectorXd energy_J;
   body.CellEnergies(x_m, &energy_J);
   energy_J = energy_J.cwiseQuotient(cell_volume_m3_) / (1.0 + past.scale);
   if (softened) energy_J = energy_J.cwiseQuotient(past.cell_factor);
-  solved->energy_J_m3 = energy_J.cast<float>();
+  return {(elastic_Pa / (1.0 + past.scale)).cast<float>(), energy_J.cast<float>()};
 }
 
-SimulatedSample SampleSolver::Rest() {
+Memorable SampleSolver::Rest() {
   SimulatedSample rest;
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
@@ -324,8 +324,7 @@ SimulatedSample SampleSolver::Rest() {
     zero = command.array().isNaN().select(zero, 0.0);
   }
   Solve(nothing, zero, {}, &rest);
-  Remember({}, &rest);
-  return rest;
+  return WhatIsMemorable({}, rest);
 }
 
 }  // namespace palpate::diagnosis

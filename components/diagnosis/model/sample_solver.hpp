@@ -39,10 +39,11 @@ class SampleSolver {
              SimulatedSample* solved);
   /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
   bool IsNearWall(const fem::StaticState& state) const;
-  /// Fills in what a body will remember of where it is now.
-  void Remember(const Hereditary& past, SimulatedSample* solved);
-  /// At rest with every command at zero and nothing on the body, with what it remembers of that.
-  SimulatedSample Rest();
+  /// What a body will remember of where it is in the middle of `solved`; nothing (0) of one that
+  /// failed.
+  Memorable WhatIsMemorable(const Hereditary& past, const SimulatedSample& solved);
+  /// The same at rest with every command at zero and nothing on the body.
+  Memorable Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
   void Prepare(const Sample& sample, const Hereditary& past);
   /// [cables] which way they last went through their eyelets (DriveTrain::Sliding).

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "components/diagnosis/model/kept_stress.hpp"
@@ -34,34 +35,44 @@ struct Hereditary {
   Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
 };
 
+/// What a body may remember of a moment.
+struct Memorable {
+  PointStresses elastic_Pa;     ///< without what the body remembers itself
+  Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material
+};
+
 /// One sample of a simulated experiment.
 struct SimulatedSample {
   Status status;
   HeldShape middle;
   /// In a motion: one shape for each other set of cables that are taut in parts of it.
   std::vector<HeldShape> beside;
-  std::size_t parts = 0;        ///< that these were chosen among; 0: not simulated yet
-  int choices = 0;              ///< how often they were chosen
-  PointStresses elastic_Pa;     ///< in the middle, without what the body remembers
-  Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material in the middle
-  Eigen::Matrix3Xd markers_m;   ///< [3 x markers] mean over the sample, measurement frame
-  Eigen::Matrix3Xd bend_m;      ///< [3 x markers] by which that mean is not where the middle is
-  bool bend_is_own = true;      ///< and not that of another robot
-  Eigen::MatrixXd jacobian_m;   ///< [3 markers x parameters] of them
+  std::size_t parts = 0;  ///< that these were chosen among; 0: not simulated yet
+  int choices = 0;        ///< how often they were chosen
+  Memorable in_the_middle;
+  /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
+  /// it is no other than in the middle.
+  std::array<Memorable, 2> at_ends;
+  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] mean over the sample, measurement frame
+  Eigen::Matrix3Xd bend_m;     ///< [3 x markers] by which that mean is not where the middle is
+  bool bend_is_own = true;     ///< and not that of another robot
+  Eigen::MatrixXd jacobian_m;  ///< [3 markers x parameters] of them
 };
 
 /// A simulated experiment.
 struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
-  PointStresses rest_elastic_Pa;       ///< with every command at zero, as between recordings
-  Eigen::VectorXf rest_energy_J_m3;    ///< [cells] then
+  Memorable at_rest;                   ///< with every command at zero, as between recordings
   Eigen::MatrixXf below_largest_J_m3;  ///< [cells x samples] BelowLargest_J_m3 (damage.hpp)
   std::vector<Hereditary> past;        ///< [samples] with which they are in balance
 };
 
-/// Adds the elastic stresses of all samples, and with every command at zero, each so often:
-/// `weights` [samples + 1], of which those that matter nowhere are left out.
+/// What a column of Memory stands for.
+const Memorable& MemorableOf(const Simulation& simulation, Eigen::Index column);
+
+/// Adds the elastic stresses of all moments of Memory, each so often: `weights` [columns of it], of
+/// which those that matter nowhere are left out.
 void AddRemembered(const Simulation& simulation, const Eigen::VectorXd& weights,
                    PointStresses* stress_Pa);
 

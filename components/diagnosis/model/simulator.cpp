@@ -83,10 +83,8 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
   std::atomic<bool> failed = false;
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
-    if (&share == &shares.front() && simulation->rest_elastic_Pa.size() == 0) {
-      SimulatedSample rest = solver.Rest();
-      simulation->rest_elastic_Pa = std::move(rest.elastic_Pa);
-      simulation->rest_energy_J_m3 = std::move(rest.energy_J_m3);
+    if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
+      simulation->at_rest = solver.Rest();
     }
     const HeldShape* before = nullptr;
     for (const std::size_t s : share) {
@@ -125,7 +123,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
     if (!draft.mullins) past.cell_factor.resize(0);
   }
   if (start != nullptr) UpdatePast(draft, memory_, simulation, &simulation.past);
-  simulation.rest_elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
+  simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &simulation);
     if (detail == Detail::kAllParts) detail = Detail::kParts;

@@ -125,6 +125,10 @@ class CauseDerivatives : public testing::Test {
     }
   }
 
+  /// Where a hold follows a pull next to nothing is softer than it was, and pasts are not settled
+  /// to that.
+  static double LeastShare(const std::string& id) { return id == "mullins" ? 1.0 : 1e-3; }
+
   void ExpectDerivativesAsBuilt() const {
     ASSERT_TRUE(at_rest_.status.ok()) << at_rest_.status.message();
     constexpr double kTolerance = 2e-3;
@@ -134,7 +138,7 @@ class CauseDerivatives : public testing::Test {
       if (id == "stiffening") continue;       // begins with another material
       if (id == "hidden_obstacle") continue;  // ways to move it are told of one that is there
       ExpectDerivative(*cause, Eigen::VectorXd::Zero(std::ssize(cause->parameters())),
-                       id == "mullins" ? kToleranceOfDamage : kTolerance);
+                       id == "mullins" ? kToleranceOfDamage : kTolerance, LeastShare(id));
     }
   }
 
@@ -177,8 +181,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   /// compliance of this body is changed by, here 0.4 %.
   constexpr double kToleranceOfBase = 1e-2;
   /// Differences over a step, of runs whose pasts are settled so far: of what it does as a whole.
-  constexpr double kToleranceOfRuns = 0.03;
-  constexpr double kToleranceOfDamage = 0.08;  // which bends over such a step
+  constexpr double kToleranceOfRuns = 0.08;
   for (const CausePtr& cause : causes_) {
     const std::string& id = cause->name().id;
     Eigen::VectorXd z(std::ssize(cause->parameters()));
@@ -187,8 +190,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
     }
     if (id == "hidden_obstacle") z[0] = 1.0;
     ExpectDerivative(*cause, z,
-                     id == "mullins"           ? kToleranceOfDamage
-                     : cause->NeedsRuns(z)     ? kToleranceOfRuns
+                     cause->NeedsRuns(z)       ? kToleranceOfRuns
                      : id == "base_compliance" ? kToleranceOfBase
                                                : kTolerance,
                      cause->NeedsRuns(z) ? 1.0 : 1e-3);
@@ -223,7 +225,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
       const CauseParameter parameter = parameter_of(*cause, p);
       ExpectAlike(parameter.fault * analytic.col(first),
                   parameter.fault * Difference(all, z, first, parameter), kTolerance,
-                  cause->words() + ", " + parameter.name);
+                  cause->words() + ", " + parameter.name, LeastShare(cause->name().id));
     }
   }
 }

@@ -76,8 +76,8 @@ TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
   const ObservedExperiment observed = Observe(experiment, body);
   const Simulation simulation = Simulator(observed, 1).Run(DraftOf(body, observed));
   ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
-  const PointStresses& elastic_Pa = simulation.samples.front().elastic_Pa;
-  EXPECT_LT((simulation.rest_elastic_Pa - elastic_Pa).norm(), 1e-5F * elastic_Pa.norm());
+  const PointStresses& elastic_Pa = simulation.samples.front().in_the_middle.elastic_Pa;
+  EXPECT_LT((simulation.at_rest.elastic_Pa - elastic_Pa).norm(), 1e-5F * elastic_Pa.norm());
 }
 
 /// Bent far and let go, it stays a little bent that way: the stress that it keeps has turned with

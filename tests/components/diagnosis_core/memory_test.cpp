@@ -71,11 +71,15 @@ Path PathThroughBoth() {
 }
 
 Eigen::VectorXd ValuesOf(const ObservedExperiment& observed, const Path& path) {
-  Eigen::VectorXd values(std::ssize(observed.samples) + 1);
-  for (Eigen::Index s = 0; s < std::ssize(observed.samples); ++s) {
-    values[s] = path.At(observed.samples[static_cast<std::size_t>(s)].t_s);
+  const auto samples = std::ssize(observed.samples);
+  Eigen::VectorXd values(3 * samples + 1);
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    const Sample& sample = observed.samples[static_cast<std::size_t>(s)];
+    values[s] = path.At(sample.t_s);
+    values[samples + 1 + 2 * s] = path.At(sample.piece_begin_s);
+    values[samples + 2 + 2 * s] = path.At(sample.piece_end_s);
   }
-  values[values.size() - 1] = kAtZero;
+  values[samples] = kAtZero;
   return values;
 }
 
@@ -132,6 +136,24 @@ TEST(Memory, KnowsHoldsAndZeroCommandsBetweenFewSamples) {
   }
 }
 
+/// Up and down, one sample each, and it goes up by more where it turns than samples tell.
+TEST(Memory, KnowsWhereMotionsTurn) {
+  ObservedExperiment observed;
+  observed.recordings.resize(1);
+  observed.timeline.begin_s = {0.0};
+  observed.timeline.end_s = {8.0};
+  AddSample(0, 0.0, 4.0, false, {1.0, 3.0}, &observed);
+  AddSample(0, 4.0, 8.0, false, {5.0, 7.0}, &observed);
+  const Path path{{0.0, 2.0, 4.0, 6.0, 8.0}, {-0.5, 1.0, 5.0, 1.0, -0.5}};
+  const Memory memory(observed);
+  const Eigen::VectorXd values = ValuesOf(observed, path);
+  constexpr double kTau_s = 2.0;
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
+  EXPECT_NEAR(remembered[0], 0.5 * (path.Fading(1.0, kTau_s) + path.Fading(3.0, kTau_s)), 2e-4);
+  EXPECT_NEAR(remembered[1], 0.5 * (path.Fading(5.0, kTau_s) + path.Fading(7.0, kTau_s)), 2e-4);
+  EXPECT_FLOAT_EQ(memory.Largest(values.transpose().cast<float>())(0, 1), 5.0F);
+}
+
 TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
   ObservedExperiment observed;
   observed.recordings.resize(1);
@@ -143,7 +165,9 @@ TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
   const Memory memory(observed);
   constexpr double kTau_s = 2.5;
   // From nothing to 2 at once, and there it stays; with zero commands it would be something else.
-  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * Eigen::Vector3d(2.0, 2.0, 5.0);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(memory.ColumnCount());
+  values.head<3>() << 2.0, 2.0, 5.0;
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
   EXPECT_NEAR(remembered[0], 2.0 * std::exp(-3.0 / kTau_s), 1e-12);
   EXPECT_NEAR(remembered[1], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
 }
@@ -198,8 +222,10 @@ TEST(Memory, ALoadThatComesIsAJump) {
   AddSample(0, 10.0, 20.0, true, {17.0}, &observed);
   for (std::size_t s : {1U, 2U}) observed.samples[s].loads = {{10.0, {}, {0.0, 0.0, 1.0}, 0.0, {}}};
   constexpr double kTau_s = 3.0;
-  const Eigen::VectorXd remembered =
-      Memory(observed).Fading(kTau_s) * Eigen::Vector4d(1.0, 3.0, 3.0, 0.0);
+  const Memory memory(observed);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(memory.ColumnCount());
+  values.head<3>() << 1.0, 3.0, 3.0;
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
   EXPECT_NEAR(remembered[0], 0.0, 1e-12);
   EXPECT_NEAR(remembered[1], 2.0 * std::exp(-1.0 / kTau_s), 1e-12);
   EXPECT_NEAR(remembered[2], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
