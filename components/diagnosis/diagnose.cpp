@@ -184,7 +184,7 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
   }
   result->search_complete = selection.complete;
   if (!selection.complete) {
-    result->reason += " The time was over before all causes were tried: give it more.";
+    result->reason += " The time was over: fits ended early, and not all causes were tried.";
   }
 }
 

@@ -51,8 +51,6 @@ class NextCause {
 
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
-  /// Whether all was tried that is worth a look.
-  bool complete() const { return complete_; }
   std::vector<Candidate>& candidates() { return candidates_; }
 
   /// Those that fit as well as what was found, but for such as it is a special case of: no data
@@ -107,8 +105,7 @@ class NextCause {
       Candidate& candidate = candidates_[k];
       const bool special = k > 0 && IsSpecialCaseOf(k, k - 1);
       if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
-      complete_ = k == 0 || !fitter_.IsOutOfTime();
-      if (!complete_) break;
+      if (k > 0 && fitter_.IsOutOfTime()) break;
       const double guess =
           fitter_.Guess(before_, With(before_.faults, candidate.cause)).ln_evidence -
           before_.posterior.ln_evidence;
@@ -273,7 +270,6 @@ class NextCause {
   std::vector<Candidate> candidates_;
   std::vector<Fit> fits_;  ///< of the first candidates, that were refined
   std::size_t found_ = static_cast<std::size_t>(-1);
-  bool complete_ = true;
   Choice choice_;
 };
 
@@ -320,12 +316,10 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   selection.healthy = fitter.Complete(as_built);
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
-    selection.complete = number == 0 || !fitter.IsOutOfTime();
-    if (!selection.complete) break;
+    if (number > 0 && fitter.IsOutOfTime()) break;
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
     NextCause next(observed, fitter, selection.best);
     const bool found = next.Look();
-    selection.complete = next.complete();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
     selection.named.push_back(next.choice());
@@ -334,6 +328,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (number > 0) CheckBackward(fitter, kClearEvidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
+  selection.complete = !fitter.IsOutOfTime();  // else fits may have ended early, too
   std::erase_if(selection.alike,
                 [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike.cause); });
   report(steps - 1, steps, "looking at what is left");

@@ -118,11 +118,11 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
   simulation.samples.resize(observed_.samples.size());
   simulation.past.resize(observed_.samples.size());
   for (Hereditary& past : simulation.past) {
-    if (draft.creep.empty()) past.stress_Pa.resize(6, 0);
-    if (draft.creep.empty()) past.scale = 0.0;
+    if (draft.creep.empty()) past = {0.0, {}, std::move(past.cell_factor)};
     if (!draft.mullins) past.cell_factor.resize(0);
   }
-  if (start != nullptr) UpdatePast(draft, memory_, simulation, &simulation.past);
+  if (start != nullptr && Remembers(draft))
+    UpdatePast(draft, memory_, simulation, &simulation.past);
   simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &simulation);

@@ -83,6 +83,13 @@ Eigen::VectorXd ValuesOf(const ObservedExperiment& observed, const Path& path) {
   return values;
 }
 
+/// Of three samples, with nothing anywhere else.
+Eigen::VectorXd OnlyAtSamples(const Memory& memory, const Eigen::Vector3d& at_samples) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(memory.ColumnCount());
+  values.head<3>() = at_samples;
+  return values;
+}
+
 TEST(Memory, IsTheConvolutionWithWhatGoesLinearly) {
   const ObservedExperiment observed = TwoRecordings();
   const Memory memory(observed);
@@ -165,9 +172,7 @@ TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
   const Memory memory(observed);
   constexpr double kTau_s = 2.5;
   // From nothing to 2 at once, and there it stays; with zero commands it would be something else.
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(memory.ColumnCount());
-  values.head<3>() << 2.0, 2.0, 5.0;
-  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * OnlyAtSamples(memory, {2.0, 2.0, 5.0});
   EXPECT_NEAR(remembered[0], 2.0 * std::exp(-3.0 / kTau_s), 1e-12);
   EXPECT_NEAR(remembered[1], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
 }
@@ -223,9 +228,7 @@ TEST(Memory, ALoadThatComesIsAJump) {
   for (std::size_t s : {1U, 2U}) observed.samples[s].loads = {{10.0, {}, {0.0, 0.0, 1.0}, 0.0, {}}};
   constexpr double kTau_s = 3.0;
   const Memory memory(observed);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(memory.ColumnCount());
-  values.head<3>() << 1.0, 3.0, 3.0;
-  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
+  const Eigen::VectorXd remembered = memory.Fading(kTau_s) * OnlyAtSamples(memory, {1.0, 3.0, 3.0});
   EXPECT_NEAR(remembered[0], 0.0, 1e-12);
   EXPECT_NEAR(remembered[1], 2.0 * std::exp(-1.0 / kTau_s), 1e-12);
   EXPECT_NEAR(remembered[2], 2.0 * std::exp(-7.0 / kTau_s), 1e-12);
