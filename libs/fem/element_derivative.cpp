@@ -19,90 +19,93 @@ using element_derivative::Matrix3;
 using element_derivative::UnitStresses;
 using element_derivative::VolumeRatio;
 
-constexpr int kMaxNodes = 10;
 constexpr int kMaxPoints = 4;
-
-template <typename T>
-using Columns = Eigen::Matrix<T, 3, kMaxNodes>;
 
 size_t At(int value) { return static_cast<size_t>(value); }
 
+/// An integration point: deformation gradient and rest volume, m^3.
 template <typename T>
-struct ElementForces {
-  Columns<T> per_lambda = Columns<T>::Constant(T(0.0));
-  Columns<T> per_mu = Columns<T>::Constant(T(0.0));
+struct Point {
+  Matrix3<T> F;
+  T weight;
 };
 
-}  // namespace
-
-/// One cell's data in the scalar type of the differentiation.
+/// [points] first Piola-Kirchhoff stresses times rest volumes. With mean dilatation lambda acts on
+/// the mean volume ratio, and mu on what the volume ratio of the point differs by:
+/// U = lambda V U1(mean J) + mu (sum w U1(J) - V U1(mean J)).
 template <typename T>
-struct ElementDerivative::Element {
-  int nodes = 0;
-  int points = 0;
-  Columns<T> x;
-  std::array<Columns<T>, kMaxPoints> gradients;
-  std::array<T, kMaxPoints> weights;
-
-  Matrix3<T> DeformationGradient(int q) const {
-    Matrix3<T> F = Matrix3<T>::Constant(T(0.0));
-    for (int a = 0; a < nodes; ++a) {
-      F += x.col(a) * gradients[At(q)].col(a).transpose();
-    }
-    return F;
+std::array<UnitStresses<T>, kMaxPoints> WeighedStresses(
+    const Material& material, const std::array<Point<T>, kMaxPoints>& points, int count) {
+  const bool mean = material.volumetric == Volumetric::kMeanDilatation;
+  T volume(0.0);
+  T deformed(0.0);
+  for (int q = 0; q < count && mean; ++q) {
+    volume += points[At(q)].weight;
+    deformed += points[At(q)].weight * VolumeRatio(material.model, points[At(q)].F);
   }
-
-  T MeanVolumeRatio(MaterialModel model) const {
-    T volume(0.0);
-    T deformed(0.0);
-    for (int q = 0; q < points; ++q) {
-      volume += weights[At(q)];
-      deformed += weights[At(q)] * VolumeRatio(model, DeformationGradient(q));
+  std::array<UnitStresses<T>, kMaxPoints> stresses;
+  for (int q = 0; q < count; ++q) {
+    const auto& [F, weight] = points[At(q)];
+    UnitStresses<T>& stress = stresses[At(q)];
+    stress = EvaluateStress(material, F, VolumeRatio(material.model, F));
+    if (mean) {
+      const Matrix3<T> of_mean_J = EvaluateStress(material, F, T(deformed / volume)).of_lambda;
+      stress.of_mu += stress.of_lambda - of_mean_J;
+      stress.of_lambda = of_mean_J;
     }
-    return deformed / volume;
+    stress.of_lambda *= weight;
+    stress.of_mu *= weight;
   }
+  return stresses;
+}
 
-  /// With mean dilatation lambda acts on the mean volume ratio, and mu on what the volume ratio of
-  /// the point differs by: U = lambda V U1(mean J) + mu (sum w U1(J) - V U1(mean J)).
-  ElementForces<T> Forces(const Material& material) const {
-    const bool mean = material.volumetric == Volumetric::kMeanDilatation;
-    const T mean_J = mean ? MeanVolumeRatio(material.model) : T(1.0);
-    ElementForces<T> forces;
-    for (int q = 0; q < points; ++q) {
-      const Matrix3<T> F = DeformationGradient(q);
-      UnitStresses<T> stress = EvaluateStress(material, F, VolumeRatio(material.model, F));
-      if (mean) {
-        const Matrix3<T> of_mean_J = EvaluateStress(material, F, mean_J).of_lambda;
-        stress.of_mu += stress.of_lambda - of_mean_J;
-        stress.of_lambda = of_mean_J;
-      }
-      const Matrix3<T> of_lambda = stress.of_lambda * weights[At(q)];
-      const Matrix3<T> of_mu = stress.of_mu * weights[At(q)];
-      for (int a = 0; a < nodes; ++a) {
-        forces.per_lambda.col(a) += of_lambda * gradients[At(q)].col(a);
-        forces.per_mu.col(a) += of_mu * gradients[At(q)].col(a);
-      }
-    }
-    return forces;
-  }
-};
+Matrix3<Dual> ToDual(const Eigen::Matrix3d& value, const Eigen::Matrix3d& slope) {
+  Matrix3<Dual> dual;
+  for (int k = 0; k < 9; ++k) dual(k) = {value(k), slope(k)};
+  return dual;
+}
 
-namespace {
+/// lambda of_lambda + mu of_mu.
+Matrix3<Dual> Stress(const Material& material, const UnitStresses<Dual>& unit) {
+  return unit.of_lambda * Dual(material.LameLambda_Pa()) + unit.of_mu * Dual(material.LameMu_Pa());
+}
 
-/// Adds factor * dF_int of one cell, from its dual forces.
-void ScatterSlopes(const TetMesh& mesh, int cell, const Material& material, double factor,
-                   const ElementForces<Dual>& forces, Eigen::VectorXd& force_N) {
-  const double lambda = factor * material.LameLambda_Pa();
-  const double mu = factor * material.LameMu_Pa();
-  for (Eigen::Index a = 0; a < mesh.cells.rows(); ++a) {
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      force_N[3 * mesh.cells(a, cell) + i] +=
-          lambda * forces.per_lambda(i, a).slope + mu * forces.per_mu(i, a).slope;
-    }
-  }
+Eigen::Matrix3d SlopeOf(const Matrix3<Dual>& dual) {
+  return dual.unaryExpr([](const Dual& one) { return one.slope; });
+}
+
+Eigen::Matrix3d ValueOf(const Matrix3<Dual>& dual) {
+  return dual.unaryExpr([](const Dual& one) { return one.value; });
 }
 
 }  // namespace
+
+template <int kNodes>
+struct ElementDerivative::Cell {
+  using Columns = Eigen::Matrix<double, 3, kNodes>;
+
+  const ElementDerivative& of;
+  int index;
+
+  int Node(int a) const { return of.mesh_.cells(a, index); }
+  double Weight(int point) const { return of.weights_[At(index * of.points_ + point)]; }
+  Eigen::Map<const Columns> Gradients(int point) const {
+    return Eigen::Map<const Columns>(of.gradients_.data() +
+                                     At(index * of.points_ + point) * At(3 * kNodes));
+  }
+  Columns Gather(const Eigen::VectorXd& nodal) const {
+    Columns columns;
+    for (int a = 0; a < kNodes; ++a) columns.col(a) = nodal.segment<3>(3 * Node(a));
+    return columns;
+  }
+  /// sum_a nodal_a G_a'.
+  Eigen::Matrix3d GradientOf(const Columns& nodal, int point) const {
+    return nodal.lazyProduct(Gradients(point).transpose());
+  }
+  void Scatter(const Columns& columns, Eigen::Ref<Eigen::VectorXd> nodal) const {
+    for (int a = 0; a < kNodes; ++a) nodal.segment<3>(3 * Node(a)) += columns.col(a);
+  }
+};
 
 ElementDerivative::ElementDerivative(const TetMesh& mesh, std::vector<int> material_of_cell)
     : mesh_(mesh), material_of_cell_(std::move(material_of_cell)) {
@@ -110,7 +113,6 @@ ElementDerivative::ElementDerivative(const TetMesh& mesh, std::vector<int> mater
   const TetQuadrature rule = StiffnessQuadrature(mesh_.element_type());
   points_ = static_cast<int>(rule.weights.size());
   PALPATE_CHECK(points_ <= kMaxPoints, points_);
-  gradients_.reserve(At(mesh_.CellCount()) * At(points_) * At(3 * kMaxNodes));
   for (int cell = 0; cell < mesh_.CellCount(); ++cell) {
     Eigen::Matrix3Xd X(3, mesh_.cells.rows());
     for (Eigen::Index a = 0; a < X.cols(); ++a) X.col(a) = mesh_.nodes_m.col(mesh_.cells(a, cell));
@@ -122,27 +124,6 @@ ElementDerivative::ElementDerivative(const TetMesh& mesh, std::vector<int> mater
       weights_.push_back(jacobian.determinant() * rule.weights[q]);
     }
   }
-}
-
-template <typename T>
-ElementDerivative::Element<T> ElementDerivative::LoadElement(int cell,
-                                                             const Eigen::VectorXd& x_m) const {
-  Element<T> element;
-  element.nodes = static_cast<int>(mesh_.cells.rows());
-  element.points = points_;
-  for (int a = 0; a < element.nodes; ++a) {
-    element.x.col(a) = x_m.segment<3>(3 * mesh_.cells(a, cell)).template cast<T>();
-  }
-  for (int q = 0; q < points_; ++q) {
-    const int place = cell * points_ + q;
-    element.weights[At(q)] = T(weights_[At(place)]);
-    const double* source = gradients_.data() + At(place) * At(3 * element.nodes);
-    for (int a = 0; a < element.nodes; ++a) {
-      element.gradients[At(q)].col(a) =
-          Eigen::Map<const Eigen::Vector3d>(source + 3 * a).template cast<T>();
-    }
-  }
-  return element;
 }
 
 const Material& ElementDerivative::MaterialOf(const std::vector<Material>& materials,
@@ -160,39 +141,69 @@ bool ElementDerivative::Moves(int cell, const Eigen::VectorXd& nodal) const {
 void ElementDerivative::AddAlongPositions(const std::vector<Material>& materials,
                                           const Eigen::VectorXd& x_m, const Eigen::VectorXd& dx_m,
                                           double factor, Eigen::VectorXd& force_N) const {
-  for (int cell = 0; cell < mesh_.CellCount(); ++cell) {
-    if (!Moves(cell, dx_m)) continue;
-    Element<Dual> element = LoadElement<Dual>(cell, x_m);
-    for (int a = 0; a < element.nodes; ++a) {
-      for (int i = 0; i < 3; ++i) element.x(i, a).slope = dx_m[3 * mesh_.cells(a, cell) + i];
+  const bool linear = mesh_.element_type() == ElementType::kTet4;
+  (this->*(linear ? &ElementDerivative::AlongPositions<4>
+                  : &ElementDerivative::AlongPositions<10>))(materials, x_m, dx_m, factor, force_N);
+}
+
+template <int kNodes>
+void ElementDerivative::AlongPositions(const std::vector<Material>& materials,
+                                       const Eigen::VectorXd& x_m, const Eigen::VectorXd& dx_m,
+                                       double factor, Eigen::VectorXd& force_N) const {
+  std::array<Point<Dual>, kMaxPoints> points;
+  for (int k = 0; k < mesh_.CellCount(); ++k) {
+    if (!Moves(k, dx_m)) continue;
+    const Cell<kNodes> cell{*this, k};
+    const auto x = cell.Gather(x_m);
+    const auto dx = cell.Gather(dx_m);
+    for (int q = 0; q < points_; ++q) {
+      points[At(q)] = {ToDual(cell.GradientOf(x, q), cell.GradientOf(dx, q)), Dual(cell.Weight(q))};
     }
-    const Material& material = MaterialOf(materials, cell);
-    ScatterSlopes(mesh_, cell, material, factor, element.Forces(material), force_N);
+    const Material& material = MaterialOf(materials, k);
+    const auto stresses = WeighedStresses(material, points, points_);
+    typename Cell<kNodes>::Columns forces = Cell<kNodes>::Columns::Zero();
+    for (int q = 0; q < points_; ++q) {
+      forces += SlopeOf(Stress(material, stresses[At(q)])).lazyProduct(cell.Gradients(q));
+    }
+    cell.Scatter(factor * forces, force_N);
   }
 }
 
 void ElementDerivative::AddAlongRestShape(const std::vector<Material>& materials,
                                           const Eigen::VectorXd& x_m, const Eigen::VectorXd& dX_m,
                                           double factor, Eigen::VectorXd& force_N) const {
-  for (int cell = 0; cell < mesh_.CellCount(); ++cell) {
-    if (!Moves(cell, dX_m)) continue;
-    Element<Dual> element = LoadElement<Dual>(cell, x_m);
-    const double* gradients = gradients_.data() + At(cell * points_) * At(3 * element.nodes);
+  const bool linear = mesh_.element_type() == ElementType::kTet4;
+  (this->*(linear ? &ElementDerivative::AlongRestShape<4>
+                  : &ElementDerivative::AlongRestShape<10>))(materials, x_m, dX_m, factor, force_N);
+}
+
+template <int kNodes>
+void ElementDerivative::AlongRestShape(const std::vector<Material>& materials,
+                                       const Eigen::VectorXd& x_m, const Eigen::VectorXd& dX_m,
+                                       double factor, Eigen::VectorXd& force_N) const {
+  std::array<Point<Dual>, kMaxPoints> points;
+  std::array<Eigen::Matrix3d, kMaxPoints> M;
+  for (int k = 0; k < mesh_.CellCount(); ++k) {
+    if (!Moves(k, dX_m)) continue;
+    const Cell<kNodes> cell{*this, k};
+    const auto x = cell.Gather(x_m);
+    const auto dX = cell.Gather(dX_m);
     for (int q = 0; q < points_; ++q) {
-      const Eigen::Map<const Eigen::Matrix3Xd> G(gradients + 3 * q * element.nodes, 3,
-                                                 element.nodes);
-      Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
-      for (int a = 0; a < element.nodes; ++a) {
-        M += dX_m.segment<3>(3 * mesh_.cells(a, cell)) * G.col(a).transpose();
-      }
-      for (int a = 0; a < element.nodes; ++a) {
-        const Eigen::Vector3d dG = -M.transpose() * G.col(a);
-        for (int i = 0; i < 3; ++i) element.gradients[At(q)](i, a).slope = dG[i];
-      }
-      element.weights[At(q)].slope = element.weights[At(q)].value * M.trace();
+      M[At(q)] = cell.GradientOf(dX, q);
+      const Eigen::Matrix3d F = cell.GradientOf(x, q);
+      const double weight = cell.Weight(q);
+      points[At(q)] = {ToDual(F, -F * M[At(q)]), Dual(weight, weight * M[At(q)].trace())};
     }
-    const Material& material = MaterialOf(materials, cell);
-    ScatterSlopes(mesh_, cell, material, factor, element.Forces(material), force_N);
+    const Material& material = MaterialOf(materials, k);
+    const auto stresses = WeighedStresses(material, points, points_);
+    typename Cell<kNodes>::Columns forces = Cell<kNodes>::Columns::Zero();
+    for (int q = 0; q < points_; ++q) {
+      const Matrix3<Dual> stress = Stress(material, stresses[At(q)]);
+      // Of the sum of w P G_a: the stresses change, and the G_a.
+      const Eigen::Matrix3d change = SlopeOf(stress) - ValueOf(stress) * M[At(q)].transpose();
+      forces += change.lazyProduct(cell.Gradients(q));
+    }
+    cell.Scatter(factor * forces, force_N);
   }
 }
 
@@ -202,15 +213,32 @@ void ElementDerivative::LameForces(const std::vector<Material>& materials,
   const auto count = static_cast<Eigen::Index>(materials.size());
   per_lambda_m2->setZero(x_m.size(), count);
   per_mu_m2->setZero(x_m.size(), count);
-  for (int cell = 0; cell < mesh_.CellCount(); ++cell) {
-    const Element<double> element = LoadElement<double>(cell, x_m);
-    const ElementForces<double> forces = element.Forces(MaterialOf(materials, cell));
-    const int k = material_of_cell_[At(cell)];
-    for (int a = 0; a < element.nodes; ++a) {
-      const Eigen::Index row = 3 * mesh_.cells(a, cell);
-      per_lambda_m2->col(k).segment<3>(row) += forces.per_lambda.col(a);
-      per_mu_m2->col(k).segment<3>(row) += forces.per_mu.col(a);
+  const bool linear = mesh_.element_type() == ElementType::kTet4;
+  (this->*(linear ? &ElementDerivative::LameForcesOf<4> : &ElementDerivative::LameForcesOf<10>))(
+      materials, x_m, per_lambda_m2, per_mu_m2);
+}
+
+template <int kNodes>
+void ElementDerivative::LameForcesOf(const std::vector<Material>& materials,
+                                     const Eigen::VectorXd& x_m, Eigen::MatrixXd* per_lambda_m2,
+                                     Eigen::MatrixXd* per_mu_m2) const {
+  std::array<Point<double>, kMaxPoints> points;
+  for (int k = 0; k < mesh_.CellCount(); ++k) {
+    const Cell<kNodes> cell{*this, k};
+    const auto x = cell.Gather(x_m);
+    for (int q = 0; q < points_; ++q) {
+      points[At(q)] = {cell.GradientOf(x, q), cell.Weight(q)};
     }
+    const auto stresses = WeighedStresses(MaterialOf(materials, k), points, points_);
+    typename Cell<kNodes>::Columns of_lambda = Cell<kNodes>::Columns::Zero();
+    typename Cell<kNodes>::Columns of_mu = of_lambda;
+    for (int q = 0; q < points_; ++q) {
+      of_lambda += stresses[At(q)].of_lambda.lazyProduct(cell.Gradients(q));
+      of_mu += stresses[At(q)].of_mu.lazyProduct(cell.Gradients(q));
+    }
+    const int material = material_of_cell_[At(k)];
+    cell.Scatter(of_lambda, per_lambda_m2->col(material));
+    cell.Scatter(of_mu, per_mu_m2->col(material));
   }
 }
 

@@ -43,11 +43,19 @@ class ElementDerivative {
   Eigen::VectorXd NodalVolume_m3(int material) const;
 
  private:
-  template <typename T>
-  struct Element;
+  /// What is known of a cell of so many nodes.
+  template <int kNodes>
+  struct Cell;
 
-  template <typename T>
-  Element<T> LoadElement(int cell, const Eigen::VectorXd& x_m) const;
+  template <int kNodes>
+  void AlongPositions(const std::vector<Material>& materials, const Eigen::VectorXd& x_m,
+                      const Eigen::VectorXd& dx_m, double factor, Eigen::VectorXd& force_N) const;
+  template <int kNodes>
+  void AlongRestShape(const std::vector<Material>& materials, const Eigen::VectorXd& x_m,
+                      const Eigen::VectorXd& dX_m, double factor, Eigen::VectorXd& force_N) const;
+  template <int kNodes>
+  void LameForcesOf(const std::vector<Material>& materials, const Eigen::VectorXd& x_m,
+                    Eigen::MatrixXd* per_lambda_m2, Eigen::MatrixXd* per_mu_m2) const;
   const Material& MaterialOf(const std::vector<Material>& materials, int cell) const;
   bool Moves(int cell, const Eigen::VectorXd& nodal) const;
 

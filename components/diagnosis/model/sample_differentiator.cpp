@@ -45,7 +45,8 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
       wanted_(wanted),
       drive_change_(drive_change),
       solver_(*solver),
-      sensitivity_(solver->model()) {
+      of_markers_(solver->model(), solver->markers()),
+      of_body_(solver->model()) {
   for (int c = 0; c < solver->model().CableCount(); ++c) {
     if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
   }
@@ -79,7 +80,7 @@ void SampleDifferentiator::Collect(const CauseMoment& at) {
 void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
   const auto count = std::ssize(compliant_);
   const auto acting = std::ssize(column_of_);
-  const Eigen::MatrixXd& tension_N = sensitivity_.tension_N();
+  const Eigen::MatrixXd& tension_N = of_markers_.tension_N();
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd given(count, acting);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -111,15 +112,15 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
   fem::StaticState let_go = at.shape.state;
   if (draft_.wall) let_go.multipliers_N.tail<1>().setZero();
   const Status known =
-      sensitivity_.Compute(at.shape.commands, let_go, forces,
-                           draft_.wall ? robot::Factor::kRenew : robot::Factor::kPresent);
+      of_body_.Compute(at.shape.commands, let_go, forces,
+                       draft_.wall ? robot::Factor::kRenew : robot::Factor::kPresent);
   if (!known.ok()) return known;
   Eigen::MatrixXd motions_m;
   Eigen::VectorXd nodal_m;
-  sensitivity_.PointMotions(solver_.markers(), &motions_m);
+  of_body_.PointMotions(solver_.markers(), &motions_m);
   for (std::size_t k = 0; k < pushes.size(); ++k) {
     const auto push = static_cast<Eigen::Index>(k);
-    sensitivity_.NodalMotion(static_cast<int>(k), &nodal_m);
+    of_body_.NodalMotion(static_cast<int>(k), &nodal_m);
     const double gives_way_m = pushes[k].force_N.dot(nodal_m);
     if (!(gives_way_m > 0.0)) continue;  // it acts where the body is held
     for (Eigen::Index p = 0; p < pushes[k].times.size(); ++p) {
@@ -135,11 +136,10 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   Eigen::MatrixXd jacobian_m = Eigen::MatrixXd::Zero(3 * markers, ParameterCount(causes_));
   Collect(at);
   if (!at.simulated().status.ok() ||
-      !sensitivity_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
+      !of_markers_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  Eigen::MatrixXd motions_m;
-  sensitivity_.PointMotions(solver_.markers(), &motions_m);
+  Eigen::MatrixXd motions_m = of_markers_.motion_m();
   if (!compliant_.empty()) GiveWay(&motions_m);
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
     jacobian_m.col(column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));

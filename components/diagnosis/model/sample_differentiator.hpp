@@ -9,6 +9,8 @@
 #include "components/diagnosis/causes/cause.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
+#include "libs/robot/sensitivity/point_sensitivity.hpp"
+#include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
 namespace palpate::diagnosis {
 
@@ -45,7 +47,8 @@ class SampleDifferentiator {
   const std::vector<bool>& wanted_;
   const std::vector<Eigen::MatrixXd>& drive_change_;
   SampleSolver& solver_;
-  robot::SensitivitySolver sensitivity_;
+  robot::PointSensitivity of_markers_;
+  robot::SensitivitySolver of_body_;
   std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
   std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter
   std::vector<int> compliant_;               ///< cables, whose offsets come after `acting_`

@@ -49,13 +49,7 @@ void SumOfParameters::Describe(const robot::EquilibriumPoint& at,
   for (const auto& [factor, parameter] : parts_) {
     part.Reset(at.x_m().size(), column->length_m.size());
     parameter->Describe(at, &part);
-    if (part.HasForce()) column->force_N() += factor * std::as_const(part).force_N();
-    if (part.HasHeldMotion()) {
-      column->held_motion_m() += factor * std::as_const(part).held_motion_m();
-    }
-    column->length_m += factor * part.length_m;
-    column->commanded_length_m += factor * part.commanded_length_m;
-    column->commanded_tension_N += factor * part.commanded_tension_N;
+    column->Add(factor, part);
   }
 }
 

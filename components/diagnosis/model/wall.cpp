@@ -33,7 +33,7 @@ class WallMoveParameter final : public robot::Parameter {
       if (force_N_[k] <= 0.0) continue;
       const int node = surface.nodes[static_cast<std::size_t>(k)];
       const double deeper = offset_change_m_ - normal_change_.dot(at.x_m().segment<3>(3 * node));
-      column->force_N().segment<3>(3 * node) +=
+      column->distributed_force_N().segment<3>(3 * node) +=
           surface.stiffness_N_m * deeper * wall_.normal + force_N_[k] * normal_change_;
     }
   }

@@ -69,6 +69,19 @@ const fem::ElementDerivative& EquilibriumPoint::elements() const {
   return *elements_;
 }
 
+const Eigen::VectorXd& EquilibriumPoint::nodal_volume_m3() const {
+  if (nodal_volume_m3_.size() == 0) nodal_volume_m3_ = elements().NodalVolume_m3(-1);
+  return nodal_volume_m3_;
+}
+
+const Eigen::VectorXd& EquilibriumPoint::NodalVolumeAlong(const Eigen::VectorXd& mode_m) const {
+  if (mode_m_.size() == 0 || mode_m_ != mode_m) {
+    volume_along_mode_ = elements().NodalVolumeAlong(mode_m);
+    mode_m_ = mode_m;
+  }
+  return volume_along_mode_;
+}
+
 void EquilibriumPoint::EvaluateLameForces() const {
   if (has_lame_forces_) return;
   elements().LameForces(materials(), x_m_, &per_lambda_m2_, &per_mu_m2_);
@@ -123,7 +136,7 @@ void EquilibriumPoint::MoveHeldNode(Eigen::Index node, const Eigen::Vector3d& mo
 void EquilibriumPoint::ApplyHeldMotion(ParameterColumn* column) const {
   if (!column->HasHeldMotion()) return;
   const Eigen::VectorXd& motion_m = column->held_motion_m();
-  elements().AddAlongPositions(materials(), x_m_, motion_m, -1.0, column->force_N());
+  elements().AddAlongPositions(materials(), x_m_, motion_m, -1.0, column->distributed_force_N());
   for (int c = 0; c < model_.CableCount(); ++c) {
     Eigen::Matrix3Xd& path_motion_m = path_m_[static_cast<size_t>(c)];
     PathMotion(c, motion_m, &path_motion_m);

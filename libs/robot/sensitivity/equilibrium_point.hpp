@@ -39,6 +39,10 @@ class EquilibriumPoint {
   const Eigen::VectorXd& force_on_base_N() const;
 
   const fem::ElementDerivative& elements() const;
+  /// [n] m^3 each node's share of the undeformed body's volume, and how it changes along a mode
+  /// [3n] of the rest shape; of the last mode only it is kept.
+  const Eigen::VectorXd& nodal_volume_m3() const;
+  const Eigen::VectorXd& NodalVolumeAlong(const Eigen::VectorXd& mode_m) const;
   /// F_int = sum over materials of lambda L + mu M (fem/element_derivative.hpp): L and M [3n x
   /// materials].
   const Eigen::MatrixXd& forces_per_lambda_m2() const;
@@ -74,6 +78,8 @@ class EquilibriumPoint {
   std::vector<CablePath> paths_;
   std::vector<CablePath> rest_paths_;
   mutable std::unique_ptr<fem::ElementDerivative> elements_;
+  mutable Eigen::VectorXd nodal_volume_m3_;
+  mutable Eigen::VectorXd mode_m_, volume_along_mode_;
   mutable bool has_lame_forces_ = false;
   mutable Eigen::MatrixXd per_lambda_m2_;
   mutable Eigen::MatrixXd per_mu_m2_;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "libs/fem/node_weights.hpp"
 
@@ -19,15 +21,26 @@ class ParameterColumn {
   /// Back to "changes nothing". Memory is kept.
   void Reset(Eigen::Index nodal_size, Eigen::Index cables);
 
-  /// d(f_ext - F_int - cable forces)/dp [3n]; 0 at first. Entries of held directions are not used.
-  Eigen::VectorXd& force_N();
-  /// dx/dp of the held directions [3n]; 0 at first. Entries of free directions stay 0.
-  Eigen::VectorXd& held_motion_m();
+  /// d(f_ext - F_int - cable forces)/dp is what these two add up to. Entries of held directions are
+  /// not used. What loads the body as a whole [3n]; 0 at first.
+  Eigen::VectorXd& distributed_force_N();
   /// Adds a force on a point of the body.
   void AddForce(const fem::NodeWeights& point, const Eigen::Vector3d& force_N);
-  const Eigen::VectorXd& force_N() const { return force_; }
+  /// dx/dp of the held directions [3n]; 0 at first. Entries of free directions stay 0.
+  Eigen::VectorXd& held_motion_m();
+  /// Adds `factor` times everything that another one changes.
+  void Add(double factor, const ParameterColumn& other);
+
+  const Eigen::VectorXd& distributed_force_N() const { return distributed_force_; }
+  /// (node, force) of the forces on points; a node may be there several times.
+  const std::vector<std::pair<int, Eigen::Vector3d>>& point_forces_N() const {
+    return point_forces_;
+  }
+  /// Adds all forces to `nodal_N` [3n].
+  void AddForceTo(Eigen::Ref<Eigen::VectorXd> nodal_N) const;
   const Eigen::VectorXd& held_motion_m() const { return held_motion_; }
-  bool HasForce() const { return has_force_; }
+  bool IsDistributed() const { return is_distributed_; }
+  bool HasForce() const { return is_distributed_ || !point_forces_.empty(); }
   bool HasHeldMotion() const { return has_held_motion_; }
 
   /// [cables] derivative of each cable's length at fixed node positions.
@@ -39,9 +52,11 @@ class ParameterColumn {
   Eigen::VectorXd commanded_tension_N;
 
  private:
-  Eigen::VectorXd force_;
+  Eigen::Index nodal_size_ = 0;
+  Eigen::VectorXd distributed_force_;
+  std::vector<std::pair<int, Eigen::Vector3d>> point_forces_;
   Eigen::VectorXd held_motion_;
-  bool has_force_ = false;
+  bool is_distributed_ = false;
   bool has_held_motion_ = false;
 };
 

@@ -5,20 +5,17 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "libs/core/status.hpp"
 #include "libs/fem/node_weights.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/cable_terms.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
+#include "libs/robot/sensitivity/factor.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
 
 namespace palpate::robot {
-
-/// Whether the factor of K must be made, or the one of the model's linearisation is at the state
-/// already (as after RobotModel::Solve, with nothing computed since).
-enum class Factor { kRenew, kPresent };
 
 /// How an equilibrium moves with parameters p, to first order and exactly. With the load column
 /// r_p = dr/dp at fixed x and tensions T (held nodes moved along), H_c the direction of cable c's
@@ -60,38 +57,22 @@ class SensitivitySolver {
   const Eigen::MatrixXd& tension_N() const { return tension_N_; }
 
  private:
-  /// A sparse row over the reduced system.
-  struct NodalRow {
-    std::vector<std::pair<int, Eigen::Vector3d>> entries;  ///< (free node, its three entries)
-
-    double Dot(const Eigen::Ref<const Eigen::VectorXd>& column) const;
-  };
-
   Status TryCompute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
                     std::span<const ParameterPtr> parameters, Factor factor);
   void DescribeParameters(std::span<const ParameterPtr> parameters);
-  void FindTautCables();
-  bool Rubs(int cable) const;
   void FillColumns();
-  void AddFrictionColumns(int cable);
-  void FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow* row) const;
   Status CoupleFriction();
   Status EliminateTautCables();
 
   RobotModel& model_;
   EquilibriumPoint point_;
+  CableTerms cables_;
   std::vector<ParameterColumn> columns_of_;
-  std::vector<int> load_of_;       ///< [p] which of the load columns, or -1: loads nothing
-  std::vector<int> taut_;          ///< cables that keep their commanded length
-  std::vector<NodalRow> lengths_;  ///< [cables] dlength/dx
-  std::vector<NodalRow> angles_;   ///< [turns with friction] dangle/dx
-  Eigen::Index turns_ = 0;
+  std::vector<int> load_of_;  ///< [p] which of the load columns, or -1: loads nothing
   Eigen::Index loads_ = 0;
   Eigen::MatrixXd columns_;  ///< [Size x >= taut + loads + turns], in this order
   Eigen::VectorXd nodal_;    ///< [3n]
-  Eigen::Matrix3Xd turn_force_, turn_angle_;
-  ParameterColumn turn_column_;
-  Eigen::MatrixXd length_m_, tension_N_;
+  Eigen::MatrixXd commanded_length_m_, length_m_, tension_N_;
 };
 
 }  // namespace palpate::robot

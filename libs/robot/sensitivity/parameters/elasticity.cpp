@@ -29,8 +29,8 @@ class ElasticConstant final : public Parameter {
       lambda_along = E * (1.0 + 2.0 * nu * nu) / (denominator * denominator);
       mu_along = -0.5 * E / ((1.0 + nu) * (1.0 + nu));
     }
-    column->force_N() -= lambda_along * at.forces_per_lambda_m2().col(material_) +
-                         mu_along * at.forces_per_mu_m2().col(material_);
+    column->distributed_force_N() -= lambda_along * at.forces_per_lambda_m2().col(material_) +
+                                     mu_along * at.forces_per_mu_m2().col(material_);
   }
 
  private:

@@ -28,8 +28,8 @@ class NodalForces final : public Parameter {
   explicit NodalForces(Eigen::VectorXd force_N) : force_N_(std::move(force_N)) {}
 
   void Describe(const EquilibriumPoint&, ParameterColumn* column) const override {
-    PALPATE_CHECK(force_N_.size() == column->force_N().size(), force_N_.size());
-    column->force_N() += force_N_;
+    PALPATE_CHECK(force_N_.size() == column->distributed_force_N().size(), force_N_.size());
+    column->distributed_force_N() += force_N_;
   }
 
  private:

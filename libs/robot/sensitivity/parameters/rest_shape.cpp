@@ -18,7 +18,8 @@ class RestShape : public Parameter {
   void Change(const EquilibriumPoint& at, const Eigen::VectorXd& mode_m,
               ParameterColumn* column) const {
     PALPATE_CHECK(mode_m.size() == at.x_m().size(), mode_m.size());
-    at.elements().AddAlongRestShape(at.materials(), at.x_m(), mode_m, -1.0, column->force_N());
+    at.elements().AddAlongRestShape(at.materials(), at.x_m(), mode_m, -1.0,
+                                    column->distributed_force_N());
     for (Eigen::Index node = 0; node < mode_m.size() / 3; ++node) {
       at.MoveHeldNode(node, mode_m.segment<3>(3 * node), column);
     }
@@ -35,15 +36,16 @@ class RestShape : public Parameter {
   void ChangeMass(const EquilibriumPoint& at, const Eigen::VectorXd& mode_m,
                   ParameterColumn* column) const {
     const double total_kg = at.model().body().node_mass_kg.sum();
-    const Eigen::VectorXd volume_m3 = at.elements().NodalVolume_m3(-1);
-    const Eigen::VectorXd change_m3 = at.elements().NodalVolumeAlong(mode_m);
+    const Eigen::VectorXd& volume_m3 = at.nodal_volume_m3();
+    const Eigen::VectorXd& change_m3 = at.NodalVolumeAlong(mode_m);
     const double whole_m3 = volume_m3.sum();
     Eigen::VectorXd mass_kg = total_kg / whole_m3 * change_m3;
     if (mass_ == MassRule::kTotalKept) {
       mass_kg -= total_kg * change_m3.sum() / (whole_m3 * whole_m3) * volume_m3;
     }
     for (Eigen::Index node = 0; node < mass_kg.size(); ++node) {
-      column->force_N().segment<3>(3 * node) += mass_kg[node] * at.model().gravity_m_s2();
+      column->distributed_force_N().segment<3>(3 * node) +=
+          mass_kg[node] * at.model().gravity_m_s2();
     }
   }
 

@@ -14,7 +14,7 @@ namespace {
 /// Weight of nodal masses [n] per unit of the parameter, kg.
 void AddWeight(const Eigen::VectorXd& mass_kg, const Eigen::Vector3d& gravity_m_s2,
                ParameterColumn* column) {
-  Eigen::VectorXd& force_N = column->force_N();
+  Eigen::VectorXd& force_N = column->distributed_force_N();
   for (Eigen::Index node = 0; node < mass_kg.size(); ++node) {
     force_N.segment<3>(3 * node) += mass_kg[node] * gravity_m_s2;
   }
@@ -33,7 +33,7 @@ class RegionMass final : public Parameter {
 
   void Describe(const EquilibriumPoint& at, ParameterColumn* column) const override {
     const double total_kg = at.model().body().node_mass_kg.sum();
-    const double volume_m3 = at.elements().NodalVolume_m3(-1).sum();
+    const double volume_m3 = at.nodal_volume_m3().sum();
     AddWeight(total_kg / volume_m3 * at.elements().NodalVolume_m3(material_),
               at.model().gravity_m_s2(), column);
   }

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "libs/core/status.hpp"
+#include "libs/fem/node_weights.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/cable_terms.hpp"
+#include "libs/robot/sensitivity/equilibrium_point.hpp"
+#include "libs/robot/sensitivity/factor.hpp"
+#include "libs/robot/sensitivity/parameter.hpp"
+
+namespace palpate::robot {
+
+/// What SensitivitySolver gives, for points that are known before: the same derivatives by the
+/// adjoint method. With R the rows of the points' coordinates and of the cables' lengths, and K'
+/// the tangent with friction, R' K'^-1 r_p = (K'^-T R)' r_p: as many columns to solve as there are
+/// rows, however many parameters there are, and parameters that load few nodes cost next to
+/// nothing. To be preferred where there are more parameters than coordinates.
+/// Keeps 8 bytes for each row and nodal coordinate. For one thread.
+class PointSensitivity {
+ public:
+  /// `model` must outlive it and keep its mesh.
+  PointSensitivity(RobotModel& model, std::vector<fem::NodeWeights> points);
+
+  /// As SensitivitySolver::Compute, with the same refusals.
+  Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+                 std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
+
+  int ParameterCount() const { return static_cast<int>(motion_m_.cols()); }
+
+  /// [3 points x p] motion of the points, m per unit of each parameter.
+  const Eigen::MatrixXd& motion_m() const { return motion_m_; }
+  /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.
+  const Eigen::MatrixXd& length_m() const { return length_m_; }
+  const Eigen::MatrixXd& tension_N() const { return tension_N_; }
+
+ private:
+  Status TryCompute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
+                    std::span<const ParameterPtr> parameters, Factor factor);
+  Status SolveRows();
+  void FillRows();
+  Status CoupleFriction();
+  void DescribeParameters(std::span<const ParameterPtr> parameters);
+  void MoveWithBase(Eigen::Index parameter);
+  Status PullTautCables();
+  void Clear();
+
+  RobotModel& model_;
+  std::vector<fem::NodeWeights> points_;
+  EquilibriumPoint point_;
+  CableTerms cables_;
+  Eigen::Index rows_;              ///< lengths of all cables, then the points' coordinates
+  Eigen::MatrixXd columns_;        ///< [Size x >= rows + turns]
+  Eigen::MatrixXd per_force_m_N_;  ///< [rows x 3n] K'^-T R, transposed; 0 in held directions
+  ParameterColumn column_;         ///< of one parameter after the other
+  Eigen::MatrixXd distributed_N_;  ///< [3n x >= those with distributed forces]
+  std::vector<Eigen::Index> distributed_;  ///< their parameters
+  Eigen::MatrixXd response_m_;             ///< [rows x p] to loads at fixed tensions
+  Eigen::MatrixXd commanded_length_m_, length_m_, tension_N_, motion_m_;
+  Eigen::VectorXd nodal_;  ///< [3n]
+};
+
+}  // namespace palpate::robot
