@@ -58,6 +58,8 @@ class Fitter {
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }
   bool IsOutOfTime() const { return limit_.IsOver(); }
+  /// [3 x markers] of the undeformed body, robot frame.
+  const Eigen::Matrix3Xd& marker_rest_m() const { return marker_rest_m_; }
 
  private:
   Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults) const;

@@ -17,10 +17,10 @@ struct GuardResult {
   std::string worst;      ///< "misfit of recording RH_hold", "runs in recording RB_repeat", ...
 };
 
-/// Misfit as a whole and in each recording, and how the residuals of neighbouring moments hang
-/// together in each; compared with what `draws` experiments of the fitted model leave (parametric
-/// bootstrap, seeded), the worst of all tests with the worst of each draw.
-GuardResult Guard(const ObservedExperiment& observed, const CauseBook& book, const Fit& fit,
-                  int draws = 200, std::uint64_t seed = 1);
+/// GuardTests of the residual, compared with what `draws` experiments of the fitted model leave
+/// (parametric bootstrap, seeded), the worst of all tests with the worst of each draw.
+/// `marker_rest_m` [3 x markers]: of the undeformed body.
+GuardResult Guard(const ObservedExperiment& observed, const Eigen::Matrix3Xd& marker_rest_m,
+                  const CauseBook& book, const Fit& fit, int draws = 200, std::uint64_t seed = 1);
 
 }  // namespace palpate::diagnosis

@@ -332,7 +332,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   std::erase_if(selection.alike,
                 [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike.cause); });
   report(steps - 1, steps, "looking at what is left");
-  selection.guard = Guard(observed, fitter.book(), selection.best);
+  selection.guard = Guard(observed, fitter.marker_rest_m(), fitter.book(), selection.best);
   CompareCandidates(fitter.book(), &selection);
   return selection;
 }

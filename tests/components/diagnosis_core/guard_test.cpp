@@ -11,6 +11,7 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr unsigned kSeed = 31;
+const Eigen::Matrix3Xd kOneMarker_m = Eigen::Vector3d::Zero();
 
 TEST(Guard, AlarmsAboutARightModelAsOftenAsItMeansTo) {
   const CauseBook book = ToyBook();
@@ -20,7 +21,9 @@ TEST(Guard, AlarmsAboutARightModelAsOftenAsItMeansTo) {
     int alarms = 0;
     for (int k = 0; k < kRobots; ++k) {
       const Fit fit = data.FitTo(book, data.Draw(book.BeliefWith(faults)), faults);
-      if (!Guard(data.observed, book, fit, 200, kSeed + static_cast<unsigned>(k)).passed) ++alarms;
+      if (!Guard(data.observed, kOneMarker_m, book, fit, 200, kSeed + static_cast<unsigned>(k))
+               .passed)
+        ++alarms;
     }
     // 2 % of 300 is 6 +- 2.4, and as much again for thresholds from 200 draws.
     EXPECT_GE(alarms, 1) << "seed " << kSeed;
@@ -39,7 +42,8 @@ TEST(Guard, SeesAPatternThatNoCauseMakes) {
     // One and a half sigma in one axis of one recording, all the time, and less in another.
     y.segment(36, 12).array() += 1.5;
     y.segment(48, 12).array() -= 1.0;
-    const GuardResult result = Guard(data.observed, book, data.FitTo(book, y, {}), 200, kSeed);
+    const GuardResult result =
+        Guard(data.observed, kOneMarker_m, book, data.FitTo(book, y, {}), 200, kSeed);
     seen += result.passed ? 0 : 1;
     named += result.worst.ends_with("recording r1") ? 1 : 0;
   }
@@ -51,7 +55,8 @@ TEST(Guard, SaysTheSameOfTheSameData) {
   const CauseBook book = ToyBook();
   ToyData data(book, kSeed);
   const Fit fit = data.FitTo(book, data.Draw(book.BeliefWith({})), {});
-  EXPECT_EQ(Guard(data.observed, book, fit).surprise, Guard(data.observed, book, fit).surprise);
+  EXPECT_EQ(Guard(data.observed, kOneMarker_m, book, fit).surprise,
+            Guard(data.observed, kOneMarker_m, book, fit).surprise);
 }
 
 }  // namespace
