@@ -11,6 +11,7 @@
 #include "components/diagnosis/data/fitness.hpp"
 #include "components/diagnosis/data/one_clock.hpp"
 #include "components/diagnosis/gap.hpp"
+#include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/plan/next_experiment.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
 #include "libs/geometry/rigid_registration.hpp"
@@ -141,21 +142,20 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
   return identities;
 }
 
-NamedCause Describe(const ObservedExperiment& observed, const CauseBook& book,
-                    const Posterior& posterior, const Choice& choice) {
+NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
+                    const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
+  const CauseBook& book = fitter.book();
   const Cause& cause = book.cause(choice.cause);
-  const Eigen::Index first = book.first(choice.cause);
-  const Eigen::Index count = book.count(choice.cause);
-  NamedCause named{
-      .name = cause.name(),
-      .words = cause.words(),
-      .parameters = cause.Report(posterior.mean.segment(first, count),
-                                 posterior.covariance.block(first, first, count, count)),
-      .probability = std::min(kSurest, choice.probability),
-      .ln_bayes_factor = choice.ln_bayes_factor,
-      .cross_validated = choice.held_out.clear,
-      .seen_in = {}};
+  const Eigen::VectorXd z =
+      fit.posterior.mean.segment(book.first(choice.cause), book.count(choice.cause));
+  NamedCause named{.name = cause.name(),
+                   .words = cause.words(),
+                   .parameters = cause.Report(z, CovarianceOverPlaces(fitter, fit, choice.cause)),
+                   .probability = std::min(kSurest, choice.probability),
+                   .ln_bayes_factor = choice.ln_bayes_factor,
+                   .cross_validated = choice.held_out.clear,
+                   .seen_in = {}};
   for (std::size_t r = 0; r < choice.ln_gain_of_recording.size(); ++r) {
     if (choice.ln_gain_of_recording[r] > kSeen) {
       named.seen_in.push_back(observed.recordings[r].name);
@@ -315,7 +315,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   }
   DescribeVerdict(selection, &result);
   for (const Choice& choice : selection.named) {
-    result.causes.push_back(Describe(observed, book, selection.best.posterior, choice));
+    result.causes.push_back(Describe(observed, fitter, selection.best, choice));
     result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);

@@ -41,6 +41,8 @@ struct CauseParameter {
   double least = -std::numeric_limits<double>::infinity();  ///< of z: what can be
   double most = std::numeric_limits<double>::infinity();
   Scale scale = Scale::kLinear;
+  /// It says where or how the cause's other parameters act: without these it is of no effect.
+  bool qualifies = false;
   /// Of |z|: beyond, something else looks like it (DIAGNOSIS, "Method" 5).
   double plausible = std::numeric_limits<double>::infinity();
 

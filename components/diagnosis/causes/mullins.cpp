@@ -25,7 +25,8 @@ class Mullins final : public Cause {
                {.name = "m",
                 .nominal = m_J_m3,
                 .fault = 0.6,
-                .scale = CauseParameter::Scale::kFactor}}) {}
+                .scale = CauseParameter::Scale::kFactor,
+                .qualifies = true}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     if (z[0] > 0.0) draft->mullins = MullinsSoftening{z[0], parameters()[1].ValueOf(z[1])};

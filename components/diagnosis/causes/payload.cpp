@@ -16,9 +16,9 @@ class Payload final : public Cause {
   Payload(const Eigen::Vector3d& near_m, std::shared_ptr<const fem::PointLocator> locator)
       : Cause({"payload", {"body"}}, "a mass on the body",
               {{.name = "mass_kg", .fault = 0.03, .least = 0.0},
-               {.name = "x_m", .nominal = near_m.x(), .fault = kPlaceSigma_m},
-               {.name = "y_m", .nominal = near_m.y(), .fault = kPlaceSigma_m},
-               {.name = "z_m", .nominal = near_m.z(), .fault = kPlaceSigma_m}}),
+               PlaceParameter("x_m", near_m.x()),
+               PlaceParameter("y_m", near_m.y()),
+               PlaceParameter("z_m", near_m.z())}),
         near_m_(near_m),
         locator_(std::move(locator)) {}
 

@@ -17,9 +17,9 @@ class PermanentForce final : public Cause {
               {{.name = "fx_N", .fault = 0.15},
                {.name = "fy_N", .fault = 0.15},
                {.name = "fz_N", .fault = 0.15},
-               {.name = "x_m", .nominal = near_m.x(), .fault = kPlaceSigma_m},
-               {.name = "y_m", .nominal = near_m.y(), .fault = kPlaceSigma_m},
-               {.name = "z_m", .nominal = near_m.z(), .fault = kPlaceSigma_m}}),
+               PlaceParameter("x_m", near_m.x()),
+               PlaceParameter("y_m", near_m.y()),
+               PlaceParameter("z_m", near_m.z())}),
         near_m_(near_m),
         locator_(std::move(locator)) {}
 

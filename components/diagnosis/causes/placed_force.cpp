@@ -10,6 +10,10 @@
 
 namespace palpate::diagnosis {
 
+CauseParameter PlaceParameter(const std::string& name, double near_m) {
+  return {.name = name, .nominal = near_m, .fault = kPlaceSigma_m, .qualifies = true};
+}
+
 PlacesToLookAt LookAt(const CauseWorld& world) {
   constexpr std::size_t kMost = 32;
   constexpr double kFarFromBase = 0.25;  // of the body's reach from the middle of its base

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "components/diagnosis/causes/catalogue.hpp"
@@ -15,6 +16,9 @@ namespace palpate::diagnosis {
 /// Forces at places that nobody knows are looked for near points spread over the body, and may act
 /// up to so far from one of them, one sigma of each coordinate, m.
 inline constexpr double kPlaceSigma_m = 0.012;
+
+/// A coordinate of such a place, near `near_m`.
+CauseParameter PlaceParameter(const std::string& name, double near_m);
 
 struct PlacesToLookAt {
   std::vector<Eigen::Vector3d> point_m;  ///< of the undeformed body

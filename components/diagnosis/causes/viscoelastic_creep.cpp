@@ -19,7 +19,8 @@ class ViscoelasticCreep final : public Cause {
                {.name = "tau_s",
                 .nominal = tau_s,
                 .fault = 0.6,
-                .scale = CauseParameter::Scale::kFactor}}) {}
+                .scale = CauseParameter::Scale::kFactor,
+                .qualifies = true}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     if (z[0] == 0.0) return;

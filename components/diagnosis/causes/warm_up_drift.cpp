@@ -17,7 +17,8 @@ class WarmUpDrift final : public Cause {
                {.name = "tau_s",
                 .nominal = tau_s,
                 .fault = 0.6,
-                .scale = CauseParameter::Scale::kFactor}}) {}
+                .scale = CauseParameter::Scale::kFactor,
+                .qualifies = true}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     draft->camera.drifts.push_back({.amplitude_m = z[0], .tau_s = parameters()[1].ValueOf(z[1])});

@@ -48,6 +48,7 @@ Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>
                                  const std::vector<Eigen::Index>& at_zero) const {
   Belief belief = BeliefWith(faults);
   belief.sigma(at_zero).setZero();
+  for (const Eigen::Index p : Idle(faults)) belief.mean[p] = data.about[p];
   while (true) {
     Posterior posterior = Infer(data, belief);
     bool inside = true;
@@ -65,6 +66,18 @@ Posterior CauseBook::InferWithin(const Information& data, const std::vector<int>
     }
     if (inside) return posterior;
   }
+}
+
+std::vector<Eigen::Index> CauseBook::Idle(const std::vector<int>& faults) const {
+  std::vector<Eigen::Index> idle;
+  for (int k = 0; k < size(); ++k) {
+    if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
+    for (Eigen::Index p = 0; p < count(k); ++p) {
+      const bool qualifies = cause(k).parameters()[static_cast<std::size_t>(p)].qualifies;
+      if (qualifies && ToleranceOf(k, static_cast<int>(p)) == 0.0) idle.push_back(first(k) + p);
+    }
+  }
+  return idle;
 }
 
 CauseList CauseBook::All() const {

@@ -36,9 +36,14 @@ class CauseBook {
   /// A robot within its building tolerances, but for the causes in `faults`.
   Belief BeliefWith(const std::vector<int>& faults) const;
   /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
-  /// its bound. The parameters `at_zero` are held there.
+  /// its bound. The parameters `at_zero` are held there, the idle ones where the data are linear:
+  /// where a force acts times how large it is is not linear, so that elsewhere, without the force,
+  /// a part of it would seem to be left.
   Posterior InferWithin(const Information& data, const std::vector<int>& faults,
                         const std::vector<Eigen::Index>& at_zero = {}) const;
+
+  /// Parameters that only qualify what causes do that are not in `faults`.
+  std::vector<Eigen::Index> Idle(const std::vector<int>& faults) const;
 
   CauseList All() const;
   /// The parameters of these causes, one after the other.

@@ -138,10 +138,16 @@ Fit Fitter::TakenFurther(Fit fit) const {
 }
 
 /// Where to simulate next: what is most probable of robots with little of what has one sign only,
-/// as far as it is no fault, with none of it.
-Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults) const {
+/// as far as it is no fault, with none of it. Damped, it is not far from there.
+Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults,
+                                  double damping) const {
   constexpr double kLittle = 2.0;  // tolerances
-  const Information data = about.model.All();
+  Information data = about.model.All();
+  if (damping > 0.0) {
+    const Eigen::VectorXd hold = damping * data.H.diagonal();
+    data.H.diagonal() += hold;
+    data.b += hold.cwiseProduct(about.z);
+  }
   const Posterior all = book_.InferWithin(data, faults);
   std::vector<Eigen::Index> at_zero;
   for (int k = 0; k < book_.size(); ++k) {
@@ -153,7 +159,9 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
       if (one_sided && little) at_zero.push_back(column);
     }
   }
-  return book_.InferWithin(data, faults, at_zero).mean;
+  Eigen::VectorXd z = book_.InferWithin(data, faults, at_zero).mean;
+  z(book_.Idle(faults)).setZero();
+  return z;
 }
 
 /// Where a fault is most likely before the data, all else as `start` has it: steps that go too far
@@ -229,6 +237,10 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   const Simulation* from = &start.simulation;
   Eigen::VectorXd to = PointFrom(start, faults);
   double misfit = std::numeric_limits<double>::infinity();
+  constexpr double kLeastDamping = 0.03;
+  constexpr double kDampMore = 10.0;
+  constexpr double kDampLess = 3.0;
+  double damping = 0.0;
   int in_vain = 0;
   for (int round = 0; round < most_rounds && in_vain < most_in_vain; ++round) {
     const double before = fit.posterior.ln_evidence;
@@ -244,16 +256,18 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     const bool placed = fit.status.ok();
     if (next.status.ok() && now > misfit && now < (1.0 + kAlike) * misfit) break;
     if (!next.status.ok() || now > misfit) {
-      to = 0.5 * (fit.z + to);
+      damping = std::max(kLeastDamping, kDampMore * damping);
+      to = placed ? PointFrom(fit, faults, damping) : 0.5 * (fit.z + to);
       in_vain += placed;
       continue;
     }
     in_vain = 0;
+    damping = damping < kLeastDamping ? 0.0 : damping / kDampLess;
     const bool little = has_kinks && placed && now > (1.0 - kLittleOverKinks) * misfit;
     misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
-    to = PointFrom(fit, faults);
+    to = PointFrom(fit, faults, damping);
     const bool there = misfit < (1.0 + kStillToGo) * MisfitAt(fit, to);
     const bool settled = there && std::abs(fit.posterior.ln_evidence - before) < kNothing;
     const bool hopeless = round + 1 >= kRoundsToHope && faults.size() > start.faults.size() &&

@@ -41,7 +41,7 @@ class Fitter {
   Fit AsBuilt(const Simulation* simulated = nullptr) const;
   /// With these faults, from what `start` is fitted to. Ends where the linear model reaches, or
   /// after so many rounds, or where the evidence with a further fault stays below that of `start`;
-  /// a step after which the data fit worse is halved. Only what the faults do is worked out anew on
+  /// a step after which the data fit worse is damped. Only what the faults do is worked out anew on
   /// the way: what others do, tolerances as well, is taken from `start`, which is good enough to
   /// find the place, not to stand on it (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
@@ -62,7 +62,11 @@ class Fitter {
   const Eigen::Matrix3Xd& marker_rest_m() const { return marker_rest_m_; }
 
  private:
-  Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults) const;
+  /// `damping`: a step of Levenberg and Marquardt, so many times what the data say of each
+  /// parameter by itself; it shortens most what only trades one parameter for another, as size for
+  /// place.
+  Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults,
+                            double damping = 0.0) const;
   bool HasKinks(const std::vector<int>& faults) const;
   Eigen::VectorXd WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const;
   /// Chi-squared of data and belief at `z`, as the linear model of `fit` has it.

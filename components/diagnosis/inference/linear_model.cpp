@@ -74,22 +74,16 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
 }  // namespace
 
 Information::Information(Eigen::Index parameters)
-    : H(Eigen::MatrixXd::Zero(parameters, parameters)), b(Eigen::VectorXd::Zero(parameters)) {}
+    : H(Eigen::MatrixXd::Zero(parameters, parameters)),
+      b(Eigen::VectorXd::Zero(parameters)),
+      about(Eigen::VectorXd::Zero(parameters)) {}
 
 void Information::Add(const Information& other) {
   H += other.H;
   b += other.b;
   c += other.c;
   rows += other.rows;
-}
-
-Information Information::Of(const std::vector<Eigen::Index>& parameters) const {
-  Information some(std::ssize(parameters));
-  some.H = H(parameters, parameters);
-  some.b = b(parameters);
-  some.c = c;
-  some.rows = rows;
-  return some;
+  about = other.about;
 }
 
 Information LinearModel::All() const {
@@ -145,6 +139,7 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
     information.b.noalias() = J.transpose() * y;
     information.c = y.squaredNorm();
     information.rows = static_cast<int>(row - first);
+    information.about = z;
   }
   model.J.conservativeResize(row, Eigen::NoChange);
   model.y.conservativeResize(row);

@@ -18,11 +18,10 @@ struct Information {
   Eigen::VectorXd b;
   double c = 0.0;
   int rows = 0;
+  Eigen::VectorXd about;  ///< the z about which it is linear
 
   explicit Information(Eigen::Index parameters);
   void Add(const Information& other);
-  /// Of some of the parameters, the others at 0.
-  Information Of(const std::vector<Eigen::Index>& parameters) const;
 };
 
 /// An experiment as it looks from near z, whitened: y - J z is noise of unit variance. Rows of one

@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/inference/backward_check.hpp"
 #include "components/diagnosis/inference/fault_size.hpp"
+#include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/inference/screening.hpp"
 #include "libs/core/text.hpp"
 
@@ -146,10 +147,12 @@ class NextCause {
     return fitter_.Refine(best.faults, best);
   }
 
-  /// With what tolerances do where the fit is.
+  /// With what tolerances do where the fit is, and at the best of its places.
   void Complete(std::size_t k) {
+    if (fits_[k].arrived) return;
     const double before = fits_[k].posterior.ln_evidence;
-    fits_[k] = fitter_.Complete(std::move(fits_[k]));
+    fits_[k] =
+        AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].cause);
     const double now = fits_[k].posterior.ln_evidence;
     candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
   }

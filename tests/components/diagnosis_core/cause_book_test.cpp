@@ -74,5 +74,45 @@ TEST(CauseBook, WhatWouldGoBeyondItsBoundsEndsThere) {
               1e-6);
 }
 
+/// One size times exp of another parameter, which says how it acts, on six moments: seen from
+/// where both are far from zero.
+struct Product {
+  CauseBook book = [] {
+    std::vector<CausePtr> causes;
+    causes.push_back(std::make_unique<ToyCause>(
+        "placed", std::vector<CauseParameter>{{.name = "size", .fault = 9.0},
+                                              {.name = "where", .fault = 9.0, .qualifies = true}}));
+    causes.push_back(std::make_unique<ToyCause>(
+        "plain", std::vector<CauseParameter>{{.name = "plain", .fault = 1.0}}));
+    return CauseBook(std::move(causes), {});
+  }();
+  Eigen::VectorXd y = (Eigen::VectorXd(6) << 5.0, -3.0, 8.0, 1.0, -2.0, 4.0).finished();
+
+  Information SeenFrom(double size, double where) const {
+    const Eigen::VectorXd rate = Eigen::VectorXd::LinSpaced(6, -0.4, 0.6);
+    const Eigen::VectorXd effect = (where * rate).array().exp();
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(6, 3);
+    J.col(0) = effect;
+    J.col(1) = size * rate.cwiseProduct(effect);
+    const Eigen::Vector3d z(size, where, 0.0);
+    const Eigen::VectorXd off = y - size * effect + J * z;
+    Information data(3);
+    data.H = J.transpose() * J;
+    data.b = J.transpose() * off;
+    data.c = off.squaredNorm();
+    data.about = z;
+    return data;
+  }
+};
+
+TEST(CauseBook, NothingIsLeftOfACauseThatIsTakenAwayWhereItWasFarFromNone) {
+  const Product product;
+  const Posterior without = product.book.InferWithin(product.SeenFrom(4.0, 1.5), {1});
+  EXPECT_EQ(without.mean[0], 0.0);
+  EXPECT_NEAR(without.misfit, product.y.squaredNorm(), 1e-9);
+  EXPECT_EQ(product.book.Idle({1}), std::vector<Eigen::Index>{1});
+  EXPECT_TRUE(product.book.Idle({0}).empty());
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

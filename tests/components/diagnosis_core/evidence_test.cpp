@@ -114,19 +114,5 @@ TEST(Information, AddsUpOverIndependentData) {
   ExpectAlike(Infer(sum, SomeBelief()), Dense(problem, SomeBelief()));
 }
 
-TEST(Information, OfSomeParametersHasTheOthersAtZero) {
-  const Problem problem(kSeed);
-  Belief some = SomeBelief();
-  some.mean.setZero();
-  Belief few(2);
-  few.sigma << some.sigma[3], some.sigma[0];
-  for (const Eigen::Index p : {1, 2, 4}) some.sigma[p] = 0.0;
-  const Posterior all = Infer(problem.Of(0, 14), some);
-  const Posterior of_few = Infer(problem.Of(0, 14).Of({3, 0}), few);
-  EXPECT_NEAR(all.ln_evidence, of_few.ln_evidence, 1e-9 * std::abs(all.ln_evidence));
-  EXPECT_NEAR(all.mean[3], of_few.mean[0], 1e-9);
-  EXPECT_NEAR(all.mean[0], of_few.mean[1], 1e-9);
-}
-
 }  // namespace
 }  // namespace palpate::diagnosis
