@@ -12,6 +12,7 @@
 #include "components/diagnosis/data/one_clock.hpp"
 #include "components/diagnosis/gap.hpp"
 #include "components/diagnosis/inference/other_places.hpp"
+#include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/plan/next_experiment.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
 #include "libs/geometry/rigid_registration.hpp"
@@ -319,6 +320,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
     result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);
+  result.residual_forces = FindResidualForces(observed, book, selection);
   result.identities = Identities(observed);
   Extend(book, selection, &diagnosis);
   const Question question = QuestionOf(fitter, selection);

@@ -96,6 +96,15 @@ struct ExperimentProposal {
   double expected_ln_bayes_factor = 0.0;
 };
 
+/// Forces on the body, in one recording throughout, that would do what the simulation leaves there.
+/// Without columns where nobody looked for forces.
+struct ResidualForces {
+  std::string recording;
+  Eigen::Matrix3Xd place_m;   ///< [3 x places] of the undeformed body, robot frame
+  Eigen::Matrix3Xd before_N;  ///< for what the robot file leaves, robot frame
+  Eigen::Matrix3Xd after_N;   ///< for what the named causes leave
+};
+
 /// Everything that a report says. Lists are sorted, the most important first.
 struct DiagnosisResult {
   Verdict verdict = Verdict::kDataUnfit;
@@ -108,6 +117,7 @@ struct DiagnosisResult {
   double other_probability = 0.0;  ///< of something that the catalogue does not hold
   GapSummary gap;
   std::vector<RecordingGap> recordings;
+  ResidualForces residual_forces;
   std::vector<std::string> identities;  ///< what no data of this kind can tell, for people
   std::vector<ExperimentProposal> experiments;
 

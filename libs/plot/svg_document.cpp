@@ -89,8 +89,7 @@ void SvgDocument::Polygon(const std::vector<SvgPoint>& points, const Color& fill
 void SvgDocument::Facet(const std::vector<SvgPoint>& points, const Color& fill) {
   const std::string color = HexText(fill);
   body_ += std::string("<polygon") + Attribute("points", PointList(points)) +
-           Attribute("fill", color) + Attribute("stroke", color) + Attribute("stroke-width", 0.7) +
-           "/>\n";
+           Attribute("fill", color) + Attribute("stroke", color) + "/>\n";
 }
 
 void SvgDocument::Dot(const SvgPoint& center, double radius_px, const Color& fill) {

@@ -68,7 +68,8 @@ std::string FormatReport(const DiagnosisResult& result) {
   std::string figures;
   for (const Figure& figure :
        {DrawResidualField(result), DrawRecordingBars(result), DrawProbabilities(result),
-        DrawHysteresis(result), DrawHolds(result), DrawCorrelations(result)}) {
+        DrawResidualForces(result), DrawHysteresis(result), DrawHolds(result),
+        DrawCorrelations(result)}) {
     figures += FigureBlock(figure, &number);
   }
   const bool named = !result.causes.empty();

@@ -70,6 +70,20 @@ Json ToJson(const GapSummary& gap) {
           {"noise", Number(gap.noise_m)}};
 }
 
+Json Vector(const Eigen::Vector3d& v) {
+  return Json::array({Number(v.x()), Number(v.y()), Number(v.z())});
+}
+
+Json ToJson(const ResidualForces& forces) {
+  Json list = Json::array();
+  for (Eigen::Index k = 0; k < forces.place_m.cols(); ++k) {
+    list.push_back({{"at_m", Vector(forces.place_m.col(k))},
+                    {"before_N", Vector(forces.before_N.col(k))},
+                    {"after_N", Vector(forces.after_N.col(k))}});
+  }
+  return {{"recording", forces.recording}, {"forces", list}};
+}
+
 Json NextExperiment(const std::vector<ExperimentProposal>& experiments) {
   if (experiments.empty()) return nullptr;
   const ExperimentProposal& next = experiments.front();
@@ -100,6 +114,7 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                      {"residual_m_rms", ToJson(result.gap)},
                      {"next_experiment", NextExperiment(result.experiments)},
                      {"recordings", List(result.recordings)},
+                     {"residual_forces", ToJson(result.residual_forces)},
                      {"robot", result.robot},
                      {"data", result.data},
                      {"data_hash", result.data_hash},

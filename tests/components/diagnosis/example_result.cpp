@@ -105,6 +105,21 @@ double Rms_m(const DiagnosisResult& result, int recording,
   return std::sqrt(squares_m2 / std::max(count, 1));
 }
 
+/// The leg in the north is held back, the others hardly.
+void AddForces(const robot::RobotBody& body, DiagnosisResult* result) {
+  ResidualForces& forces = result->residual_forces;
+  const auto count = static_cast<Eigen::Index>(body.feature_points.size());
+  forces = {"02_ramp_north", Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count),
+            Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Vector3d rest_m = body.feature_points[static_cast<std::size_t>(k)].rest_m;
+    const double near_north = std::min(1.0, std::exp(40.0 * (rest_m.y() - 0.06)));
+    forces.place_m.col(k) = rest_m;
+    forces.before_N.col(k) = 0.06 * (0.05 + near_north) * Eigen::Vector3d(0.1, -0.8, 0.6);
+    forces.after_N.col(k) = 0.1 * forces.before_N.col(k);
+  }
+}
+
 void AddBody(DiagnosisResult* result) {
   const robot::RobotBody body = robot::BuildRobotBody(
       robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml));
@@ -123,6 +138,7 @@ void AddBody(DiagnosisResult* result) {
     result->cables.push_back(cable.name);
     result->cable_units.emplace_back("m");
   }
+  AddForces(body, result);
 }
 
 void AddRecordings(DiagnosisResult* result) {

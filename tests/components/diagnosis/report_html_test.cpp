@@ -22,8 +22,9 @@ using testing::IsSupersetOf;
 using testing::Not;
 using testing::SizeIs;
 
-const char* const kFigures[] = {"residual-field", "recording-bars", "probabilities",
-                                "hysteresis",     "holds",          "correlations"};
+const char* const kFigures[] = {"residual-field",  "recording-bars", "probabilities",
+                                "residual-forces", "hysteresis",     "holds",
+                                "correlations"};
 
 /// The svg elements of a page.
 std::vector<std::string> Pictures(const std::string& html) {
@@ -114,6 +115,7 @@ TEST(ReportHtml, HasEveryFigureWithTitleUnitsAndCaption) {
       {"residual, RMS (mm)", "before", "noise", "held out: with the causes", "02_ramp_north"},
       {"probability (no unit)", "friction of cable north", "none: a healthy robot",
        "other: not in the catalogue", "0.97"},
+      {"x (mm)", "y (mm)", "z (mm)", "before", "after", "arrow of 0.05 N"},
       {"displacement commanded (mm)", "residual (mm)", "cable north, in 02_ramp_north", "before"},
       {"time since the hold began (s), logarithmic", "residual (mm)", "06_hold_north", "100"},
       {"correlation (no unit)", "0.91", "-0.66", "1  friction of cable north"}};

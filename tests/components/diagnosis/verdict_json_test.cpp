@@ -47,6 +47,22 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(verdict["data_hash"], result.data_hash);
 }
 
+TEST(VerdictJson, HoldsTheForcesThatWouldDoWhatIsLeft) {
+  const ResidualForces forces{.recording = "r1",
+                              .place_m = Eigen::Matrix3Xd::Constant(3, 2, 0.01),
+                              .before_N = Eigen::Matrix3Xd::Constant(3, 2, 0.2),
+                              .after_N = Eigen::Matrix3Xd::Constant(3, 2, 0.1)};
+  DiagnosisResult result = FrictionExample();
+  result.residual_forces = forces;
+  const json written = Written(result)["residual_forces"];
+  EXPECT_EQ(written["recording"], "r1");
+  ASSERT_EQ(written["forces"].size(), 2U);
+  EXPECT_EQ(written["forces"][1]["at_m"], json({0.01, 0.01, 0.01}));
+  EXPECT_EQ(written["forces"][1]["before_N"], json({0.2, 0.2, 0.2}));
+  EXPECT_EQ(written["forces"][1]["after_N"], json({0.1, 0.1, 0.1}));
+  EXPECT_EQ(Written(DataUnfitExample())["residual_forces"]["forces"], json::array());
+}
+
 TEST(VerdictJson, SpellsEveryVerdict) {
   std::vector<std::string> spelled;
   for (const DiagnosisResult& result : AllExamples()) spelled.push_back(Written(result)["verdict"]);

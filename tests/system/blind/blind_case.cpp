@@ -59,7 +59,7 @@ BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot) {
       break;
     case CaseKind::kOutside:
       add(first);
-      drawn.without = TwinsOf(menu[first].id);
+      drawn.without = CoveredBy(menu[first].id);
       drawn.without.insert(drawn.without.begin(), std::string(menu[first].id));
       break;
     case CaseKind::kCorrupted:

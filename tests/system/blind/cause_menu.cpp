@@ -200,4 +200,9 @@ std::vector<std::string> TwinsOf(std::string_view id) {
   return {};
 }
 
+std::vector<std::string> CoveredBy(std::string_view id) {
+  if (id == "payload") return {"permanent_force"};  // downwards, however the base is tilted
+  return TwinsOf(id);
+}
+
 }  // namespace palpate::blind

@@ -35,8 +35,11 @@ struct LeftOut {
 /// The rest of the catalogue.
 const std::vector<LeftOut>& LeftOutOfMenu();
 
-/// What else does exactly the same to this robot: whoever withholds the one withholds both, and
-/// either name is right.
+/// What else does exactly the same to this robot: either name is right.
 std::vector<std::string> TwinsOf(std::string_view id);
+
+/// Twins, and what it is a special case of, as a mass is of a force: these do all that it does, and
+/// whoever withholds it withholds them, too.
+std::vector<std::string> CoveredBy(std::string_view id);
 
 }  // namespace palpate::blind

@@ -11,6 +11,9 @@ namespace palpate::diagnosis {
 /// The markers' mean residuals on the body, before and after.
 Figure DrawResidualField(const DiagnosisResult& result);
 
+/// The forces that would do what is left, before and after.
+Figure DrawResidualForces(const DiagnosisResult& result);
+
 /// RMS of the residual in each recording.
 Figure DrawRecordingBars(const DiagnosisResult& result);
 

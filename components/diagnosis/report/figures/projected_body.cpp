@@ -19,7 +19,7 @@ using Triangles = std::vector<std::array<int, 3>>;
 constexpr plot::Color kLit = plot::FromHex(0xE9EFF4);
 constexpr plot::Color kDark = plot::FromHex(0xB4C2CE);
 /// Cells of the grid on which nodes are joined, along the body's longest side.
-constexpr double kCells = 60.0;
+constexpr double kCells = 44.0;
 /// Surfaces of so many triangles are drawn as they are.
 constexpr std::size_t kFewTriangles = 4000;
 
