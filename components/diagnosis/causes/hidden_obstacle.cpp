@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/diagnosis/causes/makers.hpp"
 #include "components/diagnosis/causes/walls_to_look_at.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kTiltSigma_rad = 0.2;
 constexpr double kMostTilt_rad = 0.6;
+/// By which the model's skin of nodes may lie off the body's, one sigma.
+constexpr double kSkin_m = 3e-4;
 
 /// z: whether the wall is there (1; 0: not; nothing between is believed in), how much farther from
 /// the body than where it is looked for, and two turns about the middle of where it is met there.
@@ -102,10 +105,13 @@ class HiddenObstacle final : public Cause {
     }
     std::vector<FittedParameter> report;
     for (int k = 0; k < 4; ++k) {
-      const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance));
-      const double low = k == 0 ? std::max(0.0, value[k] - half) : std::max(-1.0, value[k] - half);
-      const double high = k == 0 ? value[k] + half : std::min(1.0, value[k] + half);
-      report.push_back({names[k], value[k], low, high});
+      const double of_skin_m2 = k == 0 ? kSkin_m * kSkin_m : 0.0;
+      const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance) + of_skin_m2);
+      const double least =
+          k == 0 ? 0.0 : -1.0;  // a wall that stands in the model's skin touches it
+      const double most = k == 0 ? std::numeric_limits<double>::infinity() : 1.0;
+      report.push_back({names[k], std::max(least, value[k]), std::max(least, value[k] - half),
+                        std::min(most, value[k] + half)});
     }
     return report;
   }

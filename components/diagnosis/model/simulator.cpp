@@ -15,7 +15,6 @@
 #include "components/diagnosis/model/past.hpp"
 #include "components/diagnosis/model/sample_differentiator.hpp"
 #include "components/diagnosis/model/sample_in_parts.hpp"
-#include "components/diagnosis/model/sample_solver.hpp"
 
 namespace palpate::diagnosis {
 
@@ -76,13 +75,17 @@ Simulator::Simulator(const ObservedExperiment& observed, int threads)
 /// Brings samples that are `to_do` to balance, and where it is not known, what rests. False: one
 /// failed, and of such as begin from a robot that was not far from there the others were left.
 bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
-                      const std::vector<bool>& is_to_do, Simulation* simulation) const {
+                      const std::vector<bool>& is_to_do, Solvers* solvers,
+                      Simulation* simulation) const {
   const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
   const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
   const auto shares = Shares(observed_, is_to_do, threads_);
   std::atomic<bool> failed = false;
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
-    SampleSolver solver(draft, observed_);
+    std::unique_ptr<SampleSolver>& kept =
+        (*solvers)[static_cast<std::size_t>(&share - shares.data())];
+    if (!kept) kept = std::make_unique<SampleSolver>(draft, observed_);
+    SampleSolver& solver = *kept;
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
       simulation->at_rest = solver.Rest();
     }
@@ -124,8 +127,9 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
   if (start != nullptr && Remembers(draft))
     UpdatePast(draft, memory_, simulation, &simulation.past);
   simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
+  Solvers solvers(static_cast<std::size_t>(threads_));
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &simulation);
+    const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &solvers, &simulation);
     if (detail == Detail::kAllParts) detail = Detail::kParts;
     if (!known || !Remembers(draft) || sweep + 1 == kMostSweeps) break;
     is_to_do = UpdatePast(draft, memory_, simulation, &simulation.past);

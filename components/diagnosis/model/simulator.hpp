@@ -12,6 +12,7 @@
 #include "components/diagnosis/model/memory.hpp"
 #include "components/diagnosis/model/model_draft.hpp"
 #include "components/diagnosis/model/sample_in_parts.hpp"
+#include "components/diagnosis/model/sample_solver.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 
 namespace palpate::diagnosis {
@@ -45,8 +46,11 @@ class Simulator {
   const Memory& memory() const { return memory_; }
 
  private:
+  /// [threads] of one draft, each made where it is first needed.
+  using Solvers = std::vector<std::unique_ptr<SampleSolver>>;
+
   bool Sweep(const ModelDraft& draft, bool is_near, Detail detail,
-             const std::vector<bool>& is_to_do, Simulation* simulation) const;
+             const std::vector<bool>& is_to_do, Solvers* solvers, Simulation* simulation) const;
 
   const ObservedExperiment& observed_;
   int threads_;
