@@ -30,7 +30,7 @@ class CameraMoved final : public Cause {
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
-    for (auto k = static_cast<std::size_t>(from_recording_); k < draft->T_seen.size(); ++k) {
+    for (auto k = static_cast<std::size_t>(from_recording_); k < T_measurement_robot_.size(); ++k) {
       const Eigen::Isometry3d& T = T_measurement_robot_[k];
       draft->T_seen[k] = T.inverse() * moved * T * draft->T_seen[k];
     }
@@ -38,10 +38,12 @@ class CameraMoved final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    if (at.seen().recording < from_recording_) return;
-    const auto k = static_cast<std::size_t>(at.seen().recording);
+    const ObservedRecording& recording = at.recording();
+    const int from = recording.pose_of >= 0 ? recording.pose_of : at.seen().recording;
+    if (from < from_recording_) return;
+    const Eigen::Isometry3d& T_seen = at.draft.T_seen[static_cast<std::size_t>(from)];
     const Eigen::Isometry3d T_after =
-        at.draft.T_seen[k] * T_measurement_robot_[k].inverse() * SeenMove(z, middle_m_).inverse();
+        T_seen * recording.T_measurement_robot.inverse() * SeenMove(z, middle_m_).inverse();
     AddSeenMove(parameter, z, middle_m_, T_after, at, motion_m);
   }
 
@@ -70,7 +72,7 @@ class CameraMoved final : public Cause {
 
   int from_recording_;
   Eigen::Vector3d middle_m_;  ///< of the body, measurement frame of that recording
-  std::vector<Eigen::Isometry3d> T_measurement_robot_;  ///< [recordings]
+  std::vector<Eigen::Isometry3d> T_measurement_robot_;  ///< [recordings] that were made
 };
 
 }  // namespace

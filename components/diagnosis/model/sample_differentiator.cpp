@@ -80,6 +80,7 @@ void SampleDifferentiator::Collect(const CauseMoment& at) {
 void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
   const auto count = std::ssize(compliant_);
   const auto acting = std::ssize(column_of_);
+  if (count == 0 || acting == 0) return;
   const Eigen::MatrixXd& tension_N = of_markers_.tension_N();
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd given(count, acting);
