@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kLargestSize_px = 16384;
 constexpr int kLargestDepthValue = 65535;
+constexpr std::size_t kWithoutK3 = 4;
 // A unit of 1 is one that was meant in millimetres, a baseline of 50 as well.
 constexpr NumberRule kUnitRule{.min = 0.0, .max = 0.1, .min_open = true};
 constexpr NumberRule kBaselineRule{.min = 0.0, .max = 2.0};
@@ -23,8 +24,9 @@ constexpr NumberRule kBaselineRule{.min = 0.0, .max = 2.0};
 std::array<double, 5> ReadDistortion(const ConfigNode& node) {
   const std::vector<double> values = ReadNumbers(node);
   std::array<double, 5> distortion{};
-  if (values.size() != distortion.size()) {
-    Refuse(node, "must be [k1, k2, p1, p2, k3], not a list of " + std::to_string(values.size()));
+  if (!values.empty() && values.size() != kWithoutK3 && values.size() != distortion.size()) {
+    Refuse(node, "must be [k1, k2, p1, p2, k3], [k1, k2, p1, p2] or [], not a list of " +
+                     std::to_string(values.size()));
   }
   std::copy(values.begin(), values.end(), distortion.begin());
   return distortion;
@@ -85,6 +87,13 @@ std::string FormatModel(const CameraModel& model) {
 }
 
 }  // namespace
+
+bool RgbdCamera::operator==(const RgbdCamera& other) const {
+  return depth == other.depth && depth_unit_m == other.depth_unit_m &&
+         invalid_value == other.invalid_value && baseline_m == other.baseline_m &&
+         color == other.color && color_registered == other.color_registered &&
+         T_depth_color.matrix() == other.T_depth_color.matrix();
+}
 
 RgbdCamera ReadCamera(MapReader& reader) {
   RgbdCamera camera;

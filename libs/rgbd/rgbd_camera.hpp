@@ -24,11 +24,14 @@ struct RgbdCamera {
   bool color_registered = false;  ///< colour pixels are those of the depth image
   /// p_depth = T_depth_color * p_color.
   Eigen::Isometry3d T_depth_color = Eigen::Isometry3d::Identity();
+
+  bool operator==(const RgbdCamera& other) const;
 };
 
 /// Reads camera.yaml strictly; throws InputError with file:line:column. These may be missing:
-/// `color`, `distortion` (none), `invalid_value` (0), `baseline_m` (0), `registered_to_depth`
-/// (false); `T_depth_color` of a registered image only, whose intrinsics must be those of `depth`.
+/// `color`, `distortion` (none; else k1, k2, p1, p2 and, where it is not 0, k3), `invalid_value`
+/// (0), `baseline_m` (0), `registered_to_depth` (false); `T_depth_color` of a registered image
+/// only, whose intrinsics must be those of `depth`.
 RgbdCamera ReadCameraFile(const std::filesystem::path& file, const ConfigLoader& load);
 /// The same from a tree that stands inside another file.
 RgbdCamera ReadCamera(const ConfigNode& node);

@@ -3,7 +3,10 @@
 
 #include "libs/rgbd/rgbd_camera.hpp"
 
+#include <array>
 #include <regex>
+#include <string>
+#include <utility>
 
 #include "libs/app/yaml.hpp"
 #include "tests/support/test_folder.hpp"
@@ -69,6 +72,25 @@ TEST(RgbdCamera, ReadsEveryKey) {
   EXPECT_FALSE(camera.color_registered);
   EXPECT_EQ(camera.T_depth_color.translation(), Eigen::Vector3d(0.015, -0.001, 0.002));
   EXPECT_NEAR(camera.T_depth_color.linear()(1, 2), -0.96, 1e-15);  // -sin of 2 acos 0.8
+}
+
+TEST(RgbdCamera, DistortionMayEndBeforeItsLastNumberOrBeNone) {
+  const std::string five = "distortion: [0.1, -0.2, 0.003, -0.004, 0.05]";
+  const std::array<double, 5> without_k3{0.1, -0.2, 0.003, -0.004, 0.0};
+  EXPECT_EQ(Parse(With(five, "distortion: [0.1, -0.2, 0.003, -0.004]")).depth.distortion,
+            without_k3);
+  EXPECT_FALSE(Parse(With(five, "distortion: []")).depth.distorted());
+}
+
+TEST(RgbdCamera, OneCameraIsAnotherWhereAnyOfItsNumbersIs) {
+  const RgbdCamera camera = Parse(kCamera);
+  EXPECT_EQ(camera, Parse(kCamera));
+  for (const auto& [old, fresh] :
+       {std::pair("unit_m: 0.0001", "unit_m: 0.0002"), std::pair("65535", "0"),
+        std::pair("baseline_m: 0.05", "baseline_m: 0.06"), std::pair("fx_px: 610.5", "fx_px: 610"),
+        std::pair("[0.015, -0.001", "[0.016, -0.001"), std::pair("fx_px: 425.5", "fx_px: 425")}) {
+    EXPECT_FALSE(camera == Parse(With(old, fresh))) << old;
+  }
 }
 
 TEST(RgbdCamera, ReadsBackFromTheFileWhatItWrites) {
@@ -141,7 +163,8 @@ TEST(RgbdCamera, RefusesValuesThatNoCameraHas) {
   EXPECT_THAT(RefusalWith("baseline_m: 0.05", "baseline_m: 50"), HasSubstr("<= 2"));
   EXPECT_THAT(RefusalWith("baseline_m: 0.05", "baseline_m: -0.05"), HasSubstr(">= 0"));
   EXPECT_THAT(RefusalWith("[0.1, -0.2, 0.003, -0.004, 0.05]", "[0.1, -0.2]"),
-              AllOf(HasSubstr("c.yaml:8:15"), HasSubstr("[k1, k2, p1, p2, k3], not a list of 2")));
+              AllOf(HasSubstr("c.yaml:8:15"), HasSubstr("[k1, k2, p1, p2, k3]"),
+                    HasSubstr("not a list of 2")));
   EXPECT_THAT(RefusalWith("w: 0.8", "w: 0.9"), HasSubstr("norm 1"));
 }
 
