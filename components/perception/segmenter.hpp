@@ -14,7 +14,7 @@ class Segmenter {
  public:
   virtual ~Segmenter() = default;
 
-  /// A camera, or the same one opened anew: what was learnt of the image is void.
+  /// A camera: what was learnt of another one's image is void.
   virtual void SetCamera(const rgbd::RgbdCamera& camera) = 0;
 
   /// `predicted`: nullptr where the model's state is not known. The result holds until the next

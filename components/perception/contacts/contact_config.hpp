@@ -45,7 +45,8 @@ struct TrackingConfig {
     v("gate_m", gate_m, {.min = 0.0, .max = 1.0, .min_open = true},
       "A contact moves no farther than this from one frame to the next");
     v("appear_frames", appear_frames, {.min = 1.0, .max = 1000.0},
-      "A contact is there once it was seen in so many frames in a row");
+      "A contact is there once it was seen in so many frames in a row, or in the first frame of a "
+      "camera that was opened");
     v("vanish_frames", vanish_frames, {.min = 1.0, .max = 1000.0},
       "It is gone once it was missing in so many frames in a row");
     v("smoothing", smoothing, {.min = 0.0, .max = 0.95},

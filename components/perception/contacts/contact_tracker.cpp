@@ -42,6 +42,7 @@ const std::vector<DetectedContact>& ContactTracker::Update(
 void ContactTracker::Forget() {
   tracks_.clear();
   contacts_.clear();
+  begins_ = true;
 }
 
 /// Rows are tracks; columns are detections, and for each track one that means "missing".
@@ -86,13 +87,14 @@ void ContactTracker::See(const DetectedContact& detected, Track* track) const {
 void ContactTracker::Report() {
   contacts_.clear();
   for (Track& track : tracks_) {
-    if (track.number == 0 && track.contact.frames_seen >= config_.appear_frames) {
+    if (track.number == 0 && (begins_ || track.contact.frames_seen >= config_.appear_frames)) {
       track.number = ++last_number_;
     }
     if (track.number == 0) continue;
     contacts_.push_back(track.contact);
     contacts_.back().name = "contact_" + std::to_string(track.number);
   }
+  begins_ = false;
   const auto number = [](const DetectedContact& contact) {
     return std::pair(contact.name.size(), std::string_view(contact.name));
   };

@@ -24,7 +24,8 @@ class ContactTracker {
   /// until it has vanished. Holds until the next call.
   const std::vector<DetectedContact>& Update(const std::vector<DetectedContact>& detected);
 
-  /// All contacts are gone. Their names are not given again.
+  /// All contacts are gone. Their names are not given again. What the next frame shows may have
+  /// been there for long: it is there at once.
   void Forget();
 
  private:
@@ -40,6 +41,7 @@ class ContactTracker {
 
   TrackingConfig config_;
   int last_number_ = 0;
+  bool begins_ = true;         ///< no frame has come
   std::vector<Track> tracks_;  ///< in the order in which they were first seen
   Eigen::MatrixXd cost_;
   std::vector<int> detection_of_track_;  ///< -1: none

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/cloud_builder.hpp"
@@ -36,6 +37,14 @@ constexpr float kColorAlone = 1.0f;
 constexpr double kPatchShare = 0.03;
 constexpr int kStepOfColorSites_px = 4;
 constexpr int kStepOfColors_px = 4;
+/// With less of the fitted surface where it is measured (where a sequence begins, and from then on)
+/// another fit is tried,
+constexpr double kSeenThroughFirst = 0.98;
+constexpr double kSeenThrough = 0.8;
+/// from so many times the usual largest error,
+constexpr double kFarther = 3.0;
+/// unless so little of it is there that it is not the robot, which is held somewhere.
+constexpr double kSomewhere = 0.25;
 
 }  // namespace
 
@@ -46,6 +55,7 @@ struct ModelSegmenter::Parts {
   void TakeRange();
   void ReadRegion(const rgbd::RgbdFrame& raw);
   void UpdateBackground(bool predicted);
+  void FitPrediction(const PredictedSurface& predicted, PredictionView::Fitting fitting);
   Status SegmentByPrediction(const rgbd::RgbdFrame& raw, const PredictedSurface& predicted);
   Status SegmentByColor(const rgbd::RgbdFrame& raw);
   bool ColorKnown(int u, int v) const;
@@ -72,6 +82,8 @@ struct ModelSegmenter::Parts {
   std::vector<Eigen::Vector3f> robot_m;
   SampleGrid color_sites;
   SegmentedFrame result;
+  bool begins = true;  ///< a sequence, with the next frame
+  std::optional<PredictedSurface> first_predicted;
   std::optional<PredictedSurface> fitted;  ///< the prediction, to this frame
 };
 
@@ -155,7 +167,7 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
            (use_colors && ColorKnown(u, v) &&
             judge.IsForeign(judge.BinOf(frame.color.Pixel(u, v))));
   };
-  prediction.FitTo(registration, region, is_foreign, judge.Sigma_m(mean_z_m));
+  FitPrediction(predicted, {is_foreign, judge.Sigma_m(mean_z_m), config.model.largest_error_m});
   fitted = prediction.WholeSurface();
   prediction.Measure(registration, &region);
   judge.JudgeDistances(registration, background, &region);
@@ -168,6 +180,32 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   DropSpecks(kLeastPatch_px);
   if (judge_colors) judge.LearnColors(frame, region);
   return status;
+}
+
+/// Where a sequence begins, or the surface that was predicted is seen through, the robot is looked
+/// for farther away as well, and from where it was first predicted: whatever bent it in the frame
+/// before may be gone.
+void ModelSegmenter::Parts::FitPrediction(const PredictedSurface& predicted,
+                                          PredictionView::Fitting fitting) {
+  prediction.FitTo(registration, region, fitting);
+  if (!first_predicted) first_predicted = predicted;
+  PredictionView::Agreement best = prediction.Agree(registration, region, fitting);
+  const double enough = std::exchange(begins, false) ? kSeenThroughFirst : kSeenThrough;
+  if (best.Share() > enough || best.Share() < kSomewhere) return;
+  PredictedSurface found = prediction.WholeSurface();
+  const double usual_m = fitting.largest_error_m;
+  for (const PredictedSurface& start : {predicted, *first_predicted}) {
+    fitting.largest_error_m = kFarther * usual_m;
+    if (!prediction.Look(start).ok()) continue;
+    prediction.FitTo(registration, region, fitting);
+    fitting.largest_error_m = usual_m;
+    prediction.FitTo(registration, region, fitting);
+    const PredictionView::Agreement agreement = prediction.Agree(registration, region, fitting);
+    if (agreement.Score() <= best.Score()) continue;
+    best = agreement;
+    found = prediction.WholeSurface();
+  }
+  if (prediction.Look(found).ok()) prediction.FitTo(registration, region, fitting);
 }
 
 bool ModelSegmenter::Parts::ColorKnown(int u, int v) const {
@@ -307,6 +345,10 @@ ModelSegmenter::ModelSegmenter(const Config& config) : config_(config) {
 ModelSegmenter::~ModelSegmenter() = default;
 
 void ModelSegmenter::SetCamera(const rgbd::RgbdCamera& camera) {
+  if (parts_ && parts_->registration.camera() == camera) {
+    parts_->begins = true;
+    return;
+  }
   parts_ = std::make_unique<Parts>(config_, camera, NoiseLaw(camera, NoiseOf(config_)));
 }
 

@@ -16,6 +16,8 @@ constexpr int kLeastStep_px = 2;
 constexpr int kMostStep_px = 8;
 /// So near the surface that no other part of it is looked for.
 constexpr float kOnSurface_m2 = 1e-6f;
+/// Samples stand so far apart that the nearest may lie aside.
+constexpr float kAgreeSigmas = 4.0f;
 
 bool IsSurface(const PredictedSurface& predicted) {
   const Eigen::Matrix3Xi& triangles = predicted.triangles;
@@ -102,19 +104,19 @@ void PredictionView::LayGrid(const Registration& registration, const PixelRegion
 }
 
 void PredictionView::FitTo(const Registration& registration, const PixelRegion& region,
-                           const IsForeign& is_foreign, float point_sigma_m) {
+                           const Fitting& fitting) {
   LayGrid(registration, region);
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
       Eigen::Vector3f& point_m = grid_.measured_m[grid_.At(column, row)];
       const int u = region.u_begin + column * grid_.step_px;
       const int v = region.v_begin + row * grid_.step_px;
-      if (point_m.z() > 0.0f && is_foreign(u, v, point_m)) point_m.setZero();
+      if (point_m.z() > 0.0f && fitting.is_foreign(u, v, point_m)) point_m.setZero();
     }
   }
   fit_.Lay(grid_, {.spacing_m = config_.fit_spacing_m,
-                   .largest_error_m = config_.largest_error_m,
-                   .point_sigma_m = point_sigma_m});
+                   .largest_error_m = fitting.largest_error_m,
+                   .point_sigma_m = fitting.point_sigma_m});
   fit_.Fit(&grid_);
   for (Eigen::Index i = 0; i < surface_.vertices_m.cols(); ++i) {
     surface_.vertices_m.col(i) += fit_.At(surface_.vertices_m.col(i).cast<float>()).cast<double>();
@@ -122,6 +124,35 @@ void PredictionView::FitTo(const Registration& registration, const PixelRegion& 
   Redraw();
   LayGrid(registration, region);
   FindNearestSites(&grid_);
+}
+
+PredictionView::Agreement PredictionView::Agree(const Registration& registration,
+                                                const PixelRegion& region,
+                                                const Fitting& fitting) const {
+  const float near_m = kAgreeSigmas * fitting.point_sigma_m;
+  Agreement agreement;
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      const std::size_t at = grid_.At(column, row);
+      const int u = region.u_begin + column * grid_.step_px;
+      const int v = region.v_begin + row * grid_.step_px;
+      const Eigen::Vector3f point_m =
+          region.z_m[region.At(column * grid_.step_px, row * grid_.step_px)] *
+          registration.Ray(u, v);
+      if (point_m.z() <= 0.0f) continue;
+      const int nearest = grid_.nearest[at];
+      const bool is_near =
+          nearest != SampleGrid::kNone &&
+          (point_m - grid_.site_m[static_cast<std::size_t>(nearest)]).squaredNorm() <
+              near_m * near_m;
+      const float behind_m =
+          grid_.site_m[at].z() > 0.0f ? grid_.normal[at].dot(grid_.site_m[at] - point_m) : 0.0f;
+      agreement.agree += is_near ? 1 : 0;
+      agreement.contradict += !is_near && behind_m > near_m ? 1 : 0;
+      agreement.strange += !is_near && !fitting.is_foreign(u, v, point_m) ? 1 : 0;
+    }
+  }
+  return agreement;
 }
 
 PredictionView::Distance PredictionView::From(const Eigen::Vector3f& site_m,

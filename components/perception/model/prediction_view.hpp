@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 
 #include "components/perception/model/model_config.hpp"
@@ -28,9 +29,25 @@ class PredictionView {
   void Place(PixelRegion* region) const;
   /// Whether what is measured at a pixel cannot be the robot.
   using IsForeign = std::function<bool(int u_px, int v_px, const Eigen::Vector3f& point_m)>;
+  /// How a surface is brought onto what was measured.
+  struct Fitting {
+    IsForeign is_foreign;
+    float point_sigma_m = 1.5e-3f;
+    double largest_error_m = 0.015;  ///< of the prediction
+  };
   /// Fits the surface to what the region measured, but for what is foreign, and draws it again.
-  void FitTo(const Registration& registration, const PixelRegion& region,
-             const IsForeign& is_foreign, float point_sigma_m);
+  void FitTo(const Registration& registration, const PixelRegion& region, const Fitting& fitting);
+  /// What a fit has come to.
+  struct Agreement {
+    int agree = 0;       ///< samples of the surface that are measured where it is
+    int contradict = 0;  ///< through which is seen what lies behind it
+    int strange = 0;     ///< measured off the surface, and not foreign
+    double Share() const { return static_cast<double>(agree) / std::max(1, agree + contradict); }
+    /// The larger, the better is the fit.
+    double Score() const { return agree - contradict - 0.5 * strange; }
+  };
+  Agreement Agree(const Registration& registration, const PixelRegion& region,
+                  const Fitting& fitting) const;
   /// Fills the region's distance_m: from the fitted surface, positive outside of it. Where the
   /// surface is far away, roughly.
   void Measure(const Registration& registration, PixelRegion* region) const;

@@ -33,9 +33,18 @@ Names NamesOf(const std::vector<DetectedContact>& contacts) {
   return names;
 }
 
+TEST(ContactTracker, WhatTheFirstFrameShowsIsThereAtOnce) {
+  ContactTracker tracker({.appear_frames = 3, .vanish_frames = 2});
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.0)})), Names{"contact_1"});
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.0), At(0.1)})), Names{"contact_1"});
+  tracker.Forget();
+  EXPECT_EQ(NamesOf(tracker.Update({At(0.0), At(0.1)})), (Names{"contact_2", "contact_3"}));
+}
+
 TEST(ContactTracker, AppearsAndVanishesAfterExactlySoManyFrames) {
   for (const auto& [appear, vanish] : {std::pair(1, 1), std::pair(3, 2), std::pair(5, 7)}) {
     ContactTracker tracker({.appear_frames = appear, .vanish_frames = vanish});
+    tracker.Update({});
     for (int frame = 1; frame <= appear + 2; ++frame) {
       const auto& contacts = tracker.Update({At(0.0)});
       ASSERT_EQ(contacts.size(), frame >= appear ? 1u : 0u) << frame;
@@ -55,6 +64,7 @@ TEST(ContactTracker, AppearsAndVanishesAfterExactlySoManyFrames) {
 
 TEST(ContactTracker, OneMissingFrameBeforeItAppearsBeginsTheCountAnew) {
   ContactTracker tracker({.appear_frames = 3, .vanish_frames = 3});
+  tracker.Update({});
   for (int round = 0; round < 3; ++round) {
     EXPECT_TRUE(tracker.Update({At(0.0)}).empty());
     EXPECT_TRUE(tracker.Update({At(0.0)}).empty());

@@ -12,6 +12,7 @@
 
 #include "components/perception/model/model_segmenter.hpp"
 #include "libs/rgbd/depth_noise.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
 #include "tests/components/perception/labelled_scene.hpp"
 
 namespace palpate::perception {
@@ -75,6 +76,47 @@ TEST(ModelSegmenter, TakesLargeMarkersForRobot) {
   EXPECT_GE(score.tool_recall, 0.9);
 }
 
+/// The undeformed body leaning over: nodes go by `aside_m` at the height of the tip, less below.
+View LeaningView(const scenario::Scenario& scenario, const Eigen::Vector3d& aside_m) {
+  constexpr double kTip_m = 0.125;
+  View view = RestView(scenario);
+  for (auto node_m : view.nodes_m.colwise()) {
+    const double height = node_m.z() / kTip_m;
+    node_m += height * height * aside_m;
+  }
+  return view;
+}
+
+/// A recording may begin with a robot that something has bent; nobody saw how it came there.
+TEST(ModelSegmenter, FindsARobotThatIsBentFarFromItsPredictionWhereASequenceBegins) {
+  const scenario::Scenario scenario = PushScenario();
+  for (const Eigen::Vector3d& aside_m :
+       {Eigen::Vector3d(0.025, 0.0, 0.0), Eigen::Vector3d(-0.02, 0.01, -0.01)}) {
+    const Score score = JudgeFirst("leaning", scenario, LeaningView(scenario, aside_m));
+    EXPECT_GE(score.robot_recall, 0.95) << aside_m.transpose();
+    EXPECT_GE(score.robot_precision, 0.98) << aside_m.transpose();
+    EXPECT_LE(score.object_pixels, score.robot_pixels / 50) << aside_m.transpose();
+  }
+}
+
+/// What the last recording left bent is straight again in the next one.
+TEST(ModelSegmenter, LooksForTheRobotWhereItWasFirstPredictedWhenTheCameraIsOpenedAnew) {
+  const scenario::Scenario scenario = PushScenario();
+  const View bent = LeaningView(scenario, {0.03, 0.02, 0.0});
+  LabelledScene scene(scenario);
+  ReadySegmenter segmenter(scenario);
+  const PredictedSurface straight = Predict(scenario, PushSkin().rest_m);
+  scene.Take(RestView(scenario));
+  ASSERT_TRUE(segmenter.Segment(scene.frame(), &straight).status.ok());
+  segmenter.SetCamera(scenario.camera->camera);
+  const PredictedSurface predicted = Predict(scenario, bent.nodes_m);
+  scene.Take(RestView(scenario));
+  ASSERT_TRUE(segmenter.Segment(scene.frame(), &predicted).status.ok());
+  const Score score = Compare(scene, segmenter.region());
+  EXPECT_GE(score.robot_recall, 0.98);
+  EXPECT_EQ(score.object_pixels, 0);
+}
+
 /// A plate, `thick_m`, flat on the back of the east leg.
 View PlatedView(double thick_m, const Eigen::Vector3d& color_rgb, scenario::Scenario* scenario) {
   scenario::Tool& plate = scenario->tools.emplace_back(scenario->tools.front());
@@ -108,6 +150,23 @@ TEST(ModelSegmenter, TellsAPlateOnTheSurfaceByColorsLearntBefore) {
   EXPECT_GE(score.robot_recall, 0.98);
   EXPECT_GE(score.robot_precision, 0.98);
   EXPECT_GE(score.tool_recall, 0.8) << "not learnt as the robot's colour while it stays";
+}
+
+TEST(ModelSegmenter, KeepsItsColorsWhenTheSameCameraIsOpenedAnew) {
+  scenario::Scenario scenario = PushScenario();
+  const View view = PlatedView(0.004, scenario.tools.front().color_rgb, &scenario);
+  const PredictedSurface predicted = Predict(scenario, PushSkin().rest_m);
+  rgbd::RgbdCamera another = scenario.camera->camera;
+  another.depth.cx_px += 0.5;
+  for (const bool same : {true, false}) {
+    LabelledScene scene(scenario);
+    ReadySegmenter segmenter(scenario);
+    scene.Take(RestView(scenario));
+    ASSERT_TRUE(segmenter.Segment(scene.frame(), &predicted).status.ok());
+    segmenter.SetCamera(same ? scenario.camera->camera : another);
+    scene.Take(view);  // by its colours alone: no surface is predicted
+    EXPECT_EQ(segmenter.Segment(scene.frame(), nullptr).status.ok(), same);
+  }
 }
 
 /// Its colour is that of few pixels and does not draw the predicted surface towards it; one of the
