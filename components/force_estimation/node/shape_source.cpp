@@ -139,6 +139,7 @@ void ShapeSource::Accept(Parts parts) {
   frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
   frame.cloud = std::move(*parts.cloud);
   frame.T_robot_camera = *T_robot_camera_;
+  frame.epoch = report.origin.epoch;
   frame.contacts = std::move(*parts.contacts);
   events().accepted(std::move(input));
 }

@@ -78,13 +78,13 @@ double ContactReport::StrengthOf(const ShapeFit& fit, std::size_t site) const {
   return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
 }
 
-void ContactReport::Judge(double t_s, ShapeFit* fit) const {
+void ContactReport::Judge(double t_s, bool begins, ShapeFit* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
     const double strength = StrengthOf(*fit, s);
     const auto evidence = strength > kBeyondDoubt ? SiteBook::Evidence::kBeyondDoubt
                           : strength > 1.0        ? SiteBook::Evidence::kSignificant
                                                   : SiteBook::Evidence::kNone;
-    fit->book().Judge(s, evidence, strength < kQuietShare);
+    fit->book().Judge(s, evidence, strength < kQuietShare, begins);
     fit->book().filter(s).Update(t_s, fit->ForceAt(s),
                                  kTemporalCorrelation * RandomCovariance(*fit, s));
   }

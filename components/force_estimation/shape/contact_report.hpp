@@ -25,8 +25,9 @@ class ContactReport {
   /// may have been found at.
   ContactReport(const ShapeConfig& config, double force_relative_sigma, int search_places);
 
-  /// Counts the frames in which each contact's force shows, and averages the forces.
-  void Judge(double t_s, ShapeFit* fit) const;
+  /// Counts the frames in which each contact's force shows, and averages the forces. `begins`:
+  /// there was no frame before in which a contact could have come.
+  void Judge(double t_s, bool begins, ShapeFit* fit) const;
   /// The contacts that act, and are not quiet just now.
   std::vector<ContactForce> Contacts(const ShapeFit& fit) const;
 

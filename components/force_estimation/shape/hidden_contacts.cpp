@@ -25,6 +25,8 @@ constexpr double kMuchLeft = 1.5;
 constexpr double kSamePlace_m = 6e-3;
 /// Another place must fit by so much better.
 constexpr double kBetter = 0.95;
+/// Where the first order misleads, other places are tried, if there is time for it.
+constexpr int kMostTried = 4;
 constexpr double kSearchWork = 1.0;
 /// Of a substitution, for each row that responses are solved for.
 constexpr double kRowWork = 0.1;
@@ -92,13 +94,22 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
 Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
   fit_.AddWork(kSearchWork);
   if (!Respond(frame.cables).ok()) return Status::Ok();
-  Unexplained data = LeftOver();
-  const std::vector<HiddenContact> found =
-      search_.Find(data, kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
-  if (found.empty()) return Status::Ok();
+  const Unexplained data = LeftOver();
+  std::vector<Eigen::Vector3d> taken_m = SeenPlaces();
   Status status = Status::Ok();
-  const bool found_any = Try(found, frame, bias, &status);
-  pause_ = found_any ? kFramesBetweenSearches : std::min(2 * pause_, kLongestPause);
+  const int most = fit_.IsWorkLimited() ? 1 : kMostTried;
+  int tried = 0;
+  for (; tried < most && status.ok(); ++tried) {
+    const std::vector<HiddenContact> found =
+        search_.Find(data, kMostAtOnce, config_.hidden_significance, taken_m, kTakenRadius_m);
+    if (found.empty()) break;
+    if (Try(found, frame, bias, &status)) {
+      pause_ = kFramesBetweenSearches;
+      return status;
+    }
+    for (const HiddenContact& contact : found) taken_m.push_back(contact.rest_position_m);
+  }
+  if (tried > 0) pause_ = std::min(2 * pause_, kLongestPause);
   return status;
 }
 
@@ -195,6 +206,7 @@ void HiddenContacts::Remember() {
 /// New responses make a frame late: they are solved for once its forces are out, and used by the
 /// next one, which waits no more.
 bool HiddenContacts::LeavesToNextFrame() {
+  if (!fit_.IsWorkLimited()) return false;
   left_over_ = linearisations_ != fit_.linearisations() && !left_over_;
   return left_over_;
 }
@@ -273,7 +285,7 @@ bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const Shape
   average_.Forget();
   priors_.clear();
   are_new_ = true;
-  const Status tried = fit_.MatchAndFit(frame, bias);
+  const Status tried = fit_.MatchAndFitFromFar(frame, bias);
   if (tried.code() == StatusCode::kBudgetReached) {
     before_ = std::move(before);
     *status = tried;
@@ -292,6 +304,12 @@ Status HiddenContacts::Decide(const ShapeFrame& frame, const DepthBias& bias) {
   if (fit_.fitter().fit().chi_squared < kBetter * before.chi_squared) return Status::Ok();
   fit_.GoBack(before);
   return fit_.MatchAndFit(frame, bias);
+}
+
+void HiddenContacts::Begin() {
+  Forget();
+  frames_since_search_ = pause_ = kFramesBetweenSearches;
+  left_over_ = false;
 }
 
 void HiddenContacts::Forget() {

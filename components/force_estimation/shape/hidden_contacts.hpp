@@ -32,6 +32,8 @@ class HiddenContacts {
   void PrepareNext(const std::vector<robot::CableCommand>& cables);
   /// No site is hidden any more.
   void Forget();
+  /// The same at the begin of a sequence, in which nothing was tried yet.
+  void Begin();
 
  private:
   Status Search(const ShapeFrame& frame, const DepthBias& bias);

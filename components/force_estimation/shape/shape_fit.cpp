@@ -24,8 +24,10 @@ constexpr int kFramesToSettle = 4;
 constexpr int kFramesBetweenPlaces = 5;
 constexpr double kSettledShare = 0.3;
 constexpr int kReweightings = 1;
-/// With steps of this length there is nothing to restore, and restoring takes seconds.
-constexpr int kMostRestorations = 0;
+/// Fits that go on where one has used up its steps.
+constexpr int kMoreFits = 3;
+/// Restoring takes seconds.
+constexpr int kMostRestorations = 3;
 constexpr double kLongestForceStep_N = 0.5;
 constexpr double kMostPush_N = 0.15;
 constexpr double kMatchWork = 1.0;
@@ -37,6 +39,8 @@ constexpr double kFitWorkShare = 4.0;
 /// Standard deviation of the tangential force before it is seen, as a share of the largest
 /// friction.
 constexpr double kFrictionSigma = 0.5;
+/// No noise: a force in the wrong direction by so many sigmas.
+constexpr double kSurePull = 5.0;
 constexpr double kSmallestPriorForce_N = 0.2;
 /// Where a contact is not seen a tangential force looks like one at another place: what friction
 /// usually is (that of the search).
@@ -62,15 +66,17 @@ ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeCo
       location_{model, fitter_} {
   fitter_.KeepFactor(true);
   fitter_.TellModulusSensitivity(false);
-  fitter_.LimitRestorations(kMostRestorations);
+  fitter_.LimitRestorations(0);
   fitter_.TolerateCablesThatPush(kMostPush_N);
   fitter_.LimitForceStep(kLongestForceStep_N);
 }
 
-void ShapeFit::BeginFrame() {
+void ShapeFit::BeginFrame(bool whole) {
   linearisations_before_frame_ = linearisations_;
   chord_steps_ = 0;
-  if (shape_.frame_work == 0.0) return;
+  limited_ = !whole && shape_.frame_work > 0.0;
+  budget_ = fit_budget_ = {};
+  if (!limited_) return;
   budget_ = fitter_.BudgetOfWork(shape_.frame_work);
   fit_budget_ = fitter_.BudgetOfWork(kFitWorkShare * shape_.frame_work);
 }
@@ -159,6 +165,23 @@ Eigen::Vector3d ShapeFit::NormalAt(std::size_t site) const {
   return area_m2.normalized();
 }
 
+bool ShapeFit::TurnOverPulls() {
+  bool turned = false;
+  for (std::size_t s = 0; s < sites().size(); ++s) {
+    const Eigen::Vector3d normal = NormalAt(s);
+    const auto row = static_cast<Eigen::Index>(3 * s);
+    const Eigen::Matrix3d covariance_N2 = fitter_.fit().covariance_N2.block<3, 3>(row, row);
+    const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance_N2 * normal)));
+    if (normal.dot(ForceAt(s)) < kSurePull * sigma_N) continue;
+    turned = book_.TurnOver(s, ForceAt(s)) || turned;
+  }
+  if (!turned) return false;
+  places_moved_ = true;
+  located_.clear();
+  UseSites();
+  return true;
+}
+
 Status ShapeFit::Match(const ShapeFrame& frame) {
   AddWork(kMatchWork);
   matches_ = &matching_.Match(frame, state_.x_m);
@@ -187,6 +210,17 @@ Status ShapeFit::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
     }
     return Fit(frame);
   }
+  return status;
+}
+
+Status ShapeFit::MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias) {
+  if (limited_) return MatchAndFit(frame, bias);
+  fitter_.LimitRestorations(kMostRestorations);
+  Status status = MatchAndFit(frame, bias);
+  for (int more = 0; status.code() == StatusCode::kBudgetReached && more < kMoreFits; ++more) {
+    status = MatchAndFit(frame, bias);
+  }
+  fitter_.LimitRestorations(0);
   return status;
 }
 
@@ -295,6 +329,12 @@ void ShapeFit::GoBack(const Attempt& attempt) {
   located_.clear();
   UseSites();
   state_ = attempt.state;
+}
+
+void ShapeFit::GoBackWithoutContacts(Attempt attempt) {
+  attempt.sites.clear();
+  attempt.state.lambda_f_N.resize(0);
+  GoBack(attempt);
 }
 
 /// Their forces begin at zero, from where the steps stay near equilibria; with those that were

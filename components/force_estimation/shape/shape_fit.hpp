@@ -33,10 +33,12 @@ class ShapeFit {
   bool started() const { return state_.valid; }
   void Stop() { state_.valid = false; }
 
-  /// A new frame's work begins.
-  void BeginFrame();
+  /// A new frame's work begins, `whole`: whatever it takes.
+  void BeginFrame(bool whole);
   /// Whether nothing more should be begun in this frame.
   bool IsWorkUsedUp() const { return budget_.Over(); }
+  /// Whether anything may be left to the next frame.
+  bool IsWorkLimited() const { return limited_; }
   void AddWork(double work) { fitter_.AddWork(work); }
 
   /// Takes the contacts that perception has located.
@@ -48,6 +50,12 @@ class ShapeFit {
   /// Matches and fits forces, in rounds, until the features stay where they are. kBudgetReached:
   /// the state is sound, and nearer, but the frame's work is used up.
   Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
+  /// Contacts that seem to pull go to the body's other side, where they push, if they may be there.
+  /// True where one did: the shape is to be fitted again.
+  bool TurnOverPulls();
+  /// The same where the shape may be far away, as with contacts that are new: in a frame that has
+  /// the time it goes on where steps are used up, or lead nowhere.
+  Status MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias);
   /// Moves the contacts to where the deformation, and where they were seen, ask for: all the way in
   /// their first frames, then by a share of it, so that noise is averaged.
   Status Locate(const ShapeFrame& frame, const DepthBias& bias);
@@ -61,6 +69,8 @@ class ShapeFit {
   /// Into memory that is kept.
   void KeepIn(Attempt* attempt) const;
   void GoBack(const Attempt& attempt);
+  /// To its shape, with no contact.
+  void GoBackWithoutContacts(Attempt attempt);
   /// Other hidden sites than there were, without forces to begin with.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
 
@@ -116,6 +126,7 @@ class ShapeFit {
   SiteBook book_;
   ForceFitter fitter_;
   LocationStep location_;
+  bool limited_ = false;
   fem::TimeBudget budget_;      ///< for what can wait
   fem::TimeBudget fit_budget_;  ///< for what was begun
   ModelState state_;

@@ -30,6 +30,14 @@ constexpr int kMostFramesOnBudget = 8;
 /// After a pause of so many frames' time, and no less than this, what touched before is forgotten.
 constexpr double kGapFrames = 5.0;
 constexpr double kLeastGap_s = 0.5;
+/// Where a sequence begins nothing is known of what touches: contacts are looked for until the
+/// misfit falls no more, in no more rounds than this,
+constexpr int kRoundsToBegin = 8;
+constexpr double kStillFalls = 0.95;
+/// one below this is good,
+constexpr double kGoodMisfit = 2.0;
+/// and again in so many frames where that does not lead to the shape that is seen.
+constexpr int kFramesToBegin = 3;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -82,8 +90,11 @@ class ShapeForceEstimator::Impl {
   Status Estimate(const ShapeFrame& frame);
   Status StartFromFreeState(const ShapeFrame& frame);
   Status FitFrame(const ShapeFrame& frame);
+  Status FindAll(const ShapeFrame& frame, Status status);
+  Status FindInRounds(const ShapeFrame& frame);
+  Status FindContacts(const ShapeFrame& frame);
   Status CheckMisfit();
-  void ForgetAfterGap(double t_s);
+  void ForgetBefore(const ShapeFrame& frame);
   void Publish();
   void PublishState();
   void ReportFeatures();
@@ -97,8 +108,11 @@ class ShapeForceEstimator::Impl {
   ContactReport report_;
   fem::StaticState free_state_;
   ShapeFit::Attempt before_;  ///< the frame
+  std::uint32_t epoch_ = 0;   ///< of the last frame
   double last_t_s_ = kUnknown;
   double period_s_ = std::numeric_limits<double>::infinity();  ///< between the last two frames
+  int frames_to_begin_ = kFramesToBegin;                       ///< left
+  bool begins_ = false;                                        ///< this frame is one of them
   int misfits_ = 0;                                            ///< frames in a row
   int frames_on_budget_ = 0;                                   ///< in a row
   bool learning_ = false;  ///< untouched frames came since the bias was solved for
@@ -111,7 +125,7 @@ class ShapeForceEstimator::Impl {
 
 Status ShapeForceEstimator::Impl::Process(const ShapeFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
-  ForgetAfterGap(frame.t_s);
+  ForgetBefore(frame);
   return frame.untouched ? Learn(frame) : Estimate(frame);
 }
 
@@ -161,7 +175,9 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     return {StatusCode::kNoRobotSeen,
             "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
   }
-  fit_.BeginFrame();
+  begins_ = frames_to_begin_ > 0;
+  frames_to_begin_ -= begins_ ? 1 : 0;
+  fit_.BeginFrame(begins_);
   Status status = FitFrame(frame);
   frames_on_budget_ = status.code() == StatusCode::kBudgetReached ? frames_on_budget_ + 1 : 0;
   const bool goes_on = frames_on_budget_ < kMostFramesOnBudget;
@@ -186,6 +202,7 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     if (!status.message().empty()) return status;
     return {status.code(), "the model does not come to the shape that is seen"};
   }
+  frames_to_begin_ = 0;
   fitted_ = true;
   cables_ = frame.cables;
   Publish();
@@ -197,11 +214,57 @@ Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
   fit_.book().ForgetQuiet();
   fit_.See(frame);
   Status status = fit_.MatchAndFit(frame, bias_);
-  if (status.ok() && fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
+  if (begins_) {
+    status = FindAll(frame, status);
+  } else if (status.ok()) {
+    status = FindContacts(frame);
+  }
+  if (status.ok()) status = CheckMisfit();
+  if (status.ok()) report_.Judge(frame.t_s, begins_, &fit_);
+  return status;
+}
+
+/// Nothing is known of what touches. Contacts as they seem to lie may lead nowhere while the body
+/// is far from the shape that is seen: then without them, first, whatever fits better.
+Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status) {
+  if (status.ok()) status = FindInRounds(frame);
+  if (status.ok() && fit_.Misfit() < kGoodMisfit) return status;
+  ShapeFit::Attempt with_seen;
+  const double misfit = status.ok() ? fit_.Misfit() : std::numeric_limits<double>::infinity();
+  fit_.KeepIn(&with_seen);
+  fit_.GoBackWithoutContacts(before_);
+  status = fit_.MatchAndFit(frame, bias_);
+  if (status.ok()) status = hidden_.Find(frame, bias_);
+  if (status.ok()) status = FindInRounds(frame);
+  if (misfit == std::numeric_limits<double>::infinity()) return status;
+  if (status.ok() && fit_.Misfit() < misfit) return status;
+  fit_.GoBack(with_seen);
+  return fit_.MatchAndFit(frame, bias_);
+}
+
+/// Until the misfit falls no more.
+Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
+  ShapeFit::Attempt best;
+  for (int round = 0; round < kRoundsToBegin; ++round) {
+    const double misfit = fit_.Misfit();
+    fit_.KeepIn(&best);
+    const Status status = FindContacts(frame);
+    if (!status.ok() || fit_.Misfit() > misfit) {
+      fit_.GoBack(best);
+      return fit_.MatchAndFit(frame, bias_);
+    }
+    if (fit_.Misfit() > kStillFalls * misfit) break;
+  }
+  return Status::Ok();
+}
+
+/// About the shape of the last fit: those that are seen, those that are not, and where they are.
+Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
+  Status status = Status::Ok();
+  if (fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
+  if (status.ok() && fit_.TurnOverPulls()) status = fit_.MatchAndFit(frame, bias_);
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
-  if (status.ok()) status = CheckMisfit();
-  if (status.ok()) report_.Judge(frame.t_s, &fit_);
   return status;
 }
 
@@ -224,17 +287,19 @@ Status ShapeForceEstimator::Impl::CheckMisfit() {
 }
 
 /// Another recording, or a camera that was away: the robot was left to itself in between.
-void ShapeForceEstimator::Impl::ForgetAfterGap(double t_s) {
-  const double passed_s = t_s - last_t_s_;
-  last_t_s_ = t_s;
-  if (!std::isfinite(passed_s)) return;
-  if (passed_s < 0.0 || passed_s > std::max(kLeastGap_s, kGapFrames * period_s_)) {
-    hidden_.Forget();
+void ShapeForceEstimator::Impl::ForgetBefore(const ShapeFrame& frame) {
+  const double passed_s = frame.t_s - last_t_s_;
+  last_t_s_ = frame.t_s;
+  const bool opened = std::exchange(epoch_, frame.epoch) != frame.epoch;
+  const double longest_s = std::max(kLeastGap_s, kGapFrames * period_s_);
+  if (opened || passed_s < 0.0 || passed_s > longest_s) {
+    frames_to_begin_ = kFramesToBegin;
+    hidden_.Begin();
     fit_.book().Forget();
     fit_.Stop();
-    return;
+  } else if (std::isfinite(passed_s)) {
+    period_s_ = passed_s;
   }
-  period_s_ = passed_s;
 }
 
 void ShapeForceEstimator::Impl::Publish() {

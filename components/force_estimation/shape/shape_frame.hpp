@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct ShapeFrame {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   std::vector<SeenContact> contacts;
   std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  /// Of the camera, or the number of the recording: where it is another one than in the frame
+  /// before, nothing is known of what touches.
+  std::uint32_t epoch = 0;
   /// Nobody touches the robot, and that is known: the frame only teaches (depth bias, noise).
   bool untouched = false;
 };

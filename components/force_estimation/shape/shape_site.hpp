@@ -26,6 +26,8 @@ struct ShapeSite {
   /// the surface). Of hidden ones the sigma is as large as the robot.
   Eigen::Vector3d seen_rest_m = Eigen::Vector3d::Zero();
   double seen_sigma_m = 0.0;
+  /// What is seen there pushes from the body's other side: so far from where it is seen, m.
+  Eigen::Vector3d turned_m = Eigen::Vector3d::Zero();
 
   /// Of hidden ones: the place's covariance and the radius that holds it with 95 %, and what not
   /// knowing it does to the force.

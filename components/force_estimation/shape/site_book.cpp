@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "components/force_estimation/shape/location_step.hpp"
 #include "libs/fem/bounded_qp.hpp"
@@ -25,6 +26,11 @@ constexpr double kPatchShareOfExtent = 0.3;
 constexpr double kLargestRadius_m = 0.015;
 /// A contact that comes into view so near to a hidden one is the same.
 constexpr double kSameContact_m = 0.035;
+constexpr double kOneContact_m = 0.01;
+constexpr double kOneInSigmas = 2.0;
+/// What is seen on one side of so thin a limb may be mapped to the other where the model is not yet
+/// where the robot is.
+constexpr double kThinLimb_m = 0.012;
 constexpr double kFarFromSeen_m = 0.008;
 constexpr double kFarInSigmas = 3.0;
 constexpr int kFramesToAppear = 2;
@@ -70,7 +76,7 @@ bool SiteBook::See(const std::vector<SeenContact>& contacts, const Eigen::Vector
       continue;
     }
     const SkinPoint centre = map_.NearestNow(contact.position_m);
-    if (centre.distance_m > kFarthest_m) continue;
+    if (centre.distance_m > kFarthest_m || IsTaken(centre, SigmaOf_m(contact, centre))) continue;
     ShapeSite site = NewSiteAt(centre.rest_m);
     changed = DropHiddenNear(centre.rest_m) || changed;
     if (full()) continue;
@@ -127,10 +133,24 @@ bool SiteBook::DropHiddenNear(const Eigen::Vector3d& rest_m) {
 }
 
 void SiteBook::Refresh(const SeenContact& contact, ShapeSite* site) {
-  const SkinPoint seen = map_.NearestNow(contact.position_m);
+  const SkinPoint seen = map_.NearestNow(contact.position_m + site->turned_m);
   site->seen_rest_m = seen.rest_m;
-  site->seen_sigma_m = std::max(kSmallestSeenSigma_m,
-                                TangentialSigma_m(contact.covariance_m2, map_.NormalNow(seen)));
+  site->seen_sigma_m = SigmaOf_m(contact, seen);
+}
+
+/// What is seen so near to another contact, for all that is known of their places, is a part of it:
+/// their forces could not be told apart.
+bool SiteBook::IsTaken(const SkinPoint& place, double sigma_m) const {
+  return std::any_of(sites_.begin(), sites_.end(), [&](const ShapeSite& site) {
+    const double near_m =
+        std::max(kOneContact_m, kOneInSigmas * std::hypot(sigma_m, site.seen_sigma_m));
+    return !site.hidden && (site.centre.rest_m - place.rest_m).norm() < near_m;
+  });
+}
+
+double SiteBook::SigmaOf_m(const SeenContact& contact, const SkinPoint& place) const {
+  return std::max(kSmallestSeenSigma_m,
+                  TangentialSigma_m(contact.covariance_m2, map_.NormalNow(place)));
 }
 
 /// Before the first fit of a large push the nearest skin may be that of the body's other side.
@@ -138,6 +158,20 @@ bool SiteBook::PlaceAgainIfFar(ShapeSite* site) const {
   const double limit_m = std::max(kFarFromSeen_m, kFarInSigmas * site->seen_sigma_m);
   if ((site->seen_rest_m - site->centre.rest_m).norm() <= limit_m) return false;
   Place(map_.NearestAtRest(site->seen_rest_m), site);
+  return true;
+}
+
+bool SiteBook::TurnOver(std::size_t index, const Eigen::Vector3d& force_N) {
+  ShapeSite& site = sites_[index];
+  if (site.hidden || !site.turned_m.isZero(0.0)) return false;
+  const bool is_sure = site.seen_sigma_m <= kSmallestSeenSigma_m;
+  const std::optional<SkinPoint> other =
+      map_.OtherSideNow(site.centre, -force_N.normalized(),
+                        is_sure ? 0.0 : std::max(kThinLimb_m, kFarInSigmas * site.seen_sigma_m));
+  if (!other) return false;
+  site.turned_m = map_.PositionNow_m(*other) - map_.PositionNow_m(site.centre);
+  site.seen_rest_m = other->rest_m;
+  Place(*other, &site);
   return true;
 }
 
@@ -194,14 +228,15 @@ void SiteBook::Place(const SkinPoint& centre, ShapeSite* site) const {
   site->triangles = map_.TrianglesAround(centre, site->radius_m);
 }
 
-void SiteBook::Judge(std::size_t index, Evidence evidence, bool quiet) {
+void SiteBook::Judge(std::size_t index, Evidence evidence, bool quiet, bool begins) {
   ShapeSite& site = sites_[index];
   ++site.frames;
   site.significant_frames += evidence == Evidence::kBeyondDoubt ? 2 : 1;
   if (evidence == Evidence::kNone) site.significant_frames = 0;
   site.quiet_frames = quiet ? site.quiet_frames + 1 : 0;
   const int wanted = site.hidden ? kFramesToAppearHidden : kFramesToAppear;
-  if (site.significant_frames >= wanted) site.acts = true;
+  const bool at_once = begins && evidence != Evidence::kNone;
+  if (at_once || site.significant_frames >= wanted) site.acts = true;
   if (site.quiet_frames >= kQuietFramesToVanish) site.acts = false;
 }
 

@@ -32,14 +32,19 @@ class SiteBook {
   void ReplaceHidden(const std::vector<HiddenContact>& found);
   /// A hidden site is where the search says. False where that is less than kSmallestMove_m away.
   bool Follow(std::size_t index, const HiddenContact& found);
+  /// An object that is seen beside a limb may push on the limb's other side: the site goes there
+  /// along `force_N`, which pulls where it is, as far as it may lie from where it was seen. False
+  /// where that is not so, or was done before.
+  bool TurnOver(std::size_t index, const Eigen::Vector3d& force_N);
   /// The sites become what they were.
   void GoBack(const std::vector<ShapeSite>& sites) { sites_ = sites; }
   /// Moves a site along the undeformed surface. False where that is less than kSmallestMove_m.
   bool Move(std::size_t index, const Eigen::Vector3d& step_rest_m);
   /// What a frame's fit says of a site's force.
   enum class Evidence { kNone, kSignificant, kBeyondDoubt };
-  /// Forces that are beyond doubt are believed after half of the frames.
-  void Judge(std::size_t index, Evidence evidence, bool quiet);
+  /// Forces that are beyond doubt are believed after half of the frames; where a sequence `begins`,
+  /// at once.
+  void Judge(std::size_t index, Evidence evidence, bool quiet, bool begins = false);
   ForceFilter& filter(std::size_t index) { return sites_[index].filter; }
   void Forget() { sites_.clear(); }
   void ForgetHidden();
@@ -56,6 +61,8 @@ class SiteBook {
   void Place(const SkinPoint& centre, ShapeSite* site) const;
   void AddHidden(const HiddenContact& found);
   void Refresh(const SeenContact& contact, ShapeSite* site);
+  bool IsTaken(const SkinPoint& place, double sigma_m) const;
+  double SigmaOf_m(const SeenContact& contact, const SkinPoint& place) const;
   bool PlaceAgainIfFar(ShapeSite* site) const;
   bool LoseSight(const std::vector<SeenContact>& contacts);
   ShapeSite NewSiteAt(const Eigen::Vector3d& rest_m) const;

@@ -9,6 +9,11 @@ namespace palpate::force_estimation {
 
 namespace {
 
+/// Of the walk through the body to its other side,
+constexpr double kStep_m = 1e-3;
+/// which is turned no more than 60 degrees away.
+constexpr double kFacesThatWay = 0.5;
+
 geometry::TriangleSurface DrawnSurface(const robot::RobotModel& model) {
   const fem::TetMesh& mesh = model.body().mesh;
   return {mesh.nodes_m, fem::ExtractBoundary(mesh).DrawnTriangles()};
@@ -44,6 +49,17 @@ SkinPoint SurfaceMap::NearestNow(const Eigen::Vector3d& position_m) const {
 
 SkinPoint SurfaceMap::NearestAtRest(const Eigen::Vector3d& rest_m) const {
   return PointOf(rest_.Closest(rest_m));
+}
+
+std::optional<SkinPoint> SurfaceMap::OtherSideNow(const SkinPoint& point,
+                                                  const Eigen::Vector3d& inward,
+                                                  double farthest_m) const {
+  const Eigen::Vector3d start_m = PositionNow_m(point);
+  for (double depth_m = kStep_m; depth_m <= farthest_m; depth_m += kStep_m) {
+    const SkinPoint next = NearestNow(start_m + depth_m * inward);
+    if (next.distance_m <= kStep_m && NormalNow(next).dot(inward) > kFacesThatWay) return next;
+  }
+  return std::nullopt;
 }
 
 Eigen::Vector3d SurfaceMap::PositionNow_m(const SkinPoint& point) const {

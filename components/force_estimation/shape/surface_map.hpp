@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "libs/geometry/closest_point.hpp"
@@ -33,6 +34,11 @@ class SurfaceMap {
   SkinPoint NearestNow(const Eigen::Vector3d& position_m) const;
   /// The point of the undeformed surface nearest to `rest_m`.
   SkinPoint NearestAtRest(const Eigen::Vector3d& rest_m) const;
+
+  /// Of the present surface, the other side of the body behind a point: the next skin along
+  /// `inward` (unit) that faces that way; none within `farthest_m`.
+  std::optional<SkinPoint> OtherSideNow(const SkinPoint& point, const Eigen::Vector3d& inward,
+                                        double farthest_m) const;
 
   Eigen::Vector3d PositionNow_m(const SkinPoint& point) const;
   /// Unit outward normals of the triangle, now and at rest.

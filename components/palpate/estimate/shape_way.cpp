@@ -73,6 +73,7 @@ void ShapeWay::Run(const Scene& scene, bool untouched, const TakeEstimate& take)
   const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
   inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
   senses_.open_camera(scene.images.camera);
+  ++epoch_;
   ProgressLine progress("frames", static_cast<int>(scene.images.frames.size()));
   rgbd::RgbdFrame frame;
   for (std::size_t i = 0; i < scene.images.frames.size(); ++i) {
@@ -98,6 +99,7 @@ const ForceEstimate& ShapeWay::Step(const Scene& scene, const rgbd::RgbdFrame& f
   shape.contacts = force_estimation::KnownBeforeSeen(KnownContactsAt(scene.recording, shape.t_s),
                                                      shape.contacts);
   const Status looked = seen.frame.status;
+  shape.epoch = epoch_;
   shape.untouched = untouched || frames_seen_ < inputs_.first_untouched;
   frames_seen_ += looked.ok() ? 1 : 0;
   const ForceEstimate& estimate = senses_.feel(shape);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,7 @@ class ShapeWay {
   Eigen::Vector3d gravity_m_s2_;
   Eigen::Matrix3Xf nodes_m_;  ///< of the last estimate that stands, as it would travel; or none
   force_estimation::ForceEstimate unseen_;  ///< of a frame that perception refused
+  std::uint32_t epoch_ = 0;                 ///< recordings that were opened
   int frames_ = 0;
   int frames_seen_ = 0;  ///< in which perception found the robot
 };

@@ -97,17 +97,17 @@ class Contacts : public testing::Test {
 
 TEST_F(Contacts, BeyondDoubtAreReportedFromTheirFirstFrameOn) {
   Fit(SeenFrameOf(Solve(kForce_N)));
-  report_.Judge(t_s_, &fit_);
+  report_.Judge(t_s_, false, &fit_);
   EXPECT_EQ(report_.Contacts(fit_).size(), 1u);
 }
 
 TEST_F(Contacts, AreReportedFromTheSecondFrameThatShowsThemOn) {
   const fem::StaticState pushed = Solve(kSmallForce_N);
   Fit(SeenFrameOf(pushed));
-  report_.Judge(t_s_, &fit_);
+  report_.Judge(t_s_, false, &fit_);
   EXPECT_TRUE(report_.Contacts(fit_).empty());
   Fit(SeenFrameOf(pushed));
-  report_.Judge(t_s_, &fit_);
+  report_.Judge(t_s_, false, &fit_);
   const std::vector<ContactForce> contacts = report_.Contacts(fit_);
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_EQ(contacts[0].name, "finger");
@@ -119,7 +119,7 @@ TEST_F(Contacts, WhosePlaceWasNotFittedAreAsUncertainAsTheyWereSeen) {
   const fem::StaticState pushed = Solve(kForce_N);
   for (int k = 0; k < 2; ++k) {
     Fit(SeenFrameOf(pushed));
-    report_.Judge(t_s_, &fit_);
+    report_.Judge(t_s_, false, &fit_);
   }
   ASSERT_TRUE(fit_.located().empty());
   const double seen_m = report_.Contacts(fit_).at(0).location_ci95_m;
@@ -159,7 +159,7 @@ TEST_F(Contacts, ThatNobodySeesAreReportedWhereverTheyMayBe) {
     Fit(frame);
     ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
     ASSERT_TRUE(fit_.Locate(frame, bias_).ok());
-    report_.Judge(t_s_, &fit_);
+    report_.Judge(t_s_, false, &fit_);
   }
   const std::vector<ContactForce> contacts = report_.Contacts(fit_);
   ASSERT_EQ(contacts.size(), 1u);
@@ -174,7 +174,7 @@ TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
     const ShapeFrame frame = FrameOf(pushed);
     Fit(frame);
     ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
-    report_.Judge(t_s_, &fit_);
+    report_.Judge(t_s_, false, &fit_);
     ASSERT_EQ(fit_.sites().size(), 1u);
     if (k == 0) first_m = fit_.sites()[0].place_ci95_m;
   }
@@ -187,12 +187,10 @@ TEST_F(Contacts, ThatNobodySeesArePlacedBetterTheLongerTheyHold) {
 /// The responses about a new factor, which the frame after the one that found the contact wants,
 /// are solved for once that frame is done, and no more than once.
 TEST_F(Contacts, ThatNobodySeesAreFollowedByResponsesFromBetweenFrames) {
-  const fem::StaticState pushed = Solve(kForce_N);
-  for (int k = 0; k < 2; ++k) {
-    const ShapeFrame frame = FrameOf(pushed);
-    Fit(frame);
-    ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
-  }
+  const ShapeFrame frame = FrameOf(Solve(kForce_N));
+  fit_.BeginFrame(/*whole=*/false);
+  Fit(frame);
+  ASSERT_TRUE(hidden_.Find(frame, bias_).ok());
   ASSERT_EQ(fit_.sites().size(), 1u);
   const fem::TimeBudget work = fit_.fitter().BudgetOfWork(std::numeric_limits<double>::infinity());
   hidden_.PrepareNext(cables_);
@@ -250,9 +248,15 @@ TEST_F(Contacts, FromBeforeAGapInTimeAreForgotten) {
   const fem::StaticState pushed = Solve(kForce_N);
   for (int k = 0; k < 3; ++k) estimator.Update(SeenFrameOf(pushed));
   ASSERT_EQ(estimator.Update(SeenFrameOf(pushed)).contacts.size(), 1u);
-  EXPECT_EQ(estimator.Update(FrameOf(pushed)).contacts.size(), 1u);
+  EXPECT_EQ(estimator.Update(FrameOf(pushed)).contacts.front().name, "hidden_1");
   t_s_ += 10.0;
-  EXPECT_TRUE(estimator.Update(FrameOf(pushed)).contacts.empty());
+  EXPECT_TRUE(estimator.Update(FrameOf(free_)).contacts.empty());
+  ShapeFrame another = FrameOf(pushed);
+  another.epoch = 1;
+  const ForceEstimate& found = estimator.Update(another);
+  ASSERT_EQ(found.contacts.size(), 1u) << "it was there when the sequence began";
+  EXPECT_NE(found.contacts.front().name, "hidden_1");
+  EXPECT_NEAR(found.contacts.front().force_N.norm(), kForce_N, found.contacts.front().ci95_N);
 }
 
 }  // namespace

@@ -56,12 +56,72 @@ TEST_F(Book, AContactFarFromTheSkinIsLeftOut) {
 
 TEST_F(Book, NoMoreContactsThanCanBeFitted) {
   std::vector<SeenContact> many;
-  for (int k = 0; k < 20; ++k) {
-    many.push_back(Contact("c" + std::to_string(k), tip_ - Eigen::Vector3d(0.003 * k, 0, 0)));
+  for (int k = 0; k < 10; ++k) {
+    const Eigen::Vector3d aside_m(-0.018 * (k / 2), k % 2 == 0 ? -0.012 : 0.012, 0.0);
+    many.push_back(Contact("c" + std::to_string(k), tip_ + aside_m));
   }
   book_.See(many, x_m_);
   EXPECT_TRUE(book_.full());
   EXPECT_EQ(book_.sites().size(), 5u);
+}
+
+TEST_F(Book, WhatIsSeenSoNearToAContactThatItMayBeTheSameIsAPartOfIt) {
+  const auto at = [&](double aside_m, double sigma_m) {
+    SeenContact contact = Contact("b", tip_ - Eigen::Vector3d(aside_m, 0, 0));
+    contact.covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+    return contact;
+  };
+  const SeenContact first = Contact("a", tip_);  // known to 2 mm
+  for (const auto& [second, is_another] :
+       {std::pair(at(0.009, 1e-3), false), std::pair(at(0.011, 1e-3), true),
+        std::pair(at(0.019, 1e-2), false), std::pair(at(0.022, 1e-2), true)}) {
+    book_.Forget();
+    book_.See({first, second}, x_m_);
+    EXPECT_EQ(book_.sites().size(), is_another ? 2u : 1u) << second.position_m.transpose();
+    EXPECT_EQ(book_.sites()[0].name, "a");
+  }
+}
+
+TEST_F(Book, AContactThatPullsPushesFromTheOtherSideOfTheLimb) {
+  const Eigen::Vector3d up(0, 0, 0.5);
+  const auto seen_within = [&](double sigma_m) {
+    book_.Forget();
+    SeenContact contact = Contact("a", middle_);
+    contact.covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+    book_.See({contact}, x_m_);
+    return contact;
+  };
+  seen_within(0.005);  // the beam is 30 mm thick
+  EXPECT_FALSE(book_.TurnOver(0, up));
+  const SeenContact contact = seen_within(0.011);
+  EXPECT_TRUE(book_.TurnOver(0, up));
+  const Eigen::Vector3d below_m = middle_ - Eigen::Vector3d(0, 0, 0.03);
+  EXPECT_LT((book_.sites()[0].centre.rest_m - below_m).norm(), 2e-3);
+  EXPECT_GT(book_.sites()[0].patch.normal.dot(Eigen::Vector3d(0, 0, -1)), 0.9);
+  book_.See({contact}, x_m_);  // perception says what it said before
+  EXPECT_LT((book_.sites()[0].centre.rest_m - below_m).norm(), 2e-3);
+  EXPECT_LT((book_.sites()[0].seen_rest_m - below_m).norm(), 2e-3);
+  EXPECT_FALSE(book_.TurnOver(0, -up)) << "once is enough";
+}
+
+TEST_F(Book, AContactWhosePlaceWasMeasuredStaysThere) {
+  SeenContact contact = Contact("given", middle_);
+  contact.covariance_m2 = 2.5e-7 * Eigen::Matrix3d::Identity();
+  book_.See({contact}, x_m_);
+  EXPECT_FALSE(book_.TurnOver(0, {0, 0, 0.5}));
+}
+
+TEST_F(Book, WhereASequenceBeginsASignificantForceIsBelievedAtOnce) {
+  HiddenContact found;
+  found.rest_position_m = tip_;
+  book_.ReplaceHidden({found});
+  book_.See({Contact("a", middle_)}, x_m_);
+  for (size_t s = 0; s < 2; ++s) {
+    book_.Judge(s, Evidence::kNone, false, true);
+    EXPECT_FALSE(book_.sites()[s].acts);
+    book_.Judge(s, Evidence::kSignificant, false, true);
+    EXPECT_TRUE(book_.sites()[s].acts);
+  }
 }
 
 TEST_F(Book, AForceIsReportedAfterTwoFramesAndUntilThreeQuietOnes) {

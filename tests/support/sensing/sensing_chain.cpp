@@ -100,6 +100,11 @@ force_estimation::ShapeFrame SensingChain::Perceive() {
   return frame;
 }
 
+void SensingChain::Open() {
+  ++epoch_;
+  perception_.SetCamera(scene_.camera());
+}
+
 const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   scene_.TakeFrame();
   if (settings_.eyes == ChainSettings::Eyes::kIdeal) {
@@ -111,6 +116,7 @@ const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   frame_.cables = scene_.Cables();
   if (faults_.cables) faults_.cables(&frame_.cables);
   frame_.untouched = untouched;
+  frame_.epoch = epoch_;
   const force_estimation::ForceEstimate& estimate = estimator_.Update(frame_);
   estimator_.PrepareNext();
   if (force_estimation::PredictsShape(estimate)) {

@@ -54,6 +54,9 @@ class SensingChain {
   /// others, with each cable pulled in by 0 to `largest_cable_m`. The scene ends at zero.
   void Learn(int frames, int postures = 0, double largest_cable_m = 0.0);
 
+  /// The camera is opened anew, as for another recording: nobody knows what touches.
+  void Open();
+
   /// Takes a frame of the scene as it is. The estimate holds until the next call.
   const force_estimation::ForceEstimate& Take(bool untouched = false);
 
@@ -76,6 +79,7 @@ class SensingChain {
   force_estimation::ShapeForceEstimator estimator_;
   IdealPerception ideal_;
   perception::Perception perception_;
+  std::uint32_t epoch_ = 0;
   bool has_prediction_ = false;
   perception::PredictedSurface prediction_;
   SceneSight sight_;

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include "tests/support/sensing/accuracy.hpp"
+#include "tests/support/sensing/contact_generator.hpp"
+#include "tests/support/sensing/sensing_chain.hpp"
+
+/// Recordings of a robot that is touched already: one picture of each, and nobody saw how the
+/// contact came.
+namespace palpate::test_support {
+namespace {
+
+using Where = ContactWish::Where;
+
+class StaticScenes : public testing::Test {
+ protected:
+  static constexpr int kLearningFrames = 20;
+  static constexpr std::uint64_t kSeed = 5;
+
+  StaticScenes()
+      : scene_{FourLeg(), BallScenario(), kSeed},
+        chain_{FourLeg(), scene_, {.eyes = ChainSettings::Eyes::kPerception}, kSeed} {
+    chain_.Learn(kLearningFrames);
+  }
+
+  /// Each scene after another one: the model is where the robot was then.
+  AccuracySummary LookOnce(ContactWish wish, int scenes) {
+    wish.above_clamp_m = 0.045;
+    wish.smallest_N = 0.4;
+    wish.largest_N = 1.3;
+    ContactGenerator generator(scene_, wish, kSeed);
+    Accuracy accuracy;
+    for (int k = 0; k < scenes; ++k) {
+      EXPECT_TRUE(generator.Next());
+      chain_.Open();
+      accuracy.Add(scene_.state().forces, chain_.Take());
+    }
+    return accuracy.Summary();
+  }
+
+  SensingScene scene_;
+  SensingChain chain_;
+};
+
+TEST_F(StaticScenes, ForcesInViewAreRightInTheFirstPicture) {
+  const AccuracySummary seen = LookOnce({.where = Where::kVisible}, 5);
+  EXPECT_EQ(seen.found_share, 1.0);
+  EXPECT_LE(seen.mean_relative_error, 0.10);
+  EXPECT_LE(seen.median_location_error_m, 0.004);
+  EXPECT_EQ(seen.false_alarms, 0);
+  EXPECT_GE(seen.force_coverage, 0.8);
+}
+
+TEST_F(StaticScenes, ForcesOutOfViewAreFoundInTheFirstPicture) {
+  const AccuracySummary hidden = LookOnce({.where = Where::kHidden}, 4);
+  EXPECT_GE(hidden.found_share, 0.75);
+  EXPECT_LE(hidden.median_location_error_m, 0.015);
+  EXPECT_EQ(hidden.false_alarms, 0);
+}
+
+TEST_F(StaticScenes, NobodyTouchesIsSaidInTheFirstPictureAfterAPush) {
+  ContactGenerator generator(scene_, {.where = Where::kVisible, .smallest_N = 1.0}, kSeed);
+  ASSERT_TRUE(generator.Next());
+  const SceneState pushed = scene_.state();
+  for (int k = 0; k < 3; ++k) {
+    scene_.Show(pushed);
+    chain_.Open();
+    EXPECT_FALSE(chain_.Take().contacts.empty());
+    scene_.Show(generator.path().front());
+    chain_.Open();
+    const force_estimation::ForceEstimate& rest = chain_.Take();
+    EXPECT_EQ(rest.status.code(), StatusCode::kNoContact) << rest.status.message();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test_support
