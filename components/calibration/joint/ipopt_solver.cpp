@@ -29,8 +29,18 @@ constexpr double kNoGradient = 1e-12;
 constexpr double kNoGain = 1e-5;
 constexpr double kNoGainShare = 1e-6;
 constexpr int kPatience = 3;
+/// Of half of chi-squared, or the share of it: so near to the lowest that was seen it may end. To
+/// and fro over a bend it goes up as well.
+constexpr double kLow = 1e-2;
+constexpr double kLowShare = 1e-3;
 /// The barrier, and the distance from the bounds, of a search that starts at its solution.
 constexpr double kNoBarrier = 1e-10;
+
+/// Variables that are held have none: Ipopt takes them out.
+bool HasBounds(const Eigen::MatrixX2d& bounds) {
+  const auto is_free = bounds.col(0).array() < bounds.col(1).array();
+  return (is_free && bounds.array().isFinite().rowwise().any()).any();
+}
 
 /// The problem in Ipopt's words. Values and derivatives are worked out together, once for each
 /// point that Ipopt asks about.
@@ -43,7 +53,7 @@ class Nlp final : public Ipopt::TNLP {
         bounds_(problem.Bounds()),
         constraint_bounds_(problem.ConstraintBounds()),
         blocks_(problem.RobustBlocks()),
-        has_bounds_(bounds_.array().isFinite().any() || constraint_bounds_.rows() > 0) {}
+        has_bounds_(HasBounds(bounds_) || constraint_bounds_.rows() > 0) {}
 
   LeastSquaresSolution& solution() { return solution_; }
   bool arrived() const { return arrived_; }
@@ -139,11 +149,12 @@ class Nlp final : public Ipopt::TNLP {
     solution_.iterations = static_cast<int>(iteration);
     solution_.objectives.push_back(objective);
     const double tolerance = settings_.step_tolerance;
-    const bool gained =
-        last_objective_ - objective > std::min(kNoGain, kNoGainShare * std::abs(objective));
+    const double size = std::abs(objective);
+    const bool gained = best_objective_ - objective > std::min(kNoGain, kNoGainShare * size);
     idle_iterations_ = gained ? 0 : idle_iterations_ + 1;
-    last_objective_ = objective;
-    const bool ended = step <= tolerance || idle_iterations_ >= kPatience;
+    best_objective_ = std::min(best_objective_, objective);
+    const bool is_low = objective - best_objective_ <= std::min(kLow, kLowShare * size);
+    const bool ended = step <= tolerance || (idle_iterations_ >= kPatience && is_low);
     arrived_ = iteration > 0 && ended && infeasibility <= tolerance &&
                (!has_bounds_ || barrier <= tolerance);
     return !arrived_ && !settings_.stop.stop_requested();
@@ -185,7 +196,7 @@ class Nlp final : public Ipopt::TNLP {
   const std::vector<RobustBlock> blocks_;
   const bool has_bounds_;
   bool arrived_ = false;
-  double last_objective_ = std::numeric_limits<double>::infinity();
+  double best_objective_ = std::numeric_limits<double>::infinity();
   int idle_iterations_ = 0;
   Eigen::VectorXd visited_;
   bool has_value_ = false;
