@@ -35,8 +35,10 @@ Eigen::VectorXd ValuesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_c
 struct DepthBiasMap {
   DepthBiasBasis basis;
   Eigen::VectorXd coefficients;  ///< [k] shares of the distance
-  /// [6 + k square] of the errors (found - true) of the pose that was found together with it: a
+  /// [6 + k square] of the errors (found - right) of the pose that was found together with it: a
   /// rotation vector (rad) and a shift (m) of the camera, robot frame; then of the coefficients.
+  /// Right are the two that lay the picture best on the model whose skin they were found from: what
+  /// is wrong with that skin, and turns both alike each time, does not count.
   Eigen::MatrixXd covariance;
 
   double At(const Eigen::Vector3d& p_camera_m) const {

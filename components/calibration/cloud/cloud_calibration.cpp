@@ -23,7 +23,10 @@ class Search {
  public:
   Search(robot::RobotModel& model, const std::vector<CloudFrame>& frames,
          const CloudSettings& settings)
-      : model_(model), frames_(frames), settings_(settings) {
+      : model_(model),
+        frames_(frames),
+        settings_(settings),
+        skin_errors_(model.body(), model.RestState().x_m, settings.skin_errors) {
     for (const CloudFrame& frame : frames) {
       skins_.emplace_back(model.body());
       thin_.push_back(Thin(frame.cloud, settings.spacing_m));
@@ -58,6 +61,8 @@ class Search {
   robot::RobotModel& model_;
   const std::vector<CloudFrame>& frames_;
   const CloudSettings& settings_;
+  SkinErrors skin_errors_;
+  std::vector<Eigen::VectorXd> shapes_m_;  ///< [frames] of [3n] nodes
   std::vector<SkinInView> skins_;
   std::vector<ThinCloud> thin_, thinner_;  ///< of the fit and of the search
   JointSetup setup_;
@@ -78,7 +83,6 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   }
   setup_.fit_pose = true;
   setup_.marker_offset_sigma_m = 0.0;
-  setup_.motion_relative_sigma = settings_.motion_relative_sigma;
   if (settings_.depth_bias_sigma > 0.0) {
     const double sigma = settings_.depth_bias_sigma;
     setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma},
@@ -91,6 +95,7 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
 /// Equilibria under what is believed of the inputs.
 Status Search::TakeShapes() {
   const KeptModel kept(model_);
+  shapes_m_.resize(skins_.size());
   for (std::size_t f = 0; f < skins_.size(); ++f) {
     if (settings_.request.stop.stop_requested()) return {StatusCode::kNotConverged, "stopped"};
     const CalibrationFrame& frame = setup_.frames[f];
@@ -102,6 +107,7 @@ Status Search::TakeShapes() {
       return {solved.status.code(), frame.name + ": " + solved.status.message()};
     }
     skins_[f].TakeShape(state.x_m);
+    shapes_m_[f] = state.x_m;
   }
   return Status::Ok();
 }
@@ -134,6 +140,7 @@ void Search::Match() {
     setup_.frames[f].surface = MatchCloud(skins_[f], thin_[f], UnbiasedOf(thin_[f]).points_m,
                                           setup_.T_robot_camera, settings_, &result_.matches[f]);
   }
+  setup_.shared_errors = skin_errors_.Share(shapes_m_, &setup_.frames);
 }
 
 /// Whether the last round moved the camera, by what it does to the cloud's middle (camera frame),
@@ -166,7 +173,8 @@ Status Search::FitTogether() {
     ++result_.rounds;
     result_.joint = CalibrateJointly(model_, setup_, joint_settings);
     if (!result_.joint.status.ok()) return result_.joint.status;
-    for (std::size_t f = 0; f < skins_.size(); ++f) skins_[f].TakeShape(result_.joint.x_m[f]);
+    shapes_m_ = result_.joint.x_m;
+    for (std::size_t f = 0; f < skins_.size(); ++f) skins_[f].TakeShape(shapes_m_[f]);
     const geometry::RigidTransform last = setup_.T_robot_camera;
     setup_.T_robot_camera = result_.joint.T_robot_camera;
     if (IsSettled(last, thin_.front().points_m.rowwise().mean())) return Status::Ok();

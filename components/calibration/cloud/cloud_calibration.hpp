@@ -7,6 +7,7 @@
 
 #include "components/calibration/cloud/cloud_frame.hpp"
 #include "components/calibration/cloud/pose_search.hpp"
+#include "components/calibration/cloud/skin_errors.hpp"
 #include "components/calibration/joint/joint_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 
@@ -22,12 +23,8 @@ struct CloudSettings {
   /// at 0 and counts in the standard errors. 0: it has none.
   double depth_bias_sigma = 0.003;
   geometry::DepthBiasBasis depth_bias = {};
-  /// Look for it. Where the model bends, or the clouds were made, otherwise than this one knows, it
-  /// takes up a part of that, and pose and map err by more than they say.
-  bool fit_depth_bias = false;
-  /// How far the robot may move by more or less than the model says, as a share, one sigma: counts
-  /// in the standard errors. Meshes alone make some percent of it.
-  double motion_relative_sigma = 0.02;
+  bool fit_depth_bias = false;  ///< look for it
+  SkinErrorSettings skin_errors;
   PoseSearchSettings search;
   /// Distance of neighbouring points that are used, m: of the search, and of the joint fit. Depth
   /// noise is alike in neighbouring pixels; points some pixels apart count as independent.

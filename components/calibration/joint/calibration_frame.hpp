@@ -14,12 +14,20 @@
 
 namespace palpate::calibration {
 
+/// A point's part in an error that it has in common with others: of a number that is believed to be
+/// 0 with a sigma of 1, how far the skin lies farther out along the normal per unit, m.
+struct SharedError {
+  int number = 0;  ///< into JointSetup::shared_errors
+  double per_unit_m = 0.0;
+};
+
 /// A point of the depth image, and the place of the model's skin that it shows.
 struct SurfaceSighting {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
   double sigma_m = 0.0;                                  ///< along the normal, > 0
   fem::NodeWeights point;                                ///< on the skin
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, of the skin there
+  std::vector<SharedError> shared = {};                  ///< beside sigma_m, each number once
 };
 
 /// What was seen of the robot at rest under one setting of its cables, and what is known of that

@@ -42,6 +42,18 @@ bool IsOfPose(int variable, const JointProblem& problem) {
   return first >= 0 && variable >= first && variable < first + 6;
 }
 
+/// Variances of `free` beside what the data tell of them: what is considered shifts them by.
+Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse,
+                              const std::vector<int>& free, const JointProblem& problem) {
+  std::vector<int> considered;
+  for (int v = 0; v < CountOf(problem); ++v) {
+    if (problem.variables()[static_cast<size_t>(v)].considered) considered.push_back(v);
+  }
+  const Eigen::MatrixXd information =
+      jacobian(Eigen::all, free).transpose() * jacobian(Eigen::all, considered);
+  return (inverse * information).rowwise().squaredNorm();
+}
+
 /// Variables are scaled by min(sigma, plausible), so that 1 is what was believed of each.
 std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
                                     double share) {
@@ -52,7 +64,8 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
   const auto data = point.jacobian.topRows(problem.DataRows());
   Eigen::MatrixXd information = Pick(data.transpose() * data, free);
   information.diagonal().array() += 1.0;
-  const Eigen::VectorXd variance = InverseOf(information).diagonal();
+  const Eigen::MatrixXd inverse = InverseOf(information);
+  const Eigen::VectorXd variance = inverse.diagonal();
   std::optional<int> worst;
   double worst_sigma = 0.0;
   for (const bool pose : {false, true}) {
@@ -63,7 +76,17 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
       worst = free[k];
       worst_sigma = sigma;
     }
-    if (worst) break;
+    if (worst) return worst;
+  }
+  const Eigen::VectorXd total =
+      variance + ShiftVariance(point.jacobian.topRows(problem.DataRows()), inverse, free, problem);
+  double worst_total = 1.0;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const Belief& belief = problem.variables()[static_cast<size_t>(free[k])].belief;
+    const double of_this = total[static_cast<Eigen::Index>(k)];
+    if (!std::isfinite(belief.sigma) || of_this <= worst_total) continue;
+    worst = free[k];
+    worst_total = of_this;
   }
   return worst;
 }
@@ -79,12 +102,15 @@ WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
   return fit;
 }
 
-Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened) {
+Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened,
+                             Against against) {
   std::vector<int> estimated, believed;
   for (int v = 0; v < CountOf(problem); ++v) {
+    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
     if (!problem.IsHeld(v)) {
       estimated.push_back(v);
-    } else if (std::isfinite(problem.variables()[static_cast<size_t>(v)].belief.sigma)) {
+    } else if (std::isfinite(variable.belief.sigma) &&
+               !(variable.models_own && against == Against::kThisModel)) {
       believed.push_back(v);
     }
   }

@@ -15,6 +15,7 @@ bool IsOfPose(int variable, const JointProblem& problem);
 /// The variable that is free and that these data leave most uncertain, where that is more than
 /// `share` of what was believed or is plausible; those of the pose only where no other is. As for
 /// all in common: two numbers of which only the sum shows are both uncertain until one is held.
+/// Also one whose error, with what is considered, is no less than what was believed.
 std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
                                     double share);
 
@@ -30,6 +31,11 @@ WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
 /// estimated from the information, times `widened`, and from what held ones shift them by (Schmidt
 /// 1966: considered). Held ones err by what is believed of them; with nothing believed they count
 /// as known, and have 0.
-Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened);
+///
+/// Against::kThisModel leaves out what the model's own errors shift them by: where it is laid on
+/// the robot as it was here, they are there again.
+enum class Against { kTruth, kThisModel };
+Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened,
+                             Against against = Against::kTruth);
 
 }  // namespace palpate::calibration

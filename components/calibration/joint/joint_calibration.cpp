@@ -116,8 +116,10 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
   }
 }
 
+/// `covariance`: against the truth; `against_model`: against this model.
 void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& solution,
-                     const Eigen::MatrixXd& covariance, JointCalibration* result) {
+                     const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& against_model,
+                     JointCalibration* result) {
   if (!problem.depth_bias() || !problem.depth_bias()->estimated) return;
   geometry::DepthBiasMap& map = result->depth_bias.emplace();
   map.basis = problem.depth_bias()->basis;
@@ -133,7 +135,8 @@ void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& so
     map.coefficients[k] = problem.ValueOf(v, solution.variables);
     per_variable(6 + k, v) = problem.Scale(v);
   }
-  map.covariance = per_variable * covariance * per_variable.transpose();
+  map.covariance = per_variable * against_model * per_variable.transpose();
+  result->pose_and_bias_covariance = per_variable * covariance * per_variable.transpose();
 }
 
 /// The way that the search took. An approach ended where Ipopt started.
@@ -180,7 +183,8 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
                               covariance.block<6, 6>(problem.pose_column(), problem.pose_column()) *
                               scale.asDiagonal();
   }
-  ReportDepthBias(problem, solution, covariance, result);
+  ReportDepthBias(problem, solution, covariance,
+                  CovarianceOf(fit, problem, widened, Against::kThisModel), result);
   ReportValues(problem, solution, covariance, result);
 }
 

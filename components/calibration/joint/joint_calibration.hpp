@@ -40,7 +40,9 @@ struct JointCalibration {
   /// Of PoseChange at the found pose (rad, m); 0 where the pose was given.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<FittedValue> values;  ///< without the pose; unknowns in their order, last
-  std::optional<geometry::DepthBiasMap> depth_bias;  ///< where it was looked for
+  /// Where it was looked for; its covariance is that against this model (DepthBiasMap).
+  std::optional<geometry::DepthBiasMap> depth_bias;
+  Eigen::MatrixXd pose_and_bias_covariance;  ///< [6 + k square] likewise, against the truth
   /// [values] of their errors; 0 for held ones that nothing is known of.
   Eigen::MatrixXd correlation;
   double residual_rms_m = 0.0;  ///< of all frames

@@ -43,9 +43,9 @@ int JointProblem::AddVariables() {
     }
   }
   if (setup_.marker_offset_sigma_m > 0.0) AddMarkerOffsets();
-  if (const double sigma = setup_.motion_relative_sigma; sigma > 0.0) {
-    motion_column_ = static_cast<int>(variables_.size());
-    variables_.push_back({"model_motion", "", {.sigma = sigma, .plausible = sigma}, "", {}, true});
+  shared_error_column_ = static_cast<int>(variables_.size());
+  for (const bool models_own : setup_.shared_errors) {
+    variables_.push_back({"shared_error", "", {.sigma = 1.0}, "", nullptr, true, models_own});
   }
   const int first_unknown = static_cast<int>(variables_.size());
   for (const UnknownPtr& unknown : setup_.unknowns) {
@@ -258,12 +258,22 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
     const SightingRows<1> rows =
         view.Rows(sighting, scale_ * seen.place.position_m, DepthScaleAt(basis, variables));
     PutRows(rows, basis, seen, *row, point);
+    PutSharedErrors(sighting, *row, point);
     const double off_m = rows.residual[0] * sighting.sigma_m;
     squares_m2 += off_m * off_m;
     ++*row;
   }
   if (frame.markers.empty()) {
     residual_rms_m_[index] = std::sqrt(squares_m2 / static_cast<double>(frame.surface.size()));
+  }
+}
+
+/// They stay at 0.
+void JointProblem::PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
+                                   LeastSquaresPoint* point) const {
+  for (const SharedError& error : sighting.shared) {
+    const int column = shared_error_column_ + error.number;
+    point->jacobian(row, column) = -Scale(column) * error.per_unit_m / sighting.sigma_m;
   }
 }
 
@@ -282,11 +292,6 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
     const int column = depth_bias_column_ + static_cast<int>(k);
     point->jacobian.block<Rows, 1>(row, column) =
         Scale(column) * depth_basis[k] * rows.per_depth_scale;
-  }
-  if (motion_column_ >= 0) {
-    point->jacobian.block<Rows, 1>(row, motion_column_) =
-        Scale(motion_column_) * rows.per_point_m *
-        (seen.place.position_m - seen.point.Position(rest_m_));
   }
   for (std::size_t p = 0; p < seen.column.size(); ++p) {
     point->jacobian.block<Rows, 1>(row, seen.column[p]) +=

@@ -28,6 +28,7 @@ struct Variable {
   std::string what_would_tell;
   const Unknown* unknown = nullptr;  ///< of the pose and other parts of the view: none
   bool considered = false;           ///< held at its mean, for its part in the errors of the others
+  bool models_own = false;           ///< of an error that the model always has
 };
 
 /// Camera pose, cable inputs, material and more from what was seen of the body in several frames
@@ -98,6 +99,8 @@ class JointProblem final : public LeastSquaresProblem {
   };
   PlaceInFrame PlaceOf(std::size_t frame, const fem::NodeWeights& point,
                        const Eigen::VectorXd& variables) const;
+  void PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
+                       LeastSquaresPoint* point) const;
   template <int Rows>
   void PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd& depth_basis,
                const PlaceInFrame& seen, Eigen::Index row, LeastSquaresPoint* point) const;
@@ -111,10 +114,9 @@ class JointProblem final : public LeastSquaresProblem {
   int pose_column_ = -1;
   int depth_bias_column_ = -1;
   int marker_offset_column_ = -1;
-  int motion_column_ = -1;
+  int shared_error_column_ = -1;
   int scale_column_ = -1;
-  Eigen::VectorXd rest_m_ = model_.RestState().x_m;  ///< [3n]
-  double scale_ = 1.0;                               ///< of the robot, at the present variables
+  double scale_ = 1.0;  ///< of the robot, at the present variables
   Eigen::Index data_rows_ = 0;
   BodyShapes shapes_;  ///< after the variables, of which some are its
   std::vector<double> residual_rms_m_;

@@ -29,9 +29,9 @@ struct JointSetup {
   geometry::RigidTransform T_robot_camera;  ///< to start from, or known
   bool fit_pose = true;
   std::optional<DepthBiasBelief> depth_bias;  ///< nothing: the depth is right
-  /// How far the body may move by more or less than the model says, all of it alike, as a share
-  /// (one sigma): counts in the errors of all that is estimated. 0: the model is right.
-  double motion_relative_sigma = 0.0;
+  /// [numbers that SurfaceSighting::shared speaks of] Whether each is the model's own: there again
+  /// wherever the model is laid on the robot. They count in the errors of all that is estimated.
+  std::vector<bool> shared_errors = {};
   /// How far a marker may lie from its place in the robot file, m, each axis (one sigma); 0: it
   /// lies there. Where it is not estimated it counts in the errors of all that is.
   double marker_offset_sigma_m = 0.0;

@@ -25,7 +25,7 @@ CloudSettings PoseAlone() {
   settings.request.drive_offsets = false;
   settings.facet_error_share = 0.0;  // the clouds are of the model's own facets
   settings.depth_bias_sigma = 0.0;   // and err by their noise alone
-  settings.motion_relative_sigma = 0.0;
+  settings.skin_errors = NoSkinErrors();
   return settings;
 }
 

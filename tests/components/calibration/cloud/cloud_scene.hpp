@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "components/calibration/cloud/cloud_frame.hpp"
+#include "components/calibration/cloud/skin_errors.hpp"
 #include "libs/rgbd/surface_view.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
 
@@ -27,6 +28,15 @@ inline const rgbd::CameraModel kCamera{.width_px = 424,
                                        .cx_px = 211.5,
                                        .cy_px = 119.5};
 inline constexpr double kDepthSigma_m = 0.8e-3;
+
+/// The model's skin is the robot's.
+inline SkinErrorSettings NoSkinErrors() {
+  return {.whole_sigma_m = 0.0,
+          .patch_sigma_m = 0.0,
+          .region_sigma_m = 0.0,
+          .motion_sigma = 0.0,
+          .region_motion_sigma = 0.0};
+}
 
 /// From `eye_m` towards `target_m`, robot frame; x of the picture level.
 inline geometry::RigidTransform LookAt(const Eigen::Vector3d& eye_m,

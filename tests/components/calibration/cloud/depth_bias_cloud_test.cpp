@@ -20,7 +20,8 @@ class DepthBiasOfClouds : public ::testing::Test {
   DepthBiasOfClouds() {
     settings_.fit_depth_bias = true;
     settings_.request.drive_offsets = false;
-    settings_.facet_error_share = 0.0;  // the clouds are of the model's own facets
+    settings_.facet_error_share = 0.0;  // the clouds are of the model's own skin
+    settings_.skin_errors = NoSkinErrors();
     settings_.depth_bias_sigma = kSigma;
   }
 
@@ -117,7 +118,8 @@ TEST_F(DepthBiasOfClouds, ErrsAsItsCovarianceSays) {
     Eigen::VectorXd error(kPoseRows + true_bias_.coefficients.size());
     error << turn.angle() * turn.axis(), found.translation_m() - truth_.translation_m(),
         fit.joint.depth_bias->coefficients - true_bias_.coefficients;
-    sum += error.dot(fit.joint.depth_bias->covariance.ldlt().solve(error));
+    sum += error.dot(fit.joint.pose_and_bias_covariance.ldlt().solve(error));
+    EXPECT_TRUE(fit.joint.depth_bias->covariance.isApprox(fit.joint.pose_and_bias_covariance));
   }
   RecordProperty("mean_squared_error", FormatNumber(sum / kDraws));
   EXPECT_GT(sum / kDraws, 7.0);
@@ -137,7 +139,7 @@ TEST_F(DepthBiasOfClouds, WhatIsNotToldIsNamedAndCountsInTheErrorOfThePose) {
   EXPECT_EQ(slope->value, 0.0);
   EXPECT_NEAR(slope->standard_error, 1e-4, 1e-12);
   EXPECT_FALSE(slope->what_would_tell.empty());
-  const Eigen::MatrixXd& covariance = fit.joint.depth_bias->covariance;
+  const Eigen::MatrixXd& covariance = fit.joint.pose_and_bias_covariance;
   EXPECT_TRUE(covariance.topLeftCorner(6, 6).isApprox(fit.joint.pose_covariance, 1e-9));
   EXPECT_GT(covariance.topRightCorner(6, 6).cwiseAbs().maxCoeff(), 0.0);
 }
@@ -147,6 +149,7 @@ TEST_F(DepthBiasOfClouds, CountsInTheErrorOfThePoseWhereItIsNotLookedFor) {
   const std::vector<CloudFrame> frames = See(1);
   settings_.fit_depth_bias = false;
   const CloudCalibration fit = Fit(frames);
+  EXPECT_FALSE(fit.joint.depth_bias);
   settings_.depth_bias_sigma = 0.0;
   const CloudCalibration blind = Fit(frames);
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
