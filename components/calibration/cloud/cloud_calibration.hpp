@@ -23,7 +23,7 @@ struct CloudSettings {
   /// at 0 and counts in the standard errors. 0: it has none.
   double depth_bias_sigma = 0.003;
   geometry::DepthBiasBasis depth_bias = {};
-  bool fit_depth_bias = false;  ///< look for it
+  bool fit_depth_bias = true;  ///< look for it
   SkinErrorSettings skin_errors;
   PoseSearchSettings search;
   /// Distance of neighbouring points that are used, m: of the search, and of the joint fit. Depth

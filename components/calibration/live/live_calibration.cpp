@@ -80,7 +80,7 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* r
   }
   CloudSettings settings;
   settings.request = job.request;
-  settings.fit_depth_bias = job.fit_depth_bias;
+  settings.fit_depth_bias = job.fit_depth_bias && job.picture;
   settings.search.stop = job.request.stop;
   CloudCalibration fit = CalibrateFromClouds(model, job.clouds, *start, settings);
   fit.joint.status = fit.status;

@@ -24,9 +24,9 @@ struct LiveJob {
   std::vector<CloudFrame> clouds;         ///< these,
   std::vector<CalibrationFrame> markers;  ///< or these,
   std::vector<UnlabelledFrame> points;    ///< or these, of markers without names
-  /// That the clouds were made from: without, their depth bias is not kept.
+  /// That the clouds were made from: without, their depth bias is not looked for.
   std::optional<geometry::DepthPicture> picture;
-  bool fit_depth_bias = false;  ///< of CloudSettings
+  bool fit_depth_bias = true;  ///< of CloudSettings
   /// Where the search for the pose starts; clouds need it, markers tell it. Those without names
   /// on a robot that looks the same after a turn are told apart by it.
   std::optional<geometry::RigidTransform> T_robot_camera_start;

@@ -26,7 +26,7 @@ struct NodeConfig {
   double new_setting_N = 0.1;
   double patience_s = 60.0;
   bool allow_contacts = false;
-  bool fit_depth_bias = false;
+  bool fit_depth_bias = true;
   int marker_pictures = 20;
   double marker_sigma_m = 3e-4;
   double marker_bias_m = 0.0;
@@ -67,7 +67,7 @@ struct NodeConfig {
     v("allow_contacts", allow_contacts,
       "Clouds in which perception sees something touch the robot serve, too");
     v("fit_depth_bias", fit_depth_bias,
-      "From clouds, look for the smooth error of the depth image, too (Limits)");
+      "From clouds, find the smooth error of the depth image with the pose (Limits)");
     v("marker_pictures", marker_pictures, {.min = 1.0, .max = 10000.0},
       "A frame of markers is the mean over so many pictures");
     v("marker_sigma_m", marker_sigma_m, positive,

@@ -123,7 +123,7 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
     }
   }
   calibration::CloudSettings clouds;
-  clouds.fit_depth_bias = options.fit_depth_bias;
+  clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
   clouds.request = {.drive_offset_sigma_m = options.drive_offset_sigma_m,
                     .drive_gains = options.drive_gains,
                     .moduli = materials};
@@ -138,10 +138,8 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   const Pass pass = Run(moments, perception, ShapesOf(moments, found, model), found, clouds, model);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   calibration::TakeFit(pass.fit.joint, *model, &file);
-  if (AreOfOneCamera(sequences)) {
-    calibration::TakeDepthBias(pass.fit.joint, rgbd::PictureOf(sequences.front().camera.depth),
-                               &file);
-  }
+  calibration::TakeDepthBias(pass.fit.joint, rgbd::PictureOf(sequences.front().camera.depth),
+                             &file);
   if (!options.json) PrintPass(pass);
   return file;
 }

@@ -53,6 +53,9 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const std::vector<int> materials = MaterialsOf(options.parts, model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
+  if (options.fit_depth_bias && options.no_depth_bias) {
+    throw InputError("--fit-depth-bias and --no-depth-bias: only one of them");
+  }
   if (options.from == "markers" && !options.camera_pose.empty() && !unlabelled) {
     throw InputError("--camera-pose is for images; --from markers needs none");
   }
@@ -115,7 +118,10 @@ void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
         "how far " + std::string(belief.how_far) + ", one sigma; joint: looked for where not 0");
   }
   arguments.Flag("--fit-depth-bias", &options->fit_depth_bias,
-                 "depth without markers: look for the smooth error of the depth image, too");
+                 "depth without markers: find the smooth error of the depth image with the pose, "
+                 "which is done anyway");
+  arguments.Flag("--no-depth-bias", &options->no_depth_bias,
+                 "do not look for it: it counts in the standard errors alone");
 }
 
 }  // namespace

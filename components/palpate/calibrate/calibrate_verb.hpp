@@ -27,7 +27,8 @@ struct CalibrateOptions {
   double marker_bias_m = 0.0;          ///< constant error of each marker, one sigma
   double drive_offset_sigma_m = 2e-3;  ///< how far a drive's zero may be off, one sigma
   bool drive_gains = false;
-  bool fit_depth_bias = false;
+  bool fit_depth_bias = false;         ///< what is done anyway
+  bool no_depth_bias = false;          ///< not to be looked for
   double marker_offset_sigma_m = 0.0;  ///< of these four 0: not looked for
   double gravity_tilt_sigma_deg = 0.0;
   double mass_relative_sigma = 0.0;

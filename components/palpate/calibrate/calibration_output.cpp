@@ -88,6 +88,10 @@ void PrintCalibration(const robot::CalibrationFile& file) {
                1e3 * file.pose->translation_error_m.norm(),
                kDegrees * file.pose->rotation_error_rad.norm());
   }
+  if (file.depth_bias) {
+    fmt::print("depth image: off by {:.2f} % of z in its middle; the map over it is in the file\n",
+               100.0 * file.depth_bias->map.coefficients[0]);
+  }
   for (const robot::CalibratedDrive& drive : file.drives) {
     fmt::print(
         "drive of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",

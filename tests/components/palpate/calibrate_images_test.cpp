@@ -63,6 +63,18 @@ TEST_F(CalibrateImages, FindsTheCameraWithinItsStandardErrorsFromARoughPose) {
   EXPECT_LE(file.pose->rotation_error_rad.norm(), 0.03);
   EXPECT_THAT(file.data, HasSubstr("b_hold"));
   EXPECT_THAT(file.data, testing::Not(HasSubstr("c_free")));
+  ASSERT_TRUE(file.depth_bias);
+  EXPECT_FALSE(file.depth_bias->map.coefficients.isZero());
+}
+
+TEST_F(CalibrateImages, TheDepthBiasIsLeftAloneWhereItIsNotWanted) {
+  Simulate();
+  options_.camera_pose = Text(PoseOffBy(0.0, 0.0));
+  options_.no_depth_bias = true;
+  ASSERT_EQ(Calibrate(options_), 0);
+  EXPECT_FALSE(Found().depth_bias);
+  options_.fit_depth_bias = true;
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("only one of them"));
 }
 
 TEST_F(CalibrateImages, ARoughPoseIsNeeded) {

@@ -100,6 +100,7 @@ TEST_F(LiveCalibration, FindsTheCameraWhichTheEstimatorTakes) {
   ExpectRight(listener_.found[0], truth_);
   const robot::CalibrationFile file = robot::ReadCalibrationFile(file_, app::LoadYaml);
   EXPECT_EQ(file.data_hash, listener_.found[0].hash);
+  EXPECT_TRUE(file.depth_bias);
   ASSERT_TRUE(listener_.WaitFor([&] {
     return !listener_.force_status.empty() && listener_.force_status != "no_calibration";
   })) << listener_.force_status
