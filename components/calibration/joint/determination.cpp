@@ -42,6 +42,12 @@ bool IsOfPose(int variable, const JointProblem& problem) {
   return first >= 0 && variable >= first && variable < first + 6;
 }
 
+bool IsOfDepthBias(int variable, const JointProblem& problem) {
+  const int first = problem.depth_bias_column();
+  if (first < 0) return false;
+  return variable >= first && variable < first + geometry::CountOf(problem.depth_bias()->basis);
+}
+
 /// Variances of `free` beside what the data tell of them: what is considered shifts them by.
 Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse,
                               const std::vector<int>& free, const JointProblem& problem) {
@@ -78,13 +84,13 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
     }
     if (worst) return worst;
   }
+  if (!problem.depth_bias() || !problem.depth_bias()->estimated) return std::nullopt;
   const Eigen::VectorXd total =
       variance + ShiftVariance(point.jacobian.topRows(problem.DataRows()), inverse, free, problem);
   double worst_total = 1.0;
   for (std::size_t k = 0; k < free.size(); ++k) {
-    const Belief& belief = problem.variables()[static_cast<size_t>(free[k])].belief;
     const double of_this = total[static_cast<Eigen::Index>(k)];
-    if (!std::isfinite(belief.sigma) || of_this <= worst_total) continue;
+    if (!IsOfDepthBias(free[k], problem) || of_this <= worst_total) continue;
     worst = free[k];
     worst_total = of_this;
   }

@@ -15,7 +15,8 @@ bool IsOfPose(int variable, const JointProblem& problem);
 /// The variable that is free and that these data leave most uncertain, where that is more than
 /// `share` of what was believed or is plausible; those of the pose only where no other is. As for
 /// all in common: two numbers of which only the sum shows are both uncertain until one is held.
-/// Also one whose error, with what is considered, is no less than what was believed.
+/// Also a coefficient of the depth bias whose error, with what is considered, is more than what was
+/// believed: left at its mean it does less harm.
 std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
                                     double share);
 
