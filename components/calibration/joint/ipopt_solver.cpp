@@ -25,14 +25,11 @@ constexpr double kIpoptInfinity = 2e19;
 constexpr double kNoGradient = 1e-12;
 /// Of half of chi-squared: what gains less moves nothing by a hundredth of its standard error. Of
 /// data without noise, of which little is left over, the share of that. So many iterations with no
-/// more end the search.
+/// more than the lowest end the search there: to and fro over a bend it goes up as well, and
+/// Ipopt's watchdog lets it for three.
 constexpr double kNoGain = 1e-5;
 constexpr double kNoGainShare = 1e-6;
-constexpr int kPatience = 3;
-/// Of half of chi-squared, or the share of it: so near to the lowest that was seen it may end. To
-/// and fro over a bend it goes up as well.
-constexpr double kLow = 1e-2;
-constexpr double kLowShare = 1e-3;
+constexpr int kPatience = 5;
 /// The barrier, and the distance from the bounds, of a search that starts at its solution.
 constexpr double kNoBarrier = 1e-10;
 
@@ -149,25 +146,31 @@ class Nlp final : public Ipopt::TNLP {
     solution_.iterations = static_cast<int>(iteration);
     solution_.objectives.push_back(objective);
     const double tolerance = settings_.step_tolerance;
-    const double size = std::abs(objective);
-    const bool gained = best_objective_ - objective > std::min(kNoGain, kNoGainShare * size);
-    idle_iterations_ = gained ? 0 : idle_iterations_ + 1;
-    best_objective_ = std::min(best_objective_, objective);
-    const bool is_low = objective - best_objective_ <= std::min(kLow, kLowShare * size);
-    const bool ended = step <= tolerance || (idle_iterations_ >= kPatience && is_low);
-    arrived_ = iteration > 0 && ended && infeasibility <= tolerance &&
-               (!has_bounds_ || barrier <= tolerance);
+    const bool is_allowed = infeasibility <= tolerance && (!has_bounds_ || barrier <= tolerance);
+    if (is_allowed) NoteGain(objective);
+    const bool is_still = iteration > 0 && step <= tolerance;
+    ends_at_lowest_ = !is_still && idle_iterations_ >= kPatience;
+    arrived_ = is_allowed && (is_still || ends_at_lowest_);
     return !arrived_ && !settings_.stop.stop_requested();
   }
 
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
                          const Number*, Index, const Number*, const Number*, Number,
                          const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    solution_.variables = VectorMap(x, n);
+    solution_.variables = ends_at_lowest_ ? lowest_ : Eigen::VectorXd(VectorMap(x, n));
     if (Visit(solution_.variables)) solution_.point = point_;
   }
 
  private:
+  /// Of the iterate, which was visited last.
+  void NoteGain(double objective) {
+    const double worth = std::min(kNoGain, kNoGainShare * std::abs(objective));
+    idle_iterations_ = lowest_objective_ - objective > worth ? 0 : idle_iterations_ + 1;
+    if (objective >= lowest_objective_) return;
+    lowest_objective_ = objective;
+    lowest_ = visited_;
+  }
+
   static void Copy(const Eigen::MatrixX2d& bounds, Index n, Number* lower, Number* upper) {
     for (Index i = 0; i < n; ++i) {
       lower[i] = std::max(bounds(i, 0), -kIpoptInfinity);
@@ -196,7 +199,9 @@ class Nlp final : public Ipopt::TNLP {
   const std::vector<RobustBlock> blocks_;
   const bool has_bounds_;
   bool arrived_ = false;
-  double best_objective_ = std::numeric_limits<double>::infinity();
+  double lowest_objective_ = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd lowest_;
+  bool ends_at_lowest_ = false;
   int idle_iterations_ = 0;
   Eigen::VectorXd visited_;
   bool has_value_ = false;
