@@ -10,8 +10,8 @@
 #include "components/force_estimation/shape/place_posterior.hpp"
 #include "components/force_estimation/shape/row_responses.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
-#include "components/force_estimation/shape/surface_features.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "libs/skin/surface_features.hpp"
 
 namespace palpate::force_estimation {
 

@@ -58,7 +58,7 @@ Config FitConfig(Config config, const ShapeConfig& shape) {
 
 ShapeFit::ShapeFit(robot::RobotModel& model, const Config& config, const ShapeConfig& shape)
     : shape_(shape),
-      features_(model),
+      features_(model.body()),
       matching_(features_, shape),
       targets_(shape, config.contact_marker_weight),
       book_(model, shape),
@@ -186,7 +186,7 @@ Status ShapeFit::Match(const ShapeFrame& frame) {
   AddWork(kMatchWork);
   matches_ = &matching_.Match(frame, state_.x_m);
   const auto matched = std::count_if(matches_->begin(), matches_->end(), [](const auto& match) {
-    return match.state == MatchState::kMatched;
+    return match.state == skin::MatchState::kMatched;
   });
   if (matched < kFewestFeatures) {
     return {StatusCode::kNoRobotSeen,

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "components/force_estimation/shape/moving_surface.hpp"
-#include "components/force_estimation/shape/patch_matching.hpp"
 #include "components/force_estimation/shape/point_matching.hpp"
-#include "components/force_estimation/shape/predicted_view.hpp"
 #include "libs/core/check.hpp"
+#include "libs/skin/moving_surface.hpp"
+#include "libs/skin/patch_matching.hpp"
+#include "libs/skin/predicted_view.hpp"
 
 namespace palpate::force_estimation {
 
@@ -55,8 +55,8 @@ double Spacing_m(const Eigen::Matrix3Xf& points_m) {
   return std::sqrt(MedianOf(&squared_m2));
 }
 
-MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::SensedCloud& cloud) {
-  MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
+skin::MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::SensedCloud& cloud) {
+  skin::MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
   if (distances.hidden_m == 0.0) distances.hidden_m = 2.0 * Spacing_m(cloud.points_m);
   if (distances.outlier_m == 0.0) {
     std::vector<float> sigmas_m(cloud.sigma_m.data(), cloud.sigma_m.data() + cloud.sigma_m.size());
@@ -66,12 +66,12 @@ MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::SensedClou
 }
 
 /// For a patch, whose points do not aim at the feature's normal line.
-void MeasureLineDistances(const SurfaceFeatures& features, const ShapeFrame& frame,
-                          const Eigen::VectorXd& x_m, std::vector<FeatureMatch>* matches) {
+void MeasureLineDistances(const skin::SurfaceFeatures& features, const ShapeFrame& frame,
+                          const Eigen::VectorXd& x_m, std::vector<skin::FeatureMatch>* matches) {
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
-    if (match.state != MatchState::kMatched) continue;
+    skin::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    if (match.state != skin::MatchState::kMatched) continue;
     const Eigen::Vector3d offset_m =
         frame.T_robot_camera * match.position_m - features.point(feature).Position(x_m);
     match.line_distance_m = offset_m.cross(normals.col(feature)).norm();
@@ -81,32 +81,32 @@ void MeasureLineDistances(const SurfaceFeatures& features, const ShapeFrame& fra
 }  // namespace
 
 struct SurfaceMatching::Parts {
-  const SurfaceFeatures& features;
+  const skin::SurfaceFeatures& features;
   ShapeConfig config;
-  MovingSurface surface;
-  PredictedView view;
-  PatchMatching patches;
-  std::vector<FeatureMatch> matches;
+  skin::MovingSurface surface;
+  skin::PredictedView view;
+  skin::PatchMatching patches;
+  std::vector<skin::FeatureMatch> matches;
 };
 
-SurfaceMatching::SurfaceMatching(const SurfaceFeatures& features, const ShapeConfig& config)
+SurfaceMatching::SurfaceMatching(const skin::SurfaceFeatures& features, const ShapeConfig& config)
     : parts_(new Parts{features,
                        config,
-                       MovingSurface(features.triangles()),
-                       PredictedView(),
-                       PatchMatching(features),
+                       skin::MovingSurface(features.triangles()),
+                       skin::PredictedView(),
+                       skin::PatchMatching(features),
                        {}}) {}
 
 SurfaceMatching::~SurfaceMatching() = default;
 
-const std::vector<FeatureMatch>& SurfaceMatching::Match(const ShapeFrame& frame,
-                                                        const Eigen::VectorXd& x_m) {
-  const SurfaceFeatures& features = parts_->features;
-  std::vector<FeatureMatch>& matches = parts_->matches;
+const std::vector<skin::FeatureMatch>& SurfaceMatching::Match(const ShapeFrame& frame,
+                                                              const Eigen::VectorXd& x_m) {
+  const skin::SurfaceFeatures& features = parts_->features;
+  std::vector<skin::FeatureMatch>& matches = parts_->matches;
   CheckInput(frame, x_m, features.triangles().maxCoeff());
-  matches.assign(static_cast<size_t>(features.Count()), FeatureMatch{});
+  matches.assign(static_cast<size_t>(features.Count()), skin::FeatureMatch{});
   if (frame.cloud.Count() == 0) return matches;
-  const MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
+  const skin::MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
   parts_->surface.MoveTo(x_m, frame.T_robot_camera.inverse());
   parts_->view.Look(parts_->surface.vertices_m(), parts_->surface.triangles());
   if (parts_->config.matching == "point") {

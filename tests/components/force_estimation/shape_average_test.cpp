@@ -19,9 +19,9 @@ class Average : public testing::Test {
  protected:
   Average() {
     const DepthBias bias(kFeatures, shape_);
-    std::vector<FeatureMatch> matches(kFeatures);
-    for (FeatureMatch& match : matches) {
-      match.state = MatchState::kMatched;
+    std::vector<skin::FeatureMatch> matches(kFeatures);
+    for (skin::FeatureMatch& match : matches) {
+      match.state = skin::MatchState::kMatched;
       match.sigma_m = kNoise_m;
       match.position_m = {0.0, 0.0, 0.4};
       match.normal = Eigen::Vector3d::UnitZ();

@@ -17,11 +17,11 @@ namespace palpate::test_support {
 
 namespace {
 
-using force_estimation::FeatureMatch;
-using force_estimation::MatchState;
 using force_estimation::ShapeFrame;
 using force_estimation::SkinPoint;
 using force_estimation::Tangents;
+using skin::FeatureMatch;
+using skin::MatchState;
 
 constexpr double kFriction = 0.3;
 /// Of the model's motion: what the robot file's mesh is too stiff by (config/scenarios/README.md).
@@ -58,7 +58,7 @@ struct ForceBounds::Rows {
 ForceBounds::ForceBounds(robot::RobotModel& model, const force_estimation::ShapeConfig& shape)
     : model_(model),
       shape_(shape),
-      features_(model),
+      features_(model.body()),
       matching_(features_, shape),
       map_(model),
       bias_(features_.Count(), shape),

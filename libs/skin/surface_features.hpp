@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "libs/fem/embedding.hpp"
-#include "libs/robot/robot_model.hpp"
+#include "libs/robot/robot_body.hpp"
 
-namespace palpate::force_estimation {
+namespace palpate::skin {
 
 /// The robot's feature points X_e and the surface that they stand for. The surface is the drawn one
 /// (four triangles for each face of tet10); each of its triangles belongs to the feature that is
@@ -18,7 +18,7 @@ namespace palpate::force_estimation {
 class SurfaceFeatures {
  public:
   /// Throws InputError where the robot has no feature points.
-  explicit SurfaceFeatures(const robot::RobotModel& model);
+  explicit SurfaceFeatures(const robot::RobotBody& body);
 
   int Count() const { return static_cast<int>(points_.size()); }
   const fem::NodeWeights& point(int feature) const { return points_[static_cast<size_t>(feature)]; }
@@ -50,4 +50,4 @@ class SurfaceFeatures {
   std::vector<std::vector<Part>> parts_of_feature_;
 };
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::skin

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/shape/patch_matching.hpp"
+#include "libs/skin/patch_matching.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace palpate::force_estimation {
+namespace palpate::skin {
 
 namespace {
 
@@ -144,4 +144,4 @@ void PatchMatching::AddRow(int begin, int end, const Eigen::Matrix3d& R_robot_ca
   }
 }
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::skin

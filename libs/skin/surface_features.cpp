@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/shape/surface_features.hpp"
+#include "libs/skin/surface_features.hpp"
 
 #include "libs/core/error.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/triangle_surface.hpp"
 
-namespace palpate::force_estimation {
+namespace palpate::skin {
 
 namespace {
 
@@ -24,20 +24,20 @@ std::vector<std::vector<int>> TrianglesOfNodes(const Eigen::Matrix3Xi& triangles
 
 }  // namespace
 
-SurfaceFeatures::SurfaceFeatures(const robot::RobotModel& model)
-    : triangles_(model.body().boundary.DrawnTriangles()) {
-  const std::vector<fem::BodyPoint>& points = model.body().feature_points;
+SurfaceFeatures::SurfaceFeatures(const robot::RobotBody& body)
+    : triangles_(body.boundary.DrawnTriangles()) {
+  const std::vector<fem::BodyPoint>& points = body.feature_points;
   if (points.empty()) {
-    throw InputError("robot \"" + model.body().name +
-                     "\": without feature_points no force can be estimated from its shape");
+    throw InputError("robot \"" + body.name +
+                     "\": without feature_points its skin cannot be measured");
   }
   rest_m_.resize(3, static_cast<Eigen::Index>(points.size()));
   for (const fem::BodyPoint& point : points) {
     rest_m_.col(Count()) = point.rest_m;
     points_.push_back(point.weights);
   }
-  FindParts(model.body().mesh.nodes_m);
-  ShareOut(model.body().mesh.nodes_m);
+  FindParts(body.mesh.nodes_m);
+  ShareOut(body.mesh.nodes_m);
 }
 
 void SurfaceFeatures::FindParts(const Eigen::Matrix3Xd& nodes_m) {
@@ -90,4 +90,4 @@ Eigen::Matrix3Xd SurfaceFeatures::Normals(const Eigen::VectorXd& x_m) const {
   return normals;
 }
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::skin

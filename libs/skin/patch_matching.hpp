@@ -7,14 +7,14 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "components/force_estimation/shape/moving_surface.hpp"
-#include "components/force_estimation/shape/predicted_view.hpp"
-#include "components/force_estimation/shape/robust_mean.hpp"
-#include "components/force_estimation/shape/surface_features.hpp"
-#include "components/force_estimation/shape/surface_matching.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
+#include "libs/skin/feature_match.hpp"
+#include "libs/skin/moving_surface.hpp"
+#include "libs/skin/predicted_view.hpp"
+#include "libs/skin/robust_mean.hpp"
+#include "libs/skin/surface_features.hpp"
 
-namespace palpate::force_estimation {
+namespace palpate::skin {
 
 /// d_m and d_l of one frame, m.
 struct MatchDistances {
@@ -66,4 +66,4 @@ class PatchMatching {
   std::vector<int> touched_;
 };
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::skin

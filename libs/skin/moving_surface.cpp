@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/shape/moving_surface.hpp"
+#include "libs/skin/moving_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "libs/geometry/closest_point.hpp"
 
-namespace palpate::force_estimation {
+namespace palpate::skin {
 
 namespace {
 
@@ -124,4 +124,4 @@ SurfaceFoot MovingSurface::FootOf(const Eigen::Vector3d& point_m, int start) con
   }
 }
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate::skin
