@@ -60,6 +60,8 @@ struct Reference {
 struct StampedFile {
   std::int64_t t_ns = 0;  ///< on the clock of t_s
   std::filesystem::path file;
+
+  double t_s() const { return 1e-9 * static_cast<double>(t_ns); }
 };
 
 /// One folder of recordings/: recording.yaml and the tables beside it. Missing tables are nullopt

@@ -33,4 +33,24 @@ Eigen::VectorXd ValuesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_c
   return values;
 }
 
+Eigen::Matrix3Xd SlopesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_camera_m) {
+  const double z_m = p_camera_m.z();
+  const double x = p_camera_m.x() / (z_m * basis.span);
+  const double y = p_camera_m.y() / (z_m * basis.span);
+  const Eigen::VectorXd values = ValuesAt(basis, p_camera_m);
+  const Eigen::Vector3d of_x(1.0 / (z_m * basis.span), 0.0, -x / z_m);
+  const Eigen::Vector3d of_y(0.0, 1.0 / (z_m * basis.span), -y / z_m);
+  Eigen::Matrix3Xd slopes = Eigen::Matrix3Xd::Zero(3, values.size());
+  Eigen::Index last = 0;
+  for (int degree = 1; degree <= basis.order; ++degree) {
+    const Eigen::Index first = last + degree;
+    for (int k = 0; k < degree; ++k) {
+      slopes.col(first + k) = values[last + k] * of_x + x * slopes.col(last + k);
+    }
+    slopes.col(first + degree) = values[first - 1] * of_y + y * slopes.col(first - 1);
+    last = first;
+  }
+  return slopes;
+}
+
 }  // namespace palpate::geometry

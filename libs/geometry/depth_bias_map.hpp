@@ -27,6 +27,9 @@ std::vector<std::string> NamesOf(const DepthBiasBasis& basis);
 /// [CountOf(basis)] their values at a point, m, z > 0.
 Eigen::VectorXd ValuesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_camera_m);
 
+/// [3 x CountOf(basis)] how they change with the point, 1/m.
+Eigen::Matrix3Xd SlopesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_camera_m);
+
 /// The smooth part by which a depth image errs, as stereo cameras do by 0.2 to 0.5 % of z: a point
 /// that is measured at p (camera frame) is at (1 + b) p, b = sum of coefficients times the basis.
 /// A constant looks like a shift of the camera along its axis, a slope like a turn: seen from a

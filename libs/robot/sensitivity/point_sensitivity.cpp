@@ -7,13 +7,18 @@
 
 namespace palpate::robot {
 
-PointSensitivity::PointSensitivity(RobotModel& model, std::vector<fem::NodeWeights> points)
-    : model_(model),
-      points_(std::move(points)),
-      point_(model),
-      cables_(point_),
-      rows_(model.CableCount() + 3 * static_cast<Eigen::Index>(points_.size())),
-      nodal_(model.elastic_body().rest_m().size()) {}
+PointSensitivity::PointSensitivity(RobotModel& model, std::vector<EffectorRow> rows)
+    : model_(model), point_(model), cables_(point_), nodal_(model.elastic_body().rest_m().size()) {
+  SetRows(std::move(rows));
+}
+
+PointSensitivity::PointSensitivity(RobotModel& model, const std::vector<fem::NodeWeights>& points)
+    : PointSensitivity(model, RowsOfPoints(points)) {}
+
+void PointSensitivity::SetRows(std::vector<EffectorRow> rows) {
+  observed_ = std::move(rows);
+  rows_ = model_.CableCount() + std::ssize(observed_);
+}
 
 Status PointSensitivity::Compute(const std::vector<CableCommand>& cables,
                                  const fem::StaticState& state,
@@ -60,13 +65,12 @@ void PointSensitivity::FillRows() {
   columns_.leftCols(count).setZero();
   Eigen::Index row = 0;
   for (const NodalRow& length : cables_.lengths()) length.AddTo(columns_.col(row++));
-  for (const fem::NodeWeights& point : points_) {
-    for (Eigen::Index i = 0; i < 3; ++i, ++row) {
-      for (size_t k = 0; k < point.nodes.size(); ++k) {
-        const int free_node = matrix.FreeIndex(point.nodes[k]);
-        if (free_node >= 0) columns_(3 * free_node + i, row) += point.weights[k];
-      }
+  for (const EffectorRow& observed : observed_) {
+    for (size_t k = 0; k < observed.nodes.size(); ++k) {
+      const int free_node = matrix.FreeIndex(observed.nodes[k]);
+      if (free_node >= 0) columns_.col(row).segment<3>(3 * free_node) += observed.coefficients[k];
     }
+    ++row;
   }
   for (const NodalRow& angle : cables_.angles()) angle.AddTo(columns_.col(row++));
 }
@@ -123,9 +127,9 @@ void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> paramete
 
 /// What the held nodes carry along at fixed free ones.
 void PointSensitivity::MoveWithBase(Eigen::Index parameter) {
-  for (size_t e = 0; e < points_.size(); ++e) {
-    motion_m_.col(parameter).segment<3>(static_cast<Eigen::Index>(3 * e)) =
-        points_[e].Position(column_.held_motion_m());
+  for (size_t e = 0; e < observed_.size(); ++e) {
+    motion_m_(static_cast<Eigen::Index>(e), parameter) =
+        observed_[e].Value(column_.held_motion_m());
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "libs/core/status.hpp"
 #include "libs/fem/node_weights.hpp"
+#include "libs/robot/effector_row.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/cable_terms.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
@@ -17,8 +18,9 @@
 
 namespace palpate::robot {
 
-/// What SensitivitySolver gives, for points that are known before: the same derivatives by the
-/// adjoint method. With R the rows of the points' coordinates and of the cables' lengths, and K'
+/// What SensitivitySolver gives, for what is observed of the body (a marker's coordinates, a place
+/// of the skin along its normal): the same derivatives by the adjoint method. With R the rows of
+/// what is observed and of the cables' lengths, and K'
 /// the tangent with friction, R' K'^-1 r_p = (K'^-T R)' r_p: as many columns to solve as there are
 /// rows, however many parameters there are, and parameters that load few nodes cost next to
 /// nothing. To be preferred where there are more parameters than coordinates.
@@ -26,7 +28,12 @@ namespace palpate::robot {
 class PointSensitivity {
  public:
   /// `model` must outlive it and keep its mesh.
-  PointSensitivity(RobotModel& model, std::vector<fem::NodeWeights> points);
+  PointSensitivity(RobotModel& model, std::vector<EffectorRow> rows);
+  /// Of x, y and z of each point.
+  PointSensitivity(RobotModel& model, const std::vector<fem::NodeWeights>& points);
+
+  /// What is observed from the next Compute on.
+  void SetRows(std::vector<EffectorRow> rows);
 
   /// As SensitivitySolver::Compute, with the same refusals.
   Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
@@ -34,7 +41,7 @@ class PointSensitivity {
 
   int ParameterCount() const { return static_cast<int>(motion_m_.cols()); }
 
-  /// [3 points x p] motion of the points, m per unit of each parameter.
+  /// [rows x p] motion of what is observed, m per unit of each parameter.
   const Eigen::MatrixXd& motion_m() const { return motion_m_; }
   /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.
   const Eigen::MatrixXd& length_m() const { return length_m_; }
@@ -52,10 +59,10 @@ class PointSensitivity {
   void Clear();
 
   RobotModel& model_;
-  std::vector<fem::NodeWeights> points_;
+  std::vector<EffectorRow> observed_;
   EquilibriumPoint point_;
   CableTerms cables_;
-  Eigen::Index rows_;              ///< lengths of all cables, then the points' coordinates
+  Eigen::Index rows_ = 0;          ///< lengths of all cables, then what is observed
   Eigen::MatrixXd columns_;        ///< [Size x >= rows + turns]
   Eigen::MatrixXd per_force_m_N_;  ///< [rows x 3n] K'^-T R, transposed; 0 in held directions
   ParameterColumn column_;         ///< of one parameter after the other
