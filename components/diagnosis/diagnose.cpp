@@ -15,6 +15,7 @@
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/plan/next_experiment.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/skin/skin_matcher.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::diagnosis {
@@ -62,7 +63,7 @@ std::string RegisterUnknownPoses(const robot::RobotBody& body, int threads,
       if (!simulation.samples[s].status.ok() || !shares(sample)) continue;
       for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
         if (sample.count[m] == 0) continue;
-        robot_m.emplace_back(simulation.samples[s].markers_m.col(m));
+        robot_m.emplace_back(simulation.samples[s].markers_m().col(m));
         measured_m.emplace_back(sample.position_m.col(m));
       }
     }
@@ -101,9 +102,9 @@ std::size_t PlacesOfLoads(const ObservedExperiment& observed) {
 bool SeenFromOnePlace(const ObservedExperiment& observed) {
   const ObservedRecording* first = nullptr;
   for (const ObservedRecording& recording : observed.recordings) {
-    if (!recording.by_depth_camera) continue;
+    if (!recording.by_depth_camera && !recording.T_camera_robot) continue;
     if (first == nullptr) first = &recording;
-    if (!recording.T_measurement_robot.isApprox(first->T_measurement_robot, 1e-6)) return false;
+    if (!recording.T_view_robot().isApprox(first->T_view_robot(), 1e-6)) return false;
   }
   return first != nullptr;
 }
@@ -264,8 +265,52 @@ void PlanNext(const experiment::Experiment& experiment, const ObservedExperiment
   next.ranked = std::move(ranked.front());
 }
 
+/// Of anything that was measured.
 double FirstFrame_s(const experiment::Recording& recording) {
-  return recording.markers->frames.front().t_s;
+  if (recording.markers) return recording.markers->frames.front().t_s;
+  return recording.depth_images.empty() ? recording.clouds.front().t_s()
+                                        : recording.depth_images.front().t_s();
+}
+
+bool HasPictures(const ObservedExperiment& observed) {
+  return std::any_of(observed.samples.begin(), observed.samples.end(),
+                     [](const Sample& sample) { return !sample.pictures.empty(); });
+}
+
+experiment::Experiment WithoutPictures(experiment::Experiment experiment) {
+  for (experiment::Recording& recording : experiment.recordings) {
+    recording.depth_images.clear();
+    recording.color_images.clear();
+    recording.clouds.clear();
+  }
+  return experiment;
+}
+
+/// Looks at the pictures from where the robot file has the robot. Why that tells nothing; empty: it
+/// does.
+std::string LookAtPictures(const robot::RobotBody& body, const DiagnosisSettings& settings,
+                           SkinMatcher* matcher, ObservedExperiment* observed) {
+  observed->feature_rest_m = matcher->rest_m();
+  for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
+    ObservedRecording& recording = observed->recordings[r];
+    if (!recording.T_camera_robot) continue;
+    const rgbd::RgbdCamera camera = settings.pictures->Camera(static_cast<int>(r));
+    recording.focal_px = Eigen::Vector2d(camera.depth.fx_px, camera.depth.fy_px);
+    recording.stereo_px_m = camera.depth.fx_px * camera.baseline_m;
+  }
+  const Simulator simulator(*observed, settings.threads);
+  const ModelDraft draft = DraftOf(body, *observed);
+  const std::vector<ShapesInTime> shapes = simulator.Shapes(draft, simulator.Run(draft));
+  matcher->Look(*observed, shapes, settings.pictures);
+  matcher->Match(draft, shapes, observed);
+  const std::string why = WhyUnfit(*observed, matcher->clouds());
+  if (!why.empty()) return why;
+  if (matcher->outliers() > matcher->matched()) {
+    return "most of what pictures show lies more than 20 mm off the robot: it is another one, or "
+           "the "
+           "camera stands elsewhere than T_robot_camera says";
+  }
+  return {};
 }
 
 }  // namespace
@@ -283,17 +328,26 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
                    const DiagnosisSettings& settings, const ReportStep& report) {
   const TimeLimit limit(settings.longest_s);
   Diagnosis diagnosis;
-  const experiment::Experiment experiment = OnOneClock(as_recorded);
+  const experiment::Experiment experiment =
+      OnOneClock(settings.pictures != nullptr ? as_recorded : WithoutPictures(as_recorded));
   diagnosis.result = Unfit(WhyUnfit(experiment));
   diagnosis.extended = robot;
   DiagnosisResult& result = diagnosis.result;
   if (!result.reason.empty()) return diagnosis;
   const robot::RobotBody body = robot::BuildRobotBody(robot);
-  ObservedExperiment observed =
-      Observe(experiment, body,
-              {.most_samples = settings.most_samples, .depth_cameras = settings.depth_cameras});
+  ObservedExperiment observed = Observe(experiment, body,
+                                        {.most_samples = settings.most_samples,
+                                         .depth_cameras = settings.depth_cameras,
+                                         .with_pictures = settings.pictures != nullptr});
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
+  std::optional<SkinMatcher> matcher;
+  if (HasPictures(observed)) {
+    report(0, settings.most_causes + 3, "looking at the pictures");
+    matcher.emplace(body);
+    result = Unfit(LookAtPictures(body, settings, &*matcher, &observed));
+    if (!result.reason.empty()) return diagnosis;
+  }
   report(0, settings.most_causes + 3, "simulating the robot as its file has it");
   const Simulation simulation = Simulator(observed, settings.threads).Run(DraftOf(body, observed));
   const CauseBook book(MakeCauses({.body = body,
@@ -304,11 +358,18 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
                                   settings.without),
                        CauseTolerances(experiment));
   const Fitter fitter(observed, body, book, settings.noise, settings.threads, limit);
-  const Fit as_built = fitter.AsBuilt(&simulation);
+  Fit as_built = fitter.AsBuilt(&simulation);
   result = Unfit(WhyUnfit(observed, as_built.simulation));
   if (!result.reason.empty()) return diagnosis;
+  LookAgain look_again;
+  if (matcher) {
+    look_again = [&](const Fit& fit) {
+      matcher->Match(fitter.DraftAt(fit), fitter.Shapes(fit), &observed);
+    };
+  }
   const Selection selection =
-      SelectCauses(observed, fitter, as_built, settings.most_causes, report);
+      SelectCauses(observed, fitter, as_built, settings.most_causes, report, look_again);
+  if (matcher) as_built = fitter.Resimulated(std::move(as_built));
   DescribeGap(observed, body, book, as_built, selection, &result);
   for (ComparedMoment& moment : result.moments) {
     const auto r = static_cast<std::size_t>(moment.recording);

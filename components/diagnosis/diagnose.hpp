@@ -12,6 +12,7 @@
 #include "components/diagnosis/diagnosis_result.hpp"
 #include "components/diagnosis/inference/selection.hpp"
 #include "components/diagnosis/plan/plan_files.hpp"
+#include "components/diagnosis/skin/skin_source.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -28,6 +29,9 @@ struct DiagnosisSettings {
   NoiseModel noise;
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};
+  /// What pictures show of the robot, which outlives the diagnosis; nullptr: it is of markers
+  /// alone.
+  SkinSource* pictures = nullptr;
 };
 
 /// What a diagnosis found, for people and for the other verbs.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace palpate::diagnosis {
 
@@ -16,8 +17,8 @@ struct Squares {
   double sum_m2 = 0.0;
   int count = 0;
 
-  void Add(const Eigen::Matrix3Xd& residual_m) {
-    for (const double value : residual_m.reshaped()) {
+  void Add(const Eigen::VectorXd& residual_m) {
+    for (const double value : residual_m) {
       if (std::isnan(value)) continue;
       sum_m2 += value * value;
       ++count;
@@ -32,15 +33,18 @@ struct Squares {
   }
 };
 
-/// [samples] [3 x markers] measured - predicted, measurement frame; NaN: not known.
-using Residuals = std::vector<Eigen::Matrix3Xd>;
+/// [samples] [coordinates] measured - predicted; NaN: not known.
+using Residuals = std::vector<Eigen::VectorXd>;
 
-Eigen::Matrix3Xd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
-                            const Eigen::VectorXd& z) {
+Eigen::VectorXd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
+                           const Eigen::VectorXd& z) {
   const SimulatedSample& simulated = fit.simulation.samples[sample];
   const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - fit.z);
-  return observed.samples[sample].position_m - simulated.markers_m -
-         moved_m.reshaped(3, simulated.markers_m.cols());
+  Eigen::VectorXd measured_m(observed.CoordinateCount());
+  for (Eigen::Index k = 0; k < measured_m.size(); ++k) {
+    measured_m[k] = Measured_m(observed.samples[sample], k);
+  }
+  return measured_m - simulated.seen_m - moved_m;
 }
 
 /// What a shape in which the body was held may be off by is no fault of the simulation: of each
@@ -53,7 +57,7 @@ void TakeOffReference(const ObservedExperiment& observed, int recording, Residua
     double sum_m = 0.0;
     int count = 0;
     for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-      const double value_m = (*residuals_m)[s].reshaped()[k];
+      const double value_m = (*residuals_m)[s][k];
       if (observed.samples[s].recording != recording || std::isnan(value_m)) continue;
       sum_m += value_m;
       ++count;
@@ -61,7 +65,7 @@ void TakeOffReference(const ObservedExperiment& observed, int recording, Residua
     if (count == 0) continue;
     const double off_m = std::clamp(sum_m / count, -most_m, most_m);
     for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-      if (observed.samples[s].recording == recording) (*residuals_m)[s].reshaped()[k] -= off_m;
+      if (observed.samples[s].recording == recording) (*residuals_m)[s][k] -= off_m;
     }
   }
 }
@@ -80,14 +84,37 @@ Residuals ResidualsOf(const ObservedExperiment& observed, const Fit& fit,
   return residuals_m;
 }
 
-Eigen::Matrix3Xd Noise_m(const ObservedExperiment& observed, std::size_t sample) {
+Eigen::VectorXd Noise_m(const ObservedExperiment& observed, std::size_t sample) {
   const Sample& seen = observed.samples[sample];
-  Eigen::Matrix3Xd noise_m(3, seen.count.size());
-  for (Eigen::Index m = 0; m < seen.count.size(); ++m) {
-    noise_m.col(m) = observed.sigma_m / std::sqrt(seen.count[m]);
-    if (seen.count[m] == 0) noise_m.col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::VectorXd noise_m(observed.CoordinateCount());
+  for (Eigen::Index k = 0; k < noise_m.size(); ++k) {
+    noise_m[k] =
+        IsMeasured(seen, k) ? Sigma_m(observed, seen, k) : std::numeric_limits<double>::quiet_NaN();
   }
   return noise_m;
+}
+
+/// Places of what is measured [3 x places], robot frame: residuals of markers as they are, of the
+/// skin along its normal.
+Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
+                        const Eigen::VectorXd& residual_m) {
+  const Sample& seen = observed.samples[sample];
+  const ObservedRecording& recording =
+      observed.recordings[static_cast<std::size_t>(seen.recording)];
+  const Eigen::Index markers = std::ssize(observed.markers);
+  Eigen::Matrix3Xd on_body_m = Eigen::Matrix3Xd::Constant(
+      3, markers + observed.feature_rest_m.cols(), std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Matrix3d R_robot_measurement = recording.T_measurement_robot.linear().transpose();
+  on_body_m.leftCols(markers) =
+      R_robot_measurement * residual_m.head(3 * markers).reshaped(3, markers);
+  for (std::size_t f = 0; f < seen.skin.size(); ++f) {
+    if (seen.skin[f].count == 0) continue;
+    const auto feature = static_cast<Eigen::Index>(f);
+    on_body_m.col(markers + feature) =
+        residual_m[3 * markers + feature] *
+        (recording.T_camera_robot->linear().transpose() * seen.skin[f].normal.normalized());
+  }
+  return on_body_m;
 }
 
 /// Of one recording, over its samples.
@@ -112,9 +139,13 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
     result->cable_units.emplace_back(by_tension ? "N" : "m");
   }
   result->markers = observed.markers;
-  result->marker_rest_m.resize(3, std::ssize(body.markers));
+  result->marker_rest_m.resize(3, std::ssize(body.markers) + observed.feature_rest_m.cols());
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     result->marker_rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+  }
+  result->marker_rest_m.rightCols(observed.feature_rest_m.cols()) = observed.feature_rest_m;
+  for (Eigen::Index f = 0; f < observed.feature_rest_m.cols(); ++f) {
+    result->markers.push_back("skin " + std::to_string(f + 1));
   }
   result->surface_m = body.mesh.nodes_m;
   const Eigen::Matrix3Xi triangles = body.boundary.CornerTriangles();
@@ -174,13 +205,11 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     sums[r].heldout_after.Add(heldout_after_m[s]);
     sums[r].noise.Add(Noise_m(observed, s));
     ++sums[r].samples;
-    const Eigen::Matrix3d R_robot_measurement =
-        observed.recordings[r].T_measurement_robot.linear().transpose();
     result->moments.push_back({.recording = sample.recording,
                                .t_s = sample.t_s,
                                .command = observed.timeline.CommandAt(sample.t_s),
-                               .before_m = R_robot_measurement * before_m[s],
-                               .after_m = R_robot_measurement * after_m[s]});
+                               .before_m = OnBody(observed, s, before_m[s]),
+                               .after_m = OnBody(observed, s, after_m[s])});
   }
   Sums all;
   for (std::size_t r = 0; r < sums.size(); ++r) {

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/diagnose.hpp"
@@ -16,7 +17,9 @@
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
 #include "components/palpate/choose_recordings.hpp"
+#include "components/palpate/diagnose/skin_pictures.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/version.hpp"
@@ -65,6 +68,24 @@ std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experi
   return cameras;
 }
 
+/// What of the experiment is to be looked at.
+experiment::Experiment ReadData(const DiagnoseOptions& options) {
+  experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+  if (options.from != "pictures") return experiment;
+  for (experiment::Recording& recording : experiment.recordings) recording.markers.reset();
+  return experiment;
+}
+
+/// Thousands of points would tell no more of some fifty features than a third of them.
+perception::Config PictureSettings(const DiagnoseOptions& options,
+                                   const experiment::Experiment& experiment) {
+  constexpr int kEnoughPoints = 4000;
+  std::vector<std::string> overrides = {"perception.max_cloud_points=" +
+                                        std::to_string(kEnoughPoints)};
+  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+  return PerceptionOf(overrides, experiment);
+}
+
 /// What is wrong with the data is a verdict; what is wrong with the robot or the options is not.
 diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot) {
@@ -76,8 +97,12 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
     fmt::print(stderr, "{} of {}: {}\n", done + 1, of, what);
   };
   try {
-    const experiment::Experiment experiment =
-        experiment::ReadExperiment(options.data, app::LoadYaml);
+    const experiment::Experiment experiment = ReadData(options);
+    const robot::RobotBody body = robot::BuildRobotBody(robot);
+    std::optional<SkinPictures> pictures;
+    if (options.from != "markers" && HasPictures(experiment)) {
+      pictures.emplace(experiment, body, PictureSettings(options, experiment));
+    }
     diagnosis::Diagnosis diagnosis =
         diagnosis::Diagnose(robot, experiment,
                             {.without = SplitAtCommas(options.without),
@@ -85,7 +110,8 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                              .threads = options.threads,
                              .longest_s = 60.0 * options.most_minutes,
                              .noise = {},
-                             .depth_cameras = DepthCamerasOf(experiment)},
+                             .depth_cameras = DepthCamerasOf(experiment),
+                             .pictures = pictures ? &*pictures : nullptr},
                             report);
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;
@@ -151,6 +177,7 @@ int Diagnose(const DiagnoseOptions& options) {
     CheckCause(id, diagnosis::CatalogueIds());
   }
   if (!options.explain.empty()) CheckCause(options.explain, diagnosis::KnownCauses());
+  PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
@@ -159,9 +186,11 @@ int Diagnose(const DiagnoseOptions& options) {
   result.robot = robot.name;
   result.data = options.data.string();
   result.version = app::Version();
-  result.command = fmt::format("palpate diagnose {} --data {} --out {}{}{}", options.robot.string(),
-                               options.data.string(), options.out.string(),
-                               options.without.empty() ? "" : " --without ", options.without);
+  result.command = fmt::format("palpate diagnose {} --data {} --out {}{}{}{}{}",
+                               options.robot.string(), options.data.string(), options.out.string(),
+                               options.without.empty() ? "" : " --without ", options.without,
+                               options.from == "all" ? "" : " --from ",
+                               options.from == "all" ? "" : options.from);
   result.duration_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Write(options.out, &diagnosis);
@@ -189,6 +218,10 @@ app::Verb DiagnoseVerb() {
             arguments.Option("--without", &options->without,
                              "causes that are not believed in, ID[,ID]");
             arguments.Option("--explain", &options->explain, "cause: say why it was not named");
+            arguments.Choice("--from", &options->from, {"all", "markers", "pictures"},
+                             "what of the data is looked at; pictures are depth images and clouds");
+            arguments.Repeated("--set", &options->overrides,
+                               "how perception sees the robot in pictures, perception.KEY=VALUE");
             arguments.Flag("--plan", &options->plan,
                            "write the next experiment, as files that a person, a robot or the "
                            "virtual bench can run, into OUT/plan");

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "libs/app/verbs.hpp"
 
@@ -12,10 +13,12 @@ namespace palpate::command {
 
 struct DiagnoseOptions {
   std::filesystem::path robot;
-  std::filesystem::path data;  ///< experiment folder
-  std::filesystem::path out;   ///< folder, made where it is not there
-  std::string without;         ///< ids of causes, separated by commas
-  std::string explain;         ///< id of a cause that a person wonders about
+  std::filesystem::path data;          ///< experiment folder
+  std::filesystem::path out;           ///< folder, made where it is not there
+  std::string without;                 ///< ids of causes, separated by commas
+  std::string explain;                 ///< id of a cause that a person wonders about
+  std::string from = "all";            ///< all | markers | pictures: what of the data is looked at
+  std::vector<std::string> overrides;  ///< perception.*=VALUE
   int most_samples = 120;
   int threads = 2;
   int most_minutes = 10;  ///< after which no further cause is looked for; 0: without an end

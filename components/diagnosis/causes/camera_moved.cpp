@@ -21,18 +21,20 @@ class CameraMoved final : public Cause {
               "camera moved before recording " + NameOf(recordings, from_recording),
               {Move(), Move(), Move(), Turn(), Turn(), Turn()}),
         from_recording_(from_recording),
-        middle_m_(recordings[static_cast<std::size_t>(from_recording)].T_measurement_robot *
-                  middle_m) {
+        middle_m_(recordings[static_cast<std::size_t>(from_recording)].T_view_robot() * middle_m) {
     for (const ObservedRecording& one : recordings) {
-      T_measurement_robot_.push_back(one.T_measurement_robot);
+      T_view_robot_.push_back(one.T_view_robot());
+      moves_markers_.push_back(one.camera_frame || !one.T_camera_robot);
     }
   }
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
-    for (auto k = static_cast<std::size_t>(from_recording_); k < T_measurement_robot_.size(); ++k) {
-      const Eigen::Isometry3d& T = T_measurement_robot_[k];
-      draft->T_seen[k] = T.inverse() * moved * T * draft->T_seen[k];
+    for (auto k = static_cast<std::size_t>(from_recording_); k < T_view_robot_.size(); ++k) {
+      const Eigen::Isometry3d& T = T_view_robot_[k];
+      const Eigen::Isometry3d in_robot_frame = T.inverse() * moved * T;
+      if (moves_markers_[k]) draft->T_seen[k] = in_robot_frame * draft->T_seen[k];
+      draft->T_skin_seen[k] = in_robot_frame * draft->T_skin_seen[k];
     }
   }
 
@@ -40,10 +42,13 @@ class CameraMoved final : public Cause {
               Eigen::Matrix3Xd* motion_m) const override {
     const ObservedRecording& recording = at.recording();
     const int from = recording.pose_of >= 0 ? recording.pose_of : at.seen().recording;
-    if (from < from_recording_) return;
-    const Eigen::Isometry3d& T_seen = at.draft.T_seen[static_cast<std::size_t>(from)];
+    const auto source = static_cast<std::size_t>(from);
+    const bool moves = at.target == Target::kSkin || moves_markers_[source];
+    if (from < from_recording_ || !moves) return;
+    const Eigen::Isometry3d& T_seen =
+        at.target == Target::kSkin ? at.draft.T_skin_seen[source] : at.draft.T_seen[source];
     const Eigen::Isometry3d T_after =
-        T_seen * recording.T_measurement_robot.inverse() * SeenMove(z, middle_m_).inverse();
+        T_seen * at.T_measurement_robot().inverse() * SeenMove(z, middle_m_).inverse();
     AddSeenMove(parameter, z, middle_m_, T_after, at, motion_m);
   }
 
@@ -72,7 +77,8 @@ class CameraMoved final : public Cause {
 
   int from_recording_;
   Eigen::Vector3d middle_m_;  ///< of the body, measurement frame of that recording
-  std::vector<Eigen::Isometry3d> T_measurement_robot_;  ///< [recordings] that were made
+  std::vector<Eigen::Isometry3d> T_view_robot_;  ///< [recordings] that were made
+  std::vector<bool> moves_markers_;              ///< [recordings] and not what pictures show alone
 };
 
 }  // namespace
@@ -81,7 +87,7 @@ void MakeCameraMoved(const CauseWorld& world, std::vector<CausePtr>* causes) {
   const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
   const std::vector<ObservedRecording>& recordings = world.observed.recordings;
   for (std::size_t k = 1; k < recordings.size(); ++k) {
-    if (!recordings[k].camera_frame) continue;
+    if (!recordings[k].camera_frame && !recordings[k].T_camera_robot) continue;
     causes->push_back(std::make_unique<CameraMoved>(static_cast<int>(k), recordings, middle_m));
   }
 }

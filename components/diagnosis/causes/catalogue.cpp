@@ -85,6 +85,9 @@ std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std:
     if (!IndexOf(entry.id, without)) entry.make(world, &causes);
   }
   MakeExtrinsics(world, &causes);
+  MakeDepthBias(world, &causes);
+  MakeStereoRipple(world, &causes);
+  MakeSkinOffset(world, &causes);
   return causes;
 }
 

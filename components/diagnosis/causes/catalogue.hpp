@@ -21,8 +21,8 @@ struct CauseWorld {
 };
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and
-/// `extrinsics`, which is never a fault. `without`: ids that are left out. Throws InputError for
-/// one that is not of the catalogue.
+/// `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never faults.
+/// `without`: ids that are left out. Throws InputError for one that is not of the catalogue.
 std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
 
 /// Ids of the catalogue that are looked for.

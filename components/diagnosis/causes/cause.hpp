@@ -66,7 +66,9 @@ struct CauseMoment {
   const HeldShape& shape;    ///< one of the sample's
   robot::RobotModel& model;  ///< its linearisation is at that shape
   const fem::PointStress& points;
-  Sight sight = {};  ///< the markers of that shape, where a cause is asked what it shows
+  /// Of that shape, where a cause is asked what it shows.
+  Target target = Target::kMarkers;
+  Sight sight = {};
 
   const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
   const SimulatedSample& simulated() const {
@@ -74,6 +76,10 @@ struct CauseMoment {
   }
   const ObservedRecording& recording() const {
     return observed.recordings[static_cast<std::size_t>(seen().recording)];
+  }
+  /// From where the target is measured.
+  const Eigen::Isometry3d& T_measurement_robot() const {
+    return target == Target::kSkin ? *recording().T_camera_robot : recording().T_measurement_robot;
   }
 };
 
@@ -128,12 +134,13 @@ class Cause {
                                      const CauseMoment& at) const;
   /// What it does that no small z can say; none: nothing.
   virtual std::optional<Push> PushOf(const Eigen::VectorXd& z, const CauseMoment& at) const;
-  /// Adds what it does to where markers are seen with the body where it is, [3 x markers], m,
-  /// frame of the robot as it is seen (ModelDraft::T_seen).
+  /// Adds what it does to where markers, or features of the skin, are seen with the body where it
+  /// is, [3 x markers or features], m, frame of the robot as it is seen (ModelDraft::T_seen,
+  /// T_skin_seen).
   virtual void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
                       Eigen::Matrix3Xd* motion_m) const;
-  /// Adds what it does to where a depth camera measures markers (CauseMoment::sight has one) that
-  /// stay where they are, [3 x markers], m, that camera's frame.
+  /// Adds what it does to where a depth camera measures them (CauseMoment::sight has one) while
+  /// they stay where they are, [3 x markers or features], m, that camera's frame.
   virtual void OnMeasurement(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
                              Eigen::Matrix3Xd* motion_m) const;
 

@@ -51,7 +51,8 @@ void MakeIntrinsics(const CauseWorld& world, std::vector<CausePtr>* causes) {
   const auto& recordings = world.observed.recordings;
   const bool with_centre =
       std::all_of(recordings.begin(), recordings.end(), [](const ObservedRecording& recording) {
-        return !recording.by_depth_camera || recording.focal_px.has_value();
+        const bool seen = recording.by_depth_camera || recording.T_camera_robot;
+        return !seen || recording.focal_px.has_value();
       });
   causes->push_back(std::make_unique<Intrinsics>(with_centre));
 }

@@ -44,5 +44,8 @@ void MakeLensDistortion(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeWarmUpDrift(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeDepthBias(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeStereoRipple(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeSkinOffset(const CauseWorld& world, std::vector<CausePtr>* causes);
 
 }  // namespace palpate::diagnosis

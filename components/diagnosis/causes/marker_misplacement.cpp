@@ -35,6 +35,7 @@ class MarkerMisplacement final : public Cause {
 
   void OnView(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
               Eigen::Matrix3Xd* motion_m) const override {
+    if (at.target != Target::kMarkers) return;
     const auto recording = static_cast<std::size_t>(at.seen().recording);
     motion_m->col(index_) +=
         at.draft.T_seen[recording].linear() *
@@ -57,6 +58,11 @@ class MarkerMisplacement final : public Cause {
 }  // namespace
 
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes) {
+  const bool only_skin =
+      world.observed.HasSkin() &&
+      std::all_of(world.observed.samples.begin(), world.observed.samples.end(),
+                  [](const Sample& sample) { return (sample.count.array() == 0).all(); });
+  if (only_skin) return;
   const fem::PointLocator locator(world.body.mesh);
   for (std::size_t m = 0; m < world.body.markers.size(); ++m) {
     causes->push_back(

@@ -36,12 +36,11 @@ Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
 void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
                  const Eigen::Isometry3d& T_after, const CauseMoment& at,
                  Eigen::Matrix3Xd* motion_m) {
-  const Eigen::Isometry3d T_moved_measurement =
-      (at.recording().T_measurement_robot * T_after).inverse();
+  const Eigen::Isometry3d T_moved_measurement = (at.T_measurement_robot() * T_after).inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     // What a depth camera with errors measured is not where it saw it.
     const Eigen::Vector3d measured_m =
-        at.sight.camera ? at.sight.point(m).at_m : at.simulated().markers_m.col(m);
+        at.sight.camera ? at.sight.point(m).at_m : at.simulated().markers_m().col(m);
     const Eigen::Vector3d seen_m = T_moved_measurement * measured_m;
     const Eigen::Vector3d move =
         parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))

@@ -89,7 +89,84 @@ bool IsShuffled(const Recording& recording, const Eigen::Vector3d& sigma_m) {
          markers.Ratio() > kMoreThanCommands * OfCommands(recording).Ratio();
 }
 
+/// Pictures of one recording that were matched, by time.
+std::vector<const SeenCloud*> CloudsOf(const ObservedExperiment& observed, const SkinClouds& clouds,
+                                       std::size_t recording) {
+  std::vector<const SeenCloud*> seen;
+  for (std::size_t s = 0; s < clouds.size(); ++s) {
+    if (static_cast<std::size_t>(observed.samples[s].recording) != recording) continue;
+    for (const SeenCloud& one : clouds[s]) {
+      if (one.height_m.size() > 0) seen.push_back(&one);
+    }
+  }
+  return seen;
+}
+
+/// The whole of a picture, down to its noise, is never the same twice.
+bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
+  constexpr std::size_t kFewestPairs = 3;
+  constexpr double kShare = 0.3;
+  std::size_t same = 0;
+  for (std::size_t k = 1; k < clouds.size(); ++k) {
+    if (clouds[k]->digest == clouds[k - 1]->digest) ++same;
+  }
+  const std::size_t pairs = clouds.empty() ? 0 : clouds.size() - 1;
+  return pairs >= kFewestPairs && static_cast<double>(same) > kShare * static_cast<double>(pairs);
+}
+
+/// The skin lies off where it is thought to be as smoothly as the body moves.
+bool IsShuffled(const std::vector<const SeenCloud*>& clouds) {
+  constexpr double kJumpy = 0.5;
+  constexpr double kOff_m = 2e-3;  // RMS, far beyond what cameras jump by
+  constexpr std::size_t kFewest = 6;
+  if (clouds.empty()) return false;
+  Jumpiness jumpiness;
+  std::size_t values = 0;
+  for (Eigen::Index f = 0; f < clouds.front()->height_m.size(); ++f) {
+    std::vector<Eigen::Vector3d> series;
+    for (const SeenCloud* one : clouds) {
+      if (std::isfinite(one->height_m[f])) series.emplace_back(one->height_m[f], 0.0, 0.0);
+    }
+    if (series.size() < kFewest) continue;
+    jumpiness.Add(series);
+    values += series.size();
+  }
+  return jumpiness.variance > kOff_m * kOff_m * static_cast<double>(values) &&
+         jumpiness.Ratio() > kJumpy;
+}
+
 }  // namespace
+
+std::string WhyUnfit(const ObservedExperiment& observed, const SkinClouds& clouds) {
+  std::size_t seen = 0;
+  std::size_t pictures = 0;
+  std::string why_not;
+  for (const std::vector<SeenCloud>& of_sample : clouds) {
+    for (const SeenCloud& one : of_sample) {
+      ++pictures;
+      if (one.cloud.Count() > 0) ++seen;
+      if (one.cloud.Count() == 0) why_not = one.why_not;
+    }
+  }
+  constexpr std::size_t kFewestShare = 2;  // one in so many
+  if (kFewestShare * seen < pictures) {
+    return "the robot is seen in " + FormatNumber(static_cast<double>(seen)) + " of " +
+           FormatNumber(static_cast<double>(pictures)) +
+           " pictures: " + (why_not.empty() ? "they are empty" : why_not);
+  }
+  for (std::size_t r = 0; r < observed.recordings.size(); ++r) {
+    const std::vector<const SeenCloud*> of_recording = CloudsOf(observed, clouds, r);
+    const std::string who = "recording " + observed.recordings[r].name;
+    if (IsFrozen(of_recording)) {
+      return who + ": pictures are the same to the last digit: the camera stood still";
+    }
+    if (IsShuffled(of_recording)) {
+      return who +
+             ": the clouds jump to and fro while the cables go on: the stamps are in disorder";
+    }
+  }
+  return {};
+}
 
 std::string WhyUnfit(const experiment::Experiment& experiment) {
   bool actuated = false;
@@ -97,11 +174,13 @@ std::string WhyUnfit(const experiment::Experiment& experiment) {
     actuated = actuated || recording.actuation.has_value();
   }
   for (const Recording& recording : experiment.recordings) {
-    if (!recording.markers) continue;
     const std::string who = "recording " + recording.name;
-    if (actuated && !recording.actuation) {
+    const bool measured =
+        recording.markers || !recording.depth_images.empty() || !recording.clouds.empty();
+    if (measured && actuated && !recording.actuation) {
       return who + " has no actuation.csv, which others have: what the cables did is not known";
     }
+    if (!recording.markers) continue;
     if (IsFrozen(recording)) {
       return who + ": the markers stay the same to the last digit: the camera stood still";
     }
@@ -126,12 +205,12 @@ std::string WhyUnfit(const ObservedExperiment& observed, const Simulation& as_bu
       continue;
     }
     std::vector<Eigen::Index> seen;
-    for (Eigen::Index m = 0; m < simulated.markers_m.cols(); ++m) {
+    for (Eigen::Index m = 0; m < simulated.markers; ++m) {
       if (observed.samples[s].count[m] > 0) seen.push_back(m);
     }
     if (seen.size() < 3) continue;
     const Eigen::Matrix3Xd measured_m = observed.samples[s].position_m(Eigen::all, seen);
-    const Eigen::Matrix3Xd expected_m = simulated.markers_m(Eigen::all, seen);
+    const Eigen::Matrix3Xd expected_m = simulated.markers_m()(Eigen::all, seen);
     spread_measured_m += (measured_m.colwise() - measured_m.rowwise().mean()).norm();
     spread_simulated_m += (expected_m.colwise() - expected_m.rowwise().mean()).norm();
   }
@@ -140,6 +219,7 @@ std::string WhyUnfit(const ObservedExperiment& observed, const Simulation& as_bu
            FormatNumber(static_cast<double>(observed.samples.size())) +
            " moments: " + as_built.status.message();
   }
+  if (spread_simulated_m == 0.0 && observed.HasSkin()) return {};
   if (spread_simulated_m == 0.0) return "no moment has three markers";
   const double size = spread_measured_m / spread_simulated_m;
   if (std::abs(size - 1.0) > kOtherSize) {

@@ -52,7 +52,17 @@ bool CountsFromUndeformed(const Recording& recording) {
          recording.reference->shape == experiment::ReferenceShape::kUndeformed;
 }
 
-ObservedRecording Describe(const experiment::Experiment& experiment, const Recording& recording) {
+std::vector<Picture> PicturesOf(const Recording& recording) {
+  const auto& files = recording.depth_images.empty() ? recording.clouds : recording.depth_images;
+  std::vector<Picture> pictures;
+  for (const experiment::StampedFile& file : files) {
+    pictures.push_back({static_cast<int>(pictures.size()), file.t_s()});
+  }
+  return pictures;
+}
+
+ObservedRecording Describe(const experiment::Experiment& experiment, const Recording& recording,
+                           bool with_pictures) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
   seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
   const auto pose = RobotFromMarkers(experiment, recording);
@@ -60,6 +70,11 @@ ObservedRecording Describe(const experiment::Experiment& experiment, const Recor
     seen.T_measurement_robot = T_robot_measurement->inverse();
   } else {
     seen.knows_pose = false;
+  }
+  if (with_pictures && !PicturesOf(recording).empty()) {
+    const auto camera = RobotFromCamera(experiment, recording);
+    const auto* T_robot_camera = std::get_if<Eigen::Isometry3d>(&camera);
+    if (T_robot_camera != nullptr) seen.T_camera_robot = T_robot_camera->inverse();
   }
   seen.base_rotation = experiment::BaseRotation(recording);
   if (CountsFromUndeformed(recording)) seen.held_until_s = recording.reference->window_s.end_s;
@@ -95,25 +110,29 @@ Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>&
   return off_m;
 }
 
-/// The frames of a window; those at which a load comes or goes belong to neither side.
+/// Of a frame; those at which a load comes or goes belong to neither side.
+bool IsInside(const Recording& recording, double t_s, const TimeWindow& window, bool first) {
+  bool turns = false;
+  for (const auto& load : recording.loads) {
+    turns = turns || (load.t_s == t_s && t_s > recording.loads.front().t_s);
+  }
+  return !turns && t_s <= window.end_s &&
+         (t_s > window.begin_s || (first && t_s >= window.begin_s));
+}
+
 std::vector<const MarkerFrame*> FramesIn(const Recording& recording, const TimeWindow& window,
                                          bool first) {
   std::vector<const MarkerFrame*> frames;
+  if (!recording.markers) return frames;
   for (const MarkerFrame& frame : recording.markers->frames) {
-    const bool inside = frame.t_s <= window.end_s &&
-                        (frame.t_s > window.begin_s || (first && frame.t_s >= window.begin_s));
-    bool turns = false;
-    for (const auto& load : recording.loads) {
-      turns = turns || (load.t_s == frame.t_s && frame.t_s > recording.loads.front().t_s);
-    }
-    if (inside && !turns) frames.push_back(&frame);
+    if (IsInside(recording, frame.t_s, window, first)) frames.push_back(&frame);
   }
   return frames;
 }
 
-Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<int>& columns) {
+Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<int>& columns,
+               Eigen::Index markers) {
   Sample sample;
-  const auto markers = static_cast<Eigen::Index>(columns.size());
   sample.position_m = Eigen::Matrix3Xd::Zero(3, markers);
   sample.count = Eigen::VectorXi::Zero(markers);
   for (const MarkerFrame* frame : frames) {
@@ -135,6 +154,30 @@ Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<
   return sample;
 }
 
+/// A few of those in a window: as many as a motion has parts (DriveTrain::PartsAt).
+std::vector<Picture> Few(const Recording& recording, const std::vector<Picture>& pictures,
+                         const TimeWindow& window, bool first) {
+  constexpr std::size_t kMost = 5;
+  std::vector<Picture> inside;
+  for (const Picture& picture : pictures) {
+    if (IsInside(recording, picture.t_s, window, first)) inside.push_back(picture);
+  }
+  if (inside.size() <= kMost) return inside;
+  std::vector<Picture> few;
+  for (std::size_t k = 0; k < kMost; ++k) {
+    few.push_back(inside[(2 * k + 1) * inside.size() / (2 * kMost)]);
+  }
+  return few;
+}
+
+/// A sample that only pictures were taken of.
+void TakeStamps(const std::vector<Picture>& pictures, Sample* sample) {
+  for (const Picture& picture : pictures) {
+    sample->frame_t_s.push_back(picture.t_s);
+    sample->t_s += picture.t_s / static_cast<double>(pictures.size());
+  }
+}
+
 /// The samples of one recording.
 class Sampler {
  public:
@@ -143,10 +186,15 @@ class Sampler {
       : recording_(recording),
         index_(index),
         timeline_(observed.timeline),
-        columns_(ColumnsOf(recording, observed.markers)),
-        reference_m_(ReferenceOf(
-            recording, columns_, body,
-            observed.recordings[static_cast<std::size_t>(index)].T_measurement_robot)) {}
+        marker_count_(std::ssize(observed.markers)) {
+    const auto& seen = observed.recordings[static_cast<std::size_t>(index)];
+    if (seen.T_camera_robot) pictures_ = PicturesOf(recording);
+    if (!recording.markers) return;
+    columns_ = ColumnsOf(recording, observed.markers);
+    reference_m_ = ReferenceOf(recording, columns_, body, seen.T_measurement_robot);
+  }
+
+  bool HasSomething() const { return recording_.markers || !pictures_.empty(); }
 
   void AddTo(const Cut& cut, std::vector<Sample>* samples, Scatter* scatter) const {
     const auto i = static_cast<std::size_t>(index_);
@@ -156,11 +204,15 @@ class Sampler {
     for (const Piece& piece : PiecesOf(recording_, timeline_, span.begin_s, span.end_s)) {
       bool begins_piece = true;
       for (const TimeWindow& window : WindowsOf(piece, WindowCount(piece, cut))) {
-        const auto frames = FramesIn(recording_, window, std::exchange(first, false));
-        if (frames.empty()) continue;
+        const bool is_first = std::exchange(first, false);
+        const auto frames = FramesIn(recording_, window, is_first);
+        const std::vector<Picture> pictures = Few(recording_, pictures_, window, is_first);
+        if (frames.empty() && pictures.empty()) continue;
         scatter->Add(frames);
-        Sample sample = Average(frames, columns_);
+        Sample sample = Average(frames, columns_, marker_count_);
+        if (frames.empty()) TakeStamps(pictures, &sample);
         if (reference_m_.size() > 0) sample.position_m -= reference_m_;
+        sample.pictures = pictures;
         sample.recording = index_;
         sample.piece_begin_s = piece.begin_s;
         sample.piece_end_s = piece.end_s;
@@ -177,15 +229,18 @@ class Sampler {
   const Recording& recording_;
   int index_;
   const Timeline& timeline_;
-  std::vector<int> columns_;
+  Eigen::Index marker_count_;
+  std::vector<int> columns_;  ///< empty: the recording has no markers
   Eigen::Matrix3Xd reference_m_;
+  std::vector<Picture> pictures_;
 };
 
 /// A depth camera measures nothing behind itself.
 void FindDepthCameras(const std::map<std::string, rgbd::CameraModel>& cameras,
                       ObservedExperiment* observed) {
   for (ObservedRecording& recording : observed->recordings) {
-    recording.by_depth_camera = recording.camera_frame && !recording.held_until_s;
+    recording.by_depth_camera =
+        recording.camera_frame && !recording.held_until_s && !recording.T_camera_robot;
     const auto camera = cameras.find(recording.name);
     if (camera == cameras.end()) continue;
     recording.focal_px = Eigen::Vector2d(camera->second.fx_px, camera->second.fy_px);
@@ -197,11 +252,46 @@ void FindDepthCameras(const std::map<std::string, rgbd::CameraModel>& cameras,
   }
 }
 
+std::string WhatIsMissing(const experiment::Experiment& experiment,
+                          const ObservationSettings& settings) {
+  const bool pictures =
+      std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
+                  [](const Recording& recording) { return !PicturesOf(recording).empty(); });
+  if (!settings.with_pictures) return ": no recording has markers.csv";
+  if (!pictures) return ": no recording has markers.csv, depth/ or clouds/";
+  return ": nobody says where the camera stood that took its pictures: write T_robot_camera into "
+         "experiment.yaml (palpate calibrate finds it)";
+}
+
 }  // namespace
 
 bool HasDepthCamera(const ObservedExperiment& observed) {
   return std::any_of(observed.recordings.begin(), observed.recordings.end(),
-                     [](const ObservedRecording& recording) { return recording.by_depth_camera; });
+                     [](const ObservedRecording& recording) {
+                       return recording.by_depth_camera || recording.T_camera_robot;
+                     });
+}
+
+bool IsMeasured(const Sample& sample, Eigen::Index coordinate) {
+  const Eigen::Index of_markers = 3 * sample.count.size();
+  if (coordinate < of_markers) return sample.count[coordinate / 3] > 0;
+  const auto feature = static_cast<std::size_t>(coordinate - of_markers);
+  return feature < sample.skin.size() && sample.skin[feature].count > 0;
+}
+
+double Measured_m(const Sample& sample, Eigen::Index coordinate) {
+  if (!IsMeasured(sample, coordinate)) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Index of_markers = 3 * sample.count.size();
+  if (coordinate < of_markers) return sample.position_m.reshaped()[coordinate];
+  return sample.skin[static_cast<std::size_t>(coordinate - of_markers)].measured_m;
+}
+
+double Sigma_m(const ObservedExperiment& observed, const Sample& sample, Eigen::Index coordinate) {
+  const Eigen::Index of_markers = 3 * sample.count.size();
+  if (coordinate >= of_markers) {
+    return sample.skin[static_cast<std::size_t>(coordinate - of_markers)].sigma_m;
+  }
+  return observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[coordinate / 3]);
 }
 
 ObservedExperiment Observe(const experiment::Experiment& experiment, const robot::RobotBody& body,
@@ -214,13 +304,13 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
   for (std::size_t i = 0; i < experiment.recordings.size(); ++i) {
     const Recording& recording = experiment.recordings[i];
     CheckCables(recording, cables);
-    observed.recordings.push_back(Describe(experiment, recording));
-    if (!recording.markers) continue;
-    CheckMarkers(recording, observed.markers);
-    samplers.emplace_back(recording, static_cast<int>(i), body, observed);
+    observed.recordings.push_back(Describe(experiment, recording, settings.with_pictures));
+    if (recording.markers) CheckMarkers(recording, observed.markers);
+    const Sampler sampler(recording, static_cast<int>(i), body, observed);
+    if (sampler.HasSomething()) samplers.push_back(sampler);
   }
   if (samplers.empty()) {
-    throw InputError(experiment.folder.string() + ": no recording has markers.csv");
+    throw InputError(experiment.folder.string() + WhatIsMissing(experiment, settings));
   }
   Scatter scatter;
   for (Cut cut; cut.of_motion > 0; --cut.of_motion, cut.of_hold = std::max(1, cut.of_hold - 1)) {

@@ -4,6 +4,7 @@
 #include "components/diagnosis/data/one_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace palpate::diagnosis {
@@ -26,6 +27,9 @@ experiment::TimeWindow SpanOf(const experiment::Recording& recording) {
   if (recording.markers && !recording.markers->frames.empty()) {
     add(recording.markers->frames.front().t_s, recording.markers->frames.back().t_s);
   }
+  for (const auto* files : {&recording.depth_images, &recording.clouds}) {
+    if (!files->empty()) add(files->front().t_s(), files->back().t_s());
+  }
   return span;
 }
 
@@ -40,6 +44,9 @@ void Shift(double by_s, experiment::Recording* recording) {
   }
   if (recording->markers) {
     for (experiment::MarkerFrame& frame : recording->markers->frames) frame.t_s += by_s;
+  }
+  for (auto* files : {&recording->depth_images, &recording->color_images, &recording->clouds}) {
+    for (experiment::StampedFile& file : *files) file.t_ns += std::llround(1e9 * by_s);
   }
   for (experiment::KnownLoad& load : recording->loads) load.t_s += by_s;
   if (recording->reference) Shift(by_s, &recording->reference->window_s);

@@ -37,6 +37,9 @@ double FirstStamp(const experiment::Recording& recording) {
   double t_s = std::numeric_limits<double>::infinity();
   if (recording.actuation) t_s = recording.actuation->t_s.front();
   if (recording.markers) t_s = std::min(t_s, recording.markers->frames.front().t_s);
+  for (const auto* files : {&recording.depth_images, &recording.clouds}) {
+    if (!files->empty()) t_s = std::min(t_s, files->front().t_s());
+  }
   return std::isfinite(t_s) ? t_s : 0.0;
 }
 
@@ -44,6 +47,9 @@ double LastStamp(const experiment::Recording& recording) {
   double t_s = -std::numeric_limits<double>::infinity();
   if (recording.actuation) t_s = recording.actuation->t_s.back();
   if (recording.markers) t_s = std::max(t_s, recording.markers->frames.back().t_s);
+  for (const auto* files : {&recording.depth_images, &recording.clouds}) {
+    if (!files->empty()) t_s = std::max(t_s, files->back().t_s());
+  }
   return std::isfinite(t_s) ? t_s : 0.0;
 }
 

@@ -80,6 +80,26 @@ Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   return fit;
 }
 
+Fit Fitter::Resimulated(Fit fit) const {
+  std::vector<Eigen::MatrixXd> jacobians_m;
+  for (const SimulatedSample& sample : fit.simulation.samples)
+    jacobians_m.push_back(sample.jacobian_m);
+  fit.simulation = simulator_.Run(DraftAt(fit), &fit.simulation, Detail::kAllParts);
+  fit.status = fit.simulation.status;
+  for (std::size_t s = 0; s < jacobians_m.size(); ++s)
+    fit.simulation.samples[s].jacobian_m = std::move(jacobians_m[s]);
+  return fit;
+}
+
+Fit Fitter::SeenAnew(Fit fit) const {
+  Fit anew = Resimulated(std::move(fit));
+  if (!anew.status.ok()) return anew;
+  anew.model = {};
+  anew.complete = false;
+  anew.arrived = false;
+  return InAllDetail(std::move(anew));
+}
+
 Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
   Fit moved;
   moved.faults = fit.faults;

@@ -52,6 +52,17 @@ class Fitter {
   /// further until the data fit where it leads as well as it promises. One that could not be
   /// simulated stays as it is.
   Fit Complete(Fit fit) const;
+  /// A fit where it is, of measurements that have changed since (the skin matched anew), in all
+  /// detail; it may lead elsewhere now.
+  Fit SeenAnew(Fit fit) const;
+  /// The same without what causes do there.
+  Fit Resimulated(Fit fit) const;
+  /// The robot as a fit has it.
+  ModelDraft DraftAt(const Fit& fit) const { return DraftWith(nominal_, causes_, fit.z); }
+  /// [samples] where it is while pictures are taken.
+  std::vector<ShapesInTime> Shapes(const Fit& fit) const {
+    return simulator_.Shapes(DraftAt(fit), fit.simulation);
+  }
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
 

@@ -70,28 +70,34 @@ void GuardTests::PairInTime(const ObservedExperiment& observed, const LinearMode
 /// As many products as there are markers: with more neighbours each counts less.
 void GuardTests::PairOnBody(const Eigen::Matrix3Xd& rest_m, const ObservedExperiment& observed,
                             const LinearModel& model) {
-  const auto neighbours = Neighbours(rest_m);
-  if (neighbours.empty()) return;
-  const double weight = static_cast<double>(rest_m.cols()) / static_cast<double>(neighbours.size());
+  const Eigen::Index features = observed.feature_rest_m.cols();
+  if (rest_m.cols() < 2 && features < 2) return;  // nothing is beside anything
   constexpr Eigen::Index kNotSeen = -1;
-  Eigen::Matrix<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic> row_of(3 * rest_m.cols(),
+  Eigen::Matrix<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic> row_of(3 * rest_m.cols() + features,
                                                                      std::ssize(observed.samples));
   row_of.setConstant(kNotSeen);
   for (Eigen::Index row = 0; row < model.y.size(); ++row) {
     const auto k = static_cast<std::size_t>(row);
     row_of(model.coordinate_of_row[k], model.sample_of_row[k]) = row;
   }
-  for (Eigen::Index s = 0; s < row_of.cols(); ++s) {
-    const int recording = observed.samples[static_cast<std::size_t>(s)].recording;
-    for (const auto& [one, other] : neighbours) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const Eigen::Index row = row_of(3 * one + axis, s);
-        const Eigen::Index beside = row_of(3 * other + axis, s);
-        if (row == kNotSeen || beside == kNotSeen) continue;
-        recordings_[static_cast<std::size_t>(recording)].on_body.push_back({row, beside, weight});
+  const auto pair = [&](const Eigen::Matrix3Xd& places_m, Eigen::Index first, Eigen::Index axes) {
+    const auto neighbours = Neighbours(places_m);
+    const double weight =
+        static_cast<double>(places_m.cols()) / static_cast<double>(neighbours.size());
+    for (Eigen::Index s = 0; s < row_of.cols(); ++s) {
+      const int recording = observed.samples[static_cast<std::size_t>(s)].recording;
+      for (const auto& [one, other] : neighbours) {
+        for (Eigen::Index axis = 0; axis < axes; ++axis) {
+          const Eigen::Index row = row_of(first + axes * one + axis, s);
+          const Eigen::Index beside = row_of(first + axes * other + axis, s);
+          if (row == kNotSeen || beside == kNotSeen) continue;
+          recordings_[static_cast<std::size_t>(recording)].on_body.push_back({row, beside, weight});
+        }
       }
     }
-  }
+  };
+  pair(rest_m, 0, 3);
+  pair(observed.feature_rest_m, 3 * rest_m.cols(), 1);
 }
 
 void GuardTests::CutIntoSeries(const ObservedExperiment& observed, const LinearModel& model) {

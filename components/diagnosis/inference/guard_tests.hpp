@@ -18,7 +18,8 @@ namespace palpate::diagnosis {
 /// and of each recording
 /// - its misfit;
 /// - how neighbouring moments hang together (runs);
-/// - how neighbouring markers do (the products of Moran's I);
+/// - how neighbouring markers do, and neighbouring features of the skin (the products of Moran's
+/// I);
 /// - what goes along with the commands, and with how fast they change, beyond a constant.
 class GuardTests {
  public:

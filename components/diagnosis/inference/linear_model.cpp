@@ -4,13 +4,14 @@
 #include "components/diagnosis/inference/linear_model.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::diagnosis {
 
 namespace {
 
-/// Rows of one recording, marker and axis: what they have in common beside the noise.
+/// Rows of one recording and coordinate: what they have in common beside the noise.
 struct Series {
   std::vector<int> samples;
   Eigen::VectorXd sigma_m;   ///< [samples] noise of the means
@@ -41,8 +42,25 @@ class Whitening {
 bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, std::size_t sample,
             Eigen::Index coordinate) {
   const SimulatedSample& simulated = simulation.samples[sample];
-  return simulated.status.ok() && observed.samples[sample].count[coordinate / 3] > 0 &&
+  return simulated.status.ok() && IsMeasured(observed.samples[sample], coordinate) &&
          simulated.jacobian_m.row(coordinate).allFinite();
+}
+
+/// How far a place of the skin is from where it is in the undeformed body, m.
+double SkinDisplacement_m(const SkinSighting& skin, const SimulatedSample& simulated) {
+  return (skin.point.Position(simulated.middle.state.x_m) - skin.rest_m).norm();
+}
+
+/// From where another recording was seen, other parts of the skin about a feature are in view, and
+/// what its drawing is off by is not what it is there.
+double SkinError_m(const ObservedExperiment& observed, int recording, const NoiseModel& noise) {
+  constexpr double kFromElsewhere_m = 3e-4;
+  const auto first =
+      std::find_if(observed.recordings.begin(), observed.recordings.end(),
+                   [](const ObservedRecording& one) { return one.T_camera_robot.has_value(); });
+  const ObservedRecording& here = observed.recordings[static_cast<std::size_t>(recording)];
+  const bool same = here.T_camera_robot->isApprox(*first->T_camera_robot, 1e-6);
+  return same ? noise.skin_error_m : std::hypot(noise.skin_error_m, kFromElsewhere_m);
 }
 
 Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation, int recording,
@@ -51,23 +69,32 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
   std::vector<double> sigma_m;
   std::vector<double> of_mesh_m;
   const Eigen::Index marker = coordinate / 3;
-  const Eigen::Vector3d rest_seen_m =
-      observed.recordings[static_cast<std::size_t>(recording)].T_measurement_robot *
-      rest_m.col(marker);
+  const bool of_skin = marker >= rest_m.cols();
+  const Eigen::Isometry3d& T_measurement_robot =
+      observed.recordings[static_cast<std::size_t>(recording)].T_measurement_robot;
+  const auto displacement_m = [&](std::size_t s) {
+    const SimulatedSample& simulated = simulation.samples[s];
+    if (!of_skin) {
+      return (simulated.markers_m().col(marker) - T_measurement_robot * rest_m.col(marker)).norm();
+    }
+    const auto feature = static_cast<std::size_t>(coordinate - 3 * rest_m.cols());
+    return SkinDisplacement_m(observed.samples[s].skin[feature], simulated);
+  };
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
     if (sample.recording != recording || !IsSeen(observed, simulation, s, coordinate)) continue;
     series.samples.push_back(static_cast<int>(s));
-    sigma_m.push_back(observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[marker]));
-    of_mesh_m.push_back(noise.relative_error *
-                        (simulation.samples[s].markers_m.col(marker) - rest_seen_m).norm());
+    sigma_m.push_back(Sigma_m(observed, sample, coordinate));
+    of_mesh_m.push_back(noise.relative_error * displacement_m(s));
   }
   series.sigma_m = Eigen::Map<Eigen::VectorXd>(sigma_m.data(), std::ssize(sigma_m));
   const bool held =
       observed.recordings[static_cast<std::size_t>(recording)].held_until_s.has_value();
   series.common_m.resize(std::ssize(sigma_m), 2);
   series.common_m.col(0) = Eigen::Map<Eigen::VectorXd>(of_mesh_m.data(), std::ssize(of_mesh_m));
-  series.common_m.col(1).setConstant(held ? observed.reference_sigma_m : 0.0);
+  series.common_m.col(1).setConstant(of_skin ? SkinError_m(observed, recording, noise)
+                                     : held  ? observed.reference_sigma_m
+                                             : 0.0);
   return series;
 }
 
@@ -103,7 +130,7 @@ Information LinearModel::AllBut(std::size_t recording) const {
 LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
                       const NoiseModel& noise) {
-  const Eigen::Index coordinates = 3 * rest_m.cols();
+  const Eigen::Index coordinates = 3 * rest_m.cols() + observed.feature_rest_m.cols();
   const Eigen::Index most = std::ssize(observed.samples) * coordinates;
   LinearModel model;
   model.J.resize(most, z.size());
@@ -121,8 +148,8 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
         const auto s = static_cast<std::size_t>(series.samples[static_cast<std::size_t>(k)]);
         const SimulatedSample& simulated = simulation.samples[s];
         both.row(k).head(z.size()) = simulated.jacobian_m.row(coordinate);
-        both(k, z.size()) = observed.samples[s].position_m.reshaped()[coordinate] -
-                            simulated.markers_m.reshaped()[coordinate] +
+        both(k, z.size()) = Measured_m(observed.samples[s], coordinate) -
+                            simulated.seen_m[coordinate] +
                             simulated.jacobian_m.row(coordinate).dot(z);
         model.sample_of_row.push_back(static_cast<int>(s));
         model.coordinate_of_row.push_back(static_cast<int>(coordinate));

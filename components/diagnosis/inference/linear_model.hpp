@@ -25,13 +25,13 @@ struct Information {
 };
 
 /// An experiment as it looks from near z, whitened: y - J z is noise of unit variance. Rows of one
-/// recording, marker and axis share the mesh's error (NoiseModel) and, where the recording counts
-/// from a shape in which the body was held, that shape's.
+/// recording and coordinate share the mesh's error (NoiseModel) and, of markers, where the
+/// recording counts from a shape in which the body was held, that shape's.
 struct LinearModel {
   Eigen::MatrixXd J;  ///< [rows x parameters]
   Eigen::VectorXd y;  ///< [rows]
   std::vector<int> sample_of_row;
-  std::vector<int> coordinate_of_row;  ///< 3 marker + axis
+  std::vector<int> coordinate_of_row;  ///< 3 marker + axis, then features of the skin
   std::vector<Information> of_recording;
 
   Information All() const;
@@ -39,13 +39,16 @@ struct LinearModel {
 };
 
 struct NoiseModel {
-  /// What a mesh gets wrong, as a share of how far a marker is displaced: of each marker, axis and
-  /// recording a constant, one sigma. Noise that no averaging removes.
+  /// What a mesh gets wrong, as a share of how far a marker, or the skin, is displaced: of each
+  /// coordinate and recording a constant, one sigma. Noise that no averaging removes.
   double relative_error = 0.01;
+  /// The same of the skin, m: where it lies beside its drawing and the camera's smooth error, from
+  /// another side, or in another shape.
+  double skin_error_m = 1e-4;
 };
 
 /// About `z` [parameters], at which `simulation` with its Jacobian was made. Samples that failed
-/// and markers that were not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
+/// and what was not seen have no rows. `rest_m` [3 x markers]: of the undeformed body.
 LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simulation,
                       const Eigen::VectorXd& z, const Eigen::Matrix3Xd& rest_m,
                       const NoiseModel& noise);

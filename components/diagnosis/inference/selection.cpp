@@ -312,11 +312,17 @@ void CompareCandidates(const CauseBook& book, Selection* selection) {
 }  // namespace
 
 Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
-                       const Fit& as_built, int most, const ReportStep& report) {
+                       const Fit& as_built, int most, const ReportStep& report,
+                       const LookAgain& look_again) {
+  const auto seen_again = [&](Fit fit) {
+    if (!look_again || !fit.status.ok()) return fit;
+    look_again(fit);
+    return fitter.Complete(fitter.SeenAnew(std::move(fit)));
+  };
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
-  selection.healthy = fitter.Complete(as_built);
+  selection.healthy = seen_again(fitter.Complete(as_built));
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
     if (number > 0 && fitter.IsOutOfTime()) break;
@@ -327,7 +333,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (!found) break;
     selection.named.push_back(next.choice());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
-    selection.best = next.fit();
+    selection.best = seen_again(next.fit());
     if (number > 0) CheckBackward(fitter, kClearEvidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
@@ -335,6 +341,8 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   std::erase_if(selection.alike,
                 [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike.cause); });
   report(steps - 1, steps, "looking at what is left");
+  if (look_again && !selection.named.empty())
+    selection.healthy = fitter.SeenAnew(std::move(selection.healthy));
   selection.guard = Guard(observed, fitter.marker_rest_m(), fitter.book(), selection.best);
   CompareCandidates(fitter.book(), &selection);
   return selection;

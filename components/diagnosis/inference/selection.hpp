@@ -39,10 +39,17 @@ struct Selection {
 /// "3 of 12: screening"; parts are alike long as far as that is known.
 using ReportStep = std::function<void(int done, int of, const std::string& what)>;
 
+/// Brings what was measured up to date with a fit's shapes, as the skin that pictures show is
+/// matched with the body about where it is thought to be.
+using LookAgain = std::function<void(const Fit&)>;
+
 /// Names causes one after the other (DIAGNOSIS, "Method" 3-7): all are screened by the evidence of
 /// the linear model, the best simulated anew; the best is named if the evidence for it is clear, it
 /// predicts recordings that it was not fitted to, and it is beyond the tolerances. At most `most`.
+/// `look_again` is called about the healthy robot and about each set of causes that is named; none:
+/// nothing that was measured depends on where the body is.
 Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
-                       const Fit& as_built, int most, const ReportStep& report);
+                       const Fit& as_built, int most, const ReportStep& report,
+                       const LookAgain& look_again = nullptr);
 
 }  // namespace palpate::diagnosis

@@ -45,8 +45,12 @@ CameraView::CameraView(const CameraErrors& errors, const Eigen::Vector2d& focal_
       drift_m_(drift_m) {}
 
 double CameraView::Depth_m(const SeenPoint& point) const {
+  const double smooth_m =
+      errors_.bias.size() > 0
+          ? errors_.bias.dot(ValuesAt(errors_.bias_basis, point.at_m)) * point.at_m.z()
+          : 0.0;
   return (1.0 + errors_.depth_scale) * point.at_m.z() + drift_m_ +
-         errors_.incidence_bias_m * Slant(point);
+         errors_.incidence_bias_m * Slant(point) + smooth_m;
 }
 
 Eigen::Vector2d CameraView::Direction(const SeenPoint& point) const {
@@ -68,8 +72,13 @@ Eigen::Matrix3d CameraView::Slope(const SeenPoint& point) const {
   const Eigen::Matrix2d by_n =
       (1.0 + errors_.focal) * ((1.0 + errors_.k1 * n.squaredNorm()) * Eigen::Matrix2d::Identity() +
                                2.0 * errors_.k1 * n * n.transpose());
-  const Eigen::Vector3d of_depth = (1.0 + errors_.depth_scale) * Eigen::Vector3d::Unit(2) +
-                                   errors_.incidence_bias_m * SlantSlope(point);
+  Eigen::Vector3d of_depth = (1.0 + errors_.depth_scale) * Eigen::Vector3d::Unit(2) +
+                             errors_.incidence_bias_m * SlantSlope(point);
+  if (errors_.bias.size() > 0) {
+    of_depth +=
+        errors_.bias.dot(ValuesAt(errors_.bias_basis, point.at_m)) * Eigen::Vector3d::Unit(2) +
+        point.at_m.z() * SlopesAt(errors_.bias_basis, point.at_m) * errors_.bias;
+  }
   Eigen::Matrix3d slope = ByDrift(point) * of_depth.transpose();
   slope.topRows<2>() += Depth_m(point) * by_n * of_n;
   return slope;
@@ -98,6 +107,12 @@ Eigen::Vector3d CameraView::ByFocal(const SeenPoint& point) const {
 Eigen::Vector3d CameraView::ByCentre(const SeenPoint& point, int axis) const {
   if (!IsBefore(point)) return Eigen::Vector3d::Zero();
   return Depth_m(point) / focal_px_[axis] * Eigen::Vector3d::Unit(axis);
+}
+
+Eigen::Vector3d CameraView::ByBias(const SeenPoint& point, const geometry::DepthBiasBasis& basis,
+                                   Eigen::Index coefficient) const {
+  if (!IsBefore(point)) return Eigen::Vector3d::Zero();
+  return ValuesAt(basis, point.at_m)[coefficient] * ByDepthScale(point);
 }
 
 Eigen::Vector3d CameraView::ByDistortion(const SeenPoint& point) const {

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/geometry/depth_bias_map.hpp"
+
 namespace palpate::diagnosis {
 
 /// Depth that is off by amplitude (1 - exp(-t / tau)), t since the experiment's first stamp.
@@ -23,12 +25,17 @@ struct CameraErrors {
   double cy_px = 0.0;
   double k1 = 0.0;  ///< true distortion, less the believed one
   std::vector<DepthDrift> drifts = {};
+  /// Disparities of a stereo camera are off by a wave of them, cosine and sine, px.
+  Eigen::Vector2d ripple_px = Eigen::Vector2d::Zero();
+  geometry::DepthBiasBasis bias_basis = {};
+  Eigen::VectorXd bias =
+      {};  ///< [basis] or none; depth is 1 + its sum with the basis times as large
 };
 
 /// A point that a camera looks at, camera frame (x right, y down, z forward).
 struct SeenPoint {
-  Eigen::Vector3d at_m;
-  Eigen::Vector3d normal;  ///< of the surface there, unit, outward
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface there, unit, outward
 };
 
 /// Where a depth camera with errors measures points, and how that changes. The camera sees a point
@@ -52,6 +59,8 @@ class CameraView {
   Eigen::Vector3d ByFocal(const SeenPoint& point) const;
   Eigen::Vector3d ByCentre(const SeenPoint& point, int axis) const;
   Eigen::Vector3d ByDistortion(const SeenPoint& point) const;
+  Eigen::Vector3d ByBias(const SeenPoint& point, const geometry::DepthBiasBasis& basis,
+                         Eigen::Index coefficient) const;
 
  private:
   double Depth_m(const SeenPoint& point) const;

@@ -12,6 +12,8 @@ ModelDraft DraftOf(const robot::RobotBody& body, const ObservedExperiment& obser
   draft.cable_compliance_m_N = Eigen::VectorXd::Zero(std::ssize(body.cables));
   draft.marker_offset_m = Eigen::Matrix3Xd::Zero(3, std::ssize(observed.markers));
   draft.T_seen.assign(observed.recordings.size(), Eigen::Isometry3d::Identity());
+  draft.T_skin_seen = draft.T_seen;
+  draft.skin_offset_m = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
   return draft;
 }
 

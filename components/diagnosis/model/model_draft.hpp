@@ -73,7 +73,10 @@ struct ModelDraft {
   /// [recordings] how what is seen lies to the robot frame: p_seen = T_seen p_robot, before
   /// T_measurement_robot.
   std::vector<Eigen::Isometry3d> T_seen;
-  CameraErrors camera;  ///< of the depth camera, in recordings that one saw
+  /// [recordings] the same of what pictures show, before T_camera_robot.
+  std::vector<Eigen::Isometry3d> T_skin_seen;
+  Eigen::VectorXd skin_offset_m;  ///< [features] by which the skin is seen beyond the body's
+  CameraErrors camera;            ///< of the depth camera, in recordings that one saw
 };
 
 /// The robot file's.

@@ -4,6 +4,7 @@
 #include "components/diagnosis/model/sample_differentiator.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -12,6 +13,17 @@
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
+
+namespace {
+
+/// Where nobody saw any, what they do is not asked for.
+bool SeesMarkers(const ObservedExperiment& observed) {
+  return !observed.HasSkin() ||
+         std::any_of(observed.samples.begin(), observed.samples.end(),
+                     [](const Sample& sample) { return (sample.count.array() > 0).any(); });
+}
+
+}  // namespace
 
 std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
                                           const CauseList& causes, const Eigen::VectorXd& z,
@@ -38,14 +50,16 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
                                            const Eigen::VectorXd& z,
                                            const std::vector<bool>& wanted,
                                            const std::vector<Eigen::MatrixXd>& drive_change,
-                                           SampleSolver* solver)
+                                           const ObservedExperiment& observed, SampleSolver* solver)
     : draft_(draft),
       causes_(causes),
       z_(z),
       wanted_(wanted),
       drive_change_(drive_change),
       solver_(*solver),
-      of_markers_(solver->model(), solver->markers()),
+      markers_seen_(SeesMarkers(observed)),
+      marker_rows_(robot::RowsOfPoints(solver->markers())),
+      of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
       of_body_(solver->model()) {
   for (int c = 0; c < solver->model().CableCount(); ++c) {
     if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
@@ -81,7 +95,7 @@ void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
   const auto count = std::ssize(compliant_);
   const auto acting = std::ssize(column_of_);
   if (count == 0 || acting == 0) return;
-  const Eigen::MatrixXd& tension_N = of_markers_.tension_N();
+  const Eigen::MatrixXd& tension_N = of_rows_.tension_N();
   Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
   Eigen::MatrixXd given(count, acting);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -116,40 +130,66 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
       of_body_.Compute(at.shape.commands, let_go, forces,
                        draft_.wall ? robot::Factor::kRenew : robot::Factor::kPresent);
   if (!known.ok()) return known;
-  Eigen::MatrixXd motions_m;
   Eigen::VectorXd nodal_m;
-  of_body_.PointMotions(solver_.markers(), &motions_m);
   for (std::size_t k = 0; k < pushes.size(); ++k) {
-    const auto push = static_cast<Eigen::Index>(k);
     of_body_.NodalMotion(static_cast<int>(k), &nodal_m);
     const double gives_way_m = pushes[k].force_N.dot(nodal_m);
     if (!(gives_way_m > 0.0)) continue;  // it acts where the body is held
-    for (Eigen::Index p = 0; p < pushes[k].times.size(); ++p) {
-      jacobian_m->col(first_of[k] + p) +=
-          (pushes[k].times[p] + pushes[k].give_way_m[p] / gives_way_m) * motions_m.col(push);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const double motion_m = rows_[r].Value(nodal_m);
+      for (Eigen::Index p = 0; p < pushes[k].times.size(); ++p) {
+        (*jacobian_m)(coordinate_of_[r], first_of[k] + p) +=
+            (pushes[k].times[p] + pushes[k].give_way_m[p] / gives_way_m) * motion_m;
+      }
     }
   }
   return Status::Ok();
 }
 
 Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
-  const auto markers = std::ssize(solver_.markers());
-  Eigen::MatrixXd jacobian_m = Eigen::MatrixXd::Zero(3 * markers, ParameterCount(causes_));
+  Eigen::MatrixXd jacobian_m =
+      Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), ParameterCount(causes_));
   Collect(at);
+  Observe(at);
   if (!at.simulated().status.ok() ||
-      !of_markers_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
+      !of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  Eigen::MatrixXd motions_m = of_markers_.motion_m();
+  Eigen::MatrixXd motions_m = of_rows_.motion_m();
   if (!compliant_.empty()) GiveWay(&motions_m);
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
-    jacobian_m.col(column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
+    jacobian_m(coordinate_of_, column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
   }
   if (!AddPushes(at, &jacobian_m).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  ShowTo(at, &jacobian_m);
+  if (markers_seen_) ShowTo(at, &jacobian_m);
+  ShowSkinTo(at, &jacobian_m);
   return jacobian_m;
+}
+
+/// Rows of what is measured at this moment: markers where they are on the body, the skin as its
+/// camera measures it.
+void SampleDifferentiator::Observe(const CauseMoment& at) {
+  rows_.clear();
+  coordinate_of_.clear();
+  if (markers_seen_) rows_ = marker_rows_;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    coordinate_of_.push_back(static_cast<Eigen::Index>(k));
+  const std::vector<SkinSighting>& skin = at.seen().skin;
+  const Sight sight = solver_.SightOfSkin(at.seen(), at.shape.state.x_m);
+  const auto recording = static_cast<std::size_t>(at.seen().recording);
+  for (std::size_t f = 0; f < skin.size(); ++f) {
+    if (skin[f].count == 0) continue;
+    const auto feature = static_cast<Eigen::Index>(f);
+    const Eigen::Matrix3d R_camera_robot =
+        (*at.recording().T_camera_robot * draft_.T_skin_seen[recording]).linear();
+    rows_.push_back(robot::RowOfPoint(
+        skin[f].point, R_camera_robot.transpose() *
+                           sight.camera->Slope(sight.point(feature)).transpose() * skin[f].normal));
+    coordinate_of_.push_back(std::ssize(marker_rows_) + feature);
+  }
+  of_rows_.SetRows(rows_);
 }
 
 /// From how the markers move on the body to how what is measured of them does. What the body's
@@ -157,6 +197,7 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
 void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const {
   const auto markers = std::ssize(solver_.markers());
   CauseMoment at = of;
+  at.target = Target::kMarkers;
   at.sight = solver_.SightOf(at.seen(), at.shape.state.x_m);
   std::vector<Eigen::Matrix3d> slopes;  // [markers]
   for (const SeenPoint& point : at.sight.points) {
@@ -173,14 +214,49 @@ void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobi
     const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
     for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
       if (!wanted_[k]) continue;
-      seen_m = R_seen * jacobian_m->col(column).reshaped(3, markers);
+      seen_m = R_seen * jacobian_m->col(column).head(3 * markers).reshaped(3, markers);
       cause->OnView(p, own, at, &seen_m);
       seen_m = R_measurement * seen_m.eval();
       for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
         seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
       }
       if (at.sight.camera) cause->OnMeasurement(p, own, at, &seen_m);
-      jacobian_m->col(column) = seen_m.reshaped();
+      jacobian_m->col(column).head(3 * markers) = seen_m.reshaped();
+    }
+  }
+}
+
+/// Adds what causes do to how the skin is seen where it is; how it moves with the body is there.
+void SampleDifferentiator::ShowSkinTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const {
+  CauseMoment at = of;
+  at.target = Target::kSkin;
+  at.sight = solver_.SightOfSkin(at.seen(), at.shape.state.x_m);
+  if (!at.sight.camera) return;
+  const std::vector<SkinSighting>& skin = at.seen().skin;
+  const Eigen::Matrix3d R_camera = at.recording().T_camera_robot->linear();
+  Eigen::Matrix3Xd seen_m(3, std::ssize(skin));
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < causes_.size(); ++k) {
+    const Cause* cause = causes_[k];
+    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
+    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
+      if (!wanted_[k]) continue;
+      seen_m.setZero();
+      cause->OnView(p, own, at, &seen_m);
+      seen_m = R_camera * seen_m.eval();
+      for (std::size_t f = 0; f < skin.size(); ++f) {
+        if (skin[f].count == 0) continue;
+        const auto feature = static_cast<Eigen::Index>(f);
+        seen_m.col(feature) =
+            at.sight.camera->Slope(at.sight.point(feature)) * seen_m.col(feature).eval();
+      }
+      cause->OnMeasurement(p, own, at, &seen_m);
+      for (std::size_t f = 0; f < skin.size(); ++f) {
+        if (skin[f].count == 0) continue;
+        const auto feature = static_cast<Eigen::Index>(f);
+        (*jacobian_m)(std::ssize(marker_rows_) + feature, column) +=
+            skin[f].normal.dot(seen_m.col(feature));
+      }
     }
   }
 }

@@ -22,24 +22,27 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
                                           const std::vector<bool>& wanted,
                                           const DriveSettings& drives);
 
-/// How the markers move with the parameters of causes. What compliant cables give way by when their
-/// tension changes is counted, what a compliant base then turns by is not. For one thread.
+/// How what is measured moves with the parameters of causes. What compliant cables give way by when
+/// their tension changes is counted, what a compliant base then turns by is not. For one thread.
 class SampleDifferentiator {
  public:
   /// All must outlive it. `solver` is prepared for each sample before.
   SampleDifferentiator(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
                        const std::vector<bool>& wanted,
-                       const std::vector<Eigen::MatrixXd>& drive_change, SampleSolver* solver);
+                       const std::vector<Eigen::MatrixXd>& drive_change,
+                       const ObservedExperiment& observed, SampleSolver* solver);
 
-  /// [3 markers x parameters] m per z, measurement frame; 0 for causes that are not wanted. NaN
-  /// where there are no derivatives.
+  /// [coordinates x parameters] m per z; 0 for causes that are not wanted, and for what nobody
+  /// measured. NaN where there are no derivatives.
   Eigen::MatrixXd At(const CauseMoment& at);
 
  private:
   void Collect(const CauseMoment& at);
   void GiveWay(Eigen::MatrixXd* motions_m) const;
   Status AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m);
+  void Observe(const CauseMoment& at);
   void ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const;
+  void ShowSkinTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const;
 
   const ModelDraft& draft_;
   const CauseList& causes_;
@@ -47,7 +50,11 @@ class SampleDifferentiator {
   const std::vector<bool>& wanted_;
   const std::vector<Eigen::MatrixXd>& drive_change_;
   SampleSolver& solver_;
-  robot::PointSensitivity of_markers_;
+  bool markers_seen_;  ///< of any marker there is a measurement
+  std::vector<robot::EffectorRow> marker_rows_;
+  std::vector<robot::EffectorRow> rows_;     ///< what is measured here, on the body
+  std::vector<Eigen::Index> coordinate_of_;  ///< [rows]
+  robot::PointSensitivity of_rows_;
   robot::SensitivitySolver of_body_;
   std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
   std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter

@@ -34,7 +34,7 @@ class SampleInParts {
     const std::size_t middle = parts_.size() / 2;
     SimulatedSample solved;
     solved.middle = simulated->middle;
-    Eigen::Matrix3Xd mean_m = Eigen::Matrix3Xd::Zero(3, std::ssize(solver_.markers()));
+    Eigen::VectorXd mean_m;
     std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
     std::map<std::size_t, Memorable> of_part;
     const int choices = simulated->choices + 1;
@@ -46,11 +46,12 @@ class SampleInParts {
       }
       if (!solved.status.ok()) return;
       if (TellsAnEnd(k)) of_part[k] = solver_.WhatIsMemorable(past_, solved);
-      mean_m += parts_[k].share * solved.markers_m;
+      if (k == 0) mean_m = Eigen::VectorXd::Zero(solved.seen_m.size());
+      mean_m += parts_[k].share * solved.seen_m;
       by_what_holds[WhatHolds(solved.middle)].emplace_back(solved.middle).share = parts_[k].share;
     }
-    simulated->bend_m = mean_m - simulated->markers_m;
-    simulated->markers_m = std::move(mean_m);
+    simulated->bend_m = mean_m - simulated->seen_m;
+    simulated->seen_m = std::move(mean_m);
     simulated->parts = parts_.size();
     simulated->choices = choices;
     KeepOthers(by_what_holds, simulated);
@@ -61,9 +62,9 @@ class SampleInParts {
   bool SolveShapes(SimulatedSample* simulated) {
     SimulatedSample middle = Resolved(simulated->middle);
     if (!IsHeldAs(simulated->middle, middle)) return false;
-    Eigen::Matrix3Xd mean_m = simulated->markers_m;
+    Eigen::VectorXd mean_m = simulated->seen_m;
     const auto move = [&](const HeldShape& from, const HeldShape& to) {
-      mean_m += from.share * (to.markers_m - from.markers_m);
+      mean_m += from.share * (to.seen_m - from.seen_m);
     };
     move(simulated->middle, middle.middle);
     for (const HeldShape& was : simulated->beside) {
@@ -73,8 +74,8 @@ class SampleInParts {
       middle.beside.push_back(std::move(beside.middle));
     }
     Memorise(*simulated, &middle);
-    middle.bend_m = mean_m - middle.markers_m;
-    middle.markers_m = std::move(mean_m);
+    middle.bend_m = mean_m - middle.seen_m;
+    middle.seen_m = std::move(mean_m);
     middle.parts = simulated->parts;
     middle.choices = simulated->choices;
     *simulated = std::move(middle);
@@ -90,7 +91,7 @@ class SampleInParts {
     middle.bend_is_own = false;
     middle.parts = simulated->parts;
     middle.choices = simulated->choices;
-    if (middle.status.ok()) middle.markers_m += middle.bend_m;
+    if (middle.status.ok()) middle.seen_m += middle.bend_m;
     *simulated = std::move(middle);
   }
 
@@ -98,7 +99,7 @@ class SampleInParts {
   void Solve(std::size_t part, SimulatedSample* solved) {
     solver_.Solve(sample_, parts_[part].taken_in, past_, solved);
     solved->middle.part = part;
-    solved->middle.markers_m = solved->markers_m;
+    solved->middle.seen_m = solved->seen_m;
   }
 
   /// A shape of a robot that was a little different.

@@ -19,7 +19,7 @@ enum class Detail {
   kMiddles,   ///< its middle; how it bends about that is taken from another simulation
 };
 
-/// The shapes of a sample and the mean of where its markers are seen; begins from what `simulated`
+/// The shapes of a sample and the mean of what is seen of them; begins from what `simulated`
 /// was. Where shapes stand for all parts, the mean lies about them as it did there.
 void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
                   const Hereditary& past, Detail detail, SampleSolver* solver,

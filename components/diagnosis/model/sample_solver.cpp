@@ -247,7 +247,7 @@ Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) co
   const auto recording = static_cast<std::size_t>(sample.recording);
   const Eigen::Isometry3d T_measurement_robot =
       observed_.recordings[recording].T_measurement_robot * draft_.T_seen[recording];
-  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample)};
+  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kMarkers)};
   for (std::size_t m = 0; m < markers_.size(); ++m) {
     sight.points.push_back({T_measurement_robot * markers_[m].Position(x_m),
                             T_measurement_robot.linear() * skin_.Normal(m, x_m)});
@@ -255,17 +255,42 @@ Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) co
   return sight;
 }
 
-void SampleSolver::SeeMarkers(const Sample& sample, SimulatedSample* solved) const {
-  const Sight sight = SightOf(sample, solved->middle.state.x_m);
-  solved->markers_m.resize(3, std::ssize(markers_));
-  for (Eigen::Index m = 0; m < std::ssize(markers_); ++m)
-    solved->markers_m.col(m) = sight.Measured(m);
+Sight SampleSolver::SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const {
+  const auto recording = static_cast<std::size_t>(sample.recording);
+  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kSkin)};
+  if (!sight.camera) return sight;
+  const Eigen::Isometry3d T_camera_robot =
+      *observed_.recordings[recording].T_camera_robot * draft_.T_skin_seen[recording];
+  for (const SkinSighting& feature : sample.skin) {
+    SeenPoint& point = sight.points.emplace_back();
+    if (feature.count == 0) continue;
+    point = {T_camera_robot * feature.point.Position(x_m), feature.normal.normalized()};
+  }
+  return sight;
+}
+
+void SampleSolver::See(const Sample& sample, SimulatedSample* solved) const {
+  const Eigen::VectorXd& x_m = solved->middle.state.x_m;
+  const Sight sight = SightOf(sample, x_m);
+  for (Eigen::Index m = 0; m < solved->markers; ++m)
+    solved->seen_m.segment<3>(3 * m) = sight.Measured(m);
+  if (sample.skin.empty()) return;
+  const Sight skin = SightOfSkin(sample, x_m);
+  for (std::size_t f = 0; f < sample.skin.size(); ++f) {
+    const auto feature = static_cast<Eigen::Index>(f);
+    if (sample.skin[f].count == 0) continue;
+    solved->seen_m[3 * solved->markers + feature] =
+        sample.skin[f].normal.dot(skin.Measured(feature)) +
+        sample.skin[f].normal.norm() * draft_.skin_offset_m[feature] +
+        sample.skin[f].ripple_m_px.dot(draft_.camera.ripple_px);
+  }
 }
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
                          const Hereditary& past, SimulatedSample* solved) {
-  solved->markers_m =
-      Eigen::Matrix3Xd::Constant(3, std::ssize(markers_), std::numeric_limits<double>::quiet_NaN());
+  solved->markers = std::ssize(markers_);
+  solved->seen_m = Eigen::VectorXd::Constant(observed_.CoordinateCount(),
+                                             std::numeric_limits<double>::quiet_NaN());
   if (wall_ && WallClearance_m(wall_->wall(), draft_.assembled_m) < -kDeepest_m) {
     solved->status = {StatusCode::kInvalidInput, "the wall stands in the undeformed body"};
     return;
@@ -287,7 +312,7 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   base_turn_rad_.setZero();
   fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
   solved->status = GiveWay(taken_in, loads, solved);
-  if (solved->status.ok()) SeeMarkers(sample, solved);
+  if (solved->status.ok()) See(sample, solved);
 }
 
 bool SampleSolver::IsNearWall(const fem::StaticState& state) const {

@@ -32,6 +32,9 @@ class SampleSolver {
 
   /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
   Sight SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
+  /// The same of the skin; features that nobody saw then are nowhere (0). A camera is there
+  /// wherever the recording has pictures.
+  Sight SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
   /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
@@ -58,7 +61,7 @@ class SampleSolver {
   Status StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved, bool* moved);
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState WithCommands(fem::LoadState loads, const SimulatedSample& solved) const;
-  void SeeMarkers(const Sample& sample, SimulatedSample* solved) const;
+  void See(const Sample& sample, SimulatedSample* solved) const;
 
   const ModelDraft& draft_;
   const ObservedExperiment& observed_;

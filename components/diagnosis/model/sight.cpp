@@ -20,9 +20,11 @@ double MeanOverFrames(const ObservedExperiment& observed, const Sample& sample, 
 }  // namespace
 
 std::optional<CameraView> ViewOf(const CameraErrors& errors, const ObservedExperiment& observed,
-                                 const Sample& sample) {
+                                 const Sample& sample, Target target) {
   const auto& recording = observed.recordings[static_cast<std::size_t>(sample.recording)];
-  if (!recording.by_depth_camera || sample.frame_t_s.empty()) return std::nullopt;
+  const bool seen =
+      target == Target::kSkin ? recording.T_camera_robot.has_value() : recording.by_depth_camera;
+  if (!seen || sample.frame_t_s.empty()) return std::nullopt;
   double drift_m = 0.0;
   for (const DepthDrift& drift : errors.drifts) {
     drift_m += drift.amplitude_m * DriftShare(observed, sample, drift.tau_s);

@@ -12,22 +12,24 @@
 
 namespace palpate::diagnosis {
 
-/// The markers as they stand before whatever measures them, measurement frame.
+/// What is measured: by what, and in which frame, may differ between them.
+enum class Target { kMarkers, kSkin };
+
+/// The markers, or the features of the skin, as they stand before whatever measures them; frame of
+/// the measurement, of the skin that of the depth camera.
 struct Sight {
-  std::vector<SeenPoint> points;     ///< [markers]
+  std::vector<SeenPoint> points;     ///< [markers] or [features]
   std::optional<CameraView> camera;  ///< nothing: they are measured where they are
 
-  const SeenPoint& point(Eigen::Index marker) const {
-    return points[static_cast<std::size_t>(marker)];
-  }
-  Eigen::Vector3d Measured(Eigen::Index marker) const {
-    return camera ? camera->Measured(point(marker)) : point(marker).at_m;
+  const SeenPoint& point(Eigen::Index k) const { return points[static_cast<std::size_t>(k)]; }
+  Eigen::Vector3d Measured(Eigen::Index k) const {
+    return camera ? camera->Measured(point(k)) : point(k).at_m;
   }
 };
 
-/// The depth camera that saw a sample, with these errors; nothing: none did.
+/// The depth camera that saw this of a sample, with these errors; nothing: none did.
 std::optional<CameraView> ViewOf(const CameraErrors& errors, const ObservedExperiment& observed,
-                                 const Sample& sample);
+                                 const Sample& sample, Target target);
 
 /// What of a drift is there at a sample, mean over its frames: 1 - exp(-t / tau), t since the
 /// experiment's first stamp.

@@ -22,7 +22,7 @@ struct HeldShape {
   std::vector<robot::CableCommand> commands;
   /// [nodes of WallSurface] with which the draft's wall presses on the body; empty: nowhere.
   Eigen::VectorXd wall_force_N;
-  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] as they would be seen, measurement frame
+  Eigen::VectorXd seen_m;  ///< [coordinates] as SimulatedSample::seen_m
 
   bool AtWall() const { return wall_force_N.size() > 0; }
 };
@@ -53,10 +53,17 @@ struct SimulatedSample {
   /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
   /// it is no other than in the middle.
   std::array<Memorable, 2> at_ends;
-  Eigen::Matrix3Xd markers_m;  ///< [3 x markers] mean over the sample, measurement frame
-  Eigen::Matrix3Xd bend_m;     ///< [3 x markers] by which that mean is not where the middle is
+  /// [coordinates] mean over the sample: x, y, z of each marker, measurement frame, then each
+  /// feature of the skin along its normal (SkinSighting::measured_m); NaN: not known, or nobody
+  /// measured it.
+  Eigen::VectorXd seen_m;
+  Eigen::Index markers = 0;
+  Eigen::VectorXd bend_m;      ///< [coordinates] by which that mean is not where the middle is
   bool bend_is_own = true;     ///< and not that of another robot
-  Eigen::MatrixXd jacobian_m;  ///< [3 markers x parameters] of them
+  Eigen::MatrixXd jacobian_m;  ///< [coordinates x parameters] of them; 0: nobody measured it
+
+  /// [3 x markers] of seen_m.
+  Eigen::Map<const Eigen::Matrix3Xd> markers_m() const { return {seen_m.data(), 3, markers}; }
 };
 
 /// A simulated experiment.

@@ -99,7 +99,7 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
       }
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
-        sample.markers_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+        sample.seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
         continue;
       }
       SolveInParts(observed_.samples[s], parts[s], simulation->past[s], detail, &solver, &sample);
@@ -143,6 +143,35 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
   return simulation;
 }
 
+std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
+                                            const Simulation& simulation) const {
+  const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
+  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  std::vector<bool> wanted;
+  for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
+    wanted.push_back(!observed_.samples[s].pictures.empty() && simulation.samples[s].status.ok());
+  }
+  std::vector<ShapesInTime> shapes(observed_.samples.size());
+  OnThreads(Shares(observed_, wanted, threads_), [&](const std::vector<std::size_t>& share) {
+    SampleSolver solver(draft, observed_);
+    for (const std::size_t s : share) {
+      solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
+      SimulatedSample solved;
+      solved.middle = simulation.samples[s].middle;
+      for (const SamplePart& part : parts[s]) {
+        if (parts[s].size() > 1) {
+          solver.Solve(observed_.samples[s], part.taken_in, simulation.past[s], &solved);
+          if (!solved.status.ok()) break;
+        }
+        const Eigen::VectorXd& x_m = solved.middle.state.x_m;
+        shapes[s].t_s.push_back(part.t_s);
+        shapes[s].nodes_m.emplace_back(x_m.reshaped(3, x_m.size() / 3).cast<float>());
+      }
+    }
+  });
+  return shapes;
+}
+
 void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
                               const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                               const ModelDraft& nominal, Simulation* simulation) const {
@@ -153,7 +182,7 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
       Shares(observed_, std::vector<bool>(observed_.samples.size(), true), threads_);
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
-    SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, &solver);
+    SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, observed_, &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
       const auto column = static_cast<Eigen::Index>(s);
@@ -194,8 +223,7 @@ void Simulator::DifferentiateByRuns(const ModelDraft& nominal, const CauseList& 
         SimulatedSample& sample = simulation->samples[s];
         // Of other shapes the mean would differ by more than what the step does.
         if (beside.samples[s].choices != sample.choices) continue;
-        sample.jacobian_m.col(first + p) =
-            (beside.samples[s].markers_m - sample.markers_m).reshaped() / step;
+        sample.jacobian_m.col(first + p) = (beside.samples[s].seen_m - sample.seen_m) / step;
       }
     }
     first += count;

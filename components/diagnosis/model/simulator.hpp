@@ -13,6 +13,7 @@
 #include "components/diagnosis/model/model_draft.hpp"
 #include "components/diagnosis/model/sample_in_parts.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
+#include "components/diagnosis/model/shapes_in_time.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 
 namespace palpate::diagnosis {
@@ -42,6 +43,10 @@ class Simulator {
   /// leaves out what matters (Cause::NeedsRuns); one that cannot be simulated there keeps them.
   void DifferentiateByRuns(const ModelDraft& nominal, const CauseList& causes,
                            const Eigen::VectorXd& z, Simulation* simulation) const;
+
+  /// [samples] all shapes of those with pictures, one for each part of a motion; `simulation` is of
+  /// this draft. Empty where it failed, or there are no pictures.
+  std::vector<ShapesInTime> Shapes(const ModelDraft& draft, const Simulation& simulation) const;
 
   const Memory& memory() const { return memory_; }
 

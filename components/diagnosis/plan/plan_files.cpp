@@ -84,12 +84,13 @@ std::string ByHandText(const PlannedRecording& plan) {
   steps.push_back(proposal.recording.actuation
                       ? "Drive the cables through actuation.csv (its rows are joined by straight "
                         "lines; " +
-                            Rounded(proposal.duration_s) + " s) and record the markers throughout."
-                      : "Record the markers for " + Rounded(proposal.duration_s) + " s.");
+                            Rounded(proposal.duration_s) +
+                            " s) and record throughout what the others show."
+                      : "Record what the others show for " + Rounded(proposal.duration_s) + " s.");
   steps.push_back(
       "Make the folder recordings/" + plan.name +
-      " of the experiment from this one with markers.csv beside (and actuation.csv as the drives "
-      "report it, on the clock of the markers), and run palpate diagnose again.");
+      " of the experiment from this one with markers.csv, or depth/ and camera.yaml, beside (and "
+      "actuation.csv as the drives report it, on the same clock), and run palpate diagnose again.");
   for (std::size_t k = 0; k < steps.size(); ++k) {
     text += std::to_string(k + 1) + ". " + steps[k] + "\n";
   }

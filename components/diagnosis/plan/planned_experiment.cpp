@@ -69,6 +69,19 @@ experiment::MarkerTracks Frames(const ObservedExperiment& observed, const robot:
   return tracks;
 }
 
+/// The skin as a recording's pictures show it where most of it is in view; empty: none do.
+std::vector<SkinSighting> SkinOf(const ObservedExperiment& observed, int recording) {
+  const auto seen = [](const std::vector<SkinSighting>& skin) {
+    return std::count_if(skin.begin(), skin.end(),
+                         [](const SkinSighting& one) { return one.count > 0; });
+  };
+  std::vector<SkinSighting> best;
+  for (const Sample& sample : observed.samples) {
+    if (sample.recording == recording && seen(sample.skin) > seen(best)) best = sample.skin;
+  }
+  return best;
+}
+
 /// Half a recording would be another one than was proposed.
 void LeaveOutWhatFailed(const ObservedExperiment& planned, Simulation* simulation) {
   std::vector<bool> failed(planned.recordings.size(), false);
@@ -95,6 +108,8 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
   all.rest_between_s.reset();
   for (experiment::Recording& made : all.recordings) {
     made.markers.reset();
+    made.depth_images.clear();
+    made.clouds.clear();
     made.steady_window_s.reset();
     made.reference.reset();
   }
@@ -123,9 +138,16 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
     recording.knows_pose = like.knows_pose;
     recording.camera_frame = like.camera_frame;
     recording.by_depth_camera = like.by_depth_camera;
+    recording.T_camera_robot = like.T_camera_robot;
+    recording.stereo_px_m = like.stereo_px_m;
     recording.focal_px = like.focal_px;
   }
-  for (Sample& sample : planned.samples) sample.frame_t_s = {sample.t_s};
+  planned.feature_rest_m = observed.feature_rest_m;
+  const std::vector<SkinSighting> skin = SkinOf(observed, plain);
+  for (Sample& sample : planned.samples) {
+    sample.frame_t_s = {sample.t_s};
+    sample.skin = skin;
+  }
   planned.reference_sigma_m = observed.reference_sigma_m;
   planned.timeline.begin_s.front() = observed.timeline.begin_s.front();
   planned.timeline.end_s.back() = first_s;
@@ -142,7 +164,9 @@ LinearModel PredictProposals(const ObservedExperiment& planned, const robot::Rob
   ModelDraft draft = DraftWith(nominal, causes, fit.z);
   for (std::size_t k = 0; k < planned.recordings.size(); ++k) {
     const int pose_of = planned.recordings[k].pose_of;
-    if (pose_of >= 0) draft.T_seen[k] = draft.T_seen[static_cast<std::size_t>(pose_of)];
+    if (pose_of < 0) continue;
+    draft.T_seen[k] = draft.T_seen[static_cast<std::size_t>(pose_of)];
+    draft.T_skin_seen[k] = draft.T_skin_seen[static_cast<std::size_t>(pose_of)];
   }
   const Simulator simulator(planned, threads);
   Simulation simulation = simulator.Run(draft);

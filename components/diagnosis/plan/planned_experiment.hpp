@@ -15,7 +15,8 @@ namespace palpate::diagnosis {
 /// (`observed`), of which no samples are left: what is compared are the proposals' samples, each a
 /// single moment with as many frames as its window would have. The proposals are made long after
 /// the experiment and each other, so that the body has forgotten; what drifts with time is as it
-/// was at the end. The camera stands where it stood in the last plain recording.
+/// was at the end. The camera stands where it stood in the last plain recording, and pictures show
+/// what they showed there of the skin.
 ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
                                     const ObservedExperiment& observed,
                                     const robot::RobotBody& body,

@@ -87,7 +87,8 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
                                               const experiment::Experiment& experiment,
                                               const std::vector<int>& materials,
                                               robot::RobotModel* model) {
-  perception::FiducialConfig config = perception::FiducialsOf(PerceptionOf(options, experiment));
+  perception::FiducialConfig config =
+      perception::FiducialsOf(PerceptionOf(options.overrides, experiment));
   PointsWithoutNames points;
   points.settings.request = RequestOf(options, materials, true);
   // What all points of a picture err by alike is no noise of each.

@@ -42,11 +42,11 @@ Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
 }
 
 /// The robot's shapes as the model has them before anything is fitted.
-std::vector<ExpectedShape> ShapesOf(const std::vector<ImageMoment>& moments,
+std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageMoment>& moments,
                                     const Eigen::Isometry3d& T_robot_camera,
                                     robot::RobotModel* model) {
   const calibration::KeptModel kept(*model);
-  std::vector<ExpectedShape> shapes;
+  std::vector<ExpectedNodes> shapes;
   for (const ImageMoment& moment : moments) {
     model->SetGravity(moment.frame.gravity_m_s2);
     fem::StaticState state = model->RestState();
@@ -55,7 +55,7 @@ std::vector<ExpectedShape> ShapesOf(const std::vector<ImageMoment>& moments,
     if (!solved.status.ok()) {
       throw RunError(moment.frame.name + ": " + solved.status.message());
     }
-    shapes.push_back({state.x_m, T_robot_camera});
+    shapes.push_back({state.x_m.reshaped(3, state.x_m.size() / 3).cast<float>(), T_robot_camera});
   }
   return shapes;
 }
@@ -67,7 +67,7 @@ struct Pass {
 };
 
 Pass Run(const std::vector<ImageMoment>& moments, const perception::Config& perception,
-         const std::vector<ExpectedShape>& expected, const Eigen::Isometry3d& start,
+         const std::vector<ExpectedNodes>& expected, const Eigen::Isometry3d& start,
          const calibration::CloudSettings& clouds, robot::RobotModel* model) {
   Pass pass;
   std::vector<std::string> left_out;
@@ -109,7 +109,7 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model) {
-  const perception::Config perception = PerceptionOf(options, experiment);
+  const perception::Config perception = PerceptionOf(options.overrides, experiment);
   const Eigen::Isometry3d start = StartOf(options, experiment, *model);
   const auto chosen = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
@@ -131,7 +131,7 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   // A rough pose misplaces the predicted surface; the robot's colour, where it is told, does not.
   const bool by_color = !perception.robot_color_rgb.empty();
   const Pass rough = Run(moments, perception,
-                         by_color ? std::vector<ExpectedShape>() : ShapesOf(moments, start, model),
+                         by_color ? std::vector<ExpectedNodes>() : ShapesOf(moments, start, model),
                          start, clouds, model);
   kept.Restore();
   const Eigen::Isometry3d found = ToIsometry(rough.fit.joint.T_robot_camera);

@@ -60,7 +60,7 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
     throw InputError("--camera-pose is for images; --from markers needs none");
   }
   const bool joint = options.what == "joint";
-  const bool fiducials = !PerceptionOf(options, experiment).markers.color_rgb.empty();
+  const bool fiducials = !PerceptionOf(options.overrides, experiment).markers.color_rgb.empty();
   const bool images_are_meant =
       options.from == "images" ||
       (options.from.empty() && (fiducials || (!options.camera_pose.empty() && !unlabelled)));

@@ -7,8 +7,6 @@
 
 #include "components/calibration/recording_phase.hpp"
 #include "components/palpate/progress_line.hpp"
-#include "components/perception/perception.hpp"
-#include "components/perception/predicted_surface.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 
@@ -41,13 +39,6 @@ std::vector<std::size_t> Choose(const experiment::Recording& recording,
   return chosen;
 }
 
-perception::PredictedSurface SurfaceOf(const ExpectedShape& expected,
-                                       const robot::RobotBody& body) {
-  const Eigen::Map<const Eigen::Matrix3Xd> nodes_m(expected.x_m.data(), 3, expected.x_m.size() / 3);
-  return perception::MakePredictedSurface(nodes_m.cast<float>(), body.boundary.DrawnTriangles(),
-                                          expected.T_robot_camera);
-}
-
 }  // namespace
 
 std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
@@ -76,27 +67,20 @@ std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
 std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
                                                const perception::Config& config,
                                                const robot::RobotBody& body,
-                                               const std::vector<ExpectedShape>& expected,
+                                               const std::vector<ExpectedNodes>& expected,
                                                std::vector<std::string>* left_out) {
-  perception::Perception perception(config);
-  const experiment::RgbdSequence* opened = nullptr;
+  RobotViewer viewer(config, body);
   std::vector<calibration::CloudFrame> frames;
-  rgbd::RgbdFrame images;
   ProgressLine progress("pictures", static_cast<int>(moments.size()));
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const ImageMoment& moment = moments[k];
-    if (opened != moment.images) perception.SetCamera(moment.images->camera);
-    opened = moment.images;
-    moment.images->Read(moment.index, &images);
-    images.stamp_ns = moment.images->frames[moment.index].t_ns;
-    std::optional<perception::PredictedSurface> surface;
-    if (!expected.empty()) surface = SurfaceOf(expected[k], body);
-    const perception::Observation& seen = perception.Update(images, surface ? &*surface : nullptr);
-    if (seen.frame.status.ok()) {
+    const perception::SegmentedFrame& seen =
+        viewer.Look(*moment.images, moment.index, expected.empty() ? nullptr : &expected[k]);
+    if (seen.status.ok()) {
       frames.push_back(moment.frame);
-      frames.back().cloud = seen.frame.robot;
+      frames.back().cloud = seen.robot;
     } else {
-      left_out->push_back(moment.frame.name + ": " + seen.frame.status.message());
+      left_out->push_back(moment.frame.name + ": " + seen.status.message());
     }
     progress.Update(static_cast<int>(k) + 1);
   }

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "components/calibration/cloud/cloud_frame.hpp"
+#include "components/palpate/images/robot_viewer.hpp"
 #include "components/perception/config.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/experiment/images/rgbd_sequence.hpp"
@@ -30,19 +30,13 @@ std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most = 6);
 
-/// Where the robot is thought to be at a moment.
-struct ExpectedShape {
-  Eigen::VectorXd x_m;  ///< [3n] nodes, robot frame
-  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
-};
-
 /// Perception's clouds of the robot at these moments; `expected`: one for each, or none where
 /// nothing is known. Those in which it does not see the robot are left out, with a line for each in
 /// `left_out`.
 std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
                                                const perception::Config& config,
                                                const robot::RobotBody& body,
-                                               const std::vector<ExpectedShape>& expected,
+                                               const std::vector<ExpectedNodes>& expected,
                                                std::vector<std::string>* left_out);
 
 }  // namespace palpate::command

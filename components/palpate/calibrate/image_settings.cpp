@@ -8,7 +8,6 @@
 
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/choose_recordings.hpp"
-#include "libs/app/settings.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/geometry/pose_text.hpp"
@@ -20,15 +19,6 @@ namespace {
 
 using experiment::Recording;
 
-struct Settings {
-  perception::Config perception;
-
-  template <typename Visitor>
-  void Visit(Visitor&& v) {
-    v("perception", perception, "From images to clouds and markers");
-  }
-};
-
 bool Serves(const Recording& recording) {
   return recording.camera_file && !recording.depth_images.empty() && !recording.T_robot_camera &&
          recording.kind != experiment::RecordingKind::kFree &&
@@ -37,17 +27,6 @@ bool Serves(const Recording& recording) {
 }
 
 }  // namespace
-
-perception::Config PerceptionOf(const CalibrateOptions& options,
-                                const experiment::Experiment& experiment) {
-  Settings settings;
-  if (experiment.depth_noise && experiment.depth_noise->subpixel_px > 0.0) {
-    settings.perception.depth_subpixel_px = experiment.depth_noise->subpixel_px;
-  }
-  const std::vector<app::Setting> list = app::ListSettings(settings);
-  for (const std::string& assignment : options.overrides) app::ApplyOverride(assignment, list);
-  return settings.perception;
-}
 
 std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment) {

@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "components/palpate/calibrate/calibrate_verb.hpp"
-#include "components/perception/config.hpp"
+#include "components/palpate/images/perception_settings.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
-
-/// perception.* as --set has it; the depth noise is the experiment's where that says one. Throws
-/// InputError for a setting that is not there.
-perception::Config PerceptionOf(const CalibrateOptions& options,
-                                const experiment::Experiment& experiment);
 
 /// Where the camera stands, roughly: --camera-pose, else the experiment's; nothing where neither
 /// says it.

@@ -60,7 +60,7 @@ class CameraRecovery : public testing::Test {
     std::normal_distribution<double> noise_m(0.0, kSigma_m);
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       Sample& sample = observed_.samples[s];
-      sample.position_m = truth.samples[s].markers_m;
+      sample.position_m = truth.samples[s].markers_m();
       for (Eigen::Index m = 0; m < sample.position_m.cols(); ++m) {
         for (double& coordinate_m : sample.position_m.col(m)) {
           coordinate_m += noise_m(random) / std::sqrt(sample.count[m]);

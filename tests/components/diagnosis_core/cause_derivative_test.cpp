@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,21 +61,74 @@ class SaysTooMuch final : public Cause {
   double share_;
 };
 
+/// Adds what pictures show.
+using Seeing = std::function<void(const robot::RobotBody&, ObservedExperiment*)>;
+
+/// Of all recordings but the hold: in those whose markers are in the camera's frame by that camera,
+/// else by one of its own. One feature is not in view in the ramp.
+void SeeSkin(const robot::RobotBody& body, ObservedExperiment* observed) {
+  observed->feature_rest_m.resize(3, std::ssize(body.feature_points));
+  for (std::size_t f = 0; f < body.feature_points.size(); ++f) {
+    observed->feature_rest_m.col(static_cast<Eigen::Index>(f)) = body.feature_points[f].rest_m;
+  }
+  for (ObservedRecording& recording : observed->recordings) {
+    if (recording.name == "b_hold") continue;
+    Eigen::Isometry3d T_camera_robot = recording.T_measurement_robot;
+    if (!recording.camera_frame) {
+      T_camera_robot.linear() =
+          Eigen::AngleAxisd(2.5, Eigen::Vector3d(1.0, 0.3, -0.2).normalized()).toRotationMatrix();
+      T_camera_robot.translation() = Eigen::Vector3d(0.02, -0.01, 0.4);
+    }
+    recording.T_camera_robot = T_camera_robot;
+    recording.by_depth_camera = false;
+    recording.focal_px = Eigen::Vector2d(420.0, 400.0);
+    recording.stereo_px_m = 20.0;
+  }
+  for (Sample& sample : observed->samples) {
+    const auto& recording = observed->recordings[static_cast<std::size_t>(sample.recording)];
+    sample.skin.resize(body.feature_points.size());
+    for (std::size_t f = 0; f < sample.skin.size() && recording.T_camera_robot; ++f) {
+      SkinSighting& skin = sample.skin[f];
+      skin.count = recording.name == "a_ramp" && f == 0 ? 0 : 1;
+      skin.point = body.feature_points[f].weights;
+      skin.rest_m = body.feature_points[f].rest_m;
+      const Eigen::Vector3d seen_m = *recording.T_camera_robot * skin.rest_m;
+      skin.normal = 0.95 * (Eigen::Vector3d(0.3, -0.2, 0.1) - seen_m.normalized()).normalized();
+      skin.sigma_m = 1e-4;
+      skin.ripple_m_px = Eigen::Vector2d(3e-3, -5e-3);
+    }
+  }
+}
+
 class CauseDerivatives : public testing::Test {
  protected:
   CauseDerivatives() : CauseDerivatives(SmallRobot(), SmallExperiment(SmallRobot())) {}
-  CauseDerivatives(const robot::RobotBody& body, const experiment::Experiment& experiment)
+  CauseDerivatives(const robot::RobotBody& body, const experiment::Experiment& experiment,
+                   const Seeing& seeing = nullptr)
       : body_(body),
         observed_(SingleFrames(
-            Observe(experiment, body_, {.most_samples = 14, .depth_cameras = SmallCameras()}))) {}
+            Observe(experiment, body_, {.most_samples = 14, .depth_cameras = SmallCameras()}))) {
+    if (!seeing) return;
+    seeing(body_, &observed_);
+    Begin();
+  }
 
-  /// [3 markers, samples after another] of the simulation.
+  /// As the robot file has it.
+  void Begin() {
+    each_ = observed_.CoordinateCount();
+    nominal_ = DraftOf(body_, observed_);
+    at_rest_ = simulator_.Run(nominal_);
+    causes_ = MakeCauses({.body = body_, .observed = observed_, .as_built = &at_rest_}, {});
+  }
+
+  /// [coordinates, samples after another] of the simulation.
   Eigen::VectorXd Markers(const CauseList& causes, const Eigen::VectorXd& z) const {
     const Simulation run = simulator_.Run(DraftWith(nominal_, causes, z), &at_rest_);
     EXPECT_TRUE(run.status.ok()) << run.status.message();
-    Eigen::VectorXd all_m(12 * std::ssize(run.samples));
+    Eigen::VectorXd all_m(each_ * std::ssize(run.samples));
     for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
-      all_m.segment<12>(12 * s) = run.samples[static_cast<std::size_t>(s)].markers_m.reshaped();
+      const Eigen::VectorXd& seen_m = run.samples[static_cast<std::size_t>(s)].seen_m;
+      all_m.segment(each_ * s, each_) = seen_m.array().isNaN().select(0.0, seen_m);
     }
     return all_m;
   }
@@ -84,9 +139,9 @@ class CauseDerivatives : public testing::Test {
     simulator_.Differentiate(draft, causes, z, std::vector<bool>(causes.size(), true), nominal_,
                              &run);
     simulator_.DifferentiateByRuns(nominal_, causes, z, &run);
-    Eigen::MatrixXd all_m(12 * std::ssize(run.samples), z.size());
+    Eigen::MatrixXd all_m(each_ * std::ssize(run.samples), z.size());
     for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
-      all_m.middleRows<12>(12 * s) = run.samples[static_cast<std::size_t>(s)].jacobian_m;
+      all_m.middleRows(each_ * s, each_) = run.samples[static_cast<std::size_t>(s)].jacobian_m;
     }
     return all_m;
   }
@@ -124,8 +179,8 @@ class CauseDerivatives : public testing::Test {
       double size = 0.0;
       for (Eigen::Index s = 0; s < std::ssize(observed_.samples); ++s) {
         if (observed_.samples[static_cast<std::size_t>(s)].recording != r) continue;
-        off += (analytic - difference).segment<12>(12 * s).squaredNorm();
-        size += difference.segment<12>(12 * s).squaredNorm();
+        off += (analytic - difference).segment(each_ * s, each_).squaredNorm();
+        size += difference.segment(each_ * s, each_).squaredNorm();
       }
       const double floor_m = least_share * difference.norm() + kNothing_m;
       const double relative = std::sqrt(off) / std::max(std::sqrt(size), floor_m);
@@ -174,6 +229,7 @@ class CauseDerivatives : public testing::Test {
 
   robot::RobotBody body_;
   ObservedExperiment observed_;
+  Eigen::Index each_ = observed_.CoordinateCount();
   ModelDraft nominal_ = DraftOf(body_, observed_);
   Simulator simulator_{observed_, 1};
   Simulation at_rest_ = simulator_.Run(nominal_);
@@ -186,6 +242,13 @@ class CauseDerivativesOfTet10AndTension : public CauseDerivatives {
   CauseDerivativesOfTet10AndTension()
       : CauseDerivatives(SmallRobot(fem::ElementType::kTet10),
                          WithATension(SmallExperiment(SmallRobot(fem::ElementType::kTet10)))) {}
+};
+
+/// Beside markers, of the camera that they are in the frame of, or another.
+class CauseDerivativesOfSkin : public CauseDerivatives {
+ protected:
+  CauseDerivativesOfSkin()
+      : CauseDerivatives(SmallRobot(), SmallExperiment(SmallRobot()), SeeSkin) {}
 };
 
 TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
@@ -212,6 +275,58 @@ TEST_F(CauseDerivatives, AreCaughtWhereTheySayALittleTooMuch) {
     const Mismatch worst = Compare(first.fault * Analytic(one, z).col(0),
                                    first.fault * Difference(one, z, 0, first), 1e-3);
     EXPECT_GT(worst.relative, kTolerance) << id;
+  }
+}
+
+TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
+  ExpectDerivativesAsBuilt();
+}
+
+/// Where all that a camera gets wrong is there, what moves the body is seen through it.
+TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
+  CauseList all;
+  Eigen::Index parameters = 0;
+  for (const CausePtr& cause : causes_) {
+    const std::set<std::string> looked_at = {"youngs_modulus", "cable_gain", "extrinsics",
+                                             "depth_scale",    "intrinsics", "lens_distortion",
+                                             "warm_up_drift",  "depth_bias", "depth_incidence_bias",
+                                             "stereo_ripple",  "skin_offset"};
+    if (!looked_at.contains(cause->name().id)) continue;
+    all.push_back(cause.get());
+    parameters += std::ssize(cause->parameters());
+  }
+  Eigen::VectorXd z(parameters);
+  Eigen::Index p = 0;
+  for (const Cause* cause : all) {
+    for (const CauseParameter& parameter : cause->parameters()) z[p++] = 0.1 * parameter.fault;
+  }
+  const Eigen::MatrixXd analytic = Analytic(all, z);
+  p = 0;
+  for (const Cause* cause : all) {
+    for (const CauseParameter& parameter : cause->parameters()) {
+      ExpectAlike(parameter.fault * analytic.col(p),
+                  parameter.fault * Difference(all, z, p, parameter), 4e-3,
+                  cause->words() + ", " + parameter.name, 1e-2);
+      ++p;
+    }
+  }
+}
+
+/// No place of a marker matters where nobody saw one.
+TEST_F(CauseDerivativesOfSkin, NeedNoMarkers) {
+  for (Sample& sample : observed_.samples) sample.count.setZero();
+  const std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
+  for (const CausePtr& cause : causes) EXPECT_NE(cause->name().id, "marker_misplacement");
+  const auto modulus = std::find_if(causes.begin(), causes.end(), [](const CausePtr& cause) {
+    return cause->name().id == "youngs_modulus";
+  });
+  const CauseList one{modulus->get()};
+  const Eigen::VectorXd alone = Analytic(one, Eigen::VectorXd::Zero(1));
+  for (Sample& sample : observed_.samples) sample.count.setOnes();
+  const Eigen::VectorXd beside = Analytic(one, Eigen::VectorXd::Zero(1));
+  for (Eigen::Index s = 0; s < std::ssize(observed_.samples); ++s) {
+    EXPECT_TRUE(alone.segment(each_ * s, each_ - 2).isZero(0.0));
+    EXPECT_LT((alone - beside).segment(each_ * s + each_ - 2, 2).norm(), 1e-12);
   }
 }
 
@@ -345,11 +460,11 @@ TEST_F(CauseDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
         simulator.Differentiate(draft, one, Eigen::VectorXd::Constant(1, z), {true}, nominal_,
                                 &run);
       }
-      Eigen::VectorXd all(12 * std::ssize(run.samples));
+      Eigen::VectorXd all(each_ * std::ssize(run.samples));
       for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
         const SimulatedSample& sample = run.samples[static_cast<std::size_t>(s)];
-        all.segment<12>(12 * s) =
-            differentiate ? Eigen::VectorXd(sample.jacobian_m) : sample.markers_m.reshaped();
+        all.segment(each_ * s, each_) =
+            differentiate ? Eigen::VectorXd(sample.jacobian_m) : sample.seen_m;
       }
       return all;
     };
@@ -379,7 +494,8 @@ TEST_F(CauseDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
   const Simulation warm = simulator_.Run(after, &start);
   ASSERT_TRUE(cold.status.ok() && warm.status.ok());
   for (std::size_t s = 0; s < cold.samples.size(); ++s) {
-    EXPECT_LT((cold.samples[s].markers_m - warm.samples[s].markers_m).cwiseAbs().maxCoeff(), 1e-7)
+    EXPECT_LT((cold.samples[s].markers_m() - warm.samples[s].markers_m()).cwiseAbs().maxCoeff(),
+              1e-7)
         << "sample " << s;
   }
 }

@@ -45,7 +45,7 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
     for (std::size_t s = 0; s < observed.samples.size(); ++s) {
       const Sample& sample = observed.samples[s];
       const Eigen::Vector3d rest_m = beam.body.markers[0].point.rest_m;
-      const double sagged_m = creeping.samples[s].markers_m(2, 0) - rest_m.z();
+      const double sagged_m = creeping.samples[s].markers_m()(2, 0) - rest_m.z();
       if (sample.t_s < 10.0) {
         EXPECT_NEAR(sagged_m, 0.0, 1e-12);
         continue;
@@ -57,7 +57,7 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
         share += (1.0 - g / (1.0 + g) * std::exp(-(t_s - 10.0) / (kTau_s * (1.0 + g)))) /
                  static_cast<double>(sample.frame_t_s.size());
       }
-      const double long_m = elastic.samples[s].markers_m(2, 0) - rest_m.z();
+      const double long_m = elastic.samples[s].markers_m()(2, 0) - rest_m.z();
       // Between samples the force is taken to go linearly, which costs a few per cent of the creep.
       EXPECT_NEAR(sagged_m / long_m, share, 0.03 * g / (1.0 + g))
           << "g " << g << " at " << sample.t_s << " s";
@@ -102,7 +102,7 @@ TEST(Creep, OfABodyThatWasHeldBentIsALittleOfThatBend) {
   double held_m = 0.0;
   int let_go = 0;
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-    const double moved_m = creeping.samples[s].markers_m(1, 0) - rest_m;
+    const double moved_m = creeping.samples[s].markers_m()(1, 0) - rest_m;
     const double since_s = observed.samples[s].t_s - kLetGo_s;
     if (since_s < 0.0) {
       held_m = moved_m;
@@ -130,11 +130,11 @@ TEST(Creep, LeavesTheInstantaneousModulusAtOnce) {
   const Simulation crept = simulator.Run(draft);
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (observed.samples[s].t_s < 10.0) continue;
-    const Eigen::Matrix3Xd& long_m = elastic.samples[s].markers_m;
+    const Eigen::Matrix3Xd& long_m = elastic.samples[s].markers_m();
     const double rest_m = beam.body.markers[0].point.rest_m.z();
-    EXPECT_NEAR((stiff.samples[s].markers_m(2, 0) - rest_m) / (long_m(2, 0) - rest_m),
+    EXPECT_NEAR((stiff.samples[s].markers_m()(2, 0) - rest_m) / (long_m(2, 0) - rest_m),
                 1.0 / (1.0 + kG), 2e-3);
-    EXPECT_NEAR((crept.samples[s].markers_m(2, 0) - rest_m) / (long_m(2, 0) - rest_m), 1.0, 2e-3);
+    EXPECT_NEAR((crept.samples[s].markers_m()(2, 0) - rest_m) / (long_m(2, 0) - rest_m), 1.0, 2e-3);
   }
 }
 

@@ -41,7 +41,7 @@ class FitterOfHealthyRobots : public HiddenCauses {
     Eigen::Index count = 0;
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       const Sample& sample = observed_.samples[s];
-      const Eigen::Matrix3Xd left_m = sample.position_m - simulation.samples[s].markers_m;
+      const Eigen::Matrix3Xd left_m = sample.position_m - simulation.samples[s].markers_m();
       sum += (left_m * sample.count.cast<double>().asDiagonal()).cwiseProduct(left_m).sum();
       count += left_m.size();
     }

@@ -57,7 +57,7 @@ class HiddenCauses : public testing::Test {
     std::normal_distribution<double> normal;
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       Sample& sample = observed_.samples[s];
-      sample.position_m = truth.samples[s].markers_m;
+      sample.position_m = truth.samples[s].markers_m();
       for (Eigen::Index k = 0; k < sample.position_m.size(); ++k) {
         sample.position_m.reshaped()[k] +=
             kSigma_m / std::sqrt(sample.count[k / 3]) * normal(random);

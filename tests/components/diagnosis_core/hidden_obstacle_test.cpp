@@ -127,7 +127,7 @@ TEST_F(HiddenObstacle, FarAwayChangesNothing) {
     EXPECT_FALSE(with.samples[s].middle.AtWall());
     EXPECT_LT(differ_m(with.samples[s].middle.state.x_m, as_built_.samples[s].middle.state.x_m),
               kSettled_m);
-    EXPECT_LT(differ_m(with.samples[s].markers_m, as_built_.samples[s].markers_m), kSettled_m);
+    EXPECT_LT(differ_m(with.samples[s].markers_m(), as_built_.samples[s].markers_m()), kSettled_m);
   }
 }
 
@@ -143,7 +143,7 @@ TEST_F(HiddenObstacle, IsMetWhereverASimulationStarts) {
   constexpr double kSame_m = 1e-6;  // how a sample bends is kept where the wall is far
   for (std::size_t s = 0; s < cold.samples.size(); ++s) {
     const auto differ_m = [&](const Simulation& a, const Simulation& b) {
-      return (a.samples[s].markers_m - b.samples[s].markers_m).cwiseAbs().maxCoeff();
+      return (a.samples[s].markers_m() - b.samples[s].markers_m()).cwiseAbs().maxCoeff();
     };
     EXPECT_LT(differ_m(cold, from_free), kSame_m) << "sample " << s;
     EXPECT_LT(differ_m(cold, from_beside), kSame_m) << "sample " << s;
@@ -165,7 +165,7 @@ class HiddenObstacleIsFound : public HiddenObstacle {
         const double sigma_m = kNoise_m / std::sqrt(std::max(1, sample.count[m]));
         for (int axis = 0; axis < 3; ++axis) {
           sample.position_m(axis, m) =
-              truth.samples[s].markers_m(axis, m) + sigma_m * normal(random);
+              truth.samples[s].markers_m()(axis, m) + sigma_m * normal(random);
         }
       }
     }
@@ -204,7 +204,7 @@ TEST_F(HiddenObstacleIsFound, ByWhatAWholeWallDoesToFirstOrder) {
     double effect = 0.0, before = 0.0, after = 0.0;
     for (std::size_t s = 0; s < met.samples.size(); ++s) {
       const Eigen::VectorXd moved_m =
-          (met.samples[s].markers_m - as_built_.samples[s].markers_m).reshaped();
+          (met.samples[s].markers_m() - as_built_.samples[s].markers_m()).reshaped();
       effect += moved_m.squaredNorm();
       before += (moved_m - healthy.samples[s].jacobian_m.col(0)).squaredNorm();
       after += (moved_m - met.samples[s].jacobian_m.col(0)).squaredNorm();
@@ -281,7 +281,7 @@ class WallThroughTheBody final : public Cause {
   /// As if it explained what is measured.
   void OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
               Eigen::Matrix3Xd* seen_m) const override {
-    *seen_m = at.seen().position_m - at.simulated().markers_m;
+    *seen_m = at.seen().position_m - at.simulated().markers_m();
   }
 
  private:
@@ -302,7 +302,7 @@ TEST_F(HiddenObstacleIsFound, NowhereThatTheBodyCannotBe) {
   const Simulation none = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), 1.0}, &as_built_);
   EXPECT_FALSE(none.status.ok());
   for (const SimulatedSample& sample : none.samples) {
-    EXPECT_TRUE(!sample.status.ok() && sample.markers_m.array().isNaN().all());
+    EXPECT_TRUE(!sample.status.ok() && sample.markers_m().array().isNaN().all());
   }
   EXPECT_TRUE(Select(book).named.empty());
 }

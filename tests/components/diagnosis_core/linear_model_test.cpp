@@ -25,6 +25,7 @@ class LinearModelTest : public testing::Test {
         Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
     observed_.recordings[1].T_measurement_robot.translation() << 0.2, -0.1, 0.4;
     observed_.sigma_m << 1e-4, 2e-4, 5e-4;
+    observed_.markers.resize(kMarkers);
     for (int s = 0; s < 4; ++s) {
       Sample& sample = observed_.samples.emplace_back();
       sample.recording = s < 3 ? 0 : 1;
@@ -32,7 +33,8 @@ class LinearModelTest : public testing::Test {
       sample.count = Eigen::Vector2i(1 + s, 5);
       SimulatedSample& simulated = simulation_.samples.emplace_back();
       simulated.status = Status::Ok();
-      simulated.markers_m = 0.1 * Random(3, kMarkers);
+      simulated.seen_m = (0.1 * Random(3, kMarkers)).reshaped();
+      simulated.markers = kMarkers;
       simulated.jacobian_m = Random(3 * kMarkers, kParameters);
     }
     rest_m_ = 0.1 * Random(3, kMarkers);
@@ -75,10 +77,11 @@ class LinearModelTest : public testing::Test {
       const double sigma_m = observed_.sigma_m[coordinate % 3];
       covariance(k, k) = sigma_m * sigma_m / observed_.samples[s].count[coordinate / 3];
       const SimulatedSample& simulated = simulation_.samples[s];
-      common[k] = noise_.relative_error * (simulated.markers_m.col(coordinate / 3) - rest_m).norm();
+      common[k] =
+          noise_.relative_error * (simulated.markers_m().col(coordinate / 3) - rest_m).norm();
       J.row(k) = simulated.jacobian_m.row(coordinate);
       y[k] = observed_.samples[s].position_m(coordinate % 3, coordinate / 3) -
-             simulated.markers_m(coordinate % 3, coordinate / 3) + J.row(k).dot(z_);
+             simulated.markers_m()(coordinate % 3, coordinate / 3) + J.row(k).dot(z_);
     }
     covariance += common * common.transpose();
     if (observed_.recordings[static_cast<std::size_t>(recording)].held_until_s) {
@@ -134,7 +137,7 @@ TEST_F(LinearModelTest, WhatWasNotSeenOrNotSolvedHasNoRows) {
   EXPECT_TRUE(model.y.allFinite() && model.J.allFinite());
   ExpectAsDense(model);
   simulation_.samples[3].status = Status(StatusCode::kNotConverged, "made up");
-  simulation_.samples[3].markers_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  simulation_.samples[3].seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   const LinearModel without = Model();
   EXPECT_EQ(without.y.size(), 15);
   EXPECT_EQ(without.of_recording[1].rows, 0);

@@ -21,8 +21,8 @@ class NearStart : public HiddenCauses {
   static double Apart_m(const Simulation& a, const Simulation& b) {
     double most_m = 0.0;
     for (std::size_t s = 0; s < a.samples.size(); ++s) {
-      most_m =
-          std::max(most_m, (a.samples[s].markers_m - b.samples[s].markers_m).cwiseAbs().maxCoeff());
+      most_m = std::max(
+          most_m, (a.samples[s].markers_m() - b.samples[s].markers_m()).cwiseAbs().maxCoeff());
     }
     return most_m;
   }

@@ -52,7 +52,7 @@ class NextExperiment : public testing::Test {
         Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), {&book_->cause(a)}, own));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
-      observed_.samples[s].position_m = truth.samples[s].markers_m;
+      observed_.samples[s].position_m = truth.samples[s].markers_m();
     }
     fitter_ = std::make_unique<Fitter>(observed_, body_, *book_, NoiseModel{}, 1);
     selection_.healthy = fitter_->AsBuilt();

@@ -59,8 +59,8 @@ class OtherPlaces : public HiddenCauses {
     const Simulation with = simulator.Run(DraftWith(nominal, book_.All(), z));
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       const Eigen::Matrix3Xd noise_m =
-          observed_.samples[s].position_m - without.samples[s].markers_m;
-      observed_.samples[s].position_m = with.samples[s].markers_m + noise * noise_m;
+          observed_.samples[s].position_m - without.samples[s].markers_m();
+      observed_.samples[s].position_m = with.samples[s].markers_m() + noise * noise_m;
     }
   }
   Fit FittedAt(const Fitter& fitter, int force) const {

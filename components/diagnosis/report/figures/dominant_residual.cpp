@@ -94,7 +94,8 @@ std::string DescribeDominant(const DominantResidual& dominant, const DiagnosisRe
   for (const double part : dominant.direction) {
     direction += (direction.empty() ? "" : ", ") + plot::FixedText(part, 1);
   }
-  return "marker " + plot::Shortened(name, 11.0, 140.0) + ", along (" + direction + ")";
+  const std::string what = name.starts_with("skin ") ? "" : "marker ";
+  return what + plot::Shortened(name, 11.0, 140.0) + ", along (" + direction + ")";
 }
 
 }  // namespace palpate::diagnosis

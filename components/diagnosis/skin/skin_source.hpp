@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "libs/core/status.hpp"
+#include "libs/rgbd/rgbd_camera.hpp"
+#include "libs/rgbd/sensed_cloud.hpp"
+
+namespace palpate::diagnosis {
+
+/// Where the robot is thought to be in a picture.
+struct ExpectedShape {
+  Eigen::Matrix3Xf nodes_m;  ///< [3 x nodes] robot frame
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+};
+
+/// What a picture shows of the robot.
+struct SkinLook {
+  Status status;             ///< why nothing of it, or ok
+  rgbd::SensedCloud cloud;   ///< points of the robot alone, camera frame
+  std::uint64_t digest = 0;  ///< of all that was measured: alike in two pictures only if they are
+};
+
+/// The pictures of an experiment. What tells the robot from all else in them is not known here.
+class SkinSource {
+ public:
+  SkinSource() = default;
+  virtual ~SkinSource() = default;
+  SkinSource(const SkinSource&) = delete;
+  SkinSource& operator=(const SkinSource&) = delete;
+
+  /// `recording`: index into the experiment's; `picture`: number in it, by time. Pictures of a
+  /// recording are asked for by rising time. Throws InputError where a file cannot be read.
+  virtual SkinLook Look(int recording, int picture, const ExpectedShape& expected) = 0;
+  /// The camera of a recording, as its data sheet has it. Throws InputError where nobody says.
+  virtual rgbd::RgbdCamera Camera(int recording) = 0;
+};
+
+}  // namespace palpate::diagnosis

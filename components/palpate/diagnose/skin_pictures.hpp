@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <map>
+
+#include "components/diagnosis/skin/skin_source.hpp"
+#include "components/palpate/images/robot_viewer.hpp"
+#include "libs/experiment/experiment.hpp"
+
+namespace palpate::command {
+
+/// Depth images, or clouds, of an experiment's recordings, from which perception takes the robot.
+class SkinPictures final : public diagnosis::SkinSource {
+ public:
+  /// Both must outlive it. Throws InputError for settings that do not go together.
+  SkinPictures(const experiment::Experiment& experiment, const robot::RobotBody& body,
+               const perception::Config& config);
+
+  diagnosis::SkinLook Look(int recording, int picture,
+                           const diagnosis::ExpectedShape& expected) override;
+  rgbd::RgbdCamera Camera(int recording) override;
+
+ private:
+  const experiment::RgbdSequence& SequenceOf(int recording);
+
+  const experiment::Experiment& experiment_;
+  RobotViewer viewer_;
+  std::map<int, experiment::RgbdSequence> sequences_;  ///< by recording
+};
+
+/// Whether any recording holds depth images or clouds.
+bool HasPictures(const experiment::Experiment& experiment);
+
+}  // namespace palpate::command
