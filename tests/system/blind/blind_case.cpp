@@ -42,10 +42,13 @@ ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& rob
 
 }  // namespace
 
-BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot) {
+BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot, Measured measured) {
   Random random(seed, "blind case");
   BlindCase drawn{.seed = seed, .kind = KindOf(seed)};
-  const auto& menu = CauseMenu();
+  std::vector<MenuItem> menu = CauseMenu();
+  if (measured == Measured::kPictures) {
+    std::erase_if(menu, [](const MenuItem& item) { return item.id == "marker_misplacement"; });
+  }
   const auto add = [&](std::size_t item) {
     drawn.effects.push_back(DrawEffect(menu[item], robot, &random));
   };

@@ -12,6 +12,12 @@
 
 namespace palpate::blind {
 
+/// What the data show of the robot.
+enum class Measured {
+  kMarkers,
+  kPictures,  ///< depth and colour images; nothing is hidden then that only markers have
+};
+
 enum class CaseKind { kHealthy, kOneCause, kTwoCauses, kOutside, kCorrupted };
 
 /// How data are spoilt that no cause may be read from.
@@ -37,7 +43,8 @@ struct BlindCase {
 
 /// Any 20 seeds in a row: 5 healthy, 9 with one cause, 3 with two, 2 with one outside of the
 /// catalogue, 1 of corrupted data. Two causes are of different kinds.
-BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot);
+BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot,
+                   Measured measured = Measured::kMarkers);
 
 std::string ToString(CaseKind kind);
 std::string ToString(Corruption corruption);

@@ -40,6 +40,13 @@ bool NumberFrom(const char* variable, double smallest, double largest, double* n
   return true;
 }
 
+Measured ParseMeasured(const std::string& data) {
+  if (data == "markers") return Measured::kMarkers;
+  if (data == "pictures") return Measured::kPictures;
+  throw InputError(
+      fmt::format("PALPATE_BLIND_DATA is '{}', neither 'markers' nor 'pictures'", data));
+}
+
 /// A new one in the temporary folder of the machine, removed at the end.
 class TemporaryFolder {
  public:
@@ -69,14 +76,16 @@ BlindSet BlindSet::FromEnvironment(int cases) {
     set.seed = static_cast<std::uint64_t>(number);
   }
   if (const char* folder = std::getenv("PALPATE_BLIND_FOLDER")) set.folder = folder;
+  if (const char* data = std::getenv("PALPATE_BLIND_DATA")) set.measured = ParseMeasured(data);
   return set;
 }
 
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
   fmt::print(out,
-             "{} blind cases from seed {} on, {} moments each; one again: "
+             "{} blind cases of {} from seed {} on, {} moments each; one again: "
              "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
-             set.cases, set.seed, set.samples);
+             set.cases, set.measured == Measured::kPictures ? "pictures" : "markers", set.seed,
+             set.samples);
   const TemporaryFolder temporary;
   const bool keep = !set.folder.empty();
   if (keep) fs::create_directories(set.folder);
@@ -84,6 +93,7 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
       {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
        .folder = keep ? fs::absolute(set.folder) : temporary.path(),
        .keep = keep,
+       .measured = set.measured,
        .samples = set.samples});
   std::vector<CaseRecord> records(static_cast<std::size_t>(set.cases));
   std::atomic<std::size_t> next = 0;

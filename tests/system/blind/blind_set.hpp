@@ -14,12 +14,13 @@ namespace palpate::blind {
 
 /// Which cases. From the environment: PALPATE_BLIND_CASES (1 to 100000), PALPATE_BLIND_SEED (of the
 /// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_FOLDER (everything
-/// is kept there; without it nothing is).
+/// is kept there; without it nothing is), PALPATE_BLIND_DATA (markers, or pictures).
 struct BlindSet {
   int cases = 0;
   std::uint64_t seed = 0;
   std::filesystem::path folder = {};  ///< empty: a temporary one
   int samples = 120;                  ///< moments that diagnosis compares, at most
+  Measured measured = Measured::kMarkers;
 
   /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError
   /// for what is no number.

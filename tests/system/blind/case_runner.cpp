@@ -58,14 +58,14 @@ CaseRunner::CaseRunner(Settings settings)
       robot_(robot::ReadRobotFile(settings_.robot_file, app::LoadYaml)) {}
 
 CaseRecord CaseRunner::Run(std::uint64_t seed) const {
-  const BlindCase drawn = DrawCase(seed, robot_);
+  const BlindCase drawn = DrawCase(seed, robot_, settings_.measured);
   CaseRecord record{.seed = seed, .kind = drawn.kind, .corruption = drawn.corruption};
   const std::string number = std::to_string(cases_++);
   const WorkFolder sealed(settings_.folder / ("sealed" + number), settings_.keep);
   const WorkFolder open(settings_.folder / ("open" + number), settings_.keep);
   const fs::path made = sealed.path() / "experiment";
   const fs::path answer = sealed.path() / "answer.json";
-  const Generator generator(settings_.robot_file, sealed.path());
+  const Generator generator(settings_.robot_file, sealed.path(), settings_.measured);
   try {
     generator.Make(drawn.effects, seed, made, answer);
     if (drawn.kind != CaseKind::kCorrupted) {  // of which no cause is asked

@@ -38,6 +38,7 @@ class CaseRunner {
     std::filesystem::path robot_file;
     std::filesystem::path folder;  ///< is there
     bool keep = false;             ///< what a case leaves in it
+    Measured measured = Measured::kMarkers;
     int longest_diagnosis_s = 1200;
     int samples = 120;  ///< `palpate diagnose --samples`
     int minutes = 5;    ///< `palpate diagnose --minutes`

@@ -90,6 +90,35 @@ fs::path DrawRecording(const fs::path& experiment, Random* random) {
   return moving.at(random->Below(moving.size()));
 }
 
+std::vector<fs::path> DepthImages(const fs::path& recording) {
+  std::vector<fs::path> images;
+  for (const auto& entry : fs::directory_iterator(recording / "depth")) {
+    images.push_back(entry.path());
+  }
+  const auto stamp = [](const fs::path& image) { return std::stoll(image.stem().string()); };
+  std::sort(images.begin(), images.end(),
+            [&](const fs::path& a, const fs::path& b) { return stamp(a) < stamp(b); });
+  if (images.size() < 10) throw RunError(recording.string() + ": has hardly any pictures");
+  return images;
+}
+
+/// Of depth images, what Corruption says of markers; a file that is cut short is no picture.
+void CorruptPictures(Corruption corruption, Random* random, const fs::path& recording) {
+  const std::vector<fs::path> images = DepthImages(recording);
+  std::vector<std::string> bytes;
+  for (const fs::path& image : images) bytes.push_back(ReadFile(image));
+  const std::size_t last = images.size() / 5;
+  for (std::size_t left = bytes.size(); left > 1; --left) {
+    if (corruption != Corruption::kShuffledStamps) break;
+    std::swap(bytes[left - 1], bytes[random->Below(left)]);
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (corruption == Corruption::kFrozenMarkers && i > last) bytes[i] = bytes[last];
+    if (corruption == Corruption::kNotANumber && i % 3 == 1) bytes[i].resize(bytes[i].size() / 2);
+    WriteFile(images[i], bytes[i]);
+  }
+}
+
 void Enlarge(double factor, robot::Box* box) {
   box->lower_m *= factor;
   box->upper_m *= factor;
@@ -120,6 +149,10 @@ void Corrupt(Corruption corruption, std::uint64_t seed, const fs::path& experime
   const fs::path recording = DrawRecording(experiment, &random);
   if (corruption == Corruption::kMissingActuation) {
     PALPATE_CHECK(fs::remove(recording / "actuation.csv"), recording.string());
+    return;
+  }
+  if (!fs::exists(recording / "markers.csv")) {
+    CorruptPictures(corruption, &random, recording);
     return;
   }
   MarkerFile markers = ReadMarkerFile(recording / "markers.csv");

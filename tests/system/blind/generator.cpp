@@ -38,6 +38,25 @@ std::string EffectText(const ActiveEffect& effect) {
   return text + "}";
 }
 
+/// A depth camera half a metre away, of half the resolution that such cameras have, and slow: what
+/// it shows is no matter of pixels.
+std::string WithPictures(std::string scenario) {
+  const std::size_t begin = scenario.find("markers:");
+  PALPATE_CHECK(begin != std::string::npos);
+  const std::size_t end = scenario.find('\n', begin) + 1;
+  return scenario.replace(begin, end - begin,
+                          R"(camera:
+  depth: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
+          unit_m: 0.0001, baseline_m: 0.05}
+  color: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
+          registered_to_depth: true}
+  eye_m: [0.09, -0.09, 0.52]
+  target_m: [0, 0, 0.09]
+  rate_hz: 2.5
+stage: {marker_radius_m: 0}
+)");
+}
+
 double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,
                   const std::map<std::string, Eigen::VectorXd>& without) {
   double largest_m = 0.0;
@@ -51,8 +70,8 @@ double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,
 
 }  // namespace
 
-Generator::Generator(fs::path robot_file, fs::path folder)
-    : robot_file_{std::move(robot_file)}, folder_{std::move(folder)} {
+Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
+    : robot_file_{std::move(robot_file)}, folder_{std::move(folder)}, measured_{measured} {
   const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
   scenario_text_ = ReadFile(scenarios / "diagnose.yaml");
   PALPATE_CHECK(scenario_text_.find(kNoEffects) != std::string::npos);
@@ -62,32 +81,46 @@ Generator::Generator(fs::path robot_file, fs::path folder)
 
 void Generator::Make(const std::vector<ActiveEffect>& effects, std::uint64_t seed,
                      const fs::path& experiment, const fs::path& answer) const {
+  Make(measured_ == Measured::kPictures ? WithPictures(scenario_text_) : scenario_text_, effects,
+       seed, experiment, answer);
+}
+
+void Generator::Make(const std::string& scenario_text, const std::vector<ActiveEffect>& effects,
+                     std::uint64_t seed, const fs::path& experiment, const fs::path& answer) const {
   std::string list;
   for (const ActiveEffect& effect : effects)
     list += (list.empty() ? "" : ", ") + EffectText(effect);
-  std::string text = scenario_text_;
+  std::string text = scenario_text;
   text.replace(text.find(kNoEffects), kNoEffects.size(), "effects: [" + list + "]");
   const std::string name = experiment.filename().string();
   const fs::path scenario = folder_ / (name + ".scenario.yaml");
   const fs::path log = folder_ / (name + ".simulate.log");
   WriteFile(scenario, text);
-  const auto done = system_test::RunProgram(
-      "palpate",
-      {"simulate", robot_file_.string(), "--scenario", scenario.string(), "--seed",
-       std::to_string(seed), "--out", experiment.string(), "--answer", answer.string()},
-      log);
+  std::vector<std::string> arguments = {
+      "simulate", robot_file_.string(), "--scenario", scenario.string(),
+      "--seed",   std::to_string(seed), "--out",      experiment.string(),
+      "--answer", answer.string()};
+  if (scenario_text != scenario_text_) arguments.emplace_back("--tell-camera-pose");
+  const auto done = system_test::RunProgram("palpate", arguments, log);
   if (done != 0) throw RunError("palpate simulate: " + ReadFile(log));
 }
 
 std::vector<double> Generator::EffectSizes_m(const std::vector<ActiveEffect>& effects,
                                              std::uint64_t seed, const fs::path& experiment) const {
-  const auto with_m = MarkerCoordinates_m(experiment);
+  if (effects.empty()) return {};
+  const std::string named = experiment.filename().string();
+  fs::path with = experiment;
+  if (measured_ == Measured::kPictures) {
+    with = folder_ / (named + "_with_markers");
+    Make(scenario_text_, effects, seed, with, folder_ / (named + "_with_markers.answer.json"));
+  }
+  const auto with_m = MarkerCoordinates_m(with);
   std::vector<double> sizes_m;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const std::string name = experiment.filename().string() + "_without_" + std::to_string(i);
+    const std::string name = named + "_without_" + std::to_string(i);
     const fs::path other = folder_ / name;
     const fs::path answer = folder_ / (name + ".answer.json");
-    Make(WithoutEffect(effects, i), seed, other, answer);
+    Make(scenario_text_, WithoutEffect(effects, i), seed, other, answer);
     sizes_m.push_back(LargestRms(with_m, MarkerCoordinates_m(other)));
     fs::remove_all(other);
     fs::remove(answer);

@@ -11,14 +11,17 @@
 #include <vector>
 
 #include "libs/scenario/effect.hpp"
+#include "tests/system/blind/blind_case.hpp"
 
 namespace palpate::blind {
 
 /// Makes experiments of config/scenarios/diagnose.yaml with `palpate simulate`, each a process.
+/// Where pictures are asked for, a small depth camera takes them in the place of markers.
 class Generator {
  public:
   /// Works in `folder`, which is there.
-  Generator(std::filesystem::path robot_file, std::filesystem::path folder);
+  Generator(std::filesystem::path robot_file, std::filesystem::path folder,
+            Measured measured = Measured::kMarkers);
 
   /// `experiment` and `answer`: files that are not there yet. Throws RunError with what the program
   /// said.
@@ -26,17 +29,22 @@ class Generator {
             const std::filesystem::path& experiment, const std::filesystem::path& answer) const;
 
   /// How far each effect moves the markers in the recording where it moves them most, beside the
-  /// others: RMS over all coordinates of all markers of a recording, m. `experiment` was made with
-  /// all of them by Make; for each, another without it but with the same seed, so that noise and
-  /// clutter are the same and drop out.
+  /// others: RMS over all coordinates of all markers of a recording, m, whatever `experiment`
+  /// shows, which was made with all of them by Make; for each, another without it but with the same
+  /// seed, so that noise and clutter are the same and drop out.
   std::vector<double> EffectSizes_m(const std::vector<scenario::ActiveEffect>& effects,
                                     std::uint64_t seed,
                                     const std::filesystem::path& experiment) const;
 
  private:
+  void Make(const std::string& scenario_text, const std::vector<scenario::ActiveEffect>& effects,
+            std::uint64_t seed, const std::filesystem::path& experiment,
+            const std::filesystem::path& answer) const;
+
   std::filesystem::path robot_file_;
   std::filesystem::path folder_;
-  std::string scenario_text_;
+  std::string scenario_text_;  ///< with markers
+  Measured measured_;
 };
 
 /// All effects but one, which is not just left out: it would get clutter in its place, so that it
