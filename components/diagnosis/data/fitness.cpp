@@ -114,10 +114,25 @@ bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
   return pairs >= kFewestPairs && static_cast<double>(same) > kShare * static_cast<double>(pairs);
 }
 
+/// How the commands go at the stamps of pictures.
+Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
+  Jumpiness jumpiness;
+  for (Eigen::Index c = 0; c < std::ssize(timeline.cables); ++c) {
+    std::vector<Eigen::Vector3d> series;
+    for (const SeenCloud* one : clouds) {
+      const double told = timeline.CommandAt(one->picture.t_s)[c];
+      if (std::isfinite(told)) series.emplace_back(told, 0.0, 0.0);
+    }
+    if (!series.empty()) jumpiness.Add(series);
+  }
+  return jumpiness;
+}
+
 /// The skin lies off where it is thought to be as smoothly as the body moves.
-bool IsShuffled(const std::vector<const SeenCloud*>& clouds) {
+bool IsShuffled(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
   constexpr double kJumpy = 0.5;
-  constexpr double kOff_m = 2e-3;  // RMS, far beyond what cameras jump by
+  constexpr double kMoreThanCommands = 3.0;
+  constexpr double kOff_m = 5e-4;  // RMS, beyond what cameras jump by
   constexpr std::size_t kFewest = 6;
   if (clouds.empty()) return false;
   Jumpiness jumpiness;
@@ -132,7 +147,8 @@ bool IsShuffled(const std::vector<const SeenCloud*>& clouds) {
     values += series.size();
   }
   return jumpiness.variance > kOff_m * kOff_m * static_cast<double>(values) &&
-         jumpiness.Ratio() > kJumpy;
+         jumpiness.Ratio() > kJumpy &&
+         jumpiness.Ratio() > kMoreThanCommands * OfCommands(timeline, clouds).Ratio();
 }
 
 }  // namespace
@@ -160,7 +176,7 @@ std::string WhyUnfit(const ObservedExperiment& observed, const SkinClouds& cloud
     if (IsFrozen(of_recording)) {
       return who + ": pictures are the same to the last digit: the camera stood still";
     }
-    if (IsShuffled(of_recording)) {
+    if (IsShuffled(observed.timeline, of_recording)) {
       return who +
              ": the clouds jump to and fro while the cables go on: the stamps are in disorder";
     }
