@@ -303,14 +303,14 @@ std::string LookAtPictures(const robot::RobotBody& body, const DiagnosisSettings
   const std::vector<ShapesInTime> shapes = simulator.Shapes(draft, simulator.Run(draft));
   matcher->Look(*observed, shapes, settings.pictures);
   matcher->Match(draft, shapes, observed);
-  const std::string why = WhyUnfit(*observed, matcher->clouds());
-  if (!why.empty()) return why;
-  if (matcher->outliers() > matcher->matched()) {
-    return "most of what pictures show lies more than 20 mm off the robot: it is another one, or "
-           "the "
-           "camera stands elsewhere than T_robot_camera says";
+  std::string why = WhyUnfit(*observed, matcher->clouds());
+  if (why.empty() && matcher->outliers() > matcher->matched()) {
+    why =
+        "most of what pictures show lies more than 20 mm off the robot: it is another one, or the "
+        "camera stands elsewhere than T_robot_camera says";
   }
-  return {};
+  if (!why.empty() && !observed->markers.empty()) why += "; the markers alone may still tell";
+  return why;
 }
 
 }  // namespace
@@ -378,7 +378,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   DescribeVerdict(selection, &result);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(Describe(observed, fitter, selection.best, choice));
-    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
+    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice);
   }
   DescribeRivals(book, selection, &result);
   result.residual_forces = FindResidualForces(observed, book, selection);

@@ -42,7 +42,7 @@ struct NamedCause {
   std::vector<FittedParameter> parameters;
   double probability = 0.0;          ///< in (0, 0.99]
   double ln_bayes_factor = 0.0;      ///< against the same model without it
-  double explained_share = 0.0;      ///< of what tolerances leave beyond the noise
+  double explained_share = 0.0;      ///< of what tolerances leave beyond noise (gap.hpp)
   bool cross_validated = false;      ///< it lowers the error in recordings it was not fitted to
   std::vector<std::string> seen_in;  ///< recordings that speak for it
 };

@@ -123,11 +123,12 @@ struct Sums {
   int samples = 0;
 };
 
-/// [recordings] parameters as all other recordings have them.
-std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit) {
+/// [recordings] parameters as all other recordings have them, with these causes.
+std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit,
+                                     const std::vector<int>& causes) {
   std::vector<Eigen::VectorXd> z;
   for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
-    z.push_back(book.InferWithin(fit.model.AllBut(r), fit.faults).mean);
+    z.push_back(book.InferWithin(fit.model.AllBut(r), causes).mean);
   }
   return z;
 }
@@ -157,18 +158,21 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
 }  // namespace
 
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
-                      const Selection& selection, int cause) {
+                      const Selection& selection, const Choice& choice) {
   const Fit& best = selection.best;
   const Fit& healthy = selection.healthy;
+  const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
+    return ResidualsOf(observed, fit,
+                       choice.held_out.clear
+                           ? LeftOut(book, fit, causes)
+                           : std::vector{book.InferWithin(fit.model.All(), causes).mean});
+  };
   std::vector<int> others = best.faults;
-  std::erase(others, cause);
-  const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
+  std::erase(others, choice.cause);
+  const Residuals healthy_m = left_m(healthy, healthy.faults);
   // The only one is far from none: the healthy robot's own fit knows better than a linear model.
-  const Residuals without_m =
-      others.empty()
-          ? healthy_m
-          : ResidualsOf(observed, best, {book.InferWithin(best.model.All(), others).mean});
-  const Residuals with_m = ResidualsOf(observed, best, {best.posterior.mean});
+  const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
+  const Residuals with_m = left_m(best, best.faults);
   Squares of_healthy, without, with, noise;
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (!healthy.simulation.samples[s].status.ok()) continue;
@@ -191,8 +195,9 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
   const Residuals before_m = ResidualsOf(observed, as_built, {none});
   const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
   const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
-  const Residuals heldout_before_m = ResidualsOf(observed, healthy, LeftOut(book, healthy));
-  const Residuals heldout_after_m = ResidualsOf(observed, best, LeftOut(book, best));
+  const Residuals heldout_before_m =
+      ResidualsOf(observed, healthy, LeftOut(book, healthy, healthy.faults));
+  const Residuals heldout_after_m = ResidualsOf(observed, best, LeftOut(book, best, best.faults));
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];

@@ -87,14 +87,17 @@ std::string NameOf(Eyes eyes) {
   return eyes == Eyes::kIdeal ? "sensing/ideal_perception/" : "sensing/whole/";
 }
 
+/// How a set of contacts is shown.
+using Showing = test_support::Watched (SensingSets::*)(Eyes, const ContactWish&, int);
+
 Benchmark OfTouches(const SharedSets& sets, Eyes eyes, const std::string& name,
-                    const ContactWish& wish, int contacts) {
+                    const ContactWish& wish, int contacts, Showing show = &SensingSets::Touches) {
   return {.name = NameOf(eyes) + name,
           .measure =
-              [sets, eyes, wish, contacts](benchmark::State& state) {
+              [sets, eyes, wish, contacts, show](benchmark::State& state) {
                 test_support::Watched watched;
                 for ([[maybe_unused]] auto iteration : state) {
-                  watched = sets->Get().Touches(eyes, wish, contacts);
+                  watched = (sets->Get().*show)(eyes, wish, contacts);
                 }
                 CountAccuracy(state, watched);
               },
@@ -181,6 +184,13 @@ std::vector<Block> SensingBlocks() {
     add(OfWeights(sets, eyes, "weights_searched", false));
   }
   add(OfWeights(sets, Eyes::kIdeal, "weights_given", true));
+  const auto add_first = [&](const std::string& name, const ContactWish& wish, int contacts) {
+    add(OfTouches(sets, Eyes::kPerception, "first_picture/" + name, wish, contacts,
+                  &SensingSets::FirstPictures));
+  };
+  add_first("one_visible", {.where = Where::kVisible}, size.contacts);
+  add_first("two_visible", {.where = Where::kVisible, .count = 2}, half);
+  add_first("one_hidden", {.where = Where::kHidden}, half);
   add(OfBounds(sets, "one_visible", {.where = Where::kVisible}, size.contacts));
   add(OfBounds(sets, "one_hidden", {.where = Where::kHidden}, half));
   return blocks;

@@ -91,6 +91,19 @@ Watched SensingSets::Touches(Eyes eyes, const ContactWish& wish, int count) {
   return watched;
 }
 
+Watched SensingSets::FirstPictures(Eyes eyes, const ContactWish& wish, int count) {
+  const std::vector<Path>& paths = PathsOf(wish, count);
+  SensingChain& chain = ChainOf(eyes);
+  Watched watched;
+  for (const Path& path : paths) {
+    scene_.Show(path.back());
+    chain.Open();
+    watched.held.Add(path.back().forces, chain.Take());
+  }
+  chain.Open();
+  return watched;
+}
+
 std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wish, int count) {
   const std::vector<Path>& paths = PathsOf(wish, count);
   robot::RobotModel model(robot::BuildRobotBody(FourLeg()));

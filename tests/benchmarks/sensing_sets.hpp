@@ -54,6 +54,9 @@ class SensingSets {
   /// `count` of them, with cables pulled in by up to 3 mm. Throws RunError where there are none.
   test_support::Watched Touches(Eyes eyes, const test_support::ContactWish& wish, int count);
 
+  /// The same contacts, each there already in the first picture of a sequence, which has no second.
+  test_support::Watched FirstPictures(Eyes eyes, const test_support::ContactWish& wish, int count);
+
   /// What can be told at best of each of these contacts' forces, held as long as Touches holds
   /// them.
   std::vector<test_support::ForceBound> Bounds(const test_support::ContactWish& wish, int count);
