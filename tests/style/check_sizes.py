@@ -20,10 +20,12 @@ SOURCE_SUFFIXES = source_tree.CPP_SUFFIXES | {".py", ".cmake", ".idl", ".sh"}
 SOURCE_NAMES = {"CMakeLists.txt", "run"}
 
 # A function begins with a line that ends in ") {" (after qualifiers); in formatted code its end is
-# the first line that is only a brace at the same indentation.
+# the first line that is only a brace at the same indentation. Not a list of initialisers, whose
+# constructor ends farther to the left.
 FUNCTION_BEGIN = re.compile(
-    r"^(\s*)(?!\s|if\b|for\b|while\b|switch\b|else\b|do\b|catch\b|\}|namespace\b|class\b|struct\b)"
-    r"[^/].*\)(?: const| noexcept| override| final| mutable| -> [\w:<>, *&]+)* \{$")
+    r"^(\s*)(?!\s|:|if\b|for\b|while\b|switch\b|else\b|do\b|catch\b|\}"
+    r"|namespace\b|class\b|struct\b)[^/].*\)"
+    r"(?: const| noexcept| override| final| mutable| -> [\w:<>, *&]+)* \{$")
 
 
 def long_functions(lines):

@@ -167,6 +167,11 @@ class CheckSizes(TreeTest):
         self.plant("a.cpp", "int b;\nint F(int a) const {\n" + "  a;\n" * 59 + "}\n")
         self.assertIn("a.cpp:2: function of 61 lines", self.found())
 
+    def test_initialisers_are_no_function(self):
+        self.plant("a.cpp", "A::A()\n    : b_(1) {\n  c();\n}\n" + "int d;\n" * 60
+                   + "int F() {\n  if (a) {\n    e();\n    }\n}\n")
+        self.assertEqual(self.found(), "")
+
     def test_columns_and_white_space(self):
         self.plant("a.py", "a = 1\n" + "#" * 101 + "\n")
         self.assertIn("a.py:2: 101 columns", self.found())

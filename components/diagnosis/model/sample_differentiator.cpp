@@ -151,10 +151,9 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
       Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), ParameterCount(causes_));
   Collect(at);
   Observe(at);
-  if (!at.simulated().status.ok() ||
-      !of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok()) {
-    return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-  }
+  const bool known = at.simulated().status.ok() &&
+                     of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok();
+  if (!known) return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   Eigen::MatrixXd motions_m = of_rows_.motion_m();
   if (!compliant_.empty()) GiveWay(&motions_m);
   for (std::size_t k = 0; k < column_of_.size(); ++k) {

@@ -13,6 +13,7 @@
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "tests/system/blind/picture_camera.hpp"
 #include "tests/system/process.hpp"
 
 namespace palpate::blind {
@@ -38,23 +39,11 @@ std::string EffectText(const ActiveEffect& effect) {
   return text + "}";
 }
 
-/// A depth camera half a metre away, of half the resolution that such cameras have, and slow: what
-/// it shows is no matter of pixels.
 std::string WithPictures(std::string scenario) {
   const std::size_t begin = scenario.find("markers:");
   PALPATE_CHECK(begin != std::string::npos);
   const std::size_t end = scenario.find('\n', begin) + 1;
-  return scenario.replace(begin, end - begin,
-                          R"(camera:
-  depth: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
-          unit_m: 0.0001, baseline_m: 0.05}
-  color: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
-          registered_to_depth: true}
-  eye_m: [0.09, -0.09, 0.52]
-  target_m: [0, 0, 0.09]
-  rate_hz: 2.5
-stage: {marker_radius_m: 0}
-)");
+  return scenario.replace(begin, end - begin, kPictureCamera + "  rate_hz: 2.5\n");
 }
 
 double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,

@@ -4,17 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "libs/core/file.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/support/test_folder.hpp"
-#include "tests/system/process.hpp"
+#include "tests/system/blind/diagnosis/palpate_command.hpp"
+#include "tests/system/blind/picture_camera.hpp"
 
 /// `palpate diagnose` on depth images alone: a robot of few cells before a small camera with noise
 /// and smooth errors of its own.
@@ -33,15 +32,7 @@ body: {refine: 0, element: tet10}
 motion: {mode: quasi_static, time_step_s: 0.1}
 effects: []
 clutter: 1
-camera:
-  depth: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
-          unit_m: 0.0001, baseline_m: 0.05}
-  color: {width_px: 424, height_px: 240, fx_px: 360, fy_px: 360, cx_px: 211.5, cy_px: 119.5,
-          registered_to_depth: true}
-  eye_m: [0.09, -0.09, 0.52]
-  target_m: [0, 0, 0.09]
-  rate_hz: 2
-stage: {marker_radius_m: 0}
+)" + kPictureCamera + R"(  rate_hz: 2
 rest_between_s: 2
 recordings:
   - name: R0_rest
@@ -93,17 +84,6 @@ recordings:
       - {t_s: 4, north.displacement_m: 0.012, west.displacement_m: 0, south.displacement_m: 0, east.displacement_m: 0}
     base_tilt_deg: [15, 0]
 )";
-
-std::optional<int> Palpate(const std::vector<std::string>& arguments, const fs::path& log) {
-  system_test::Process process("palpate", arguments, log);
-  return process.Wait(std::chrono::seconds(600));
-}
-
-void Replace(const std::string& what, const std::string& by, std::string* text) {
-  const std::size_t found = text->find(what);
-  ASSERT_NE(found, std::string::npos) << what;
-  text->replace(found, what.size(), by);
-}
 
 class DiagnosePictures : public testing::Test {
  protected:

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
-#include "tests/system/process.hpp"
+#include "tests/system/blind/diagnosis/palpate_command.hpp"
 
 /// `palpate diagnose` as a person calls it, on robots of the virtual bench.
 namespace palpate::blind {
@@ -25,17 +24,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 const fs::path kSource = PALPATE_SOURCE_DIR;
-
-std::optional<int> Palpate(const std::vector<std::string>& arguments, const fs::path& log) {
-  system_test::Process process("palpate", arguments, log);
-  return process.Wait(std::chrono::seconds(600));
-}
-
-void Replace(const std::string& what, const std::string& by, std::string* text) {
-  const std::size_t found = text->find(what);
-  ASSERT_NE(found, std::string::npos) << what;
-  text->replace(found, what.size(), by);
-}
 
 class DiagnoseVerb : public testing::Test {
  protected:
