@@ -114,7 +114,7 @@ class DiagnosePictures : public testing::Test {
     return Json::parse(ReadFile(folder_.path() / "out" / "verdict.json"));
   }
 
-  /// Named first, its first parameter is near, and it tells most of what tolerances do not.
+  /// Named first, its first parameter is near, and it tells much of what tolerances do not.
   static void ExpectFirst(const Json& verdict, const std::string& id, const std::string& parameter,
                           double value, double tolerance) {
     ASSERT_FALSE(verdict["causes"].empty()) << verdict.dump(1);
@@ -122,7 +122,7 @@ class DiagnosePictures : public testing::Test {
     EXPECT_EQ(cause["id"], id) << verdict.dump(1);
     ASSERT_TRUE(cause["parameters"].contains(parameter)) << cause.dump(1);
     EXPECT_NEAR(cause["parameters"][parameter]["value"].get<double>(), value, tolerance);
-    EXPECT_GT(cause["explained_share"].get<double>(), 0.5) << cause.dump(1);
+    EXPECT_GT(cause["explained_share"].get<double>(), 0.3) << cause.dump(1);
   }
 
   /// Depth images of a recording, by time.
