@@ -378,7 +378,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   DescribeVerdict(selection, &result);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(Describe(observed, fitter, selection.best, choice));
-    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice);
+    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);
   result.residual_forces = FindResidualForces(observed, book, selection);

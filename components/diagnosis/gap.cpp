@@ -123,7 +123,11 @@ struct Sums {
   int samples = 0;
 };
 
-/// [recordings] parameters as all other recordings have them, with these causes.
+/// Parameters with these causes, of each recording their own or one for all (ResidualsOf).
+using Parameters = std::vector<Eigen::VectorXd>(const CauseBook&, const Fit&,
+                                                const std::vector<int>& causes);
+
+/// As all other recordings have them.
 std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit,
                                      const std::vector<int>& causes) {
   std::vector<Eigen::VectorXd> z;
@@ -131,6 +135,36 @@ std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit,
     z.push_back(book.InferWithin(fit.model.AllBut(r), causes).mean);
   }
   return z;
+}
+
+std::vector<Eigen::VectorXd> AsFitted(const CauseBook& book, const Fit& fit,
+                                      const std::vector<int>& causes) {
+  return {book.InferWithin(fit.model.All(), causes).mean};
+}
+
+double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
+                      const Selection& selection, int cause, const Parameters& parameters) {
+  const Fit& best = selection.best;
+  const Fit& healthy = selection.healthy;
+  const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
+    return ResidualsOf(observed, fit, parameters(book, fit, causes));
+  };
+  std::vector<int> others = best.faults;
+  std::erase(others, cause);
+  const Residuals healthy_m = left_m(healthy, healthy.faults);
+  // The only one is far from none: the healthy robot's own fit knows better than a linear model.
+  const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
+  const Residuals with_m = left_m(best, best.faults);
+  Squares of_healthy, without, with, noise;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    if (!healthy.simulation.samples[s].status.ok()) continue;
+    of_healthy.Add(healthy_m[s]);
+    without.Add(without_m[s]);
+    with.Add(with_m[s]);
+    noise.Add(Noise_m(observed, s));
+  }
+  const double excess_m2 = of_healthy.sum_m2 - noise.sum_m2;
+  return excess_m2 > 0.0 ? std::clamp((without.sum_m2 - with.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
 }
 
 void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,
@@ -158,31 +192,9 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
 }  // namespace
 
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
-                      const Selection& selection, const Choice& choice) {
-  const Fit& best = selection.best;
-  const Fit& healthy = selection.healthy;
-  const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
-    return ResidualsOf(observed, fit,
-                       choice.held_out.clear
-                           ? LeftOut(book, fit, causes)
-                           : std::vector{book.InferWithin(fit.model.All(), causes).mean});
-  };
-  std::vector<int> others = best.faults;
-  std::erase(others, choice.cause);
-  const Residuals healthy_m = left_m(healthy, healthy.faults);
-  // The only one is far from none: the healthy robot's own fit knows better than a linear model.
-  const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
-  const Residuals with_m = left_m(best, best.faults);
-  Squares of_healthy, without, with, noise;
-  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-    if (!healthy.simulation.samples[s].status.ok()) continue;
-    of_healthy.Add(healthy_m[s]);
-    without.Add(without_m[s]);
-    with.Add(with_m[s]);
-    noise.Add(Noise_m(observed, s));
-  }
-  const double excess_m2 = of_healthy.sum_m2 - noise.sum_m2;
-  return excess_m2 > 0.0 ? std::clamp((without.sum_m2 - with.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
+                      const Selection& selection, int cause) {
+  return std::max(ExplainedShare(observed, book, selection, cause, AsFitted),
+                  ExplainedShare(observed, book, selection, cause, LeftOut));
 }
 
 void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,

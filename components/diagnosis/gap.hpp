@@ -17,10 +17,10 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                  DiagnosisResult* result);
 
 /// Share of the squares beyond the noise, as a robot within its tolerances leaves them, that would
-/// come back without one of the named causes, the others and the tolerances fitted again. In
-/// recordings that were not fitted, where the cause predicts those: in all that were, tolerances
-/// take up most of what a small cause does. Else in all as they were fitted.
+/// come back without one of the named causes, the others and the tolerances fitted again: in what
+/// was fitted, or in recordings left out, where it is more. In what they are fitted to tolerances
+/// take up most of what a small cause does; a cause that one recording alone shows is told there.
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
-                      const Selection& selection, const Choice& choice);
+                      const Selection& selection, int cause);
 
 }  // namespace palpate::diagnosis
