@@ -309,7 +309,10 @@ std::string LookAtPictures(const robot::RobotBody& body, const DiagnosisSettings
         "most of what pictures show lies more than 20 mm off the robot: it is another one, or the "
         "camera stands elsewhere than T_robot_camera says";
   }
-  if (!why.empty() && !observed->markers.empty()) why += "; the markers alone may still tell";
+  const bool has_markers =
+      std::any_of(observed->samples.begin(), observed->samples.end(),
+                  [](const Sample& sample) { return (sample.count.array() > 0).any(); });
+  if (!why.empty() && has_markers) why += "; the markers alone may still tell";
   return why;
 }
 

@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/data/fitness.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -128,27 +129,51 @@ Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud
   return jumpiness;
 }
 
-/// The skin lies off where it is thought to be as smoothly as the body moves.
-bool IsShuffled(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
+/// [features] variance of the noise of one picture in a recording, m2; NaN: never seen there.
+Eigen::VectorXd NoiseOfPictures_m2(const ObservedExperiment& observed, std::size_t recording) {
+  Eigen::VectorXd sum_m2 = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
+  Eigen::VectorXd samples = sum_m2;
+  for (const Sample& sample : observed.samples) {
+    if (static_cast<std::size_t>(sample.recording) != recording) continue;
+    for (std::size_t f = 0; f < sample.skin.size(); ++f) {
+      const SkinSighting& skin = sample.skin[f];
+      if (skin.count == 0) continue;
+      const auto feature = static_cast<Eigen::Index>(f);
+      sum_m2[feature] += skin.count * skin.sigma_m * skin.sigma_m;
+      ++samples[feature];
+    }
+  }
+  return sum_m2.cwiseQuotient(samples);
+}
+
+/// The skin lies off where it is thought to be as smoothly as the body moves: most features of
+/// which that is far more than noise jump as much as their stamps make of it. One alone may look
+/// from edge to edge.
+bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,
+                const std::vector<const SeenCloud*>& clouds) {
+  constexpr double kMotion = 9.0;  // of the noise's variance
   constexpr double kJumpy = 0.5;
   constexpr double kMoreThanCommands = 3.0;
-  constexpr double kOff_m = 5e-4;  // RMS, beyond what cameras jump by
-  constexpr std::size_t kFewest = 6;
+  constexpr std::size_t kFewestPictures = 6;
+  constexpr int kFewestFeatures = 5;
   if (clouds.empty()) return false;
-  Jumpiness jumpiness;
-  std::size_t values = 0;
-  for (Eigen::Index f = 0; f < clouds.front()->height_m.size(); ++f) {
+  const Eigen::VectorXd noise_m2 = NoiseOfPictures_m2(observed, recording);
+  const double of_commands = OfCommands(observed.timeline, clouds).Ratio();
+  int moving = 0;
+  int jumping = 0;
+  for (Eigen::Index f = 0; f < noise_m2.size(); ++f) {
     std::vector<Eigen::Vector3d> series;
     for (const SeenCloud* one : clouds) {
       if (std::isfinite(one->height_m[f])) series.emplace_back(one->height_m[f], 0.0, 0.0);
     }
-    if (series.size() < kFewest) continue;
+    Jumpiness jumpiness;
     jumpiness.Add(series);
-    values += series.size();
+    const double of_noise_m2 = static_cast<double>(series.size()) * noise_m2[f];
+    if (series.size() < kFewestPictures || !(jumpiness.variance > kMotion * of_noise_m2)) continue;
+    ++moving;
+    if (jumpiness.Ratio() > std::max(kJumpy, kMoreThanCommands * of_commands)) ++jumping;
   }
-  return jumpiness.variance > kOff_m * kOff_m * static_cast<double>(values) &&
-         jumpiness.Ratio() > kJumpy &&
-         jumpiness.Ratio() > kMoreThanCommands * OfCommands(timeline, clouds).Ratio();
+  return moving >= kFewestFeatures && 2 * jumping > moving;
 }
 
 }  // namespace
@@ -176,7 +201,7 @@ std::string WhyUnfit(const ObservedExperiment& observed, const SkinClouds& cloud
     if (IsFrozen(of_recording)) {
       return who + ": pictures are the same to the last digit: the camera stood still";
     }
-    if (IsShuffled(observed.timeline, of_recording)) {
+    if (IsShuffled(observed, r, of_recording)) {
       return who +
              ": the clouds jump to and fro while the cables go on: the stamps are in disorder";
     }

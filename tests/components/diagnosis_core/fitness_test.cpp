@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/data/fitness.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+
+namespace palpate::diagnosis {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kSamples = 8;
+constexpr int kPictures = 5;  ///< of each
+constexpr int kFeatures = 12;
+constexpr double kNoise_m = 5e-4;
+
+/// One recording of a robot whose skin lies so far off where it is thought to be, in `height_m` of
+/// feature and picture, beside the noise.
+class PicturesOfARecording : public testing::Test {
+ protected:
+  std::string Judge(const std::function<double(int feature, int picture)>& height_m) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> noise_m(0.0, kNoise_m);
+    ObservedExperiment observed;
+    observed.recordings.push_back({.name = "a", .kind = "ramp"});
+    observed.feature_rest_m.setZero(3, kFeatures);
+    SkinClouds clouds;
+    for (int s = 0; s < kSamples; ++s) {
+      Sample& sample = observed.samples.emplace_back();
+      sample.recording = 0;
+      sample.skin.resize(kFeatures);
+      for (SkinSighting& skin : sample.skin) {
+        skin.count = kPictures;
+        skin.sigma_m = kNoise_m / std::sqrt(kPictures);
+      }
+      clouds.emplace_back();
+      for (int k = 0; k < kPictures; ++k) {
+        SeenCloud& seen = clouds.back().emplace_back();
+        const int picture = kPictures * s + k;
+        seen.picture = {picture, 0.1 * picture};
+        seen.digest = static_cast<std::uint64_t>(picture);
+        seen.cloud.points_m.setOnes(3, 1);
+        seen.height_m.resize(kFeatures);
+        for (int f = 0; f < kFeatures; ++f)
+          seen.height_m[f] = height_m(f, picture) + noise_m(random);
+      }
+    }
+    return WhyUnfit(observed, clouds);
+  }
+
+  /// To and fro by 4 mm, as a robot with a fault may be off its model.
+  static double Smooth_m(int feature, int picture) {
+    return 4e-3 * std::sin(0.3 * feature + 0.2 * picture);
+  }
+  static int Shuffled(int picture) { return 7 * picture % (kSamples * kPictures); }
+};
+
+TEST_F(PicturesOfARecording, OfARobotThatMovesOtherwiseAreInOrder) {
+  EXPECT_EQ(Judge(Smooth_m), "");
+}
+
+TEST_F(PicturesOfARecording, OfNoiseAloneAreInOrder) {
+  EXPECT_EQ(Judge([](int, int) { return 0.0; }), "");
+}
+
+TEST_F(PicturesOfARecording, InWhichSomeFeaturesJumpFromEdgeToEdgeAreInOrder) {
+  EXPECT_EQ(Judge([](int feature, int picture) {
+              const bool jumps = feature < kFeatures / 4;
+              return jumps ? 0.02 * (picture % 2) : Smooth_m(feature, picture);
+            }),
+            "");
+}
+
+TEST_F(PicturesOfARecording, WithStampsOutOfOrderAreTold) {
+  EXPECT_THAT(Judge([](int feature, int picture) { return Smooth_m(feature, Shuffled(picture)); }),
+              HasSubstr("recording a: the clouds jump to and fro"));
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
