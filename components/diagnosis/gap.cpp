@@ -155,16 +155,24 @@ double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
   // The only one is far from none: the healthy robot's own fit knows better than a linear model.
   const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
   const Residuals with_m = left_m(best, best.faults);
-  Squares of_healthy, without, with, noise;
+  std::vector<Squares> of_healthy(observed.recordings.size());
+  std::vector<Squares> without(of_healthy), with(of_healthy), noise(of_healthy);
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (!healthy.simulation.samples[s].status.ok()) continue;
-    of_healthy.Add(healthy_m[s]);
-    without.Add(without_m[s]);
-    with.Add(with_m[s]);
-    noise.Add(Noise_m(observed, s));
+    const auto r = static_cast<std::size_t>(observed.samples[s].recording);
+    of_healthy[r].Add(healthy_m[s]);
+    without[r].Add(without_m[s]);
+    with[r].Add(with_m[s]);
+    noise[r].Add(Noise_m(observed, s));
   }
-  const double excess_m2 = of_healthy.sum_m2 - noise.sum_m2;
-  return excess_m2 > 0.0 ? std::clamp((without.sum_m2 - with.sum_m2) / excess_m2, 0.0, 1.0) : 0.0;
+  double excess_m2 = 0.0;
+  double back_m2 = 0.0;
+  for (std::size_t r = 0; r < noise.size(); ++r) {
+    const double floor_m2 = std::max(noise[r].sum_m2, with[r].sum_m2);
+    excess_m2 += std::max(0.0, of_healthy[r].sum_m2 - noise[r].sum_m2);
+    back_m2 += std::max(0.0, without[r].sum_m2 - floor_m2);
+  }
+  return excess_m2 > 0.0 ? std::min(back_m2 / excess_m2, 1.0) : 0.0;
 }
 
 void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,

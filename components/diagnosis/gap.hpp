@@ -16,10 +16,11 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                  const CauseBook& book, const Fit& as_built, const Selection& selection,
                  DiagnosisResult* result);
 
-/// Share of the squares beyond the noise, as a robot within its tolerances leaves them, that would
-/// come back without one of the named causes, the others and the tolerances fitted again: in what
-/// was fitted, or in recordings left out, where it is more. In what they are fitted to tolerances
-/// take up most of what a small cause does; a cause that one recording alone shows is told there.
+/// Share of the squares beyond the noise, as a robot within its tolerances leaves them in
+/// recordings that have any, that would come back without one of the named causes, the others and
+/// the tolerances fitted again: in what was fitted, or in recordings left out, where it is more. In
+/// what they are fitted to tolerances take up most of what a small cause does; a cause that one
+/// recording alone shows is told there.
 double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
                       const Selection& selection, int cause);
 
