@@ -9,13 +9,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
+/// Nobody mounts a guide so far beside its place.
+constexpr double kFarthest_m = 0.02;
+
 /// The point that the cable is pulled from sits elsewhere; the drive is zeroed with it there.
 class CableRouting final : public Cause {
  public:
   CableRouting(const std::string& cable, int index)
       : Cause({"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
-              {{.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3},
-               {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3}}),
+              {{.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
+               {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m}}),
         index_(index) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
