@@ -157,8 +157,8 @@ TEST_F(DiagnosePictures, NameASofterBody) {
 }
 
 TEST_F(DiagnosePictures, NameADepthScale) {
-  Make("{id: depth_scale, where: camera, s: 0.025}", 23);
-  ExpectFirst(Diagnose(), "depth_scale", "s", 0.025, 0.008);
+  Make("{id: depth_scale, where: camera, s: 0.02}", 23);
+  ExpectFirst(Diagnose(), "depth_scale", "s", 0.02, 0.006);
 }
 
 TEST_F(DiagnosePictures, OfNoUseAreRefusedWithTheReason) {
