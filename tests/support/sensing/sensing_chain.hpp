@@ -25,9 +25,9 @@ struct ChainSettings {
   enum class Eyes { kIdeal, kPerception };
 
   Eyes eyes = Eyes::kIdeal;
-  force_estimation::Config config;
-  force_estimation::ShapeConfig shape;
-  perception::Config perception;
+  force_estimation::Config config = {};
+  force_estimation::ShapeConfig shape = {};
+  perception::Config perception = {};
   /// Error of the places of ideal contacts along each axis; drawn when a tool comes, kept as long
   /// as it touches.
   double location_sigma_m = 1.5e-3;
