@@ -52,15 +52,20 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
                                            const std::vector<Eigen::MatrixXd>& drive_change,
                                            const ObservedExperiment& observed, SampleSolver* solver)
     : draft_(draft),
-      causes_(causes),
-      z_(z),
-      wanted_(wanted),
       drive_change_(drive_change),
       solver_(*solver),
       markers_seen_(SeesMarkers(observed)),
       marker_rows_(robot::RowsOfPoints(solver->markers())),
       of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
       of_body_(solver->model()) {
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const auto count = std::ssize(causes[k]->parameters());
+    for (int p = 0; wanted[k] && p < count; ++p) {
+      parameters_.push_back(
+          {causes[k], p, parameter_count_ + p, z.segment(parameter_count_, count)});
+    }
+    parameter_count_ += count;
+  }
   for (int c = 0; c < solver->model().CableCount(); ++c) {
     if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
   }
@@ -69,23 +74,19 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
 void SampleDifferentiator::Collect(const CauseMoment& at) {
   acting_.clear();
   column_of_.clear();
-  Eigen::Index column = 0;
-  for (std::size_t k = 0; k < causes_.size(); ++k) {
-    const Cause* cause = causes_[k];
-    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
-    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
-      if (!wanted_[k]) continue;
-      const Eigen::MatrixXd& change = drive_change_[static_cast<std::size_t>(column)];
-      auto sum = std::make_unique<SumOfParameters>();
-      if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
-        sum->Add(1.0, CommandChange(change.col(at.sample).array().isNaN().select(
-                          0.0, change.col(at.sample))));
-      }
-      if (robot::ParameterPtr body = cause->OnBody(p, own, at)) sum->Add(1.0, std::move(body));
-      if (sum->empty()) continue;
-      acting_.push_back(std::move(sum));
-      column_of_.push_back(column);
+  for (const WantedParameter& one : parameters_) {
+    const Eigen::MatrixXd& change = drive_change_[static_cast<std::size_t>(one.column)];
+    auto sum = std::make_unique<SumOfParameters>();
+    if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
+      sum->Add(1.0, CommandChange(
+                        change.col(at.sample).array().isNaN().select(0.0, change.col(at.sample))));
     }
+    if (robot::ParameterPtr body = one.cause->OnBody(one.number, one.z, at)) {
+      sum->Add(1.0, std::move(body));
+    }
+    if (sum->empty()) continue;
+    acting_.push_back(std::move(sum));
+    column_of_.push_back(one.column);
   }
   for (const int c : compliant_) acting_.push_back(robot::CableOffset(c));
 }
@@ -111,17 +112,13 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
   std::vector<Push> pushes;
   std::vector<Eigen::Index> first_of;
   std::vector<robot::ParameterPtr> forces;
-  Eigen::Index column = 0;
-  for (std::size_t k = 0; k < causes_.size(); ++k) {
-    const auto count = std::ssize(causes_[k]->parameters());
-    std::optional<Push> push;
-    if (wanted_[k]) push = causes_[k]->PushOf(z_.segment(column, count), at);
-    if (push) {
-      forces.push_back(robot::NodalForce(push->force_N));
-      pushes.push_back(std::move(*push));
-      first_of.push_back(column);
-    }
-    column += count;
+  for (const WantedParameter& one : parameters_) {
+    if (one.number > 0) continue;  // the cause was asked
+    std::optional<Push> push = one.cause->PushOf(one.z, at);
+    if (!push) continue;
+    forces.push_back(robot::NodalForce(push->force_N));
+    pushes.push_back(std::move(*push));
+    first_of.push_back(one.column);
   }
   if (pushes.empty()) return Status::Ok();
   fem::StaticState let_go = at.shape.state;
@@ -148,7 +145,7 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
 
 Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   Eigen::MatrixXd jacobian_m =
-      Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), ParameterCount(causes_));
+      Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), parameter_count_);
   Collect(at);
   Observe(at);
   const bool known = at.simulated().status.ok() &&
@@ -206,22 +203,17 @@ void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobi
   const Eigen::Matrix3d R_seen = draft_.T_seen[recording].linear();
   const Eigen::Matrix3d R_measurement =
       at.observed.recordings[recording].T_measurement_robot.linear();
-  Eigen::Index column = 0;
   Eigen::Matrix3Xd seen_m(3, markers);
-  for (std::size_t k = 0; k < causes_.size(); ++k) {
-    const Cause* cause = causes_[k];
-    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
-    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
-      if (!wanted_[k]) continue;
-      seen_m = R_seen * jacobian_m->col(column).head(3 * markers).reshaped(3, markers);
-      cause->OnView(p, own, at, &seen_m);
-      seen_m = R_measurement * seen_m.eval();
-      for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
-        seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
-      }
-      if (at.sight.camera) cause->OnMeasurement(p, own, at, &seen_m);
-      jacobian_m->col(column).head(3 * markers) = seen_m.reshaped();
+  for (const WantedParameter& one : parameters_) {
+    auto column = jacobian_m->col(one.column).head(3 * markers);
+    seen_m = R_seen * column.reshaped(3, markers);
+    one.cause->OnView(one.number, one.z, at, &seen_m);
+    seen_m = R_measurement * seen_m.eval();
+    for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
+      seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
     }
+    if (at.sight.camera) one.cause->OnMeasurement(one.number, one.z, at, &seen_m);
+    column = seen_m.reshaped();
   }
 }
 
@@ -234,28 +226,22 @@ void SampleDifferentiator::ShowSkinTo(const CauseMoment& of, Eigen::MatrixXd* ja
   const std::vector<SkinSighting>& skin = at.seen().skin;
   const Eigen::Matrix3d R_camera = at.recording().T_camera_robot->linear();
   Eigen::Matrix3Xd seen_m(3, std::ssize(skin));
-  Eigen::Index column = 0;
-  for (std::size_t k = 0; k < causes_.size(); ++k) {
-    const Cause* cause = causes_[k];
-    const Eigen::VectorXd own = z_.segment(column, std::ssize(cause->parameters()));
-    for (int p = 0; p < std::ssize(cause->parameters()); ++p, ++column) {
-      if (!wanted_[k]) continue;
-      seen_m.setZero();
-      cause->OnView(p, own, at, &seen_m);
-      seen_m = R_camera * seen_m.eval();
-      for (std::size_t f = 0; f < skin.size(); ++f) {
-        if (skin[f].count == 0) continue;
-        const auto feature = static_cast<Eigen::Index>(f);
-        seen_m.col(feature) =
-            at.sight.camera->Slope(at.sight.point(feature)) * seen_m.col(feature).eval();
-      }
-      cause->OnMeasurement(p, own, at, &seen_m);
-      for (std::size_t f = 0; f < skin.size(); ++f) {
-        if (skin[f].count == 0) continue;
-        const auto feature = static_cast<Eigen::Index>(f);
-        (*jacobian_m)(std::ssize(marker_rows_) + feature, column) +=
-            skin[f].normal.dot(seen_m.col(feature));
-      }
+  for (const WantedParameter& one : parameters_) {
+    seen_m.setZero();
+    one.cause->OnView(one.number, one.z, at, &seen_m);
+    seen_m = R_camera * seen_m.eval();
+    for (std::size_t f = 0; f < skin.size(); ++f) {
+      if (skin[f].count == 0) continue;
+      const auto feature = static_cast<Eigen::Index>(f);
+      seen_m.col(feature) =
+          at.sight.camera->Slope(at.sight.point(feature)) * seen_m.col(feature).eval();
+    }
+    one.cause->OnMeasurement(one.number, one.z, at, &seen_m);
+    for (std::size_t f = 0; f < skin.size(); ++f) {
+      if (skin[f].count == 0) continue;
+      const auto feature = static_cast<Eigen::Index>(f);
+      (*jacobian_m)(std::ssize(marker_rows_) + feature, one.column) +=
+          skin[f].normal.dot(seen_m.col(feature));
     }
   }
 }

@@ -37,6 +37,13 @@ class SampleDifferentiator {
   Eigen::MatrixXd At(const CauseMoment& at);
 
  private:
+  struct WantedParameter {
+    const Cause* cause;
+    int number;           ///< of the cause's
+    Eigen::Index column;  ///< among those of all causes
+    Eigen::VectorXd z;    ///< [parameters of the cause]
+  };
+
   void Collect(const CauseMoment& at);
   void GiveWay(Eigen::MatrixXd* motions_m) const;
   Status AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m);
@@ -45,9 +52,8 @@ class SampleDifferentiator {
   void ShowSkinTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const;
 
   const ModelDraft& draft_;
-  const CauseList& causes_;
-  const Eigen::VectorXd& z_;  ///< [parameters of all]
-  const std::vector<bool>& wanted_;
+  std::vector<WantedParameter> parameters_;  ///< one cause after the other
+  Eigen::Index parameter_count_ = 0;         ///< of all causes, those that are not wanted, too
   const std::vector<Eigen::MatrixXd>& drive_change_;
   SampleSolver& solver_;
   bool markers_seen_;  ///< of any marker there is a measurement
