@@ -15,7 +15,7 @@
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/plan/next_experiment.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
-#include "components/diagnosis/skin/skin_matcher.hpp"
+#include "components/diagnosis/skin/first_look.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::diagnosis {
@@ -286,36 +286,6 @@ experiment::Experiment WithoutPictures(experiment::Experiment experiment) {
   return experiment;
 }
 
-/// Looks at the pictures from where the robot file has the robot. Why that tells nothing; empty: it
-/// does.
-std::string LookAtPictures(const robot::RobotBody& body, const DiagnosisSettings& settings,
-                           SkinMatcher* matcher, ObservedExperiment* observed) {
-  observed->feature_rest_m = matcher->rest_m();
-  for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
-    ObservedRecording& recording = observed->recordings[r];
-    if (!recording.T_camera_robot) continue;
-    const rgbd::RgbdCamera camera = settings.pictures->Camera(static_cast<int>(r));
-    recording.focal_px = Eigen::Vector2d(camera.depth.fx_px, camera.depth.fy_px);
-    recording.stereo_px_m = camera.depth.fx_px * camera.baseline_m;
-  }
-  const Simulator simulator(*observed, settings.threads);
-  const ModelDraft draft = DraftOf(body, *observed);
-  const std::vector<ShapesInTime> shapes = simulator.Shapes(draft, simulator.Run(draft));
-  matcher->Look(*observed, shapes, settings.pictures);
-  matcher->Match(draft, shapes, observed);
-  std::string why = WhyUnfit(*observed, matcher->clouds());
-  if (why.empty() && matcher->outliers() > matcher->matched()) {
-    why =
-        "most of what pictures show lies more than 20 mm off the robot: it is another one, or the "
-        "camera stands elsewhere than T_robot_camera says";
-  }
-  const bool has_markers =
-      std::any_of(observed->samples.begin(), observed->samples.end(),
-                  [](const Sample& sample) { return (sample.count.array() > 0).any(); });
-  if (!why.empty() && has_markers) why += "; the markers alone may still tell";
-  return why;
-}
-
 }  // namespace
 
 DiagnosisResult Unfit(const std::string& reason) {
@@ -345,10 +315,12 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
   std::optional<SkinMatcher> matcher;
+  FirstLook look;
   if (HasPictures(observed)) {
     report(0, settings.most_causes + 3, "looking at the pictures");
     matcher.emplace(body);
-    result = Unfit(LookAtPictures(body, settings, &*matcher, &observed));
+    look = LookAtPictures(body, settings.threads, settings.pictures, &*matcher, &observed);
+    result = Unfit(look.why_unfit);
     if (!result.reason.empty()) return diagnosis;
   }
   report(0, settings.most_causes + 3, "simulating the robot as its file has it");
@@ -367,11 +339,13 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   LookAgain look_again;
   if (matcher) {
     look_again = [&](const Fit& fit) {
+      // A healthy robot is farther off than what the pictures were looked at about.
+      if (look.exchanged && fit.faults.empty()) return;
       matcher->Match(fitter.DraftAt(fit), fitter.Shapes(fit), &observed);
     };
   }
-  const Selection selection =
-      SelectCauses(observed, fitter, as_built, settings.most_causes, report, look_again);
+  const Selection selection = SelectCauses(observed, fitter, as_built, settings.most_causes, report,
+                                           look_again, look.exchanged);
   if (matcher) as_built = fitter.Resimulated(std::move(as_built));
   DescribeGap(observed, body, book, as_built, selection, &result);
   for (ComparedMoment& moment : result.moments) {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <utility>
+
 #include "components/diagnosis/causes/makers.hpp"
 
 namespace palpate::diagnosis {
@@ -25,6 +27,17 @@ class SwappedCables final : public Cause {
     const Eigen::RowVectorXd row_b = mixing.row(b_);
     mixing.row(a_) += z[0] * (row_b - row_a);
     mixing.row(b_) += z[0] * (row_a - row_b);
+  }
+
+  /// Each drive keeps its name and its limits, and pulls what the other one pulled.
+  bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot::CableSettings& a = robot->cables[static_cast<std::size_t>(a_)];
+    robot::CableSettings& b = robot->cables[static_cast<std::size_t>(b_)];
+    std::swap(a.path_m, b.path_m);
+    std::swap(a.guide_radius_m, b.guide_radius_m);
+    std::swap(a.friction_coefficient, b.friction_coefficient);
+    return true;
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& /*z*/,

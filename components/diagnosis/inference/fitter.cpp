@@ -59,6 +59,11 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
   return book_.InferWithin(about.model.All(), faults);
 }
 
+Posterior Fitter::TriedOut(const std::vector<int>& faults, const Fit& about) const {
+  const Fit there = MovedTo(WhereFaultsBegin(faults, about), about);
+  return Guess(there.status.ok() ? there : about, faults);
+}
+
 Fit Fitter::AsBuilt(const Simulation* simulated) const {
   Fit fit;
   fit.z = Eigen::VectorXd::Zero(book_.parameter_count());

@@ -65,6 +65,10 @@ class Fitter {
   }
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
+  /// The same of one about where the last of these faults begins: simulated, but for what causes do
+  /// there. For one that is there or not, and moves the body far. What Guess says, where the robot
+  /// cannot be simulated so.
+  Posterior TriedOut(const std::vector<int>& faults, const Fit& about) const;
 
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }

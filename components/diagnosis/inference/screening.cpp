@@ -35,6 +35,11 @@ std::vector<int> StartsOf(const CauseBook& book, const std::vector<Candidate>& o
   return starts;
 }
 
+void SortByEvidence(std::vector<Candidate>* candidates) {
+  std::sort(candidates->begin(), candidates->end(),
+            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
+}
+
 }  // namespace
 
 std::vector<int> With(std::vector<int> faults, int cause) {
@@ -53,7 +58,8 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
     if (named || !book.CanBeFault(k)) continue;
     const double ln_bayes_factor =
         fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
-    by_name[{name.id, name.where}].push_back({.cause = k, .ln_bayes_factor = ln_bayes_factor});
+    by_name[{name.id, name.where}].push_back(
+        {.cause = k, .ln_bayes_factor = ln_bayes_factor, .ln_guessed = ln_bayes_factor});
   }
   std::vector<Candidate> candidates;
   for (auto& [name, of_name] : by_name) {
@@ -67,9 +73,20 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
     best.starts = StartsOf(book, of_name);
     candidates.push_back(std::move(best));
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
+  SortByEvidence(&candidates);
   return candidates;
+}
+
+void TryOut(const Fitter& fitter, const Fit& about, const CauseName& name,
+            std::vector<Candidate>* candidates) {
+  const auto tried = std::find_if(
+      candidates->begin(), candidates->end(),
+      [&](const Candidate& one) { return fitter.book().cause(one.cause).name() == name; });
+  if (tried == candidates->end()) return;
+  const Posterior there = fitter.TriedOut(With(about.faults, tried->cause), about);
+  tried->ln_bayes_factor = there.ln_evidence - about.posterior.ln_evidence;
+  tried->ln_guessed = tried->ln_bayes_factor;
+  SortByEvidence(candidates);
 }
 
 double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {

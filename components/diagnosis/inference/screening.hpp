@@ -14,6 +14,7 @@ namespace palpate::diagnosis {
 struct Candidate {
   int cause = -1;  ///< the best of those that have its name (places, relaxation times)
   double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
+  double ln_guessed = 0.0;       ///< the same of that one alone, before it was simulated
   double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
   bool refined = false;      ///< simulated anew where it fits best
   std::string why_not = {};  ///< empty: named
@@ -27,6 +28,10 @@ std::vector<int> With(std::vector<int> faults, int cause);
 /// probable first; the best of each name stands for it.
 std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
                               const std::vector<int>& faults);
+/// Puts what a simulation of it says in the place of what the linear model of `about` says of
+/// that cause, if it is among `candidates`, and sorts them again.
+void TryOut(const Fitter& fitter, const Fit& about, const CauseName& name,
+            std::vector<Candidate>* candidates);
 
 /// The largest canonical correlation between what two causes do, what building tolerances can make
 /// up for taken out; in [0, 1].

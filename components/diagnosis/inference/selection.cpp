@@ -27,12 +27,14 @@ constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 /// Looks for one further cause.
 class NextCause {
  public:
-  NextCause(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before)
-      : observed_(observed), fitter_(fitter), before_(before) {}
+  NextCause(const ObservedExperiment& observed, const Fitter& fitter, const Fit& before,
+            const std::optional<CauseName>& likely)
+      : observed_(observed), fitter_(fitter), before_(before), likely_(likely) {}
 
   /// Whether there is one; then choice() and fit() are about it.
   bool Look() {
     candidates_ = Screen(fitter_, before_, before_.faults);
+    if (likely_) TryOut(fitter_, before_, *likely_, &candidates_);
     if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlike) {
       Explain();
       return false;
@@ -107,12 +109,9 @@ class NextCause {
       const bool special = k > 0 && IsSpecialCaseOf(k, k - 1);
       if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
       if (k > 0 && fitter_.IsOutOfTime()) break;
-      const double guess =
-          fitter_.Guess(before_, With(before_.faults, candidate.cause)).ln_evidence -
-          before_.posterior.ln_evidence;
       Fit fit = RefineFromItsStarts(&candidate);
       const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
-      candidate.ln_bayes_factor += fit.status.ok() ? now - guess : kImpossible;
+      candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_guessed : kImpossible;
       candidate.refined = true;
       best = std::max(best, candidate.ln_bayes_factor);
       fits_.push_back(std::move(fit));
@@ -270,6 +269,7 @@ class NextCause {
   const ObservedExperiment& observed_;
   const Fitter& fitter_;
   const Fit& before_;
+  const std::optional<CauseName>& likely_;
   std::vector<Candidate> candidates_;
   std::vector<Fit> fits_;  ///< of the first candidates, that were refined
   std::size_t found_ = static_cast<std::size_t>(-1);
@@ -313,7 +313,7 @@ void CompareCandidates(const CauseBook& book, Selection* selection) {
 
 Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
                        const Fit& as_built, int most, const ReportStep& report,
-                       const LookAgain& look_again) {
+                       const LookAgain& look_again, const std::optional<CauseName>& likely) {
   const auto seen_again = [&](Fit fit) {
     if (!look_again || !fit.status.ok()) return fit;
     look_again(fit);
@@ -327,7 +327,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   for (int number = 0; number < most; ++number) {
     if (number > 0 && fitter.IsOutOfTime()) break;
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
-    NextCause next(observed, fitter, selection.best);
+    NextCause next(observed, fitter, selection.best, likely);
     const bool found = next.Look();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;

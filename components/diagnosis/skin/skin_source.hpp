@@ -35,7 +35,8 @@ class SkinSource {
   SkinSource& operator=(const SkinSource&) = delete;
 
   /// `recording`: index into the experiment's; `picture`: number in it, by time. Pictures of a
-  /// recording are asked for by rising time. Throws InputError where a file cannot be read.
+  /// recording are asked for by rising time, or all over again. Throws InputError where a file
+  /// cannot be read.
   virtual SkinLook Look(int recording, int picture, const ExpectedShape& expected) = 0;
   /// The camera of a recording, as its data sheet has it. Throws InputError where nobody says.
   virtual rgbd::RgbdCamera Camera(int recording) = 0;

@@ -161,6 +161,16 @@ TEST_F(DiagnosePictures, NameADepthScale) {
   ExpectFirst(Diagnose(), "depth_scale", "s", 0.02, 0.006);
 }
 
+/// The robot bends to the side that nobody told it to: little of its skin is where it is expected.
+TEST_F(DiagnosePictures, NameExchangedCables) {
+  Make("{id: swapped_cables, where: [cable:north, cable:west]}", 25);
+  const Json verdict = Diagnose();
+  ASSERT_EQ(verdict["causes"].size(), 1u) << verdict.dump(1);
+  EXPECT_EQ(verdict["causes"][0]["id"], "swapped_cables") << verdict.dump(1);
+  EXPECT_EQ(verdict["causes"][0]["where"], Json({"cable:north", "cable:west"}));
+  EXPECT_EQ(verdict["verdict"], "cause") << verdict["reason"];
+}
+
 TEST_F(DiagnosePictures, OfNoUseAreRefusedWithTheReason) {
   Make("", 24);
   const auto reason = [&] {
