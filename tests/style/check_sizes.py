@@ -20,8 +20,8 @@ SOURCE_SUFFIXES = source_tree.CPP_SUFFIXES | {".py", ".cmake", ".idl", ".sh"}
 SOURCE_NAMES = {"CMakeLists.txt", "run"}
 
 # A function begins with a line that ends in ") {" (after qualifiers); in formatted code its end is
-# the first line that is only a brace at the same indentation. Not a list of initialisers, whose
-# constructor ends farther to the left.
+# the first line that is only a brace at the same indentation, or farther to the left after the last
+# of several initialisers. A single one is none.
 FUNCTION_BEGIN = re.compile(
     r"^(\s*)(?!\s|:|if\b|for\b|while\b|switch\b|else\b|do\b|catch\b|\}"
     r"|namespace\b|class\b|struct\b)[^/].*\)"
@@ -35,7 +35,7 @@ def long_functions(lines):
         match = FUNCTION_BEGIN.match(line)
         if not match:
             continue
-        end_line = re.compile(re.escape(match[1]) + r"\}[;,)]*$")
+        end_line = re.compile(rf"\s{{0,{len(match[1])}}}\}}[;,)]*$")
         end = next((i for i in range(begin + 1, len(lines)) if end_line.match(lines[i])), begin)
         length = end - begin + 1
         if length > MAX_FUNCTION_LINES:

@@ -172,6 +172,13 @@ class CheckSizes(TreeTest):
                    + "int F() {\n  if (a) {\n    e();\n    }\n}\n")
         self.assertEqual(self.found(), "")
 
+    def test_constructors_end_left_of_their_last_initialiser(self):
+        head = "A::A()\n    : b_(1),\n      c_(F()) {\n"
+        self.plant("a.cpp", head + "  d();\n}\n" + "int e;\n" * 60 + "  g([] {\n      }\n")
+        self.assertEqual(self.found(), "")
+        self.plant("a.cpp", head + "  d();\n" * 59 + "}\n")
+        self.assertIn("a.cpp:3: function of 61 lines", self.found())
+
     def test_columns_and_white_space(self):
         self.plant("a.py", "a = 1\n" + "#" * 101 + "\n")
         self.assertIn("a.py:2: 101 columns", self.found())
