@@ -10,6 +10,7 @@
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/data/fitness.hpp"
 #include "components/diagnosis/data/one_clock.hpp"
+#include "components/diagnosis/exchanged_cables.hpp"
 #include "components/diagnosis/gap.hpp"
 #include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/inference/residual_forces.hpp"
@@ -201,8 +202,8 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
     const bool general = std::any_of(
         selection.named.begin(), selection.named.end(),
         [&](const Choice& choice) { return book.IsSpecialCase(choice.cause, one.cause); });
-    ln_weights.push_back(general ? -std::numeric_limits<double>::infinity()
-                                 : one.ln_bayes_factor + ln_share);
+    ln_weights.push_back(general || one.ruled_out ? -std::numeric_limits<double>::infinity()
+                                                  : one.ln_bayes_factor + ln_share);
   }
   const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
   double all = 0.0;
@@ -314,13 +315,14 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
                                          .with_pictures = settings.pictures != nullptr});
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
+  const NearestRobot nearest = FindExchangedCables(
+      body, observed, settings.threads, HasPictures(observed) ? settings.pictures : nullptr);
   std::optional<SkinMatcher> matcher;
-  FirstLook look;
   if (HasPictures(observed)) {
     report(0, settings.most_causes + 3, "looking at the pictures");
     matcher.emplace(body);
-    look = LookAtPictures(body, settings.threads, settings.pictures, &*matcher, &observed);
-    result = Unfit(look.why_unfit);
+    result = Unfit(
+        LookAtPictures(nearest.draft, settings.threads, settings.pictures, &*matcher, &observed));
     if (!result.reason.empty()) return diagnosis;
   }
   report(0, settings.most_causes + 3, "simulating the robot as its file has it");
@@ -339,13 +341,11 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   LookAgain look_again;
   if (matcher) {
     look_again = [&](const Fit& fit) {
-      // A healthy robot is farther off than what the pictures were looked at about.
-      if (look.exchanged && fit.faults.empty()) return;
       matcher->Match(fitter.DraftAt(fit), fitter.Shapes(fit), &observed);
     };
   }
   const Selection selection = SelectCauses(observed, fitter, as_built, settings.most_causes, report,
-                                           look_again, look.exchanged);
+                                           look_again, nearest.exchanged);
   if (matcher) as_built = fitter.Resimulated(std::move(as_built));
   DescribeGap(observed, body, book, as_built, selection, &result);
   for (ComparedMoment& moment : result.moments) {

@@ -59,11 +59,6 @@ Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const 
   return book_.InferWithin(about.model.All(), faults);
 }
 
-Posterior Fitter::TriedOut(const std::vector<int>& faults, const Fit& about) const {
-  const Fit there = MovedTo(WhereFaultsBegin(faults, about), about);
-  return Guess(there.status.ok() ? there : about, faults);
-}
-
 Fit Fitter::AsBuilt(const Simulation* simulated) const {
   Fit fit;
   fit.z = Eigen::VectorXd::Zero(book_.parameter_count());
@@ -83,6 +78,12 @@ Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   if (fit.model.y.size() < data) fit.status = FewerData();
   fit.complete = true;
   return fit;
+}
+
+Fit Fitter::WithFaults(const std::vector<int>& faults, const Fit& start) const {
+  Fit fit = MovedTo(WhereFaultsBegin(faults, start), start);
+  fit.faults = faults;
+  return fit.status.ok() ? InAllDetail(std::move(fit)) : fit;
 }
 
 Fit Fitter::Resimulated(Fit fit) const {

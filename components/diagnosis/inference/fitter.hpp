@@ -48,6 +48,9 @@ class Fitter {
              Detail detail) const;
   /// With as many rounds as such faults need, in all detail at the end.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
+  /// With these faults as large as they are likely to be, all else as `start` has it, in all
+  /// detail: where one that is there or not, and moves the body far, is fitted from.
+  Fit WithFaults(const std::vector<int>& faults, const Fit& start) const;
   /// The same fit in all detail, with what every cause does worked out where it is, and taken
   /// further until the data fit where it leads as well as it promises. One that could not be
   /// simulated stays as it is.
@@ -65,11 +68,6 @@ class Fitter {
   }
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
-  /// The same of one about where the last of these faults begins: simulated, but for what causes do
-  /// there. For one that is there or not, and moves the body far. What Guess says, where the robot
-  /// cannot be simulated so.
-  Posterior TriedOut(const std::vector<int>& faults, const Fit& about) const;
-
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }
   bool IsOutOfTime() const { return limit_.IsOver(); }

@@ -35,11 +35,6 @@ std::vector<int> StartsOf(const CauseBook& book, const std::vector<Candidate>& o
   return starts;
 }
 
-void SortByEvidence(std::vector<Candidate>* candidates) {
-  std::sort(candidates->begin(), candidates->end(),
-            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
-}
-
 }  // namespace
 
 std::vector<int> With(std::vector<int> faults, int cause) {
@@ -77,16 +72,9 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
   return candidates;
 }
 
-void TryOut(const Fitter& fitter, const Fit& about, const CauseName& name,
-            std::vector<Candidate>* candidates) {
-  const auto tried = std::find_if(
-      candidates->begin(), candidates->end(),
-      [&](const Candidate& one) { return fitter.book().cause(one.cause).name() == name; });
-  if (tried == candidates->end()) return;
-  const Posterior there = fitter.TriedOut(With(about.faults, tried->cause), about);
-  tried->ln_bayes_factor = there.ln_evidence - about.posterior.ln_evidence;
-  tried->ln_guessed = tried->ln_bayes_factor;
-  SortByEvidence(candidates);
+void SortByEvidence(std::vector<Candidate>* candidates) {
+  std::sort(candidates->begin(), candidates->end(),
+            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
 }
 
 double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {

@@ -18,6 +18,7 @@ struct Candidate {
   double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
   bool refined = false;      ///< simulated anew where it fits best
   std::string why_not = {};  ///< empty: named
+  bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
   std::vector<int> starts = {};  ///< causes of its name to simulate, the most probable first
 };
 
@@ -28,10 +29,8 @@ std::vector<int> With(std::vector<int> faults, int cause);
 /// probable first; the best of each name stands for it.
 std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
                               const std::vector<int>& faults);
-/// Puts what a simulation of it says in the place of what the linear model of `about` says of
-/// that cause, if it is among `candidates`, and sorts them again.
-void TryOut(const Fitter& fitter, const Fit& about, const CauseName& name,
-            std::vector<Candidate>* candidates);
+/// The most probable first.
+void SortByEvidence(std::vector<Candidate>* candidates);
 
 /// The largest canonical correlation between what two causes do, what building tolerances can make
 /// up for taken out; in [0, 1].

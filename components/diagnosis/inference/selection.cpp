@@ -34,7 +34,7 @@ class NextCause {
   /// Whether there is one; then choice() and fit() are about it.
   bool Look() {
     candidates_ = Screen(fitter_, before_, before_.faults);
-    if (likely_) TryOut(fitter_, before_, *likely_, &candidates_);
+    if (likely_) TryOut(*likely_);
     if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlike) {
       Explain();
       return false;
@@ -71,6 +71,20 @@ class NextCause {
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const {
     return fitter_.book().IsSpecialCase(candidates_[special].cause, candidates_[k].cause);
+  }
+
+  /// Simulates the cause of this name: what that says of it takes the place of what the linear
+  /// model says.
+  void TryOut(const CauseName& name) {
+    const auto tried = std::find_if(
+        candidates_.begin(), candidates_.end(),
+        [&](const Candidate& one) { return fitter_.book().cause(one.cause).name() == name; });
+    if (tried == candidates_.end()) return;
+    tried_ = fitter_.WithFaults(With(before_.faults, tried->cause), before_);
+    if (!tried_.status.ok()) return;
+    tried->ln_guessed = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;
+    tried->ln_bayes_factor = tried->ln_guessed;
+    SortByEvidence(&candidates_);
   }
 
   /// Behind those that they are special cases of, as far as these are looked at.
@@ -128,7 +142,9 @@ class NextCause {
   Fit RefineFromItsStarts(Candidate* candidate) const {
     constexpr int kRoundsToCompare = 3;
     if (candidate->starts.size() < 2) {
-      return fitter_.Refine(With(before_.faults, candidate->cause), before_);
+      const std::vector<int> faults = With(before_.faults, candidate->cause);
+      const bool was_tried = tried_.status.ok() && tried_.faults == faults;
+      return fitter_.Refine(faults, was_tried ? tried_ : before_);
     }
     Fit best;
     for (const int cause : candidate->starts) {
@@ -181,7 +197,8 @@ class NextCause {
       return false;
     }
     candidate.why_not = WhyNoFault(fitter_.book(), fits_[k].posterior, candidate.cause);
-    if (!candidate.why_not.empty()) return false;
+    candidate.ruled_out = !candidate.why_not.empty();
+    if (candidate.ruled_out) return false;
     const HeldOut after = LeaveOneOut(fitter_.book(), fits_[k].model, fits_[k].faults);
     Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
     choice.held_out = Compare(before, after);
@@ -206,7 +223,7 @@ class NextCause {
     const double ln_share = -std::log(static_cast<double>(candidates_.size()));
     double others = std::exp(-candidates_[k].ln_bayes_factor - ln_share);
     for (std::size_t other = 0; other < candidates_.size(); ++other) {
-      if (IsSpecialCaseOf(k, other)) continue;
+      if (candidates_[other].ruled_out || IsSpecialCaseOf(k, other)) continue;
       others += std::exp(candidates_[other].ln_bayes_factor - candidates_[k].ln_bayes_factor);
     }
     return 1.0 / others;
@@ -270,6 +287,7 @@ class NextCause {
   const Fitter& fitter_;
   const Fit& before_;
   const std::optional<CauseName>& likely_;
+  Fit tried_;  ///< with the likely one; or with no faults
   std::vector<Candidate> candidates_;
   std::vector<Fit> fits_;  ///< of the first candidates, that were refined
   std::size_t found_ = static_cast<std::size_t>(-1);
@@ -322,7 +340,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   const int steps = most + 3;
   Selection selection;
   report(1, steps, "fitting a healthy robot");
-  selection.healthy = seen_again(fitter.Complete(as_built));
+  selection.healthy = likely ? as_built : seen_again(fitter.Complete(as_built));
   selection.best = selection.healthy;
   for (int number = 0; number < most; ++number) {
     if (number > 0 && fitter.IsOutOfTime()) break;

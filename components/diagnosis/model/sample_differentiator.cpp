@@ -46,26 +46,34 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
   return changes;
 }
 
+std::vector<SampleDifferentiator::WantedParameter> SampleDifferentiator::Wanted(
+    const CauseList& causes, const Eigen::VectorXd& z, const std::vector<bool>& wanted) {
+  std::vector<WantedParameter> parameters;
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const auto count = std::ssize(causes[k]->parameters());
+    const Eigen::VectorXd own = z.segment(column, count);
+    for (int p = 0; p < count; ++p, ++column) {
+      if (wanted[k]) parameters.push_back({causes[k], p, column, own});
+    }
+  }
+  return parameters;
+}
+
 SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
                                            const Eigen::VectorXd& z,
                                            const std::vector<bool>& wanted,
                                            const std::vector<Eigen::MatrixXd>& drive_change,
                                            const ObservedExperiment& observed, SampleSolver* solver)
     : draft_(draft),
+      parameters_(Wanted(causes, z, wanted)),
+      parameter_count_(z.size()),
       drive_change_(drive_change),
       solver_(*solver),
       markers_seen_(SeesMarkers(observed)),
       marker_rows_(robot::RowsOfPoints(solver->markers())),
       of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
       of_body_(solver->model()) {
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    const auto count = std::ssize(causes[k]->parameters());
-    for (int p = 0; wanted[k] && p < count; ++p) {
-      parameters_.push_back(
-          {causes[k], p, parameter_count_ + p, z.segment(parameter_count_, count)});
-    }
-    parameter_count_ += count;
-  }
   for (int c = 0; c < solver->model().CableCount(); ++c) {
     if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
   }

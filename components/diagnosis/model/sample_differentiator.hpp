@@ -44,6 +44,8 @@ class SampleDifferentiator {
     Eigen::VectorXd z;    ///< [parameters of the cause]
   };
 
+  static std::vector<WantedParameter> Wanted(const CauseList& causes, const Eigen::VectorXd& z,
+                                             const std::vector<bool>& wanted);
   void Collect(const CauseMoment& at);
   void GiveWay(Eigen::MatrixXd* motions_m) const;
   Status AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m);
@@ -53,7 +55,7 @@ class SampleDifferentiator {
 
   const ModelDraft& draft_;
   std::vector<WantedParameter> parameters_;  ///< one cause after the other
-  Eigen::Index parameter_count_ = 0;         ///< of all causes, those that are not wanted, too
+  Eigen::Index parameter_count_;             ///< of all causes, those that are not wanted, too
   const std::vector<Eigen::MatrixXd>& drive_change_;
   SampleSolver& solver_;
   bool markers_seen_;  ///< of any marker there is a measurement

@@ -7,7 +7,6 @@
 
 #include "components/diagnosis/data/fitness.hpp"
 #include "components/diagnosis/model/simulator.hpp"
-#include "components/diagnosis/skin/where_pictures_show_it.hpp"
 
 namespace palpate::diagnosis {
 
@@ -39,17 +38,15 @@ std::string WhyOfNoUse(const ObservedExperiment& observed, const SkinMatcher& ma
 
 }  // namespace
 
-FirstLook LookAtPictures(const robot::RobotBody& body, int threads, SkinSource* pictures,
-                         SkinMatcher* matcher, ObservedExperiment* observed) {
+std::string LookAtPictures(const ModelDraft& draft, int threads, SkinSource* pictures,
+                           SkinMatcher* matcher, ObservedExperiment* observed) {
   observed->feature_rest_m = matcher->rest_m();
   TellCameras(pictures, observed);
-  const ShownRobot shown = WherePicturesShowIt(body, *observed, threads, pictures);
   const Simulator simulator(*observed, threads);
-  const std::vector<ShapesInTime> shapes =
-      simulator.Shapes(shown.draft, simulator.Run(shown.draft));
+  const std::vector<ShapesInTime> shapes = simulator.Shapes(draft, simulator.Run(draft));
   matcher->Look(*observed, shapes, pictures);
-  matcher->Match(shown.draft, shapes, observed);
-  return {WhyOfNoUse(*observed, *matcher), shown.exchanged};
+  matcher->Match(draft, shapes, observed);
+  return WhyOfNoUse(*observed, *matcher);
 }
 
 }  // namespace palpate::diagnosis
