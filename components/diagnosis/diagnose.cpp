@@ -278,6 +278,12 @@ bool HasPictures(const ObservedExperiment& observed) {
                      [](const Sample& sample) { return !sample.pictures.empty(); });
 }
 
+bool IsAmong(const CauseBook& book, const std::optional<CauseName>& name) {
+  const CauseList causes = book.All();
+  return name && std::any_of(causes.begin(), causes.end(),
+                             [&](const Cause* cause) { return cause->name() == *name; });
+}
+
 experiment::Experiment WithoutPictures(experiment::Experiment experiment) {
   for (experiment::Recording& recording : experiment.recordings) {
     recording.depth_images.clear();
@@ -315,6 +321,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
                                          .with_pictures = settings.pictures != nullptr});
   result = Unfit(RegisterUnknownPoses(body, settings.threads, &observed));
   if (!result.reason.empty()) return diagnosis;
+  report(0, settings.most_causes + 3, "trying exchanged cables");
   const NearestRobot nearest = FindExchangedCables(
       body, observed, settings.threads, HasPictures(observed) ? settings.pictures : nullptr);
   std::optional<SkinMatcher> matcher;
@@ -344,8 +351,9 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
       matcher->Match(fitter.DraftAt(fit), fitter.Shapes(fit), &observed);
     };
   }
-  const Selection selection = SelectCauses(observed, fitter, as_built, settings.most_causes, report,
-                                           look_again, nearest.exchanged);
+  const Selection selection =
+      SelectCauses(observed, fitter, as_built, settings.most_causes, report, look_again,
+                   IsAmong(book, nearest.exchanged) ? nearest.exchanged : std::nullopt);
   if (matcher) as_built = fitter.Resimulated(std::move(as_built));
   DescribeGap(observed, body, book, as_built, selection, &result);
   for (ComparedMoment& moment : result.moments) {
