@@ -68,6 +68,7 @@ class Fitter {
   }
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
+
   const CauseBook& book() const { return book_; }
   const NoiseModel& noise() const { return noise_; }
   bool IsOutOfTime() const { return limit_.IsOver(); }
