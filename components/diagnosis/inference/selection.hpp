@@ -48,8 +48,8 @@ using LookAgain = std::function<void(const Fit&)>;
 /// the linear model, the best simulated anew; the best is named if the evidence for it is clear, it
 /// predicts recordings that it was not fitted to, and it is beyond the tolerances. At most `most`.
 /// `look_again` is called about the healthy robot and about each set of causes that is named; none:
-/// nothing that was measured depends on where the body is. `likely` is simulated whatever the linear
-/// model says of it; the robot without it is far off then, and is not fitted.
+/// nothing that was measured depends on where the body is. `likely` is simulated whatever the
+/// linear model says of it; the robot without it is far off then, and is not fitted.
 Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
                        const Fit& as_built, int most, const ReportStep& report,
                        const LookAgain& look_again = nullptr,
