@@ -12,6 +12,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/robot/calibration_file.hpp"
+#include "libs/robot/eyelets.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -75,11 +76,13 @@ std::filesystem::path FindRobotFile(const std::filesystem::path& robot) {
 
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
                                              const fem::SolverSettings& solver,
-                                             const std::filesystem::path& calibration) {
+                                             const std::filesystem::path& calibration,
+                                             double eyelet_room_m) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(FindRobotFile(robot), app::LoadYaml));
   if (!calibration.empty()) {
-    robot::ApplySize(robot::ReadCalibrationFile(calibration, app::LoadYaml), &body);
+    robot::ApplyGeometry(robot::ReadCalibrationFile(calibration, app::LoadYaml), &body);
   }
+  if (eyelet_room_m > 0.0) robot::GiveEyeletsRoom(eyelet_room_m, &body);
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 

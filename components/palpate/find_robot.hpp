@@ -24,11 +24,13 @@ std::filesystem::path FindProjectFile(const std::filesystem::path& relative);
 /// ("four_leg"). Throws InputError where neither is there, with "did you mean".
 std::filesystem::path FindRobotFile(const std::filesystem::path& robot);
 
-/// Reads the robot file and its mesh and makes the model ready to solve, as large as the
-/// calibration file (empty: none) says; nothing else of it is applied. Throws InputError.
+/// Reads the robot file and its mesh and makes the model ready to solve, of the geometry that the
+/// calibration file (empty: none) says; nothing else of it is applied. Its eyelets can be moved by
+/// `eyelet_room_m` (robot/eyelets.hpp). Throws InputError.
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
                                              const fem::SolverSettings& solver = {},
-                                             const std::filesystem::path& calibration = {});
+                                             const std::filesystem::path& calibration = {},
+                                             double eyelet_room_m = 0.0);
 
 /// The options --solver and --threads.
 void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver);

@@ -8,6 +8,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "libs/robot/calibration_file.hpp"
+#include "libs/robot/eyelets.hpp"
 
 namespace palpate::robot {
 
@@ -76,9 +77,59 @@ Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile
   return Status::Ok();
 }
 
-void ApplySize(const CalibrationFile& calibration, RobotBody* body) {
+void ApplyGeometry(const CalibrationFile& calibration, RobotBody* body) {
   if (calibration.geometry_scale) ScaleBody(calibration.geometry_scale->scale, body);
+  const fem::PointLocator locator(body->mesh);
+  for (BodyCable& cable : body->cables) {
+    for (const CalibratedRoute& route : calibration.cable_routes) {
+      const bool of_an_eyelet =
+          route.point > 0 && route.point <= static_cast<int>(cable.eyelets.size());
+      if (route.cable != cable.name || !of_an_eyelet) continue;
+      MoveEyelet(locator, body->scale, route.point - 1, route.moved_m, &cable);
+    }
+  }
 }
+
+namespace {
+
+/// Where the calibration has it, of a robot of scale 1.
+Eigen::Vector3d MovedIn(const std::vector<CalibratedRoute>& routes, const std::string& cable,
+                        int point) {
+  for (const CalibratedRoute& route : routes) {
+    if (route.cable == cable && route.point == point) return route.moved_m;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+/// Every cable and point is there, and the body's eyelets sit where the calibration has them.
+Status CheckRoutes(const std::vector<CalibratedRoute>& routes, const RobotBody& body) {
+  std::vector<std::string> names;
+  for (const BodyCable& cable : body.cables) names.push_back(cable.name);
+  for (const CalibratedRoute& route : routes) {
+    const std::optional<int> cable = IndexOf(names, route.cable);
+    if (!cable) {
+      return Foreign("the calibration holds the route of cable '" + route.cable +
+                     "', which the robot file does not have" + DidYouMean(route.cable, names));
+    }
+    const std::size_t points = 1 + body.cables[static_cast<std::size_t>(*cable)].eyelets.size();
+    if (route.point < static_cast<int>(points)) continue;
+    return Foreign("the calibration holds point " + std::to_string(route.point) + " of cable '" +
+                   route.cable + "', whose path has " + std::to_string(points) +
+                   " points in the robot file");
+  }
+  for (const BodyCable& cable : body.cables) {
+    for (int e = 0; e < static_cast<int>(cable.eyelets.size()); ++e) {
+      if (MovedIn(routes, cable.name, e + 1) == EyeletMoved_m(cable, e)) continue;
+      return Foreign("the calibration has eyelet " + std::to_string(e + 1) + " of cable '" +
+                     cable.name +
+                     "' elsewhere than the model: start again with the calibration as a file, or "
+                     "calibrate again");
+    }
+  }
+  return Status::Ok();
+}
+
+}  // namespace
 
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model) {
   if (Status status = CheckCalibrated(calibration, DescribeForCalibration(model)); !status.ok()) {
@@ -103,12 +154,8 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
                    " times as large as its file says, the model is " + FormatNumber(body.scale) +
                    " times: start again with the calibration as a file, or calibrate again");
   }
+  if (Status status = CheckRoutes(calibration.cable_routes, body); !status.ok()) return status;
   const std::vector<std::string> cables = model.CableNames();
-  for (const CalibratedRoute& route : calibration.cable_routes) {
-    if (IndexOf(cables, route.cable)) continue;
-    return Foreign("the calibration holds the route of cable '" + route.cable +
-                   "', which the robot file does not have" + DidYouMean(route.cable, cables));
-  }
   for (const CalibratedDrive& drive : calibration.drives) {
     if (IndexOf(cables, drive.cable)) continue;
     return Foreign("the calibration holds the drive of cable '" + drive.cable +
@@ -125,6 +172,7 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
     model->SetDrive(IndexOf(cables, drive.cable).value(), drive.drive);
   }
   for (const CalibratedRoute& route : calibration.cable_routes) {
+    if (route.point > 0) continue;  // ApplyGeometry's
     const int cable = IndexOf(cables, route.cable).value();
     const RobotBody& body = model->body();
     model->SetPullPoint(

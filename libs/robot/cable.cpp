@@ -4,6 +4,7 @@
 #include "libs/robot/cable.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -49,28 +50,45 @@ Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> 
              const Eigen::VectorXd& rest_x_m)
     : pull_point_m_(pull_point_m), eyelets_(std::move(eyelets)) {
   PALPATE_CHECK(!eyelets_.empty());
-  for (size_t e = 0; e < eyelets_.size(); ++e) {
-    Piece piece;
-    std::map<int, double> coefficients;
-    if (e == 0) piece.offset_m = -pull_point_m_;
-    for (size_t k = 0; k < eyelets_[e].nodes.size(); ++k) {
-      coefficients[eyelets_[e].nodes[k]] += eyelets_[e].weights[k];
-    }
-    for (size_t k = 0; e > 0 && k < eyelets_[e - 1].nodes.size(); ++k) {
-      coefficients[eyelets_[e - 1].nodes[k]] -= eyelets_[e - 1].weights[k];
-    }
-    for (const auto& [node, coefficient] : coefficients) {
-      piece.nodes.push_back(node);
-      piece.coefficients.push_back(coefficient);
-    }
-    pieces_.push_back(std::move(piece));
-  }
+  for (size_t e = 0; e < eyelets_.size(); ++e) pieces_.push_back(MakePiece(e));
   rest_length_m_ = Value(rest_x_m);
+}
+
+Cable::Piece Cable::MakePiece(size_t eyelet) const {
+  Piece piece;
+  std::map<int, double> coefficients;
+  const auto add = [&](double sign, const fem::NodeWeights& end) {
+    for (size_t k = 0; k < end.nodes.size(); ++k) {
+      coefficients[end.nodes[k]] += sign * end.weights[k];
+    }
+  };
+  add(1.0, eyelets_[eyelet]);
+  if (eyelet == 0) {
+    piece.offset_m = -pull_point_m_;
+  } else {
+    add(-1.0, eyelets_[eyelet - 1]);
+  }
+  for (const auto& [node, coefficient] : coefficients) {
+    piece.nodes.push_back(node);
+    piece.coefficients.push_back(coefficient);
+  }
+  return piece;
 }
 
 void Cable::SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m) {
   pull_point_m_ = pull_point_m;
   pieces_.front().offset_m = -pull_point_m;
+  rest_length_m_ = Value(rest_x_m);
+}
+
+void Cable::SetEyelet(int eyelet, const std::vector<double>& weights,
+                      const Eigen::VectorXd& rest_x_m) {
+  const auto moved = static_cast<size_t>(eyelet);
+  PALPATE_CHECK(weights.size() == eyelets_.at(moved).nodes.size(), weights.size(), eyelet);
+  eyelets_[moved].weights = weights;
+  for (size_t e = moved; e < std::min(moved + 2, pieces_.size()); ++e) {
+    pieces_[e].coefficients = MakePiece(e).coefficients;
+  }
   rest_length_m_ = Value(rest_x_m);
 }
 

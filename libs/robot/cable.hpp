@@ -39,6 +39,8 @@ class Cable final : public fem::ScalarConstraint {
   /// `rest_x_m` as at the construction.
   void SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m);
   const std::vector<fem::NodeWeights>& eyelets() const { return eyelets_; }
+  /// The same nodes as before, with other weights: what BindTo found stays.
+  void SetEyelet(int eyelet, const std::vector<double>& weights, const Eigen::VectorXd& rest_x_m);
   const CableFriction& friction() const { return friction_; }
   void SetFriction(const CableFriction& friction);
   /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body.
@@ -71,6 +73,8 @@ class Cable final : public fem::ScalarConstraint {
 
     Eigen::Vector3d Vector(const Eigen::VectorXd& x_m) const;
   };
+
+  Piece MakePiece(size_t eyelet) const;  ///< that ends there
 
   Eigen::Vector3d pull_point_m_;
   std::vector<fem::NodeWeights> eyelets_;

@@ -14,6 +14,9 @@ namespace palpate::robot {
 
 namespace {
 
+/// That a path may have; a file that names one farther on is broken.
+constexpr int kMostPoints = 10000;
+
 void ScalePoint(double scale, fem::BodyPoint* point) {
   point->rest_m *= scale;
   point->distance_m *= scale;
@@ -34,6 +37,9 @@ CalibratedRoute ReadCableRoute(const ConfigNode& node) {
   MapReader map(node);
   CalibratedRoute route;
   route.cable = ReadText(map.Require("cable"));
+  if (const ConfigNode* point = map.Optional("point")) {
+    route.point = ReadInteger(*point, 0, kMostPoints);
+  }
   route.moved_m = ReadVector3(map.Require("moved_m"));
   route.standard_error_m = ReadVector3(map.Require("standard_error_m"), kNonNegative);
   map.Finish();
@@ -49,7 +55,7 @@ std::string FormatGeometry(const std::optional<CalibratedScale>& scale,
   }
   if (!routes.empty()) text += "cable_routes:\n";
   for (const CalibratedRoute& route : routes) {
-    text += "  - {cable: " + Quoted(route.cable) +
+    text += "  - {cable: " + Quoted(route.cable) + ", point: " + std::to_string(route.point) +
             ", moved_m: " + geometry::FormatVector(route.moved_m) +
             ", standard_error_m: " + geometry::FormatVector(route.standard_error_m) + "}\n";
   }
@@ -66,7 +72,7 @@ Status CheckGeometry(const std::optional<CalibratedScale>& scale,
     return invalid("geometry_scale " + FormatNumber(scale->scale) + " is none");
   }
   for (const CalibratedRoute& route : routes) {
-    if (route.moved_m.allFinite() && route.standard_error_m.allFinite() &&
+    if (route.point >= 0 && route.moved_m.allFinite() && route.standard_error_m.allFinite() &&
         route.standard_error_m.minCoeff() >= 0.0) {
       continue;
     }
@@ -82,6 +88,7 @@ void ScaleBody(double scale, RobotBody* body) {
   body->node_mass_kg *= scale * scale * scale;
   for (BodyCable& cable : body->cables) {
     cable.pull_point_m *= scale;
+    cable.guide_radius_m *= scale;
     for (fem::BodyPoint& eyelet : cable.eyelets) ScalePoint(scale, &eyelet);
   }
   for (BodyMarker& marker : body->markers) ScalePoint(scale, &marker.point);

@@ -25,10 +25,12 @@ struct CalibratedScale {
   double standard_error = 0.0;
 };
 
-/// How far the guide that a cable is pulled from sits off its place in the robot file; robot frame,
-/// of a robot of scale 1. Along the cable nothing shows of it.
+/// How far a point of a cable's path sits off its place in the robot file: the guide that it is
+/// pulled from, or an eyelet on the body; robot frame, of a robot of scale 1. Along the cable
+/// nothing, or little, shows of it.
 struct CalibratedRoute {
   std::string cable;
+  int point = 0;  ///< of path_m in the robot file; 0: the guide
   Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d standard_error_m = Eigen::Vector3d::Zero();
 };
@@ -41,7 +43,8 @@ CalibratedRoute ReadCableRoute(const ConfigNode& node);
 std::string FormatGeometry(const std::optional<CalibratedScale>& scale,
                            const std::vector<CalibratedRoute>& routes);
 
-/// kInvalidInput: numbers that are not finite, a scale out of bounds, standard errors below 0.
+/// kInvalidInput: numbers that are not finite, a scale out of bounds, standard errors or points
+/// below 0.
 Status CheckGeometry(const std::optional<CalibratedScale>& scale,
                      const std::vector<CalibratedRoute>& routes);
 

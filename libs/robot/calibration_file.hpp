@@ -102,12 +102,13 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
 /// element's or material's than `present` (DescribeForCalibration) says.
 Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile& present);
 
-/// Makes a body, which is as the robot file has it, as large as the calibration found it; to be
-/// done before a model is made of it.
-void ApplySize(const CalibrationFile& calibration, RobotBody* body);
+/// Makes a body, which is as the robot file has it, as large as the calibration found it, with the
+/// cables' eyelets where it found them; to be done before a model is made of it. What the robot
+/// does not have is left to CheckCalibration.
+void ApplyGeometry(const CalibrationFile& calibration, RobotBody* body);
 
-/// The same, and where it names a region or a cable that the robot does not have, or found another
-/// size than the model's (ApplySize).
+/// The same, and where it names a region, a cable or a point of it that the robot does not have, or
+/// found another size or other places of eyelets than the model's (ApplyGeometry).
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model);
 
 /// Gives the model the calibrated moduli, Poisson's ratios, gravity, drives and guides of the

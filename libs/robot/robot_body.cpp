@@ -167,11 +167,8 @@ void PlaceFeaturePoints(const RobotDescription& robot, const fem::PointLocator& 
 void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator, RobotBody* body) {
   const PointPlacer placer(locator, &body->notes);
   for (const CableSettings& settings : robot.cables) {
-    BodyCable cable{settings.name,
-                    settings.path_m.col(0),
-                    {},
-                    settings.max_tension_N,
-                    settings.friction_coefficient};
+    BodyCable cable{settings.name,          settings.path_m.col(0),        {},
+                    settings.max_tension_N, settings.friction_coefficient, settings.guide_radius_m};
     for (Eigen::Index k = 1; k < settings.path_m.cols(); ++k) {
       cable.eyelets.push_back(placer.Eyelet(settings, k));
     }

@@ -21,6 +21,10 @@ struct BodyCable {
   std::vector<fem::BodyPoint> eyelets;  ///< at least one; the cable is attached to the last
   double max_tension_N = 0.0;
   double friction_coefficient = 0.0;
+  double guide_radius_m = 0.0;
+  /// [eyelets] how far each sits off its place in the robot file, of a robot of scale 1; empty: not
+  /// at all (eyelets.hpp).
+  std::vector<Eigen::Vector3d> eyelets_moved_m = {};
 };
 
 struct BodyMarker {
@@ -55,6 +59,7 @@ struct RobotBody {
 
   double scale = 1.0;  ///< how much larger all of it is than the robot file says (ScaleBody)
   std::vector<BodyCable> cables;
+  double eyelet_room_m = 0.0;  ///< how far a model of it can move eyelets (GiveEyeletsRoom)
   std::vector<BodyMarker> markers;
   std::vector<fem::BodyPoint> feature_points;
   Eigen::Matrix3Xd feature_normals;  ///< [3 x feature_points] unit, outward, of the nearest face

@@ -6,6 +6,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/surface_patch.hpp"
+#include "libs/robot/eyelets.hpp"
 
 namespace palpate::robot {
 
@@ -77,6 +78,24 @@ void RobotModel::SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m) {
   Cable& moved = cables_.at(static_cast<size_t>(cable));
   moved.SetPullPoint(pull_point_m, elastic_body_.rest_m());
   cable_rest_length_m_[cable] = moved.rest_length_m();
+}
+
+Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d& moved_m) {
+  const auto index = static_cast<size_t>(cable_index);
+  BodyCable moved = body_.cables.at(index);
+  fem::BodyPoint& point = moved.eyelets.at(static_cast<size_t>(eyelet));
+  const fem::NodeWeights before = point.weights;
+  robot::MoveEyelet(locator_, body_.scale, eyelet, moved_m, &moved);
+  point.weights = fem::Combine({point.weights, before}, {1.0, 0.0});
+  if (point.weights.nodes != before.nodes) {
+    return {StatusCode::kInvalidInput, "an eyelet of cable " + moved.name + " would be " +
+                                           FormatNumber(moved_m.norm()) +
+                                           " m off its place: more than the model has room for"};
+  }
+  cables_[index].SetEyelet(eyelet, point.weights.weights, elastic_body_.rest_m());
+  cable_rest_length_m_[cable_index] = cables_[index].rest_length_m();
+  body_.cables[index] = std::move(moved);
+  return Status::Ok();
 }
 
 void RobotModel::SetYoungsModulus(int material, double youngs_modulus_Pa) {

@@ -94,6 +94,11 @@ class RobotModel {
   /// The point fixed to the ground that a cable is pulled from; at first the robot file's. Its rest
   /// length and displacements count from the undeformed body with the point there.
   void SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m);
+  /// An eyelet of it (0: next to the drive) sits `moved_m` off its place in the robot file, of a
+  /// robot of scale 1; body() says so from then on. Counted as SetPullPoint does. kInvalidInput,
+  /// and nothing is moved: the body has no room there (GiveEyeletsRoom).
+  Status MoveEyelet(int cable, int eyelet, const Eigen::Vector3d& moved_m);
+  const fem::PointLocator& locator() const { return locator_; }
   /// How a cable's measured displacements are read; at first as they are.
   void SetDrive(int cable, const DriveCalibration& drive) {
     drives_.at(static_cast<size_t>(cable)) = drive;

@@ -66,11 +66,15 @@ FrameInputs BodyShapes::InputsOf(int frame, const Eigen::VectorXd& variables) co
   return inputs;
 }
 
-void BodyShapes::ApplyToModels(const Eigen::VectorXd& variables) {
+Status BodyShapes::ApplyToModels(const Eigen::VectorXd& variables) {
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     const double value = ValueOf(u, variables);
-    for (const auto& worker : workers_) setup_.unknowns[u]->ApplyToModel(value, &worker->model);
+    for (const auto& worker : workers_) {
+      Status status = setup_.unknowns[u]->ApplyToModel(value, &worker->model);
+      if (!status.ok()) return status;
+    }
   }
+  return Status::Ok();
 }
 
 /// Status of the first frame that fails, whoever finishes first.
@@ -92,7 +96,7 @@ Status BodyShapes::OnEachFrame(const Work& work) {
 }
 
 Status BodyShapes::Balance(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
-  ApplyToModels(variables);
+  if (Status status = ApplyToModels(variables); !status.ok()) return status;
   return OnEachFrame([&](int frame, Worker* worker) {
     Status status = BalanceFrame(frame, variables, worker);
     if (status.ok()) CheckConditions(frame, *worker, point);
@@ -131,7 +135,8 @@ void BodyShapes::DescribeInfluences(int frame, const FrameInputs& inputs,
   worker->factor_of.clear();
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     const Unknown& unknown = *setup_.unknowns[u];
-    for (Influence& influence : unknown.InfluencesOn(ValueOf(u, variables), frame, inputs)) {
+    for (Influence& influence :
+         unknown.InfluencesOn(worker->model, ValueOf(u, variables), frame, inputs)) {
       worker->parameters.push_back(std::move(influence.parameter));
       worker->column_of.push_back(first_column_ + static_cast<Eigen::Index>(u));
       worker->factor_of.push_back(influence.per_value * ScaleOf(unknown.belief()));
@@ -140,7 +145,7 @@ void BodyShapes::DescribeInfluences(int frame, const FrameInputs& inputs,
 }
 
 Status BodyShapes::ComeNear(const Eigen::VectorXd& variables) {
-  ApplyToModels(variables);
+  if (Status status = ApplyToModels(variables); !status.ok()) return status;
   return OnEachFrame([&](int frame, Worker* worker) {
     return IsGuessed(frame, variables) ? Status::Ok() : FollowFrame(frame, variables, worker);
   });
@@ -152,7 +157,8 @@ bool BodyShapes::IsGuessed(int frame, const Eigen::VectorXd& variables) const {
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     const Unknown& unknown = *setup_.unknowns[u];
     if (std::isfinite(unknown.belief().sigma)) continue;
-    if (!unknown.InfluencesOn(ValueOf(u, variables), frame, inputs).empty()) return true;
+    const robot::RobotModel& model = workers_.front()->model;
+    if (!unknown.InfluencesOn(model, ValueOf(u, variables), frame, inputs).empty()) return true;
   }
   return false;
 }
@@ -174,7 +180,7 @@ Status BodyShapes::FollowFrame(int frame, const Eigen::VectorXd& variables, Work
 }
 
 Status BodyShapes::Linearise(const Eigen::VectorXd& variables) {
-  ApplyToModels(variables);
+  if (Status status = ApplyToModels(variables); !status.ok()) return status;
   return OnEachFrame(
       [&](int frame, Worker* worker) { return LineariseFrame(frame, variables, worker); });
 }
@@ -209,7 +215,7 @@ Status BodyShapes::LineariseFrame(int frame, const Eigen::VectorXd& variables, W
 }
 
 Status BodyShapes::LineariseKept(const Eigen::VectorXd& variables) {
-  ApplyToModels(variables);
+  if (Status status = ApplyToModels(variables); !status.ok()) return status;
   return OnEachFrame(
       [&](int frame, Worker* worker) { return LineariseKeptFrame(frame, variables, worker); });
 }
@@ -261,7 +267,7 @@ double BodyShapes::StepFrame(int frame, const Eigen::VectorXd& variables, Worker
 }
 
 bool BodyShapes::AreBalanced(const Eigen::VectorXd& variables) {
-  ApplyToModels(variables);
+  if (!ApplyToModels(variables).ok()) return false;
   return OnEachFrame(
              [&](int frame, Worker* worker) { return CheckFrame(frame, variables, worker); })
       .ok();

@@ -74,7 +74,7 @@ class BodyShapes {
   Status OnEachFrame(const Work& work);
   double ValueOf(std::size_t unknown, const Eigen::VectorXd& variables) const;
   FrameInputs InputsOf(int frame, const Eigen::VectorXd& variables) const;
-  void ApplyToModels(const Eigen::VectorXd& variables);
+  Status ApplyToModels(const Eigen::VectorXd& variables);
   Status BalanceFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);
   bool IsGuessed(int frame, const Eigen::VectorXd& variables) const;
   Status FollowFrame(int frame, const Eigen::VectorXd& variables, Worker* worker);

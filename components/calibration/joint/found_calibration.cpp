@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "components/calibration/joint/unknowns.hpp"
+#include "components/calibration/joint/route_unknowns.hpp"
 
 namespace palpate::calibration {
 
@@ -88,24 +88,33 @@ void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s
       robot::CalibratedGravity{(has_mass ? mass->value : 1.0) * turned_m_s2, variance.cwiseSqrt()};
 }
 
+/// Of a point of a cable's path.
+void TakeRoute(const JointCalibration& fit, const robot::RobotBody& body, int cable, int point,
+               robot::CalibrationFile* file) {
+  robot::CalibratedRoute route{.cable = body.cables[static_cast<std::size_t>(cable)].name,
+                               .point = point};
+  Eigen::Vector3d variance_m2 = Eigen::Vector3d::Zero();
+  for (const TiltAxis& axis : AcrossCable(body, cable, point)) {
+    const FittedValue* off = FindValue(fit, RouteName(route.cable, point, axis.name));
+    if (off == nullptr || !off->determined) continue;
+    route.moved_m += off->value * axis.direction;
+    variance_m2 += (off->standard_error * axis.direction).cwiseAbs2();
+  }
+  if (variance_m2.isZero(0.0)) return;
+  route.standard_error_m = variance_m2.cwiseSqrt();
+  file->cable_routes.push_back(route);
+}
+
 void TakeGeometry(const JointCalibration& fit, const robot::RobotBody& body,
                   robot::CalibrationFile* file) {
   const FittedValue* scale = FindValue(fit, "geometry_scale");
   if (scale != nullptr && scale->determined) {
     file->geometry_scale = robot::CalibratedScale{scale->value, scale->standard_error};
   }
-  for (const robot::BodyCable& cable : body.cables) {
-    robot::CalibratedRoute route{.cable = cable.name};
-    Eigen::Vector3d variance_m2 = Eigen::Vector3d::Zero();
-    for (const TiltAxis& axis : AcrossCable(cable)) {
-      const FittedValue* off = FindValue(fit, "cable_route:" + cable.name + ":" + axis.name);
-      if (off == nullptr || !off->determined) continue;
-      route.moved_m += off->value * axis.direction;
-      variance_m2 += (off->standard_error * axis.direction).cwiseAbs2();
+  for (std::size_t c = 0; c < body.cables.size(); ++c) {
+    for (int point = 0; point <= static_cast<int>(body.cables[c].eyelets.size()); ++point) {
+      TakeRoute(fit, body, static_cast<int>(c), point, file);
     }
-    if (variance_m2.isZero(0.0)) continue;
-    route.standard_error_m = variance_m2.cwiseSqrt();
-    file->cable_routes.push_back(route);
   }
 }
 

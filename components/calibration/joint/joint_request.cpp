@@ -10,7 +10,7 @@
 
 #include "components/calibration/joint/kept_model.hpp"
 #include "components/calibration/joint/models_like.hpp"
-#include "components/calibration/joint/unknowns.hpp"
+#include "components/calibration/joint/route_unknowns.hpp"
 #include "components/calibration/size_comparison.hpp"
 #include "libs/core/text.hpp"
 #include "libs/core/thread_team.hpp"
@@ -177,7 +177,25 @@ void AddWeight(const robot::RobotModel& model, const JointRequest& request, Join
   }
 }
 
-/// Size of the robot, and where its cables' guides sit.
+/// Where the points of a cable's path sit.
+void AddRoute(const robot::RobotBody& body, const JointRequest& request, int cable,
+              JointSetup* setup) {
+  const auto points = 1 + body.cables[static_cast<size_t>(cable)].eyelets.size();
+  for (int point = 0; point < static_cast<int>(points); ++point) {
+    const double sigma_m = point == 0 ? request.cable_route_sigma_m : request.cable_eyelet_sigma_m;
+    if (sigma_m <= 0.0) continue;
+    Belief belief{.sigma = sigma_m, .plausible = sigma_m};
+    if (point > 0) {
+      belief.upper = std::sqrt(0.5) * body.eyelet_room_m;  // both directions at once
+      belief.lower = -belief.upper;
+    }
+    for (const TiltAxis& direction : AcrossCable(body, cable, point)) {
+      setup->unknowns.push_back(RouteOf(body, cable, point, direction, belief));
+    }
+  }
+}
+
+/// Size of the robot, and where its cables' guides and eyelets sit.
 void AddGeometry(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   const double scale_sigma = request.geometry_scale_sigma;
   if (scale_sigma > 0.0) {
@@ -187,14 +205,8 @@ void AddGeometry(const robot::RobotModel& model, const JointRequest& request, Jo
                                                .upper = robot::kLargestScale,
                                                .plausible = scale_sigma}));
   }
-  const double route_sigma_m = request.cable_route_sigma_m;
-  if (route_sigma_m <= 0.0) return;
   for (int c = 0; c < model.CableCount(); ++c) {
-    const robot::BodyCable& cable = model.body().cables[static_cast<size_t>(c)];
-    for (const TiltAxis& direction : AcrossCable(cable)) {
-      setup->unknowns.push_back(RouteOf(c, cable.name, cable.pull_point_m, direction,
-                                        {.sigma = route_sigma_m, .plausible = route_sigma_m}));
-    }
+    AddRoute(model.body(), request, c, setup);
   }
 }
 
@@ -225,6 +237,11 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   setup->estimate_marker_offsets = request.marker_offset_sigma_m > 0.0;
   setup->marker_offset_sigma_m = setup->estimate_marker_offsets ? request.marker_offset_sigma_m
                                                                 : request.marker_placement_sigma_m;
+  if (request.cable_eyelet_sigma_m > model.body().eyelet_room_m) {
+    return {StatusCode::kInvalidInput, "the model has no room to move eyelets by " +
+                                           FormatNumber(request.cable_eyelet_sigma_m) +
+                                           " m: give its body room"};
+  }
   AddInputs(model, setup);
   const int threads = std::min(request.threads, static_cast<int>(setup->frames.size()));
   setup->helpers = ModelsLike(model, std::max(0, threads - 1));

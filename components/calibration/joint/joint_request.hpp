@@ -26,10 +26,12 @@ struct JointRequest {
   double gravity_tilt_sigma_rad = 0.0;  ///< about each of two axes across gravity
   double mass_relative_sigma = 0.0;
   /// The same of the robot's size (FrameInputs::scale), of the guides from which the cables are
-  /// pulled, along each of two directions across them, and of the depth by which markers were
-  /// measured, a share of it.
+  /// pulled and of their eyelets on the body, along each of two directions across them, and of the
+  /// depth by which markers were measured, a share of it. Eyelets need a model whose body has room
+  /// (robot::GiveEyeletsRoom) of some such sigmas.
   double geometry_scale_sigma = 0.0;
   double cable_route_sigma_m = 0.0;
+  double cable_eyelet_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
   /// Smooth error of the depth that all of a camera's markers have in common, one sigma as a share
   /// of z: counts in the standard errors (DepthBiasBelief) where no scale of it is looked for; 0:

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "components/calibration/joint/load_place.hpp"
+#include "libs/core/status.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
 
@@ -80,12 +81,13 @@ class Unknown {
   const Belief& belief() const { return belief_; }
   const std::string& what_would_tell() const { return what_would_tell_; }
 
-  virtual void ApplyToModel(double value, robot::RobotModel* model) const;
+  /// Not ok where the model cannot be so.
+  virtual Status ApplyToModel(double value, robot::RobotModel* model) const;
   virtual void ApplyToFrame(double value, int frame, FrameInputs* inputs) const;
-  /// On the model of scale 1 (ToModel), at the robot's inputs of a frame with all unknowns applied;
-  /// their sum counts; none where it has no part.
-  virtual std::vector<Influence> InfluencesOn(double value, int frame,
-                                              const FrameInputs& inputs) const = 0;
+  /// On the model of scale 1 (ToModel), as it is with all unknowns applied, at the robot's inputs
+  /// of a frame; their sum counts; none where it has no part.
+  virtual std::vector<Influence> InfluencesOn(const robot::RobotModel& model, double value,
+                                              int frame, const FrameInputs& inputs) const = 0;
   /// Whether its value is FrameInputs::scale.
   virtual bool ScalesTheRobot() const { return false; }
 

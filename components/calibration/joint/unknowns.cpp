@@ -13,7 +13,7 @@ namespace palpate::calibration {
 
 using Kind = robot::CableCommand::Kind;
 
-void Unknown::ApplyToModel(double, robot::RobotModel*) const {}
+Status Unknown::ApplyToModel(double, robot::RobotModel*) const { return Status::Ok(); }
 
 void Unknown::ApplyToFrame(double, int, FrameInputs*) const {}
 
@@ -23,7 +23,6 @@ constexpr const char* kAnotherSetting =
     "a recording with markers on the part that this cable moves, at another of its settings";
 constexpr const char* kKnownForce =
     "a recording with a known load, or with cables whose tension is measured";
-
 robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
   return inputs->cables.at(static_cast<size_t>(cable));
 }
@@ -62,7 +61,8 @@ class InputOfFrame final : public Unknown {
     if (frame == frame_) CommandOf(cable_, inputs) = {kind_, value};
   }
 
-  std::vector<Influence> InfluencesOn(double, int frame, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int frame,
+                                      const FrameInputs& inputs) const override {
     return frame == frame_ ? OfCommand(cable_, inputs, 1.0) : std::vector<Influence>();
   }
 
@@ -82,7 +82,8 @@ class OffsetOfCommand final : public Unknown {
     if (command.kind == Kind::kDisplacement) command.value += value;
   }
 
-  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
+                                      const FrameInputs& inputs) const override {
     return OfDisplacement(cable_, inputs, 1.0);
   }
 
@@ -102,7 +103,8 @@ class GainOfCommand final : public Unknown {
     if (command.kind == Kind::kDisplacement) command.value += value * MeasuredIn(frame);
   }
 
-  std::vector<Influence> InfluencesOn(double, int frame, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int frame,
+                                      const FrameInputs& inputs) const override {
     return OfDisplacement(cable_, inputs, MeasuredIn(frame));
   }
 
@@ -120,11 +122,13 @@ class LogModulus final : public Unknown {
         material_(material),
         youngs_modulus_Pa_(youngs_modulus_Pa) {}
 
-  void ApplyToModel(double value, robot::RobotModel* model) const override {
+  Status ApplyToModel(double value, robot::RobotModel* model) const override {
     model->SetYoungsModulus(material_, Quantity(value));
+    return Status::Ok();
   }
 
-  std::vector<Influence> InfluencesOn(double value, int, const FrameInputs&) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double value, int,
+                                      const FrameInputs&) const override {
     return One(robot::YoungsModulus(material_), Quantity(value));
   }
 
@@ -143,11 +147,13 @@ class Poisson final : public Unknown {
                 "a recording with markers where the body bulges under large pulls"),
         material_(material) {}
 
-  void ApplyToModel(double value, robot::RobotModel* model) const override {
+  Status ApplyToModel(double value, robot::RobotModel* model) const override {
     model->SetPoissonsRatio(material_, value);
+    return Status::Ok();
   }
 
-  std::vector<Influence> InfluencesOn(double, int, const FrameInputs&) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
+                                      const FrameInputs&) const override {
     return One(robot::PoissonsRatio(material_), 1.0);
   }
 
@@ -165,7 +171,8 @@ class MassUnknown final : public Unknown {
     inputs->mass_factor = value;
   }
 
-  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
+                                      const FrameInputs& inputs) const override {
     return One(robot::GravityChange(inputs.gravity_m_s2), inputs.scale);
   }
 };
@@ -181,7 +188,8 @@ class TiltUnknown final : public Unknown {
     inputs->gravity_m_s2 += value * axis_.cross(inputs->nominal_gravity_m_s2);
   }
 
-  std::vector<Influence> InfluencesOn(double, int, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
+                                      const FrameInputs& inputs) const override {
     return One(robot::GravityChange(axis_.cross(inputs.nominal_gravity_m_s2)),
                inputs.scale * inputs.mass_factor);
   }
@@ -202,7 +210,8 @@ class ScaleUnknown final : public Unknown {
   }
   bool ScalesTheRobot() const override { return true; }
 
-  std::vector<Influence> InfluencesOn(double s, int, const FrameInputs& inputs) const override {
+  std::vector<Influence> InfluencesOn(const robot::RobotModel&, double s, int,
+                                      const FrameInputs& inputs) const override {
     std::vector<Influence> all;
     for (std::size_t c = 0; c < inputs.cables.size(); ++c) {
       const robot::CableCommand& command = inputs.cables[c];
@@ -224,33 +233,6 @@ class ScaleUnknown final : public Unknown {
     all.push_back({robot::GravityChange(inputs.gravity_m_s2), inputs.mass_factor});
     return all;
   }
-};
-
-class RouteUnknown final : public Unknown {
- public:
-  RouteUnknown(int cable, std::string name, const Eigen::Vector3d& pull_point_m,
-               const Eigen::Vector3d& direction, const Belief& belief)
-      : Unknown(std::move(name), "m", belief,
-                "a recording in which this cable pulls much, with markers on the part it moves"),
-        cable_(cable),
-        pull_point_m_(pull_point_m),
-        direction_(direction) {}
-
-  void ApplyToModel(double value, robot::RobotModel* model) const override {
-    // Two directions of one point: only this one's part is set.
-    const Eigen::Vector3d& now_m = model->cable(cable_).pull_point_m();
-    const double off_m = value - direction_.dot(now_m - pull_point_m_);
-    if (off_m != 0.0) model->SetPullPoint(cable_, now_m + off_m * direction_);
-  }
-
-  std::vector<Influence> InfluencesOn(double, int, const FrameInputs&) const override {
-    return One(robot::PullPointMove(cable_, direction_), 1.0);
-  }
-
- private:
-  int cable_;
-  Eigen::Vector3d pull_point_m_;
-  Eigen::Vector3d direction_;
 };
 
 }  // namespace
@@ -321,12 +303,6 @@ UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis
 
 UnknownPtr GeometryScaleOf(const Belief& belief) { return std::make_unique<ScaleUnknown>(belief); }
 
-UnknownPtr RouteOf(int cable, const std::string& cable_name, const Eigen::Vector3d& pull_point_m,
-                   const TiltAxis& direction, const Belief& belief) {
-  return std::make_unique<RouteUnknown>(cable, "cable_route:" + cable_name + ":" + direction.name,
-                                        pull_point_m, direction.direction, belief);
-}
-
 std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
   const Eigen::Vector3d down = gravity_m_s2.normalized();
   Eigen::Index along = 0;
@@ -338,17 +314,6 @@ std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
         std::string(1, "xyz"[i]), (Eigen::Vector3d::Unit(i) - down[i] * down).normalized()};
   }
   return axes;
-}
-
-std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along) {
-  std::array<TiltAxis, 2> axes = TiltAxes(along);
-  const Eigen::Vector3d square = along.normalized().cross(axes[0].direction);
-  axes[1].direction = square.dot(axes[1].direction) < 0.0 ? Eigen::Vector3d(-square) : square;
-  return axes;
-}
-
-std::array<TiltAxis, 2> AcrossCable(const robot::BodyCable& cable) {
-  return AcrossCable(Eigen::Vector3d(cable.eyelets.front().rest_m - cable.pull_point_m));
 }
 
 }  // namespace palpate::calibration

@@ -10,8 +10,8 @@
 
 #include "components/calibration/joint/unknown.hpp"
 
-/// The unknowns there are, one function each. `mean` of a belief is the value to start from; the
-/// model and frames hold everything else.
+/// The unknowns there are, one function each, but for those of cables' paths (route_unknowns.hpp).
+/// `mean` of a belief is the value to start from; the model and frames hold everything else.
 namespace palpate::calibration {
 
 /// Displacement (m) or tension (N) of a cable in one frame, in place of the frame's command;
@@ -45,20 +45,8 @@ struct TiltAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// m: how far the point from which a cable is pulled (the guide before its drive) sits off
-/// `pull_point_m`, its place in the robot file, along `direction`; that of a robot of scale 1.
-/// Drives count from the undeformed body with the guide where it is. Where it sits along the cable
-/// shows in nothing: AcrossCable. The directions of one cable must be square to each other.
-UnknownPtr RouteOf(int cable, const std::string& cable_name, const Eigen::Vector3d& pull_point_m,
-                   const TiltAxis& direction, const Belief& belief);
-
 /// Two directions across a vector: the robot's axes that it lies least along, as far as they are
 /// across it.
 std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2);
-
-/// Two directions across a cable and square to each other, near TiltAxes of it.
-std::array<TiltAxis, 2> AcrossCable(const Eigen::Vector3d& along);
-/// The same of its piece from the guide to the body, as the robot file has them.
-std::array<TiltAxis, 2> AcrossCable(const robot::BodyCable& cable);
 
 }  // namespace palpate::calibration

@@ -24,13 +24,13 @@ void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::stri
   }
 }
 
-/// Of parts (or cables) that were not found anew.
-template <typename Number>
-void KeepParts(const std::vector<Number>& before, std::string Number::*part,
+/// Of parts that were not found anew.
+template <typename Number, typename IsSamePart>
+void KeepParts(const std::vector<Number>& before, const IsSamePart& is_same_part,
                std::vector<Number>* found) {
   for (const Number& number : before) {
     const bool found_anew = std::any_of(found->begin(), found->end(), [&](const Number& other) {
-      return other.*part == number.*part;
+      return is_same_part(number, other);
     });
     if (!found_anew) found->push_back(number);
   }
@@ -67,9 +67,17 @@ void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::s
 }
 
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file) {
-  KeepParts(before.moduli, &robot::CalibratedModulus::part, &file->moduli);
-  KeepParts(before.poissons_ratios, &robot::CalibratedPoissonsRatio::part, &file->poissons_ratios);
-  KeepParts(before.cable_routes, &robot::CalibratedRoute::cable, &file->cable_routes);
+  const auto of_one_part = [](const auto& one, const auto& other) {
+    return one.part == other.part;
+  };
+  KeepParts(before.moduli, of_one_part, &file->moduli);
+  KeepParts(before.poissons_ratios, of_one_part, &file->poissons_ratios);
+  KeepParts(
+      before.cable_routes,
+      [](const robot::CalibratedRoute& one, const robot::CalibratedRoute& other) {
+        return one.cable == other.cable && one.point == other.point;
+      },
+      &file->cable_routes);
   if (!file->geometry_scale) file->geometry_scale = before.geometry_scale;
   if (!file->gravity) file->gravity = before.gravity;
   if (!file->pose) {

@@ -39,7 +39,7 @@ std::unique_ptr<CalibrationNode> MakeNode(const Command& command) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(command.robot, app::LoadYaml));
   if (const std::filesystem::path last = command.config.calibration_file;
       !last.empty() && std::filesystem::exists(last)) {
-    robot::ApplySize(robot::ReadCalibrationFile(last, app::LoadYaml), &body);
+    robot::ApplyGeometry(robot::ReadCalibrationFile(last, app::LoadYaml), &body);
   }
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
   auto model = std::make_unique<robot::RobotModel>(

@@ -85,6 +85,7 @@ void SetGeometry(const robot::CalibrationFile& file, idl::palpate_msgs::Calibrat
   for (std::size_t k = 0; k < file.cable_routes.size(); ++k) {
     auto& route = message->cable_routes._buffer[k];
     dds::SetText(route.cable, file.cable_routes[k].cable);
+    route.point = static_cast<uint32_t>(file.cable_routes[k].point);
     dds::SetVector(route.moved_m, file.cable_routes[k].moved_m);
     dds::SetVector(route.standard_error_m, file.cable_routes[k].standard_error_m);
   }

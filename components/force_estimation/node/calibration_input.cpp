@@ -111,7 +111,8 @@ Status ReadGeometry(const idl::palpate_msgs::Calibration& message, robot::Calibr
   }
   file->cable_routes.clear();
   for (const auto& route : dds::Elements(message.cable_routes)) {
-    file->cable_routes.push_back({std::string(dds::Text(route.cable)), dds::ToVector(route.moved_m),
+    file->cable_routes.push_back({std::string(dds::Text(route.cable)),
+                                  static_cast<int>(route.point), dds::ToVector(route.moved_m),
                                   dds::ToVector(route.standard_error_m)});
   }
   return robot::CheckGeometry(file->geometry_scale, file->cable_routes);

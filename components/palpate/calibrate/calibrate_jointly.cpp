@@ -93,6 +93,7 @@ calibration::JointRequest RequestOf(const CalibrateOptions& options,
           .mass_relative_sigma = options.mass_relative_sigma,
           .geometry_scale_sigma = options.geometry_scale_sigma,
           .cable_route_sigma_m = options.cable_route_sigma_m,
+          .cable_eyelet_sigma_m = options.cable_eyelet_sigma_m,
           .depth_scale_sigma = camera ? options.depth_scale_sigma : 0.0,
           .marker_offset_sigma_m = options.marker_offset_sigma_m};
 }

@@ -101,6 +101,8 @@ constexpr std::array kBeliefs = {
     Belief{
         "--cable-route-sigma-m", &CalibrateOptions::cable_route_sigma_m,
         "the points that cables are pulled from may sit off the robot file's, across the cables"},
+    Belief{"--cable-eyelet-sigma-m", &CalibrateOptions::cable_eyelet_sigma_m,
+           "the cables' eyelets on the body may sit off the robot file's, across the cables"},
     Belief{"--depth-scale-sigma", &CalibrateOptions::depth_scale_sigma,
            "the distances of markers from the camera may be off (0.003: 0.3 %)"}};
 
@@ -127,7 +129,9 @@ void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
 }  // namespace
 
 int Calibrate(const CalibrateOptions& options) {
-  const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot, options.solver);
+  constexpr double kSigmasOfRoom = 4.0;
+  const std::unique_ptr<robot::RobotModel> model =
+      LoadRobot(options.robot, options.solver, {}, kSigmasOfRoom * options.cable_eyelet_sigma_m);
   const robot::CalibrationFile file = Find(options, model.get());
   robot::WriteCalibrationFile(file, options.out);
   if (options.json) {

@@ -33,8 +33,9 @@ struct CalibrateOptions {
   double gravity_tilt_sigma_deg = 0.0;
   double mass_relative_sigma = 0.0;
   double poissons_ratio_sigma = 0.0;
-  double geometry_scale_sigma = 0.0;  ///< of these three, too
+  double geometry_scale_sigma = 0.0;  ///< of these four, too
   double cable_route_sigma_m = 0.0;
+  double cable_eyelet_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
   std::filesystem::path out;
   bool unlabelled = false;            ///< names in markers.csv mean nothing

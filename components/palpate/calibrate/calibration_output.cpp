@@ -27,7 +27,8 @@ void PrintGeometry(const robot::CalibrationFile& file) {
                file.geometry_scale->scale, file.geometry_scale->standard_error);
   }
   for (const robot::CalibratedRoute& route : file.cable_routes) {
-    fmt::print("guide of {}: off by {} m (standard error {} m)\n", route.cable,
+    const std::string point = route.point == 0 ? "guide" : "eyelet " + std::to_string(route.point);
+    fmt::print("{} of {}: off by {} m (standard error {} m)\n", point, route.cable,
                geometry::FormatVector(route.moved_m),
                geometry::FormatVector(route.standard_error_m));
   }
@@ -40,6 +41,7 @@ void AddGeometry(const robot::CalibrationFile& file, nlohmann::ordered_json* jso
   }
   for (const robot::CalibratedRoute& route : file.cable_routes) {
     (*json)["cable_routes"].push_back({{"cable", route.cable},
+                                       {"point", route.point},
                                        {"moved_m", ToList(route.moved_m)},
                                        {"standard_error_m", ToList(route.standard_error_m)}});
   }

@@ -48,7 +48,7 @@ robot::CalibrationFile SomeCalibration() {
                                          .covariance = 1e-6 * root * root.transpose()}};
   file.drives = {{"top", {1e-3, 0.02}, {2e-4, 0.01}}};
   file.geometry_scale = robot::CalibratedScale{1.02, 1e-3};
-  file.cable_routes = {{"top", {1e-3, 2e-3, 3e-3}, {1e-4, 2e-4, 3e-4}}};
+  file.cable_routes = {{"top", 2, {1e-3, 2e-3, 3e-3}, {1e-4, 2e-4, 3e-4}}};
   file.undetermined = {{"cable_gain:top", "a longer pull"}};
   file.residual_rms_m = 1e-4;
   file.chi_squared = 12.5;
@@ -111,6 +111,7 @@ TEST(ConvertCalibration, ComesOutAtTheOtherEndAsItWentIn) {
   EXPECT_EQ(got.geometry_scale->standard_error, 1e-3);
   ASSERT_EQ(got.cable_routes.size(), 1u);
   EXPECT_EQ(got.cable_routes[0].cable, "top");
+  EXPECT_EQ(got.cable_routes[0].point, 2);
   EXPECT_EQ(got.cable_routes[0].moved_m, sent.cable_routes[0].moved_m);
   EXPECT_EQ(got.cable_routes[0].standard_error_m, sent.cable_routes[0].standard_error_m);
   ASSERT_EQ(got.undetermined.size(), 1u);

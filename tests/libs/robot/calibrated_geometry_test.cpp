@@ -10,6 +10,7 @@
 
 #include "libs/app/yaml.hpp"
 #include "libs/robot/calibration_file.hpp"
+#include "libs/robot/eyelets.hpp"
 #include "tests/libs/robot/calibration_file_fixture.hpp"
 
 namespace palpate::robot {
@@ -27,14 +28,16 @@ class CalibratedGeometryTest : public CalibrationFileFixture {
     calibration.data = "some";
     calibration.data_hash = "sha256-00ff";
     calibration.geometry_scale = CalibratedScale{kScale, 1.25e-3};
-    calibration.cable_routes = {{Cable(), {1e-3, -2e-3, 0.5e-3}, {1e-4, 2e-4, 3e-4}}};
+    calibration.cable_routes = {{Cable(), 0, {1e-3, -2e-3, 0.5e-3}, {1e-4, 2e-4, 3e-4}},
+                                {Cable(), 1, kEyeletMoved_m, {2e-4, 2e-4, 0.0}}};
     return calibration;
   }
+  const Eigen::Vector3d kEyeletMoved_m{-1e-3, 0.5e-3, 2e-3};
   std::string Cable() const { return model_->CableNames().front(); }
 
   RobotBody Scaled() const {
     RobotBody body = model_->body();
-    ApplySize(Example(), &body);
+    ApplyGeometry(Example(), &body);
     return body;
   }
 };
@@ -46,7 +49,10 @@ TEST_F(CalibratedGeometryTest, IsReadAsItWasWritten) {
   ASSERT_TRUE(read.geometry_scale);
   EXPECT_EQ(read.geometry_scale->scale, kScale);
   EXPECT_EQ(read.geometry_scale->standard_error, 1.25e-3);
-  ASSERT_EQ(read.cable_routes.size(), 1u);
+  ASSERT_EQ(read.cable_routes.size(), 2u);
+  EXPECT_EQ(read.cable_routes[0].point, 0);
+  EXPECT_EQ(read.cable_routes[1].point, 1);
+  EXPECT_EQ(read.cable_routes[1].moved_m, kEyeletMoved_m);
   EXPECT_EQ(read.cable_routes[0].cable, Cable());
   EXPECT_EQ(read.cable_routes[0].moved_m, written.cable_routes[0].moved_m);
   EXPECT_EQ(read.cable_routes[0].standard_error_m, written.cable_routes[0].standard_error_m);
@@ -63,12 +69,15 @@ TEST_F(CalibratedGeometryTest, IsRefusedWithItsPlaceInTheFile) {
   EXPECT_THAT(ReadRefusal(Altered("moved_m: [", "moved_m: [.inf, ")), HasSubstr(":13:"))
       << "four numbers";
   EXPECT_THAT(ReadRefusal(Altered("standard_error_m", "standard_errors_m")), HasSubstr(":13:"));
+  EXPECT_THAT(ReadRefusal(Altered("point: 0", "point: -1")), HasSubstr(":13:"));
 }
 
 /// ToModel of the calibration says what a robot of another size does: at the same stress, its
 /// tensions are as the square of the size, its weight in the robot's frame as the cube.
 TEST_F(CalibratedGeometryTest, ARobotOfThatSizeIsTheModelEnlarged) {
-  RobotModel large(Scaled());
+  RobotBody body = model_->body();
+  ScaleBody(kScale, &body);
+  RobotModel large(body);
   EXPECT_EQ(large.body().scale, kScale);
   EXPECT_NEAR(large.body().node_mass_kg.sum(),
               std::pow(kScale, 3) * model_->body().node_mass_kg.sum(), 1e-12);
@@ -100,6 +109,34 @@ TEST_F(CalibratedGeometryTest, GuidesAreMovedAsMuchAsTheRobotIsLarger) {
   EXPECT_NEAR(large.cable_rest_length_m()[0], large.cable(0).rest_length_m(), 1e-15);
 }
 
+TEST_F(CalibratedGeometryTest, EyeletsAreMovedAsMuchAsTheRobotIsLarger) {
+  const fem::BodyPoint before = model_->body().cables[0].eyelets[0];
+  RobotModel large(Scaled());
+  const BodyCable& cable = large.body().cables[0];
+  EXPECT_LT((cable.eyelets[0].rest_m - kScale * (before.rest_m + kEyeletMoved_m)).norm(), 1e-15);
+  EXPECT_EQ(EyeletMoved_m(cable, 0), kEyeletMoved_m);
+  EXPECT_LT((EyeletPlace_m(cable, kScale, 0) - kScale * before.rest_m).norm(), 1e-15);
+  EXPECT_LT((large.cable(0).eyelets()[0].Position(large.RestState().x_m) - cable.eyelets[0].rest_m)
+                .norm(),
+            1e-12);
+  ApplyCalibration(Example(), &large);
+  EXPECT_EQ(cable.eyelets[0].rest_m, large.body().cables[0].eyelets[0].rest_m);
+}
+
+TEST_F(CalibratedGeometryTest, AModelWithEyeletsElsewhereOrWithoutThemRefusesIt) {
+  CalibrationFile other = Example();
+  other.cable_routes[1].moved_m.z() += 1e-6;
+  const RobotModel large(Scaled());
+  EXPECT_THAT(CheckCalibration(other, large).message(),
+              HasSubstr("eyelet 1 of cable '" + Cable() + "' elsewhere than the model"));
+  other.cable_routes.pop_back();
+  EXPECT_THAT(CheckCalibration(other, large).message(), HasSubstr("elsewhere than the model"));
+  other = Example();
+  other.cable_routes[1].point = 3;
+  EXPECT_THAT(CheckCalibration(other, large).message(),
+              AllOf(HasSubstr("holds point 3"), HasSubstr("path has 3 points")));
+}
+
 TEST_F(CalibratedGeometryTest, AModelOfAnotherSizeOrWithoutTheCableRefusesIt) {
   EXPECT_THAT(CheckCalibration(Example(), *model_).message(),
               AllOf(HasSubstr("1.07 times as large"), HasSubstr("the model is 1 times")));
@@ -126,6 +163,9 @@ TEST_F(CalibratedGeometryTest, NumbersThatAreNoneAreRefused) {
   EXPECT_THAT(CheckGeometry({}, routes).message(), HasSubstr("'" + Cable() + "'"));
   routes = good.cable_routes;
   routes[0].standard_error_m.z() = -1e-9;
+  EXPECT_FALSE(CheckGeometry({}, routes).ok());
+  routes = good.cable_routes;
+  routes[0].point = -1;
   EXPECT_FALSE(CheckGeometry({}, routes).ok());
 }
 

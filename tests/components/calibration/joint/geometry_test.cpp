@@ -128,7 +128,7 @@ TEST_F(GeometryOfOurRobot, SizeAndDepthAreToldByTheCablesAloneAndNamedWhereTheyA
 
 TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
   const Eigen::Vector3d guide_m = model_->cable(1).pull_point_m();
-  const auto across = AcrossCable(model_->body().cables[1]);
+  const auto across = AcrossCable(model_->body(), 1, 0);
   truth_->SetPullPoint(1, guide_m + 1.5e-3 * across[0].direction - 1e-3 * across[1].direction);
   const JointCalibration fit = CalibrateFrames(
       *model_, See(*truth_), nullptr,
@@ -151,15 +151,60 @@ TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
 }
 
-TEST_F(GeometryOfOurRobot, GuidesArePutBackWhereNothingIsFound) {
-  const Eigen::Vector3d guide_m = model_->cable(0).pull_point_m();
-  const double rest_length_m = model_->cable_rest_length_m()[0];
-  const KeptModel kept(*model_);
-  model_->SetPullPoint(0, guide_m + Eigen::Vector3d(0.0, 0.0, -0.01));
-  EXPECT_NE(model_->cable_rest_length_m()[0], rest_length_m);
+TEST_F(GeometryOfOurRobot, EyeletsOfItsCablesShow) {
+  constexpr int kCable = 1;
+  const auto across = AcrossCable(model_->body(), kCable, 1);
+  robot::CalibrationFile moved = robot::DescribeForCalibration(*model_);
+  moved.cable_routes = {{.cable = model_->CableNames()[kCable],
+                         .point = 1,
+                         .moved_m = 1.5e-3 * across[0].direction - 1e-3 * across[1].direction}};
+  robot::RobotBody body = robot::BuildRobotBody(QuickFourLegs());
+  robot::ApplyGeometry(moved, &body);
+  robot::RobotModel truth(std::move(body));
+  const auto with_room = BuildWithRoom(QuickFourLegs(), 4e-3);
+  const JointCalibration fit = CalibrateFrames(
+      *with_room, See(truth), nullptr,
+      {.drive_offsets = false, .cable_eyelet_sigma_m = 1e-3, .marker_placement_sigma_m = 0.0});
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  ExpectFound(fit, RouteName(moved.cable_routes[0].cable, 1, across[0].name), 1.5e-3, 3e-4);
+  ExpectFound(fit, RouteName(moved.cable_routes[0].cable, 1, across[1].name), -1e-3, 3e-4);
+  EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
+  robot::CalibrationFile file = robot::DescribeForCalibration(*with_room);
+  TakeFit(fit, *with_room, &file);
+  robot::RobotBody calibrated = robot::BuildRobotBody(QuickFourLegs());
+  robot::ApplyGeometry(file, &calibrated);
+  const auto eyelet_m = [](const robot::RobotBody& of) {
+    return of.cables[kCable].eyelets[0].rest_m;
+  };
+  EXPECT_LT((eyelet_m(calibrated) - eyelet_m(truth.body())).norm(), 5e-4);
+  EXPECT_TRUE(robot::CheckCalibration(file, robot::RobotModel(calibrated)).ok());
+  EXPECT_FALSE(robot::CheckCalibration(file, *model_).ok()) << "its eyelets are not there";
+}
+
+TEST_F(GeometryOfOurRobot, EyeletsNeedAModelWithRoom) {
+  const JointCalibration fit =
+      CalibrateFrames(*model_, See(*truth_), nullptr, {.cable_eyelet_sigma_m = 1e-3});
+  EXPECT_EQ(fit.status.code(), StatusCode::kInvalidInput);
+  EXPECT_NE(fit.status.message().find("room to move eyelets by 0.001 m"), std::string::npos)
+      << fit.status.message();
+}
+
+TEST_F(GeometryOfOurRobot, PathsArePutBackWhereNothingIsFound) {
+  const auto model = BuildWithRoom(QuickFourLegs(), 4e-3);
+  const Eigen::Vector3d guide_m = model->cable(0).pull_point_m();
+  const Eigen::VectorXd rest_length_m = model->cable_rest_length_m();
+  const std::vector<double> weights = model->cable(1).eyelets()[0].weights;
+  const KeptModel kept(*model);
+  model->SetPullPoint(0, guide_m + Eigen::Vector3d(0.0, 0.0, -0.01));
+  ASSERT_TRUE(model->MoveEyelet(1, 0, Eigen::Vector3d(2e-3, 0.0, 1e-3)).ok());
+  EXPECT_NE(model->cable_rest_length_m()[0], rest_length_m[0]);
+  EXPECT_NE(model->cable_rest_length_m()[1], rest_length_m[1]);
   kept.Restore();
-  EXPECT_EQ(model_->cable(0).pull_point_m(), guide_m);
-  EXPECT_EQ(model_->cable_rest_length_m()[0], rest_length_m);
+  EXPECT_EQ(model->cable(0).pull_point_m(), guide_m);
+  EXPECT_LT((model->cable_rest_length_m() - rest_length_m).lpNorm<Eigen::Infinity>(), 1e-15);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    EXPECT_NEAR(model->cable(1).eyelets()[0].weights[k], weights[k], 1e-12);
+  }
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace {
 /// Everything that can be unknown, at once, with markers and surface points and both conditions.
 class JointDerivatives : public testing::Test {
  protected:
-  JointDerivatives() : model_(Build(QuickFourLegs())) {
+  explicit JointDerivatives(double eyelet_room_m = 0.0)
+      : model_(BuildWithRoom(QuickFourLegs(), eyelet_room_m)) {
     const auto pulled = Commands(Kind::kDisplacement, {0.012, 0.010, 0.011, 0.009});
     const auto tight = Commands(Kind::kTension, {1.2, 0.7, 1.0, 0.5});
     setup_.frames = {See(*model_, TableOnePose(), "pulled", pulled, {}, 1e-4),
@@ -47,18 +48,20 @@ class JointDerivatives : public testing::Test {
   JointSetup setup_;
 };
 
-/// A larger robot whose guides sit elsewhere, with loads on it.
+/// A larger robot whose guides and eyelets sit elsewhere, with loads on it.
 class GeometryDerivatives : public JointDerivatives {
  protected:
-  GeometryDerivatives() {
+  GeometryDerivatives() : JointDerivatives(4e-3) {
     setup_.conditions.clear();
     setup_.unknowns.push_back(GeometryScaleOf({.mean = 1.03, .sigma = 0.02, .plausible = 0.02}));
-    const Eigen::Vector3d guide_m = model_->cable(2).pull_point_m();
-    const auto across = AcrossCable(Eigen::Vector3d(0.3, -0.1, 0.9));
-    setup_.unknowns.push_back(
-        RouteOf(2, "south", guide_m, across[0], {.mean = 1e-3, .sigma = 2e-3, .plausible = 2e-3}));
-    setup_.unknowns.push_back(
-        RouteOf(2, "south", guide_m, across[1], {.mean = -2e-3, .sigma = 2e-3, .plausible = 2e-3}));
+    for (int point = 0; point <= 1; ++point) {
+      const auto across = AcrossCable(model_->body(), 2, point);
+      const double size = point == 0 ? 1.0 : 0.25;  // more of an eyelet lets the east cable slack
+      setup_.unknowns.push_back(RouteOf(model_->body(), 2, point, across[0],
+                                        {.mean = size * 1e-3, .sigma = 2e-3, .plausible = 2e-3}));
+      setup_.unknowns.push_back(RouteOf(model_->body(), 2, point, across[1],
+                                        {.mean = size * -2e-3, .sigma = 2e-3, .plausible = 2e-3}));
+    }
     setup_.unknowns.push_back(CableInput(0, "pulled", 2, "south", Kind::kDisplacement,
                                          {.mean = 0.011, .plausible = 1e-3}));
     setup_.frames[0].loads.push_back(

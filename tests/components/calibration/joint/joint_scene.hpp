@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <string>
@@ -13,7 +14,8 @@
 #include <vector>
 
 #include "components/calibration/joint/joint_calibration.hpp"
-#include "components/calibration/joint/unknowns.hpp"
+#include "components/calibration/joint/route_unknowns.hpp"
+#include "libs/robot/eyelets.hpp"
 #include "tests/components/calibration/table_one.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 
@@ -32,6 +34,14 @@ inline std::vector<robot::CableCommand> Commands(Kind kind, const std::vector<do
   std::vector<robot::CableCommand> commands;
   for (const double value : values) commands.push_back({kind, value});
   return commands;
+}
+
+/// A model whose cables' eyelets can be moved.
+inline std::unique_ptr<robot::RobotModel> BuildWithRoom(const robot::RobotDescription& robot,
+                                                        double eyelet_room_m) {
+  robot::RobotBody body = robot::BuildRobotBody(robot);
+  robot::GiveEyeletsRoom(eyelet_room_m, &body);
+  return std::make_unique<robot::RobotModel>(std::move(body));
 }
 
 /// What a camera at `T_robot_camera` sees of `model` as it is now.

@@ -93,9 +93,9 @@ TEST(LiveCalibration, KeepsWhatItDoesNotFindAnewAndFitsWithIt) {
 TEST(LiveCalibration, TakesTheSizeAndTheGuidesOfTheEarlierOne) {
   robot::CalibrationFile before = Earlier(*force_estimation::NodeTestRobot());
   before.geometry_scale = robot::CalibratedScale{1.05, 1e-3};
-  before.cable_routes = {{"top", {0.0, 2e-3, 3e-3}, {0.0, 1e-4, 1e-4}}};
+  before.cable_routes = {{"top", 0, {0.0, 2e-3, 3e-3}, {0.0, 1e-4, 1e-4}}};
   robot::RobotBody body = robot::BuildRobotBody(force_estimation::NodeTestDescription());
-  robot::ApplySize(before, &body);
+  robot::ApplyGeometry(before, &body);
   robot::RobotModel large(body);
   LiveJob job;
   job.before = before;

@@ -90,7 +90,7 @@ RobotCase SoftBeam(const CaseKind& kind) {
       {-0.01, 0.011, 0.026}, {-0.008, 0.013, -0.004}, {-0.012, -0.003, 0.008}};
   const GuidePlan guides = SoftBeamGuides();
   for (size_t c = 0; c < pull_points_m.size(); ++c) {
-    BodyCable cable{"cable", pull_points_m[c], {}, 50.0};
+    BodyCable cable{"cable", pull_points_m[c], {}, 50.0, 0.0, guides.radius_m};
     for (const auto& eyelet_m : guides.eyelets_m[c].colwise()) {
       cable.eyelets.push_back(locator.EmbedBall(eyelet_m, guides.radius_m));
     }

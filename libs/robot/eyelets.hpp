@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "libs/fem/embedding.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::robot {
+
+/// How far an eyelet (0: next to the drive) sits off its place in the robot file; of scale 1.
+Eigen::Vector3d EyeletMoved_m(const BodyCable& cable, int eyelet);
+/// Where the robot file has it, of a robot of that scale.
+Eigen::Vector3d EyeletPlace_m(const BodyCable& cable, double scale, int eyelet);
+
+/// Puts it so far off its place; what it holds on to is found anew. `scale`: RobotBody::scale.
+void MoveEyelet(const fem::PointLocator& locator, double scale, int eyelet,
+                const Eigen::Vector3d& moved_m, BodyCable* cable);
+
+/// Lets a model of this body move every eyelet by up to `reach_m` along each axis from where it is
+/// now (RobotModel::MoveEyelet): it holds on to all nodes that it might come to, with weight 0. The
+/// stiffness matrix has an entry for each pair of them, zero or not. Outside of the body, where an
+/// eyelet holds on to the cell of the nearest centroid, a cell may be missed.
+void GiveEyeletsRoom(double reach_m, RobotBody* body);
+
+}  // namespace palpate::robot
