@@ -170,7 +170,7 @@ std::vector<EffectKind> CableEffects() {
        drive,
        kCable,
        {Component("dy_m", 0.02, 3e-4), Component("dz_m", 0.02, 3e-4)},
-       "the eyelets on the body sit displaced by (0, dy, dz), robot frame"},
+       "the guide that it is pulled from sits displaced by (0, dy, dz), robot frame"},
       {"swapped_cables", drive, kTwoCables, {}, "two cables are plugged in for each other"},
       {"drive_coupling",
        drive,

@@ -17,23 +17,24 @@ class CableRouting final : public Cause {
  public:
   CableRouting(const std::string& cable, int index)
       : Cause({"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
-              {{.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
+              {{.name = "dx_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
+               {.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
                {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m}}),
         index_(index) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.cables[static_cast<std::size_t>(index_)].pull_point_m.tail<2>() += z;
+    draft->body.cables[static_cast<std::size_t>(index_)].pull_point_m += z;
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot->cables[static_cast<std::size_t>(index_)].path_m.col(0).tail<2>() += z;
+    robot->cables[static_cast<std::size_t>(index_)].path_m.col(0) += z;
     return true;
   }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
                              const CauseMoment& at) const override {
-    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter + 1);
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter);
     auto sum = std::make_unique<SumOfParameters>();
     sum->Add(1.0, robot::PullPointMove(index_, direction, robot::CableZero::kKept));
     if (at.observed.timeline.by_tension[static_cast<std::size_t>(index_)]) return sum;

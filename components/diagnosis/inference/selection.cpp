@@ -21,7 +21,8 @@ constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alike
 constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
 constexpr double kMayGetClear = 5.0;     ///< ln BF that a further cause promises before
-constexpr int kMostRefined = 4;
+constexpr std::size_t kMostRefined = 4;  ///< in a round
+constexpr int kMostRounds = 3;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 /// Looks for one further cause.
@@ -39,13 +40,11 @@ class NextCause {
       Explain();
       return false;
     }
-    PutSpecialCasesNext();
-    RefineTheBest();
     const HeldOut held_out = LeaveOneOut(fitter_.book(), before_.model, before_.faults);
-    for (std::size_t k = 0; k < candidates_.size() && candidates_[k].refined; ++k) {
-      if (!IsClear(held_out, k)) continue;
-      found_ = k;
-      break;
+    for (int round = 0; round < kMostRounds && found_ >= candidates_.size(); ++round) {
+      if (round > 0 && !AreOthersPromising()) break;
+      RefineTheBest();
+      FindOneThatIsClear(held_out);
     }
     if (found_ < candidates_.size()) PreferASpecialCase(held_out);
     Explain();
@@ -63,7 +62,8 @@ class NextCause {
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const bool close =
           candidates_[k].ln_bayes_factor > candidates_[found_].ln_bayes_factor - kAlike;
-      if (k != found_ && close && !IsSpecialCaseOf(found_, k)) alike.push_back(candidates_[k]);
+      const bool can_be = !candidates_[k].ruled_out && !IsSpecialCaseOf(found_, k);
+      if (k != found_ && close && can_be) alike.push_back(candidates_[k]);
     }
     return alike;
   }
@@ -87,9 +87,30 @@ class NextCause {
     SortByEvidence(&candidates_);
   }
 
+  /// Whether to simulate further ones: those that were are none that a robot can have, or explain
+  /// little, and the next one promises much.
+  bool AreOthersPromising() const {
+    const std::size_t next = fits_.size();
+    if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
+    return candidates_[next].ln_bayes_factor >= kClearEvidence &&
+           std::all_of(candidates_.begin(), candidates_.begin() + std::ssize(fits_),
+                       [](const Candidate& tried) {
+                         return tried.ruled_out || tried.ln_bayes_factor < kClearEvidence;
+                       });
+  }
+
+  /// Of those that were simulated; each is judged once.
+  void FindOneThatIsClear(const HeldOut& held_out) {
+    for (std::size_t k = 0; k < fits_.size(); ++k) {
+      if (!candidates_[k].why_not.empty() || !IsClear(held_out, k)) continue;
+      found_ = k;
+      return;
+    }
+  }
+
   /// Behind those that they are special cases of, as far as these are looked at.
-  void PutSpecialCasesNext() {
-    for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
+  void PutSpecialCasesNext(std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
       for (std::size_t special = k + 1; special < candidates_.size(); ++special) {
         if (!IsSpecialCaseOf(special, k)) continue;
         const auto next = candidates_.begin() + static_cast<std::ptrdiff_t>(k + 1);
@@ -115,12 +136,16 @@ class NextCause {
     }
   }
 
+  /// The next ones that were not simulated before.
   void RefineTheBest() {
+    const std::size_t first = fits_.size();
+    const std::size_t end = std::min(first + kMostRefined, candidates_.size());
+    PutSpecialCasesNext(first, end);
     const double least = before_.faults.empty() ? kAlike : kMayGetClear;
     double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < candidates_.size() && k < kMostRefined; ++k) {
+    for (std::size_t k = first; k < end; ++k) {
       Candidate& candidate = candidates_[k];
-      const bool special = k > 0 && IsSpecialCaseOf(k, k - 1);
+      const bool special = k > first && IsSpecialCaseOf(k, k - 1);
       if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
       if (k > 0 && fitter_.IsOutOfTime()) break;
       Fit fit = RefineFromItsStarts(&candidate);

@@ -72,7 +72,7 @@ TEST_F(OtherPlaces, AFitMovesToWhereTheDataHaveTheForce) {
   const std::vector<int> forces = Forces();
   const int right = forces.back();
   const int wrong = forces.front();
-  MeasureForceAt(right, 0.3);
+  MeasureForceAt(right, 0.1);
   const Fitter fitter(observed_, body_, book_, {}, 1);
   const Fit stuck = FittedAt(fitter, wrong);
   ASSERT_TRUE(stuck.status.ok());

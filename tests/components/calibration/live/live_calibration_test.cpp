@@ -88,12 +88,13 @@ TEST(LiveCalibration, KeepsWhatItDoesNotFindAnewAndFitsWithIt) {
             force_estimation::NodeTestRobot()->body().materials[0].poissons_ratio);
 }
 
-/// A robot of another size than its file's, whose guide sits elsewhere: with the earlier file that
-/// says so its markers leave no residual.
-TEST(LiveCalibration, TakesTheSizeAndTheGuidesOfTheEarlierOne) {
+/// A robot of another size than its file's, whose guide and eyelet sit elsewhere: with the earlier
+/// file that says so its markers leave no residual.
+TEST(LiveCalibration, TakesTheSizeAndTheRoutesOfTheEarlierOne) {
   robot::CalibrationFile before = Earlier(*force_estimation::NodeTestRobot());
   before.geometry_scale = robot::CalibratedScale{1.05, 1e-3};
-  before.cable_routes = {{"top", 0, {0.0, 2e-3, 3e-3}, {0.0, 1e-4, 1e-4}}};
+  before.cable_routes = {{"top", 0, {0.0, 2e-3, 3e-3}, {0.0, 1e-4, 1e-4}},
+                         {"top", 1, {0.0, 1e-3, 0.5e-3}, {0.0, 1e-4, 1e-4}}};
   robot::RobotBody body = robot::BuildRobotBody(force_estimation::NodeTestDescription());
   robot::ApplyGeometry(before, &body);
   robot::RobotModel large(body);
@@ -136,8 +137,9 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   before.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.0}, {0.1, 0.1, 0.1}};
   before.pose.emplace().T_robot_camera.translation().x() = 1.0;
   before.geometry_scale = robot::CalibratedScale{1.02, 1e-3};
-  before.cable_routes = {{"a", {1e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}},
-                         {"b", {2e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
+  before.cable_routes = {{"a", 0, {1e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}},
+                         {"b", 0, {2e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}},
+                         {"b", 2, {4e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
   before.drives = {{"a", {1e-3, 0.1}, {1e-4, 0.01}}, {"b", {2e-3, 0.2}, {2e-4, 0.02}}};
   robot::CalibrationFile found;
   found.moduli = {{"tip", 3e5, 3e3}};
@@ -145,12 +147,13 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   found.gravity = robot::CalibratedGravity{{0.0, 0.0, -9.5}, {0.2, 0.2, 0.2}};
   found.pose.emplace().T_robot_camera.translation().x() = 2.0;
   found.drives = {{"b", {1e-4, 0.1}, {3e-4, 0.03}}};
-  found.cable_routes = {{"b", {3e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
+  found.cable_routes = {{"b", 0, {3e-3, 0.0, 0.0}, {1e-4, 0.0, 0.0}}};
   KeepFromBefore(before, &found);
   EXPECT_EQ(found.geometry_scale->scale, 1.02);
-  ASSERT_EQ(found.cable_routes.size(), 2u);
+  ASSERT_EQ(found.cable_routes.size(), 3u);
   EXPECT_EQ(found.cable_routes[0].moved_m.x(), 3e-3);
   EXPECT_EQ(found.cable_routes[1].cable, "a");
+  EXPECT_EQ(found.cable_routes[2].point, 2);
   ASSERT_EQ(found.moduli.size(), 2u);
   EXPECT_EQ(found.moduli[0].youngs_modulus_Pa, 3e5);
   EXPECT_EQ(found.moduli[1].part, "body");
