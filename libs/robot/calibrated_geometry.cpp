@@ -40,7 +40,8 @@ CalibratedRoute ReadCableRoute(const ConfigNode& node) {
   if (const ConfigNode* point = map.Optional("point")) {
     route.point = ReadInteger(*point, 0, kMostPoints);
   }
-  route.moved_m = ReadVector3(map.Require("moved_m"));
+  route.moved_m =
+      ReadVector3(map.Require("moved_m"), {.min = -kFarthestOff_m, .max = kFarthestOff_m});
   route.standard_error_m = ReadVector3(map.Require("standard_error_m"), kNonNegative);
   map.Finish();
   return route;
@@ -72,11 +73,13 @@ Status CheckGeometry(const std::optional<CalibratedScale>& scale,
     return invalid("geometry_scale " + FormatNumber(scale->scale) + " is none");
   }
   for (const CalibratedRoute& route : routes) {
-    if (route.point >= 0 && route.moved_m.allFinite() && route.standard_error_m.allFinite() &&
-        route.standard_error_m.minCoeff() >= 0.0) {
-      continue;
+    if (route.point < 0 || !route.moved_m.allFinite() || !route.standard_error_m.allFinite() ||
+        route.standard_error_m.minCoeff() < 0.0) {
+      return invalid("the route of cable '" + route.cable + "' has a number that is none");
     }
-    return invalid("the route of cable '" + route.cable + "' has a number that is none");
+    if (route.moved_m.lpNorm<Eigen::Infinity>() <= kFarthestOff_m) continue;
+    return invalid("point " + std::to_string(route.point) + " of cable '" + route.cable +
+                   "' is farther off its place than " + FormatNumber(kFarthestOff_m) + " m");
   }
   return Status::Ok();
 }

@@ -17,6 +17,8 @@ namespace palpate::robot {
 /// A robot that differs more from its file is another one.
 inline constexpr double kSmallestScale = 0.5;
 inline constexpr double kLargestScale = 2.0;
+/// The same along any axis of a point of a cable's path.
+inline constexpr double kFarthestOff_m = 0.05;
 
 /// How much larger the robot is than its file says, guides of its cables and all, about the robot
 /// frame's origin, at the file's density.
@@ -43,8 +45,8 @@ CalibratedRoute ReadCableRoute(const ConfigNode& node);
 std::string FormatGeometry(const std::optional<CalibratedScale>& scale,
                            const std::vector<CalibratedRoute>& routes);
 
-/// kInvalidInput: numbers that are not finite, a scale out of bounds, standard errors or points
-/// below 0.
+/// kInvalidInput: numbers that are not finite, a scale or a point's way out of bounds, standard
+/// errors or points below 0.
 Status CheckGeometry(const std::optional<CalibratedScale>& scale,
                      const std::vector<CalibratedRoute>& routes);
 

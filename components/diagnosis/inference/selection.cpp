@@ -22,7 +22,7 @@ constexpr double kAlike = 3.0;           ///< ln BF within which causes fit alik
 constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
 constexpr double kMayGetClear = 5.0;     ///< ln BF that a further cause promises before
 constexpr std::size_t kMostRefined = 4;  ///< in a round
-constexpr int kMostRounds = 3;
+constexpr int kMostRounds = 2;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 /// Looks for one further cause.

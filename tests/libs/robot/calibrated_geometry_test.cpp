@@ -70,6 +70,8 @@ TEST_F(CalibratedGeometryTest, IsRefusedWithItsPlaceInTheFile) {
       << "four numbers";
   EXPECT_THAT(ReadRefusal(Altered("standard_error_m", "standard_errors_m")), HasSubstr(":13:"));
   EXPECT_THAT(ReadRefusal(Altered("point: 0", "point: -1")), HasSubstr(":13:"));
+  EXPECT_THAT(ReadRefusal(Altered("moved_m: [0.001", "moved_m: [0.501")),
+              AllOf(HasSubstr(":13:"), HasSubstr("0.501")));
 }
 
 /// ToModel of the calibration says what a robot of another size does: at the same stress, its
@@ -164,6 +166,9 @@ TEST_F(CalibratedGeometryTest, NumbersThatAreNoneAreRefused) {
   routes = good.cable_routes;
   routes[0].standard_error_m.z() = -1e-9;
   EXPECT_FALSE(CheckGeometry({}, routes).ok());
+  routes = good.cable_routes;
+  routes[1].moved_m.x() = -0.051;
+  EXPECT_THAT(CheckGeometry({}, routes).message(), HasSubstr("point 1 of cable '" + Cable()));
   routes = good.cable_routes;
   routes[0].point = -1;
   EXPECT_FALSE(CheckGeometry({}, routes).ok());
