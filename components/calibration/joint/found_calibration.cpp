@@ -4,6 +4,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/calibration/joint/route_unknowns.hpp"
 
@@ -13,6 +14,23 @@ const FittedValue* FindValue(const JointCalibration& fit, const std::string& nam
   const auto found = std::find_if(fit.values.begin(), fit.values.end(),
                                   [&](const FittedValue& value) { return value.name == name; });
   return found == fit.values.end() ? nullptr : &*found;
+}
+
+std::vector<CorrelatedValues> FindCorrelated(const JointCalibration& fit, double least) {
+  std::vector<CorrelatedValues> found;
+  for (std::size_t i = 0; i < fit.values.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double correlation =
+          fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const bool determined = fit.values[i].determined && fit.values[j].determined;
+      if (!determined || std::abs(correlation) < least) continue;
+      found.push_back({fit.values[j].name, fit.values[i].name, correlation});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.correlation) > std::abs(b.correlation);
+  });
+  return found;
 }
 
 std::vector<std::string> PartNames(const robot::RobotBody& body) {

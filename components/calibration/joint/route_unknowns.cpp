@@ -19,12 +19,6 @@ namespace {
 constexpr const char* kPullsMuch =
     "a recording in which this cable pulls much, with markers on the part it moves";
 
-std::vector<Influence> One(robot::ParameterPtr parameter, double per_value) {
-  std::vector<Influence> influences;
-  influences.push_back({std::move(parameter), per_value});
-  return influences;
-}
-
 class GuideUnknown final : public Unknown {
  public:
   GuideUnknown(int cable, std::string name, const Eigen::Vector3d& pull_point_m,
@@ -44,7 +38,7 @@ class GuideUnknown final : public Unknown {
 
   std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
                                       const FrameInputs&) const override {
-    return One(robot::PullPointMove(cable_, direction_), 1.0);
+    return Influence::One(robot::PullPointMove(cable_, direction_), 1.0);
   }
 
  private:
@@ -74,10 +68,11 @@ class EyeletUnknown final : public Unknown {
                                       const FrameInputs&) const override {
     const robot::BodyCable& cable = CableOf(model);
     const Eigen::Vector3d& now_m = cable.eyelets.at(static_cast<size_t>(eyelet_)).rest_m;
-    return One(robot::EyeletMove(cable_, eyelet_,
-                                 robot::EyeletWeightsAlong(model.locator(), now_m,
-                                                           cable.guide_radius_m, direction_)),
-               model.body().scale);
+    return Influence::One(
+        robot::EyeletMove(
+            cable_, eyelet_,
+            robot::EyeletWeightsAlong(model.locator(), now_m, cable.guide_radius_m, direction_)),
+        model.body().scale);
   }
 
  private:

@@ -62,6 +62,13 @@ void HoldLoadsAt(const std::vector<LoadPlace>& places, const robot::RobotModel& 
 struct Influence {
   robot::ParameterPtr parameter;
   double per_value = 1.0;
+
+  /// On this parameter alone.
+  static std::vector<Influence> One(robot::ParameterPtr parameter, double per_value) {
+    std::vector<Influence> influences;
+    influences.push_back({std::move(parameter), per_value});
+    return influences;
+  }
 };
 
 /// A number that calibration is to find, which the shape of the body depends on. The kinds there

@@ -23,22 +23,17 @@ constexpr const char* kAnotherSetting =
     "a recording with markers on the part that this cable moves, at another of its settings";
 constexpr const char* kKnownForce =
     "a recording with a known load, or with cables whose tension is measured";
+
 robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
   return inputs->cables.at(static_cast<size_t>(cable));
-}
-
-std::vector<Influence> One(robot::ParameterPtr parameter, double per_value) {
-  std::vector<Influence> influences;
-  influences.push_back({std::move(parameter), per_value});
-  return influences;
 }
 
 /// What `per_value` more of a cable's command does.
 std::vector<Influence> OfCommand(int cable, const FrameInputs& inputs, double per_value) {
   const double s = inputs.scale;
   switch (inputs.cables.at(static_cast<size_t>(cable)).kind) {
-    case Kind::kDisplacement: return One(robot::CableOffset(cable), per_value / s);
-    case Kind::kTension: return One(robot::TensionOffset(cable), per_value / (s * s));
+    case Kind::kDisplacement: return Influence::One(robot::CableOffset(cable), per_value / s);
+    case Kind::kTension: return Influence::One(robot::TensionOffset(cable), per_value / (s * s));
     case Kind::kNone: break;
   }
   return {};
@@ -129,7 +124,7 @@ class LogModulus final : public Unknown {
 
   std::vector<Influence> InfluencesOn(const robot::RobotModel&, double value, int,
                                       const FrameInputs&) const override {
-    return One(robot::YoungsModulus(material_), Quantity(value));
+    return Influence::One(robot::YoungsModulus(material_), Quantity(value));
   }
 
   double Quantity(double value) const override { return youngs_modulus_Pa_ * std::exp(value); }
@@ -154,7 +149,7 @@ class Poisson final : public Unknown {
 
   std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
                                       const FrameInputs&) const override {
-    return One(robot::PoissonsRatio(material_), 1.0);
+    return Influence::One(robot::PoissonsRatio(material_), 1.0);
   }
 
  private:
@@ -173,7 +168,7 @@ class MassUnknown final : public Unknown {
 
   std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
                                       const FrameInputs& inputs) const override {
-    return One(robot::GravityChange(inputs.gravity_m_s2), inputs.scale);
+    return Influence::One(robot::GravityChange(inputs.gravity_m_s2), inputs.scale);
   }
 };
 
@@ -190,8 +185,8 @@ class TiltUnknown final : public Unknown {
 
   std::vector<Influence> InfluencesOn(const robot::RobotModel&, double, int,
                                       const FrameInputs& inputs) const override {
-    return One(robot::GravityChange(axis_.cross(inputs.nominal_gravity_m_s2)),
-               inputs.scale * inputs.mass_factor);
+    return Influence::One(robot::GravityChange(axis_.cross(inputs.nominal_gravity_m_s2)),
+                          inputs.scale * inputs.mass_factor);
   }
 
  private:

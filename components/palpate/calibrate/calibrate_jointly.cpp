@@ -55,6 +55,9 @@ bool IsInFile(const std::string& name) {
                       [&](const char* start) { return name.starts_with(start); });
 }
 
+/// Correlation of errors that people should know of.
+constexpr double kClose = 0.9;
+
 void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frames) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
     fmt::print("{}: markers off by {:.3f} mm RMS\n", frames[f],
@@ -67,6 +70,10 @@ void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frame
     const std::string unit = length ? "mm" : value.unit;
     fmt::print("{}: {:.4f} {} (standard error {:.4f} {})\n", value.name, factor * value.value, unit,
                factor * value.standard_error, unit);
+  }
+  for (const calibration::CorrelatedValues& pair : calibration::FindCorrelated(fit, kClose)) {
+    fmt::print("{} and {} are hardly told apart (correlation {:.2f})\n", pair.one, pair.other,
+               pair.correlation);
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,
              fit.degrees_of_freedom, fit.iterations);

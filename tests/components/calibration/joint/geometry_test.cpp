@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
@@ -111,6 +113,12 @@ TEST_F(GeometryOfOurRobot, SizeAndDepthAreToldByTheCablesAloneAndNamedWhereTheyA
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   ExpectFound(fit, "geometry_scale", 1.02, 5e-3);
   ExpectFound(fit, "depth_scale", 0.0, 5e-3);
+  const std::vector<CorrelatedValues> correlated = FindCorrelated(fit, 0.9);
+  ASSERT_EQ(correlated.size(), 1u);
+  EXPECT_EQ(std::set<std::string>({correlated[0].one, correlated[0].other}),
+            std::set<std::string>({"geometry_scale", "depth_scale"}));
+  EXPECT_LE(std::abs(correlated[0].correlation), 1.0);
+  EXPECT_TRUE(FindCorrelated(fit, 1.0).empty());
   for (CalibrationFrame& frame : frames) {
     for (MarkerSighting& sighting : frame.markers) sighting.covariance_m2 *= 1e4;
   }
