@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "components/calibration/joint/found_calibration.hpp"
@@ -55,6 +56,19 @@ bool IsInFile(const std::string& name) {
                       [&](const char* start) { return name.starts_with(start); });
 }
 
+/// The closest of them.
+void PrintCorrelated(const std::vector<calibration::CorrelatedValues>& pairs) {
+  constexpr std::size_t kMost = 5;
+  for (std::size_t k = 0; k < std::min(kMost, pairs.size()); ++k) {
+    fmt::print("{} and {} are hardly told apart (correlation {:.2f})\n", pairs[k].one,
+               pairs[k].other, pairs[k].correlation);
+  }
+  if (pairs.size() > kMost) {
+    fmt::print("so are {} further pairs (correlation {:.2f} and more)\n", pairs.size() - kMost,
+               std::abs(pairs.back().correlation));
+  }
+}
+
 /// Correlation of errors that people should know of.
 constexpr double kClose = 0.9;
 
@@ -71,10 +85,7 @@ void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frame
     fmt::print("{}: {:.4f} {} (standard error {:.4f} {})\n", value.name, factor * value.value, unit,
                factor * value.standard_error, unit);
   }
-  for (const calibration::CorrelatedValues& pair : calibration::FindCorrelated(fit, kClose)) {
-    fmt::print("{} and {} are hardly told apart (correlation {:.2f})\n", pair.one, pair.other,
-               pair.correlation);
-  }
+  PrintCorrelated(calibration::FindCorrelated(fit, kClose));
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,
              fit.degrees_of_freedom, fit.iterations);
 }
