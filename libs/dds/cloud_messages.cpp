@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libs/core/check.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 
 namespace palpate::dds {
@@ -28,8 +29,6 @@ static_assert(sizeof(Point) == 20);
 
 constexpr std::array<std::string_view, 5> kFields = {"x", "y", "z", "rgb", "sigma"};
 
-Status Refuse(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
-
 Status CheckLayout(const idl::sensor_msgs::PointCloud2& message) {
   bool fits = message.fields._length == kFields.size() && message.point_step == sizeof(Point) &&
               !message.is_bigendian;
@@ -38,12 +37,12 @@ Status CheckLayout(const idl::sensor_msgs::PointCloud2& message) {
     fits = Text(field.name) == kFields[i] && field.offset == 4 * i && field.count == 1 &&
            field.datatype == sensor_msgs_msg_PointField_Constants_FLOAT32;
   }
-  if (!fits) return Refuse("a cloud of another layout than x, y, z, rgb, sigma (FLOAT32)");
+  if (!fits) return Invalid("a cloud of another layout than x, y, z, rgb, sigma (FLOAT32)");
   const std::uint64_t points = std::uint64_t{message.width} * message.height;
   if (message.height != 1 || message.data._length != points * sizeof(Point)) {
-    return Refuse("a cloud of " + std::to_string(message.width) + " x " +
-                  std::to_string(message.height) + " points and " +
-                  std::to_string(message.data._length) + " bytes");
+    return Invalid("a cloud of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " points and " +
+                   std::to_string(message.data._length) + " bytes");
   }
   return Status::Ok();
 }
@@ -105,7 +104,7 @@ Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::Sense
     Point point;
     std::memcpy(&point, message.data._buffer + sizeof(Point) * static_cast<std::size_t>(i),
                 sizeof(Point));
-    if (!IsUsable(point)) return Refuse("point " + std::to_string(i) + " of a cloud is no number");
+    if (!IsUsable(point)) return Invalid("point " + std::to_string(i) + " of a cloud is no number");
     std::memcpy(cloud->points_m.col(i).data(), point.position_m.data(), sizeof(point.position_m));
     cloud->sigma_m[i] = point.sigma_m;
     std::uint8_t* color = cloud->colors_rgb.data() + 3 * i;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -16,12 +17,10 @@ namespace {
 
 constexpr double kNormTolerance = 1e-3;
 
-Status Refuse(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
-
 Status CheckFrame(const idl::std_msgs::Header& header) {
   const std::string_view frame = Text(header.frame_id);
   if (frame == geometry::kRobotFrame) return Status::Ok();
-  return Refuse("frame '" + std::string(frame) + "' instead of 'robot'");
+  return Invalid("frame '" + std::string(frame) + "' instead of 'robot'");
 }
 
 }  // namespace
@@ -67,17 +66,17 @@ Status FromMesh(const idl::palpate_msgs::Mesh& message, Eigen::Matrix3Xd* nodes_
   const auto& nodes = message.nodes_m;
   const auto& corners = message.surface_triangles;
   if (nodes._length == 0 || nodes._length % 3 != 0 || corners._length % 3 != 0) {
-    return Refuse("a mesh of " + std::to_string(nodes._length) + " coordinates and " +
-                  std::to_string(corners._length) + " corners");
+    return Invalid("a mesh of " + std::to_string(nodes._length) + " coordinates and " +
+                   std::to_string(corners._length) + " corners");
   }
   const auto node_count = static_cast<Eigen::Index>(nodes._length / 3);
   const Eigen::Map<const Eigen::Matrix3Xd> rest_m(nodes._buffer, 3, node_count);
-  if (!rest_m.allFinite()) return Refuse("a node of the mesh is not finite");
+  if (!rest_m.allFinite()) return Invalid("a node of the mesh is not finite");
   Eigen::Matrix3Xi numbers(3, static_cast<Eigen::Index>(corners._length / 3));
   for (std::uint32_t i = 0; i < corners._length; ++i) {
     if (corners._buffer[i] >= static_cast<std::uint32_t>(node_count)) {
-      return Refuse("a triangle with node " + std::to_string(corners._buffer[i]) + " of " +
-                    std::to_string(node_count));
+      return Invalid("a triangle with node " + std::to_string(corners._buffer[i]) + " of " +
+                     std::to_string(node_count));
     }
     numbers.data()[i] = static_cast<int>(corners._buffer[i]);
   }
@@ -102,11 +101,11 @@ Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index n
   if (Status frame = CheckFrame(message.header); !frame.ok()) return frame;
   const auto& positions = message.positions_m;
   if (static_cast<Eigen::Index>(positions._length) != 3 * node_count) {
-    return Refuse("a state of " + std::to_string(positions._length) + " coordinates for " +
-                  std::to_string(node_count) + " nodes");
+    return Invalid("a state of " + std::to_string(positions._length) + " coordinates for " +
+                   std::to_string(node_count) + " nodes");
   }
   const Eigen::Map<const Eigen::Matrix3Xf> positions_m(positions._buffer, 3, node_count);
-  if (!positions_m.allFinite()) return Refuse("a node of the state is not finite");
+  if (!positions_m.allFinite()) return Invalid("a node of the state is not finite");
   *nodes_m = positions_m;
   return Status::Ok();
 }

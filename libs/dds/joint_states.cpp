@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libs/core/names.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -14,9 +15,7 @@ namespace palpate::dds {
 
 namespace {
 
-Status Invalid(const std::string& reason) {
-  return {StatusCode::kInvalidInput, "/robot/joint_states: " + reason};
-}
+Status InvalidState(const std::string& reason) { return Invalid("/robot/joint_states: " + reason); }
 
 /// The number for entry `index`; NaN, and a sequence that is empty, mean that it is not known.
 template <typename Sequence>
@@ -35,16 +34,16 @@ bool FitsNames(const Sequence& sequence, const idl::sensor_msgs::JointState& mes
 Status FromJointState(const idl::sensor_msgs::JointState& message,
                       const std::vector<std::string>& names, CableReading* reading) {
   if (!FitsNames(message.position, message) || !FitsNames(message.effort, message)) {
-    return Invalid(std::to_string(message.name._length) + " names, " +
-                   std::to_string(message.position._length) + " positions, " +
-                   std::to_string(message.effort._length) + " efforts");
+    return InvalidState(std::to_string(message.name._length) + " names, " +
+                        std::to_string(message.position._length) + " positions, " +
+                        std::to_string(message.effort._length) + " efforts");
   }
   reading->stamp_ns = StampNs(message.header.stamp);
   reading->cables.assign(names.size(), {});
   for (std::size_t i = 0; i < message.name._length; ++i) {
     const std::string_view name = Text(message.name._buffer[i]);
     const auto index = IndexOf(name, names);
-    if (!index) return Invalid(Unknown("cable", name, names));
+    if (!index) return InvalidState(Unknown("cable", name, names));
     reading->cables[*index] = {NumberAt(message.position, i), NumberAt(message.effort, i)};
   }
   return Status::Ok();

@@ -8,6 +8,7 @@
 
 #include "libs/core/names.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "palpate_msgs/msg/Marker3.hpp"
 
 namespace palpate::dds {
@@ -18,8 +19,6 @@ using Covariance = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 /// Of rounding in whoever sends it.
 constexpr double kAsymmetry = 1e-9;
-
-Status Invalid(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
 
 bool IsCovariance(const Eigen::Matrix3d& matrix) {
   const double largest = matrix.lpNorm<Eigen::Infinity>();

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "libs/fem/index.hpp"
+
 namespace palpate::fem {
 
 namespace {
@@ -16,8 +18,6 @@ using kernels::kLanes;
 
 /// Spare rows of different threads lie in different cache lines.
 constexpr int kSpareRowsPerThread = 4;
-
-size_t At(int value) { return static_cast<size_t>(value); }
 
 /// The rows of each block's cells, ascending; blocks of all laws one after another.
 std::vector<std::vector<int>> RowsOfBlocks(const std::vector<CellBlocks>& laws,

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Multipliers of active bounds up to this, in units of the terms that they are the sum of, may be
 /// rounding. (kFlatSlope is for slopes that depend on the caller's rounding, too.)
 constexpr double kRounding = 1e-12;
@@ -36,8 +36,8 @@ enum class Side : signed char {
 template <typename Type>
 using PerVariable = std::array<Type, kMaxQpVariables>;
 
-Side& At(PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
-Side At(const PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
+Side& SideOf(PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
+Side SideOf(const PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
 
 /// The problem in variables y = x / scale that bring H's diagonal to 1/2..2. Scales are powers of
 /// two, so that scaling rounds nothing.
@@ -97,7 +97,7 @@ FreeBlock GatherFree(const BoundedQp& qp, const Iterate& at, Index released) {
   FreeBlock block;
   Index count = 0;
   for (Index i = 0; i < at.y.size(); ++i) {
-    if (At(at.sides, i) == Side::kFree) block.variable[static_cast<size_t>(count++)] = i;
+    if (SideOf(at.sides, i) == Side::kFree) block.variable[static_cast<size_t>(count++)] = i;
   }
   block.H.resize(count, count);
   block.gradient.resize(count);
@@ -147,12 +147,12 @@ double StepToBounds(const BoundedQp& qp, const QpVector& y, const QpVector& step
 /// that every step lowers the objective and no set of active bounds comes back.
 double EndOfRay(const BoundedQp& qp, const Iterate& at, const QpVector& ray) {
   const double curvature = ray.dot(qp.H * ray);
-  return curvature > 0.0 ? -at.gradient.dot(ray) / curvature : kInfinity;
+  return curvature > 0.0 ? -at.gradient.dot(ray) / curvature : kUnbounded;
 }
 
 /// How much the objective falls for each unit that the variable leaves its bound by.
 double Pull(const Iterate& at, Index i) {
-  return At(at.sides, i) == Side::kLower ? -at.gradient[i] : at.gradient[i];
+  return SideOf(at.sides, i) == Side::kLower ? -at.gradient[i] : at.gradient[i];
 }
 
 /// The active bound whose multiplier has the wrong sign the most, or -1.
@@ -160,7 +160,7 @@ Index BoundToRelease(const Iterate& at, double rounding) {
   Index worst = -1;
   double worst_pull = 0.0;
   for (Index i = 0; i < at.y.size(); ++i) {
-    const Side side = At(at.sides, i);
+    const Side side = SideOf(at.sides, i);
     if (side == Side::kFree || side == Side::kFixed) continue;
     const double pull = Pull(at, i);
     if (pull > std::max({worst_pull, rounding * at.magnitude[i], at.refuted[i]})) {
@@ -175,7 +175,7 @@ Index BoundToRelease(const Iterate& at, double rounding) {
 /// where there is no bound.
 bool SetSides(const BoundedQp& qp, Iterate* at) {
   for (Index i = 0; i < at->y.size(); ++i) {
-    Side& side = At(at->sides, i);
+    Side& side = SideOf(at->sides, i);
     if ((qp.H.col(i).array() == 0.0).all()) {
       side = Side::kFixed;
       if (qp.c[i] != 0.0) at->y[i] = qp.c[i] > 0.0 ? qp.lower[i] : qp.upper[i];
@@ -196,7 +196,7 @@ void Move(const BoundedQp& qp, const QpVector& step, double length, Index blocki
   if (blocking >= 0) {
     const bool lower = step[blocking] < 0.0;
     at->y[blocking] = lower ? qp.lower[blocking] : qp.upper[blocking];
-    At(at->sides, blocking) = lower ? Side::kLower : Side::kUpper;
+    SideOf(at->sides, blocking) = lower ? Side::kLower : Side::kUpper;
   }
   Evaluate(qp, at);
 }
@@ -204,7 +204,7 @@ void Move(const BoundedQp& qp, const QpVector& step, double length, Index blocki
 /// Whether rounding of the last step is still to be seen in the gradient of free variables.
 bool IsRough(const Iterate& at) {
   for (Index i = 0; i < at.y.size(); ++i) {
-    if (At(at.sides, i) == Side::kFree && std::abs(at.gradient[i]) > kRounding * at.terms[i]) {
+    if (SideOf(at.sides, i) == Side::kFree && std::abs(at.gradient[i]) > kRounding * at.terms[i]) {
       return true;
     }
   }
@@ -224,7 +224,7 @@ StatusCode Minimise(const BoundedQp& qp, Iterate* at, int* iterations) {
     if (kind == StepKind::kFailed || !step.allFinite()) return StatusCode::kNotConverged;
     if (released >= 0 && !(left == Side::kLower ? step[released] > 0.0 : step[released] < 0.0)) {
       // A multiplier of the wrong sign means a step away from the bound: this one was rounding.
-      At(at->sides, released) = left;
+      SideOf(at->sides, released) = left;
       at->refuted[released] = 2.0 * std::abs(at->gradient[released]);
       released = -1;
       continue;
@@ -232,9 +232,9 @@ StatusCode Minimise(const BoundedQp& qp, Iterate* at, int* iterations) {
     released = -1;
     Index blocking = -1;
     const bool ray = kind == StepKind::kRay;
-    double length = StepToBounds(qp, at->y, step, ray ? kInfinity : 1.0, &blocking);
+    double length = StepToBounds(qp, at->y, step, ray ? kUnbounded : 1.0, &blocking);
     if (ray && blocking < 0) return StatusCode::kUnobservable;
-    if (const double end = ray ? EndOfRay(qp, *at, step) : kInfinity; end < length) {
+    if (const double end = ray ? EndOfRay(qp, *at, step) : kUnbounded; end < length) {
       length = end;
       blocking = -1;
     }
@@ -247,7 +247,7 @@ StatusCode Minimise(const BoundedQp& qp, Iterate* at, int* iterations) {
     // So many iterations are never needed: rounding makes them, so more is put down to it.
     released = BoundToRelease(*at, *iterations <= 10 * n ? kRounding : kFlatSlope);
     if (released < 0) return StatusCode::kOk;
-    left = std::exchange(At(at->sides, released), Side::kFree);
+    left = std::exchange(SideOf(at->sides, released), Side::kFree);
   }
   return StatusCode::kNotConverged;
 }
@@ -275,8 +275,8 @@ double KktResidual(const BoundedQp& qp, const Iterate& at) {
 
 bool IsValid(const BoundedQp& qp, const QpVector& start) {
   return qp.H.allFinite() && qp.c.allFinite() && start.allFinite() &&
-         (qp.lower.array() <= qp.upper.array()).all() && (qp.lower.array() < kInfinity).all() &&
-         (qp.upper.array() > -kInfinity).all();
+         (qp.lower.array() <= qp.upper.array()).all() && (qp.lower.array() < kUnbounded).all() &&
+         (qp.upper.array() > -kUnbounded).all();
 }
 
 }  // namespace

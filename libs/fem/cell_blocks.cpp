@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "libs/core/error.hpp"
+#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
@@ -14,8 +15,6 @@ namespace palpate::fem {
 namespace {
 
 using kernels::kLanes;
-
-size_t At(int value) { return static_cast<size_t>(value); }
 
 /// [blocks][lanes]
 std::vector<int> FilledUp(std::vector<int> cells) {

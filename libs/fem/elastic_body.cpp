@@ -10,14 +10,13 @@
 #include <tuple>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/index.hpp"
 
 namespace palpate::fem {
 
 namespace {
 
 using kernels::kLanes;
-
-size_t At(int value) { return static_cast<size_t>(value); }
 
 /// Sorts cells by the last of their rows: cells inside a part that is eliminated as a whole stay
 /// together, those on a boundary between parts (a separator) come after them.

@@ -7,6 +7,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/fem/element_derivative_law.hpp"
+#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
@@ -20,8 +21,6 @@ using element_derivative::UnitStresses;
 using element_derivative::VolumeRatio;
 
 constexpr int kMaxPoints = 4;
-
-size_t At(int value) { return static_cast<size_t>(value); }
 
 /// An integration point: deformation gradient and rest volume, m^3.
 template <typename T>

@@ -7,15 +7,10 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
-
-namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
-
-}  // namespace
 
 NodeMatrix::NodeMatrix(const TetMesh& mesh)
     : nodes_per_cell_(static_cast<int>(mesh.cells.rows())),

@@ -8,6 +8,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/fem/element_derivative_law.hpp"
+#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
@@ -15,8 +16,6 @@ namespace palpate::fem {
 namespace {
 
 constexpr size_t kMaxPoints = 4;
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 Eigen::Matrix3d Unpack(const Eigen::Matrix<double, 6, 1>& s) {
   Eigen::Matrix3d S;

@@ -15,7 +15,7 @@ namespace palpate::fem {
 
 namespace {
 
-constexpr std::array<std::pair<int, int>, 6> kEdges = {
+constexpr std::array<std::pair<int, int>, 6> kTetEdges = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 /// The same for both directions of an edge.
@@ -39,9 +39,9 @@ TetMesh MakeQuadratic(const TetMesh& mesh) {
   node_of_edge.reserve(static_cast<size_t>(mesh.CellCount()) * 2);
   std::vector<std::pair<int, int>> ends;
   for (int cell = 0; cell < mesh.CellCount(); ++cell) {
-    for (size_t edge = 0; edge < kEdges.size(); ++edge) {
-      const int a = mesh.cells(kEdges[edge].first, cell);
-      const int b = mesh.cells(kEdges[edge].second, cell);
+    for (size_t edge = 0; edge < kTetEdges.size(); ++edge) {
+      const int a = mesh.cells(kTetEdges[edge].first, cell);
+      const int b = mesh.cells(kTetEdges[edge].second, cell);
       const int next = mesh.NodeCount() + static_cast<int>(ends.size());
       const auto [entry, is_new] = node_of_edge.try_emplace(EdgeKey(a, b), next);
       if (is_new) ends.emplace_back(a, b);

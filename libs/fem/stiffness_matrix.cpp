@@ -6,14 +6,9 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/index.hpp"
 
 namespace palpate::fem {
-
-namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
-
-}  // namespace
 
 StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed,
                                  const NodePairs& pairs)

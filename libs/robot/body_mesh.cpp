@@ -45,7 +45,7 @@ class Fnv1a {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
-std::string Format(const char* format, double value) {
+std::string Printed(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
@@ -54,8 +54,9 @@ std::string Format(const char* format, double value) {
 std::string Summary(const fem::MeshReport& report, const std::string& file) {
   return "mesh " + file + ": " + std::to_string(report.node_count) + " nodes, " +
          std::to_string(report.cell_count) + " cells of " + std::to_string(report.nodes_per_cell) +
-         " nodes, volume " + Format("%.6g", report.volume_m3 * 1e6) + " cm3, worst quality " +
-         Format("%.3g", report.worst_quality) + " (cell " + std::to_string(report.worst_cell) + ")";
+         " nodes, volume " + Printed("%.6g", report.volume_m3 * 1e6) + " cm3, worst quality " +
+         Printed("%.3g", report.worst_quality) + " (cell " + std::to_string(report.worst_cell) +
+         ")";
 }
 
 void AddReportNotes(const fem::MeshReport& report, const std::string& file,

@@ -15,7 +15,7 @@ namespace {
 constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
 constexpr NumberRule kCorrelation{.min = 0.0, .max = 1.0, .max_open = true};
 constexpr NumberRule kGrazing{.min = 0.0, .max = std::numbers::pi / 2.0, .min_open = true};
-constexpr NumberRule kRateRule{.min = 0.0, .max = 1000.0, .min_open = true};
+constexpr NumberRule kFrameRateRule{.min = 0.0, .max = 1000.0, .min_open = true};
 /// Nearer than this the eye sits in its target.
 constexpr double kNearest_m = 1e-6;
 
@@ -93,7 +93,7 @@ CameraSpec ReadCameraSpec(const ConfigNode& node, const std::filesystem::path& f
   const std::optional<Eigen::Isometry3d> pose = ReadCameraPose(reader);
   if (!pose) Refuse(node, "where is the camera? 'T_robot_camera', or 'eye_m' and 'target_m'");
   spec.T_robot_camera = *pose;
-  spec.rate_hz = reader.Number("rate_hz", spec.rate_hz, kRateRule);
+  spec.rate_hz = reader.Number("rate_hz", spec.rate_hz, kFrameRateRule);
   if (const ConfigNode* noise = reader.Optional("noise")) spec.noise = ReadDepthNoise(*noise);
   reader.Finish();
   if (spec.noise.sensor == DepthSensor::kStereo && spec.camera.baseline_m == 0.0) {

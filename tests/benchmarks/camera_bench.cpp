@@ -54,7 +54,7 @@ struct CameraScene {
   rgbd::RgbdFrame frame;
 };
 
-Benchmark MakeBenchmark(const char* name, const CameraSettings& settings) {
+Benchmark MakeCameraBenchmark(const char* name, const CameraSettings& settings) {
   const auto scene =
       MakeLazy<CameraScene>([settings] { return std::make_unique<CameraScene>(settings); });
   return {.name = std::string("camera/") + name,
@@ -73,12 +73,12 @@ Benchmark MakeBenchmark(const char* name, const CameraSettings& settings) {
 
 Block CameraBlock() {
   return {.heading = "virtual camera, 848x480, four_leg_tet10 (8792 triangles)",
-          .benchmarks = {
-              MakeBenchmark("depth_and_color", {}),
-              MakeBenchmark("depth_and_color_with_hand", {.tool = scenario::ToolShape::kHand}),
-              MakeBenchmark("depth_and_color_without_noise", {.noise = false}),
-              MakeBenchmark("depth", {.color = false}),
-              MakeBenchmark("depth_and_color_distorted", {.distortion = true})}};
+          .benchmarks = {MakeCameraBenchmark("depth_and_color", {}),
+                         MakeCameraBenchmark("depth_and_color_with_hand",
+                                             {.tool = scenario::ToolShape::kHand}),
+                         MakeCameraBenchmark("depth_and_color_without_noise", {.noise = false}),
+                         MakeCameraBenchmark("depth", {.color = false}),
+                         MakeCameraBenchmark("depth_and_color_distorted", {.distortion = true})}};
 }
 
 }  // namespace palpate::benchmarks

@@ -35,7 +35,7 @@ std::vector<Quantity> Quantities() {
   return quantities;
 }
 
-double ValueOf(const Quantity& quantity, const Result& result) {
+double QuantityValue(const Quantity& quantity, const Result& result) {
   return quantity.counter.empty() ? result.ComparedMs() : result.Counter(quantity.counter);
 }
 
@@ -63,7 +63,7 @@ std::vector<ScalingLaw> FitScalingLaws(const Results& results,
       const Result* result = results.Find(mesh + quantity.benchmark);
       if (result == nullptr) continue;
       rows.push_back(result->Counter(kRows));
-      values.push_back(ValueOf(quantity, *result));
+      values.push_back(QuantityValue(quantity, *result));
     }
     if (rows.size() >= 2) laws.push_back(Fit(quantity, rows, values));
   }

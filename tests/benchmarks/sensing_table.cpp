@@ -17,7 +17,7 @@ namespace palpate::benchmarks {
 
 namespace {
 
-constexpr int kNameWidth = 42;
+constexpr int kQuantityWidth = 42;
 
 struct Column {
   const char* head;
@@ -63,7 +63,7 @@ frames, also of the way there and back: estimated forces that belong to no true 
 estimate; smallest true force, on its way up, from which on it was found (median).
 
 )" << std::left
-      << std::setw(kNameWidth) << "set" << std::right;
+      << std::setw(kQuantityWidth) << "set" << std::right;
   for (const Column& column : kColumns) out << std::setw(column.width) << column.head;
   out << '\n';
 }
@@ -74,7 +74,7 @@ void PrintAccuracy(std::ostream& out, const Results& results) {
     if (!IsOfFrames(name, result)) continue;
     if (!has_head) PrintHead(out);
     has_head = true;
-    out << std::left << std::setw(kNameWidth) << name << std::right;
+    out << std::left << std::setw(kQuantityWidth) << name << std::right;
     for (const Column& column : kColumns) {
       out << std::setw(column.width) << Figure(result, column.counter, column.digits);
     }

@@ -19,7 +19,7 @@ constexpr double kStep = 1.1;
 constexpr int kSteps = 5;  // each way
 constexpr int kFitSteps = 20;
 /// Of the kernel's width, how far points on the skin lie from it.
-constexpr double kReach = 2.0;
+constexpr double kSizeReach = 2.0;
 
 /// A model seen in a cloud `scale` times as large as it is.
 struct SizedPose {
@@ -81,7 +81,7 @@ void Fit(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds, d
   Eigen::Matrix<double, 7, 1> right = Eigen::Matrix<double, 7, 1>::Zero();
   const Eigen::Vector3d eye_m = pose->T_robot_camera.translation_m();
   for (std::size_t f = 0; f < skins.size(); ++f) {
-    const Pairs pairs = PairsOf(skins[f], clouds[f], *pose, kReach * width_m);
+    const Pairs pairs = PairsOf(skins[f], clouds[f], *pose, kSizeReach * width_m);
     for (Eigen::Index k = 0; k < pairs.here_m.cols(); ++k) {
       const Eigen::Vector3d here_m = pairs.here_m.col(k), normal = pairs.normals.col(k);
       const double off_m = normal.dot(pairs.feet_m.col(k) - here_m);
@@ -114,7 +114,7 @@ std::optional<SizeComparison> FindOtherSize(std::vector<SkinInView>& skins,
   SizeComparison sizes;
   double squares_m2 = 0.0, count = 0.0, covered = 0.0;
   for (std::size_t f = 0; f < skins.size(); ++f) {
-    const Pairs pairs = PairsOf(skins[f], clouds[f], pose, kReach * settings.narrowest_m);
+    const Pairs pairs = PairsOf(skins[f], clouds[f], pose, kSizeReach * settings.narrowest_m);
     sizes.Add(pairs.points_m, pairs.feet_m);
     squares_m2 +=
         (pairs.here_m - pairs.feet_m).cwiseProduct(pairs.normals).colwise().sum().squaredNorm();

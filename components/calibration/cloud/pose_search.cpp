@@ -23,7 +23,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// alone let flat legs slide along themselves.
 constexpr double kAcross = 0.2;
 /// Of the kernel's width, how far anything pulls.
-constexpr double kReach = 3.0;
+constexpr double kSearchReach = 3.0;
 /// Once the kernel is this share of its first width, a pose that covers less of the skin than
 /// kHopeless is given up.
 constexpr double kHalfway = 0.4;
@@ -84,7 +84,7 @@ void AddPulls(const SkinInView& skin, const ThinCloud& cloud,
   for (const auto& point : cloud.points_m.colwise()) {
     const Eigen::Vector3d here_m = T_robot_camera * point;
     const std::optional<SkinFoot> foot = skin.FootOf(here_m);
-    if (!foot || foot->distance_m > kReach * pull.width_m) continue;
+    if (!foot || foot->distance_m > kSearchReach * pull.width_m) continue;
     pull.Add(here_m - centre_m, foot->normal, foot->position_m - here_m, 1.0, equations);
   }
 }
@@ -105,7 +105,7 @@ void AddReturnPulls(const SkinInView& skin, const ThinCloud& cloud,
   if (cloud.Count() == 0) return;
   const Eigen::Matrix3Xd points_m = T_robot_camera.Apply(cloud.points_m);
   const Eigen::Matrix3Xd& places_m = skin.seen_places_m();
-  const double reach_m = kReach * pull.width_m;
+  const double reach_m = kSearchReach * pull.width_m;
   const Eigen::Index stride = 1 + places_m.cols() / kReturnPulls;
   for (Eigen::Index k = 0; k < places_m.cols(); k += stride) {
     double squared_m2 = 0.0;

@@ -17,7 +17,7 @@ namespace {
 
 /// Of a region's length, the sigma of its bell; beyond three of them it has no part.
 constexpr double kBell = 0.5;
-constexpr double kReach = 3.0;
+constexpr double kSkinReach = 3.0;
 constexpr int kFaces = 6;
 constexpr int kMostMiddles = 1000;
 
@@ -73,7 +73,7 @@ std::vector<Part> PartsAt(const Eigen::Matrix3Xd& regions_m, double region_m,
   std::vector<Part> parts;
   double squares = 0.0;
   for (Eigen::Index r = 0; r < away.size(); ++r) {
-    if (away[r] > std::max(kReach, nearest)) continue;
+    if (away[r] > std::max(kSkinReach, nearest)) continue;
     const double weight = std::exp(0.5 * (nearest * nearest - away[r] * away[r]));
     parts.push_back({static_cast<int>(r), weight});
     squares += weight * weight;

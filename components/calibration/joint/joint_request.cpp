@@ -77,7 +77,7 @@ geometry::Registration Register(const robot::RobotModel& model, const JointSetup
 
 /// Where the camera stands, and the frames' equilibria where it takes these to tell: the shape at
 /// rest does as long as it could not be taken for its mirror image.
-Status FindStart(robot::RobotModel& model, JointSetup* setup) {
+Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
   const std::vector<Eigen::VectorXd> at_rest(setup->frames.size(), model.RestState().x_m);
   geometry::Registration registration = Register(model, *setup, at_rest);
   if (!registration.status.ok() ||
@@ -247,7 +247,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   setup->helpers = ModelsLike(model, std::max(0, threads - 1));
   if (T_robot_camera != nullptr) {
     setup->T_robot_camera = *T_robot_camera;
-  } else if (Status status = FindStart(model, setup); !status.ok()) {
+  } else if (Status status = FindModelStart(model, setup); !status.ok()) {
     return status;
   }
   AddDrives(model, request, setup);

@@ -5,6 +5,7 @@
 
 #include "components/calibration/node/convert.hpp"
 #include "libs/core/names.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/named_markers.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -13,9 +14,9 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr std::uint32_t kMostFrames = 100;
+using dds::Invalid;
 
-Status Invalid(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+constexpr std::uint32_t kMostFrames = 100;
 
 }  // namespace
 
@@ -33,7 +34,7 @@ Status FromRequest(const idl::palpate_msgs::CalibrationRequest& message, const R
   }
   const std::vector<std::string> sources = {"clouds", "markers"};
   if (!IndexOf(request->source, sources)) {
-    return Invalid(Unknown("source", request->source, sources));
+    return Invalid(palpate::Unknown("source", request->source, sources));
   }
   if (message.frame_count > kMostFrames) {
     return Invalid("frame_count " + std::to_string(message.frame_count) + " is above " +

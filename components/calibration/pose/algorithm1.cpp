@@ -315,7 +315,7 @@ void Alternation::JudgeResult() {
   result_.status = Status::Ok();
 }
 
-PoseAndInputs Refusal(const robot::RobotModel& model, const Status& status) {
+PoseAndInputs PoseRefusal(const robot::RobotModel& model, const Status& status) {
   PoseAndInputs refused;
   refused.finding = status.code() == StatusCode::kUnobservable ? PoseFinding::kDegenerateMarkers
                                                                : PoseFinding::kInvalidInput;
@@ -357,7 +357,7 @@ PoseAndInputs RunAlgorithm1(robot::RobotModel& model, const std::vector<MarkerSi
   PALPATE_CHECK(settings.max_outer_iterations >= 1 && settings.inner_iterations >= 1,
                 settings.max_outer_iterations, settings.inner_iterations);
   const Status sound = CheckSightings(sightings, static_cast<int>(model.body().markers.size()));
-  if (!sound.ok()) return Refusal(model, sound);
+  if (!sound.ok()) return PoseRefusal(model, sound);
   PoseAndInputs result = Alternation(model, sightings, settings).Run();
   if (result.finding == PoseFinding::kWrongRobot &&
       FitsMirrored(model, sightings, settings, result.chi_squared)) {

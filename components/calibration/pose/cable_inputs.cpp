@@ -31,18 +31,18 @@ struct HalfSpace {
   double Excess(const Eigen::VectorXd& lambda_a_N) const { return row * lambda_a_N - bound; }
 };
 
-using Kind = HalfSpace::Kind;
+using SpaceKind = HalfSpace::Kind;
 
-HalfSpace MakeHalfSpace(const CableInputProblem& problem, Kind kind, Index cable) {
+HalfSpace MakeHalfSpace(const CableInputProblem& problem, SpaceKind kind, Index cable) {
   const CableLimits& limits = problem.limits[static_cast<size_t>(cable)];
   const Eigen::RowVectorXd unit = Eigen::RowVectorXd::Unit(problem.c.size(), cable);
   const double free_m = problem.delta_a_free_m[cable];
   switch (kind) {
-    case Kind::kLeastTension: return {kind, cable, -unit, -limits.least_tension_N};
-    case Kind::kMostTension: return {kind, cable, unit, limits.most_tension_N};
-    case Kind::kLeastDisplacement:
+    case SpaceKind::kLeastTension: return {kind, cable, -unit, -limits.least_tension_N};
+    case SpaceKind::kMostTension: return {kind, cable, unit, limits.most_tension_N};
+    case SpaceKind::kLeastDisplacement:
       return {kind, cable, -problem.W_aa.row(cable), free_m - limits.least_displacement_m};
-    case Kind::kMostDisplacement:
+    case SpaceKind::kMostDisplacement:
       return {kind, cable, problem.W_aa.row(cable), limits.most_displacement_m - free_m};
   }
   PALPATE_CHECK(false, cable);
@@ -53,9 +53,9 @@ bool Binds(const HalfSpace& half_space, const Eigen::VectorXd& lambda_a_N, doubl
   if (!std::isfinite(half_space.bound)) return false;
   // The drive of a slack cable stands anywhere up to the most.
   const bool slack = lambda_a_N[half_space.cable] <= slack_N;
-  if (half_space.kind == Kind::kMostDisplacement && slack) return false;
+  if (half_space.kind == SpaceKind::kMostDisplacement && slack) return false;
   const bool tension =
-      half_space.kind == Kind::kLeastTension || half_space.kind == Kind::kMostTension;
+      half_space.kind == SpaceKind::kLeastTension || half_space.kind == SpaceKind::kMostTension;
   return half_space.Excess(lambda_a_N) > (tension ? 1e-12 : kRounding_m);
 }
 
@@ -122,8 +122,8 @@ bool AddBroken(const CableInputProblem& problem, const Eigen::VectorXd& lambda_a
                std::vector<HalfSpace>* half_spaces) {
   bool added = false;
   for (Index cable = 0; cable < problem.c.size(); ++cable) {
-    for (const Kind kind : {Kind::kLeastTension, Kind::kMostTension, Kind::kLeastDisplacement,
-                            Kind::kMostDisplacement}) {
+    for (const SpaceKind kind : {SpaceKind::kLeastTension, SpaceKind::kMostTension,
+                                 SpaceKind::kLeastDisplacement, SpaceKind::kMostDisplacement}) {
       const bool there =
           std::any_of(half_spaces->begin(), half_spaces->end(),
                       [&](const HalfSpace& one) { return one.kind == kind && one.cable == cable; });

@@ -93,7 +93,7 @@ FrameLabels Follow(const RigidTransform& pose, const std::vector<Picture>& pictu
 }
 
 /// One for each camera pose that any picture suggests.
-std::vector<FrameLabels> ChoicesOf(const std::vector<Picture>& pictures) {
+std::vector<FrameLabels> LabelChoices(const std::vector<Picture>& pictures) {
   std::vector<FrameLabels> choices;
   for (const Picture& picture : pictures) {
     for (const AssignmentChoice& choice : picture.assignment.choices) {
@@ -146,7 +146,7 @@ FrameAssignment AssignFrames(const MarkerShapes& shapes, const std::vector<Unlab
     }
     return result;
   }
-  result.choices = ChoicesOf(pictures);
+  result.choices = LabelChoices(pictures);
   Narrow(pictures, T_rough, &result.choices);
   const std::vector<std::size_t>& kept = result.choices.front().frames;
   for (const Picture& picture : pictures) {

@@ -20,7 +20,7 @@ using Eigen::Index;
 using experiment::TimeWindow;
 
 /// Rounding of the file bounds what any mean can be known to.
-constexpr double kFloor_m2 = 1e-14;
+constexpr double kLeastVariance_m2 = 1e-14;
 
 Eigen::Matrix3Xd PointsOf(const experiment::MarkerFrame& frame) {
   Eigen::Matrix3Xd points_m(3, static_cast<Index>(frame.positions_m.size()));
@@ -60,7 +60,7 @@ struct Means {
       noise_m2 = noise_m2.cwiseMax(seen_m2);
     }
     const Eigen::Vector3d variance_m2 =
-        (noise_m2 / n).array() + marker_bias_m * marker_bias_m + kFloor_m2;
+        (noise_m2 / n).array() + marker_bias_m * marker_bias_m + kLeastVariance_m2;
     return {.marker = -1,
             .position_m = first_m.col(point) + mean_m,
             .covariance_m2 = variance_m2.asDiagonal()};

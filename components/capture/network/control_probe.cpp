@@ -13,11 +13,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "components/capture/network/gvcp.hpp"
+
 namespace palpate::capture {
 
 namespace {
 
-constexpr int kGvcpPort = 3956;
 constexpr std::uint8_t kReadRegisterAnswer = 0x81;
 
 /// GigE Vision 2.0, 14.3: key, acknowledge wanted, READREG, 4 bytes, request id, address.

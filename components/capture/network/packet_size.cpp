@@ -13,12 +13,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "components/capture/network/gvcp.hpp"
+
 namespace palpate::capture {
 
 namespace {
 
 constexpr int kGreatestPacketSize_bytes = 16404;  ///< where the camera names no limit
-constexpr int kGvcpPort = 3956;
 
 /// The IPv4 part of an address that the C library gives as a family of structs.
 std::string TextOf(const sockaddr* address) {

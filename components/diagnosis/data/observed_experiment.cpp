@@ -61,8 +61,8 @@ std::vector<Picture> PicturesOf(const Recording& recording) {
   return pictures;
 }
 
-ObservedRecording Describe(const experiment::Experiment& experiment, const Recording& recording,
-                           bool with_pictures) {
+ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
+                                    const Recording& recording, bool with_pictures) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
   seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
   const auto pose = RobotFromMarkers(experiment, recording);
@@ -304,7 +304,7 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
   for (std::size_t i = 0; i < experiment.recordings.size(); ++i) {
     const Recording& recording = experiment.recordings[i];
     CheckCables(recording, cables);
-    observed.recordings.push_back(Describe(experiment, recording, settings.with_pictures));
+    observed.recordings.push_back(DescribeRecording(experiment, recording, settings.with_pictures));
     if (recording.markers) CheckMarkers(recording, observed.markers);
     const Sampler sampler(recording, static_cast<int>(i), body, observed);
     if (sampler.HasSomething()) samplers.push_back(sampler);

@@ -12,7 +12,8 @@ namespace palpate::diagnosis {
 namespace {
 
 /// The largest distance of a command from the straight way between two times, NaN left out.
-double Distance(const Timeline& timeline, std::size_t first, std::size_t last, std::size_t k) {
+double CommandDistance(const Timeline& timeline, std::size_t first, std::size_t last,
+                       std::size_t k) {
   const double share =
       (timeline.t_s[k] - timeline.t_s[first]) / (timeline.t_s[last] - timeline.t_s[first]);
   const Eigen::VectorXd straight =
@@ -30,7 +31,7 @@ void KeepKnots(const Timeline& timeline, std::size_t first, std::size_t last, do
   std::size_t farthest = first;
   double distance = tolerance;
   for (std::size_t k = first + 1; k < last; ++k) {
-    const double off = Distance(timeline, first, last, k);
+    const double off = CommandDistance(timeline, first, last, k);
     if (off > distance) {
       distance = off;
       farthest = k;

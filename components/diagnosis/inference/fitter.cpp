@@ -186,7 +186,7 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     }
   }
   Eigen::VectorXd z = book_.InferWithin(data, faults, at_zero).mean;
-  z(book_.Idle(faults)).setZero();
+  for (const auto column : book_.Idle(faults)) z[column] = 0.0;
   return z;
 }
 

@@ -14,11 +14,11 @@ class CommandChangeParameter final : public robot::Parameter {
   explicit CommandChangeParameter(Eigen::VectorXd change) : change_(std::move(change)) {}
 
   void Describe(const robot::EquilibriumPoint& at, robot::ParameterColumn* column) const override {
-    using Kind = robot::CableCommand::Kind;
+    using CommandKind = robot::CableCommand::Kind;
     for (Eigen::Index c = 0; c < change_.size(); ++c) {
-      const Kind kind = at.command(static_cast<int>(c)).kind;
-      if (kind == Kind::kDisplacement) column->commanded_length_m[c] -= change_[c];
-      if (kind == Kind::kTension) column->commanded_tension_N[c] += change_[c];
+      const CommandKind kind = at.command(static_cast<int>(c)).kind;
+      if (kind == CommandKind::kDisplacement) column->commanded_length_m[c] -= change_[c];
+      if (kind == CommandKind::kTension) column->commanded_tension_N[c] += change_[c];
     }
   }
 

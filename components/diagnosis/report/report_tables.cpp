@@ -25,7 +25,7 @@ std::string DecimalText(double value, int decimals) {
 
 std::string MillimetreCell(double value_m) { return DecimalText(1e3 * value_m, 2); }
 
-std::string Joined(const std::vector<std::string>& items) {
+std::string JoinedOrDash(const std::vector<std::string>& items) {
   std::string text;
   for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
   return text.empty() ? kDash : text;
@@ -39,7 +39,7 @@ void AddRows(const NamedCause& cause, const DiagnosisResult& result, HtmlTable* 
                                        DecimalText(cause.ln_bayes_factor, 1),
                                        PercentText(cause.explained_share),
                                        checked,
-                                       Joined(cause.seen_in)};
+                                       JoinedOrDash(cause.seen_in)};
   const std::size_t rows = std::max<std::size_t>(1, cause.parameters.size());
   for (std::size_t i = 0; i < rows; ++i) {
     std::vector<std::string> row = {of_cause[0], kDash, kDash, kDash};

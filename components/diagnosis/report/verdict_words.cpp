@@ -32,7 +32,7 @@ std::string Sentence(std::string text) {
   return text.empty() ? text : text + ".";
 }
 
-std::string Joined(const std::vector<std::string>& items) {
+std::string JoinedOrNone(const std::vector<std::string>& items) {
   std::string text;
   for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
   return text.empty() ? "none" : text;
@@ -95,7 +95,7 @@ std::string Explained(const DiagnosisResult& result) {
   for (const NamedCause& cause : result.causes) {
     texts.push_back(WordsOf(cause, result) + " " + PercentText(cause.explained_share));
   }
-  return Joined(texts) + of;
+  return JoinedOrNone(texts) + of;
 }
 
 /// "4.1 → 0.8 mm (noise 0.7 mm)"
@@ -124,15 +124,15 @@ std::string Error(const GapSummary& gap) {
 void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
   details->push_back({"Explains", Explained(result)});
   details->push_back({"Held-out error", Gain(result.gap)});
-  details->push_back({"Seen in", Joined(SeenIn(result))});
+  details->push_back({"Seen in", JoinedOrNone(SeenIn(result))});
   std::vector<std::string> once;
   for (const NamedCause& cause : result.causes) {
     if (!cause.cross_validated) once.push_back(WordsOf(cause, result));
   }
-  if (!once.empty()) details->push_back({"Not cross-validated", Joined(once)});
-  details->push_back({"Ruled out", Joined(RuledOut(result))});
+  if (!once.empty()) details->push_back({"Not cross-validated", JoinedOrNone(once)});
+  details->push_back({"Ruled out", JoinedOrNone(RuledOut(result))});
   details->push_back(
-      {"Cannot be told apart from", Joined(Names(result.indistinguishable_from, result))});
+      {"Cannot be told apart from", JoinedOrNone(Names(result.indistinguishable_from, result))});
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {
     if (rival.name == name && !rival.words.empty()) return rival.words;
   }
   if (name.id == "no_fault") return "a healthy robot";
-  return name.where.empty() ? name.id : name.id + " (" + Joined(name.where) + ")";
+  return name.where.empty() ? name.id : name.id + " (" + JoinedOrNone(name.where) + ")";
 }
 
 std::string VerdictLabel(Verdict verdict) {

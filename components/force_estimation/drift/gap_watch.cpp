@@ -13,13 +13,13 @@ namespace palpate::force_estimation {
 
 namespace {
 
-using State = GapReport::State;
+using GapState = GapReport::State;
 
-constexpr double kSecond_s = 1.0;
-constexpr int kLeastFrames = 3;
-constexpr std::size_t kReferenceSeconds = 10;
-constexpr std::size_t kTogether = 3;
-constexpr int kInARow = 2;
+constexpr double kGapSecond_s = 1.0;
+constexpr int kLeastGapFrames = 3;
+constexpr std::size_t kGapReferenceSeconds = 10;
+constexpr std::size_t kGapsTogether = 3;
+constexpr int kGapsInARow = 2;
 constexpr int kDraws = 2000;
 constexpr double kFalseAlarms = 1e-3;
 /// What a robot that moves may have of it more than at the start: its mesh errs elsewhere.
@@ -44,8 +44,8 @@ double BootstrapThreshold(const std::vector<double>& ratios) {
   std::vector<double> means;
   for (int d = 0; d < kDraws; ++d) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < kTogether; ++k) sum += ratios[pick(random)] + normal(random);
-    means.push_back(sum / kTogether);
+    for (std::size_t k = 0; k < kGapsTogether; ++k) sum += ratios[pick(random)] + normal(random);
+    means.push_back(sum / kGapsTogether);
   }
   std::sort(means.begin(), means.end());
   return means[static_cast<std::size_t>((1.0 - kFalseAlarms) * (kDraws - 1))];
@@ -57,12 +57,12 @@ std::string InMillimetres(double length_m) {
 
 }  // namespace
 
-std::string ToString(State state) {
+std::string ToString(GapState state) {
   switch (state) {
-    case State::kLearning: return "learning";
-    case State::kHolds: return "holds";
-    case State::kGrown: return "grown";
-    case State::kNotSeen: return "not_seen";
+    case GapState::kLearning: return "learning";
+    case GapState::kHolds: return "holds";
+    case GapState::kGrown: return "grown";
+    case GapState::kNotSeen: return "not_seen";
   }
   return {};
 }
@@ -92,7 +92,7 @@ void GapWatch::Add(double t_s, const ModelGapReport& gap) {
   if (t_s < last_s_) *this = GapWatch();
   last_s_ = t_s;
   if (second_.frames == 0) second_.begin_s = t_s;
-  if (t_s - second_.begin_s >= kSecond_s) {
+  if (t_s - second_.begin_s >= kGapSecond_s) {
     Close();
     second_ = {};
     second_.begin_s = t_s;
@@ -114,21 +114,21 @@ double GapWatch::MeanRatio(const std::deque<Second>& seconds) {
 }
 
 void GapWatch::Close() {
-  if (second_.seen < kLeastFrames) {
-    if (report_.state == State::kHolds) report_.state = State::kNotSeen;
+  if (second_.seen < kLeastGapFrames) {
+    if (report_.state == GapState::kHolds) report_.state = GapState::kNotSeen;
     return;
   }
   report_.residual_rms_m = std::sqrt(second_.whole.squares_m2 / second_.whole.points);
   report_.noise_rms_m = std::sqrt(second_.whole.variances_m2 / second_.whole.points);
-  if (reference_.size() < kReferenceSeconds) {
+  if (reference_.size() < kGapReferenceSeconds) {
     reference_.push_back(second_);
-    if (reference_.size() == kReferenceSeconds) Learn();
+    if (reference_.size() == kGapReferenceSeconds) Learn();
     return;
   }
   ratios_.push_back(second_.whole.Ratio());
   latest_.push_back(second_);
-  if (latest_.size() > kTogether) latest_.pop_front();
-  if (latest_.size() == kTogether) Judge();
+  if (latest_.size() > kGapsTogether) latest_.pop_front();
+  if (latest_.size() == kGapsTogether) Judge();
 }
 
 void GapWatch::Learn() {
@@ -136,9 +136,9 @@ void GapWatch::Learn() {
   for (const Second& one : reference_) ratios.push_back(one.whole.Ratio());
   usual_ = MeanRatio(reference_);
   threshold_ = std::max(BootstrapThreshold(ratios), kLeastGrowth * std::max(1.0, usual_));
-  report_.state = State::kHolds;
+  report_.state = GapState::kHolds;
   if (usual_ < kWrong) return;
-  report_.state = State::kGrown;
+  report_.state = GapState::kGrown;
   report_.advice = "what the model leaves unexplained is " + InMillimetres(report_.residual_rms_m) +
                    " from the start (noise " + InMillimetres(report_.noise_rms_m) +
                    "): calibrate, or record and run palpate diagnose on the recording";
@@ -146,13 +146,13 @@ void GapWatch::Learn() {
 
 void GapWatch::Judge() {
   const bool grown = MeanRatio(latest_) > threshold_ || usual_ >= kWrong;
-  if (report_.state == State::kNotSeen) report_.state = State::kHolds;
-  const bool said = report_.state == State::kGrown;
+  if (report_.state == GapState::kNotSeen) report_.state = GapState::kHolds;
+  const bool said = report_.state == GapState::kGrown;
   in_a_row_ = grown == said ? 0 : in_a_row_ + 1;
-  if (grown && usual_ < kWrong && (said || in_a_row_ >= kInARow)) report_.advice = Advice();
-  if (in_a_row_ < kInARow) return;
+  if (grown && usual_ < kWrong && (said || in_a_row_ >= kGapsInARow)) report_.advice = Advice();
+  if (in_a_row_ < kGapsInARow) return;
   in_a_row_ = 0;
-  report_.state = grown ? State::kGrown : State::kHolds;
+  report_.state = grown ? GapState::kGrown : GapState::kHolds;
   if (!grown) report_.advice.clear();
 }
 
@@ -197,7 +197,7 @@ bool GapWatch::CameSlowly() const {
     }
     return -1.0;
   };
-  return last_below(0.75) - last_below(0.25) > kSlow_s / kSecond_s;
+  return last_below(0.75) - last_below(0.25) > kSlow_s / kGapSecond_s;
 }
 
 }  // namespace palpate::force_estimation

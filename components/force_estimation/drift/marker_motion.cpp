@@ -13,7 +13,7 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr int kLeastMarkers = 3;
-constexpr double kFar = 5.0;  ///< standard deviations of chi-squared
+constexpr double kFarChi = 5.0;  ///< standard deviations of chi-squared
 
 /// [3m x 6] how markers move with turn and shift.
 Eigen::Matrix<double, Eigen::Dynamic, 6> MotionOf(const Eigen::Matrix3Xd& model_m,
@@ -55,7 +55,7 @@ MotionSighting SeeMotion(const MarkerMisfit& misfit, const Eigen::Matrix3Xd& mod
   seen.motion = information.ldlt().solve(pull);
   const double left = misfit.residual_m.dot(weight * misfit.residual_m) - pull.dot(seen.motion);
   const double freedom = rows - unknowns;
-  if (left <= freedom + kFar * std::sqrt(2.0 * freedom)) seen.information = information;
+  if (left <= freedom + kFarChi * std::sqrt(2.0 * freedom)) seen.information = information;
   return seen;
 }
 

@@ -8,12 +8,13 @@
 
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 
 namespace palpate::force_estimation {
 
 namespace {
 
-Status Invalid(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+using dds::Invalid;
 
 bool IsError(double value) { return std::isfinite(value) && value >= 0.0; }
 

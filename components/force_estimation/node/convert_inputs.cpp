@@ -5,6 +5,7 @@
 
 #include "components/force_estimation/node/convert.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/named_markers.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -13,7 +14,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-Status Invalid(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+using dds::Invalid;
 
 bool ToReference(uint8_t code, ReferenceShape* reference) {
   switch (code) {

@@ -31,7 +31,7 @@ constexpr int kUnknowns = 5;
 constexpr double kOffPlaces = 2.0;
 constexpr int kNeighbours = 6;
 constexpr int kPairRounds = 3;
-constexpr int kFollowRounds = 2;
+constexpr int kSearchRounds = 2;
 /// A candidate that moves the rows less than this part of the most moving one is not seen at all.
 constexpr double kUnseen = 1e-6;
 
@@ -307,7 +307,7 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
     contacts[k].place = parts.places.Nearest(before[k].mean_m);
     contacts[k].fit = parts.FitAt(problem, contacts[k].place);
   }
-  const int rounds = contacts.size() == 1 ? 1 : kFollowRounds;
+  const int rounds = contacts.size() == 1 ? 1 : kSearchRounds;
   for (int round = 0; round < rounds; ++round) {
     for (size_t k = 0; k < contacts.size(); ++k) {
       HiddenProblem rest = problem;

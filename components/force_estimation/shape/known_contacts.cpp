@@ -15,7 +15,7 @@ namespace {
 // A place that somebody has measured on the body.
 constexpr double kPlaceSigma_m = 5e-4;
 // What perception sees so near to a known contact, or within its own extent, is that contact.
-constexpr double kSamePlace_m = 0.015;
+constexpr double kKnownPlace_m = 0.015;
 
 std::vector<Eigen::Vector3d> DistinctPlaces(const std::vector<experiment::KnownLoad>& loads) {
   std::vector<Eigen::Vector3d> places_m;
@@ -75,7 +75,7 @@ std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
     const bool is_known = std::any_of(
         known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known_count),
         [&](const SeenContact& other) {
-          const double reach_m = std::max(kSamePlace_m, 0.5 * contact.extent_m.maxCoeff());
+          const double reach_m = std::max(kKnownPlace_m, 0.5 * contact.extent_m.maxCoeff());
           return (other.position_m - contact.position_m).norm() <= reach_m;
         });
     if (!is_known) known.push_back(contact);

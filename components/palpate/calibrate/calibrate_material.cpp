@@ -17,8 +17,8 @@ namespace {
 
 using calibration::MaterialCalibration;
 
-void PrintFit(const MaterialCalibration& fit,
-              const std::vector<calibration::StaticObservation>& observations) {
+void PrintMaterialFit(const MaterialCalibration& fit,
+                      const std::vector<calibration::StaticObservation>& observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     fmt::print("{}: markers off by {:.3f} mm RMS\n", observations[i].name,
                1e3 * fit.residual_rms_of_observation_m[i]);
@@ -51,7 +51,7 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
                            modulus.youngs_modulus_Pa, modulus.standard_error_Pa});
   }
   TakeQuality(fit, &file);
-  if (!options.json) PrintFit(fit, observations);
+  if (!options.json) PrintMaterialFit(fit, observations);
   return file;
 }
 

@@ -18,26 +18,26 @@ namespace palpate::command {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "palpate-answer-1";
 
-Json ToJson(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+OrderedJson ToJson(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-Json ToJson(const Eigen::Isometry3d& pose) {
+OrderedJson ToJson(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond rotation(pose.linear());
   return {{"translation_m", ToJson(Eigen::Vector3d(pose.translation()))},
           {"rotation_xyzw", {rotation.x(), rotation.y(), rotation.z(), rotation.w()}}};
 }
 
-Json ToJson(const scenario::ActiveEffect& effect) {
-  Json parameters = Json::object();
+OrderedJson ToJson(const scenario::ActiveEffect& effect) {
+  OrderedJson parameters = OrderedJson::object();
   for (const auto& [name, value] : effect.parameters) parameters[name] = value;
   return {{"id", effect.id}, {"where", effect.where}, {"parameters", parameters}};
 }
 
-Json ToJson(const TrueForces& frame) {
-  Json forces = Json::array();
+OrderedJson ToJson(const TrueForces& frame) {
+  OrderedJson forces = OrderedJson::array();
   for (const virtual_robot::TrueForce& force : frame.forces) {
     forces.push_back({{"name", force.name},
                       {"position_m", ToJson(force.position_m)},
@@ -47,17 +47,17 @@ Json ToJson(const TrueForces& frame) {
   return {{"t_s", frame.t_s}, {"forces", forces}};
 }
 
-Json ToJson(const RecordingTruth& recording, bool camera) {
-  Json json = {{"name", recording.name}};
+OrderedJson ToJson(const RecordingTruth& recording, bool camera) {
+  OrderedJson json = {{"name", recording.name}};
   if (camera) json["T_robot_camera"] = ToJson(recording.T_robot_camera);
-  json["frames"] = Json::array();
+  json["frames"] = OrderedJson::array();
   for (const TrueForces& frame : recording.frames) json["frames"].push_back(ToJson(frame));
   return json;
 }
 
 /// Those that the scenario asks for, or those that every robot has.
-Json EffectsOf(const Answer& answer, bool clutter) {
-  Json effects = Json::array();
+OrderedJson EffectsOf(const Answer& answer, bool clutter) {
+  OrderedJson effects = OrderedJson::array();
   for (const scenario::ActiveEffect& effect : answer.effects) {
     if (effect.clutter == clutter) effects.push_back(ToJson(effect));
   }
@@ -75,17 +75,17 @@ std::string NewSalt() {
 }
 
 std::string FormatAnswer(const Answer& answer) {
-  Json json = {{"format", kFormat},
-               {"salt", answer.salt},
-               {"palpate", answer.version},
-               {"seed", answer.seed},
-               {"robot", {{"name", answer.robot}, {"sha256", answer.robot_sha256}}},
-               {"scenario", {{"name", answer.scenario}, {"sha256", answer.scenario_sha256}}},
-               {"data_sha256", answer.data_sha256},
-               {"mesh_hash", answer.mesh_hash},
-               {"effects", EffectsOf(answer, false)},
-               {"clutter", EffectsOf(answer, true)}};
-  json["recordings"] = Json::array();
+  OrderedJson json = {{"format", kFormat},
+                      {"salt", answer.salt},
+                      {"palpate", answer.version},
+                      {"seed", answer.seed},
+                      {"robot", {{"name", answer.robot}, {"sha256", answer.robot_sha256}}},
+                      {"scenario", {{"name", answer.scenario}, {"sha256", answer.scenario_sha256}}},
+                      {"data_sha256", answer.data_sha256},
+                      {"mesh_hash", answer.mesh_hash},
+                      {"effects", EffectsOf(answer, false)},
+                      {"clutter", EffectsOf(answer, true)}};
+  json["recordings"] = OrderedJson::array();
   for (const RecordingTruth& recording : answer.recordings) {
     json["recordings"].push_back(ToJson(recording, answer.camera));
   }
@@ -129,7 +129,7 @@ void CheckSeal(const fs::path& experiment, const fs::path& answer) {
   if (Sha256Hex(bytes) != *seal) {
     throw RunError(answer.string() + ": is not the answer that was sealed in " + settings.string());
   }
-  const Json json = Json::parse(bytes, nullptr, /*allow_exceptions=*/false);
+  const OrderedJson json = OrderedJson::parse(bytes, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || json.value("format", "") != kFormat) {
     throw RunError(answer.string() + ": is no answer of 'palpate simulate'");
   }

@@ -10,6 +10,7 @@
 
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -17,12 +18,12 @@ namespace palpate::perception {
 
 namespace {
 
+using dds::Invalid;
+
 using idl::sensor_msgs::CameraInfo;
 using idl::sensor_msgs::Image;
 
 constexpr std::uint32_t kLargestSide_px = 16384;
-
-Status Refuse(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
 
 bool IsSide(std::uint32_t length_px) { return length_px > 0 && length_px <= kLargestSide_px; }
 
@@ -30,23 +31,23 @@ Status CheckFrame(const idl::std_msgs::Header& header, bool color) {
   const std::string_view frame = dds::Text(header.frame_id);
   if (frame == geometry::kCameraDepthOpticalFrame) return Status::Ok();
   if (color && frame == geometry::kCameraColorOpticalFrame) return Status::Ok();
-  return Refuse("frame '" + std::string(frame) + "' instead of '" +
-                std::string(geometry::kCameraDepthOpticalFrame) + "'");
+  return Invalid("frame '" + std::string(frame) + "' instead of '" +
+                 std::string(geometry::kCameraDepthOpticalFrame) + "'");
 }
 
 Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t pixel_bytes) {
   if (dds::Text(message.encoding) != encoding || message.is_bigendian) {
-    return Refuse("encoding '" + std::string(dds::Text(message.encoding)) +
-                  (message.is_bigendian ? "', big-endian," : "'") + " instead of '" +
-                  std::string(encoding) + "'");
+    return Invalid("encoding '" + std::string(dds::Text(message.encoding)) +
+                   (message.is_bigendian ? "', big-endian," : "'") + " instead of '" +
+                   std::string(encoding) + "'");
   }
   const bool sized = IsSide(message.width) && IsSide(message.height);
   const bool filled = message.step >= message.width * pixel_bytes &&
                       message.data._length >= std::uint64_t{message.step} * message.height;
   if (!sized || !filled) {
-    return Refuse("an image of " + std::to_string(message.width) + " x " +
-                  std::to_string(message.height) + " pixels in " +
-                  std::to_string(message.data._length) + " bytes");
+    return Invalid("an image of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " pixels in " +
+                   std::to_string(message.data._length) + " bytes");
   }
   return Status::Ok();
 }
@@ -73,11 +74,11 @@ Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
   if (message.d._length == 0) return Status::Ok();
   const std::string_view model = dds::Text(message.distortion_model);
   if (model != "plumb_bob" || message.d._length != camera->distortion.size()) {
-    return Refuse("distortion model '" + std::string(model) + "' with " +
-                  std::to_string(message.d._length) + " numbers instead of 'plumb_bob' with 5");
+    return Invalid("distortion model '" + std::string(model) + "' with " +
+                   std::to_string(message.d._length) + " numbers instead of 'plumb_bob' with 5");
   }
   if (!AllFinite(message.d._buffer, message.d._length)) {
-    return Refuse("a distortion that is not finite");
+    return Invalid("a distortion that is not finite");
   }
   std::copy_n(message.d._buffer, camera->distortion.size(), camera->distortion.begin());
   return Status::Ok();
@@ -98,13 +99,13 @@ Status FromColorImage(const Image& message, rgbd::ColorImage* image) {
 Status FromCameraInfo(const CameraInfo& message, rgbd::CameraModel* camera) {
   rgbd::CameraModel lens;
   if (!IsSide(message.width) || !IsSide(message.height)) {
-    return Refuse("a camera of " + std::to_string(message.width) + " x " +
-                  std::to_string(message.height) + " pixels");
+    return Invalid("a camera of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " pixels");
   }
   lens.width_px = static_cast<int>(message.width);
   lens.height_px = static_cast<int>(message.height);
   if (!AllFinite(message.k, 9) || message.k[0] < 0.0 || message.k[4] < 0.0) {
-    return Refuse("intrinsics that are no numbers of a camera");
+    return Invalid("intrinsics that are no numbers of a camera");
   }
   lens.fx_px = message.k[0];
   lens.cx_px = message.k[2];
@@ -117,17 +118,17 @@ Status FromCameraInfo(const CameraInfo& message, rgbd::CameraModel* camera) {
 
 Status FromCameraSetup(const idl::palpate_msgs::CameraSetup& message, CameraSetup* setup) {
   if (!std::isfinite(message.depth_unit_m) || message.depth_unit_m <= 0.0) {
-    return Refuse("a depth unit that is no length");
+    return Invalid("a depth unit that is no length");
   }
   if (message.invalid_value > 0xFFFF) {
-    return Refuse("invalid value " + std::to_string(message.invalid_value) + " beyond 16 bits");
+    return Invalid("invalid value " + std::to_string(message.invalid_value) + " beyond 16 bits");
   }
   if (!std::isfinite(message.baseline_m) || message.baseline_m < 0.0) {
-    return Refuse("a baseline that is no length");
+    return Invalid("a baseline that is no length");
   }
   CameraSetup read;
   if (!dds::FromPose(message.color_in_depth, &read.camera.T_depth_color)) {
-    return Refuse("the pose of the colour camera is none");
+    return Invalid("the pose of the colour camera is none");
   }
   read.stamp_ns = dds::StampNs(message.header.stamp);
   read.epoch = message.epoch;

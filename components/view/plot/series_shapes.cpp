@@ -14,7 +14,7 @@ namespace {
 // A band may reach as far beyond the values as they reach themselves, times this.
 constexpr double kBandShare = 0.5;
 
-struct Extent {
+struct FiniteExtent {
   double lower = std::numeric_limits<double>::infinity();
   double upper = -std::numeric_limits<double>::infinity();
 
@@ -36,8 +36,8 @@ bool IsDrawn(const TimeSeries& series, std::size_t i) {
 }  // namespace
 
 AxisRange ValueRange(const PlotPanel& panel) {
-  Extent values;
-  Extent bands;
+  FiniteExtent values;
+  FiniteExtent bands;
   for (const TimeSeries& series : panel.series) {
     for (std::size_t i = 0; i < series.values.size(); ++i) {
       values.Hold(series.values[i]);

@@ -71,7 +71,7 @@ AxisRange TimeRange(const TimePlot& plot) {
 }
 
 // Names that several panels share stand there once.
-void DrawLegend(const TimePlot& plot, SvgDocument* svg) {
+void DrawPlotLegend(const TimePlot& plot, SvgDocument* svg) {
   std::vector<const TimeSeries*> entries;
   for (const PlotPanel& panel : plot.panels) {
     for (const TimeSeries& series : panel.series) {
@@ -92,11 +92,11 @@ void DrawLegend(const TimePlot& plot, SvgDocument* svg) {
   }
 }
 
-void DrawHeading(const TimePlot& plot, SvgDocument* svg) {
+void DrawPlotHeading(const TimePlot& plot, SvgDocument* svg) {
   svg->Rectangle({0.0, 0.0}, plot.width_px, plot.height_px, palette::kPaper);
   svg->Text({kLeft_px, 25.0}, plot.title, {.size_px = 15.0, .bold = true});
   svg->Text({kLeft_px, 43.0}, plot.caption, {.size_px = 11.0, .color = palette::kMutedInk});
-  DrawLegend(plot, svg);
+  DrawPlotLegend(plot, svg);
 }
 
 void DrawSeries(const TimeSeries& series, const PlotArea& area, SvgDocument* svg) {
@@ -134,7 +134,7 @@ std::string DrawTimePlot(const TimePlot& plot) {
       (plot.height_px - kTop_px - kBottom_px - (count - 1.0) * kBetween_px) / std::max(count, 1.0);
   Check(plot, height_px);
   SvgDocument svg(plot.width_px, plot.height_px);
-  DrawHeading(plot, &svg);
+  DrawPlotHeading(plot, &svg);
   const AxisRange time_s = TimeRange(plot);
   const double width_px = plot.width_px - kLeft_px - kRight_px;
   const AxisTicks times = plot::MakeTicks(time_s, static_cast<int>(width_px / kTickDistance_px));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -13,12 +14,12 @@ namespace palpate::virtual_camera {
 
 namespace {
 
-Status Refuse(std::string reason) { return {StatusCode::kInvalidInput, std::move(reason)}; }
+using dds::Invalid;
 
 Status CheckFrame(const idl::std_msgs::Header& header) {
   const std::string_view frame = dds::Text(header.frame_id);
   if (frame == geometry::kRobotFrame) return Status::Ok();
-  return Refuse("frame '" + std::string(frame) + "' instead of 'robot'");
+  return Invalid("frame '" + std::string(frame) + "' instead of 'robot'");
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ Status FromMesh(const idl::palpate_msgs::Mesh& message, Skin* skin) {
 Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index node_count,
                      View* view) {
   if (dds::Text(message.status) != "ok") {
-    return Refuse("state '" + std::string(dds::Text(message.status)) + "'");
+    return Invalid("state '" + std::string(dds::Text(message.status)) + "'");
   }
   Eigen::Matrix3Xf nodes_m;
   const Status status = dds::FromMeshState(message, node_count, &nodes_m);
@@ -43,17 +44,17 @@ Status FromBenchState(const idl::palpate_msgs::BenchState& message,
   if (Status frame = CheckFrame(message.header); !frame.ok()) return frame;
   const std::size_t recordings = schedule.scenario().recordings.size();
   if (message.recording >= recordings) {
-    return Refuse("recording " + std::to_string(message.recording) + " of " +
-                  std::to_string(recordings));
+    return Invalid("recording " + std::to_string(message.recording) + " of " +
+                   std::to_string(recordings));
   }
   if (!dds::FromPose(message.camera_in_robot, &view->T_robot_camera)) {
-    return Refuse("the camera's pose is none");
+    return Invalid("the camera's pose is none");
   }
   view->tools.clear();
   for (const auto& tool : dds::Elements(message.tools)) {
     ToolPose pose{std::string(dds::Text(tool.name)), Eigen::Isometry3d::Identity()};
     if (!dds::FromPose(tool.pose, &pose.T_robot_tool)) {
-      return Refuse("the pose of tool '" + pose.tool + "' is none");
+      return Invalid("the pose of tool '" + pose.tool + "' is none");
     }
     view->tools.push_back(std::move(pose));
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kAlphabet =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::string_view kWhiteSpace = " \t\r\n";
+constexpr std::string_view kXmlWhiteSpace = " \t\r\n";
 
 constexpr std::array<int8_t, 256> MakeValues() {
   std::array<int8_t, 256> values{};
@@ -49,7 +49,7 @@ bool Base64Decoder::DecodeQuad() {
   size_t letters = 0;
   size_t padding = 0;
   while (letters + padding < 4) {
-    position_ = text_.find_first_not_of(kWhiteSpace, position_);
+    position_ = text_.find_first_not_of(kXmlWhiteSpace, position_);
     if (position_ == std::string_view::npos) {
       position_ = text_.size();
       return false;
@@ -81,7 +81,7 @@ bool Base64Decoder::Read(size_t count, std::string* out) {
 
 bool Base64Decoder::AtEnd() const {
   return pending_.empty() &&
-         text_.find_first_not_of(kWhiteSpace, position_) == std::string_view::npos;
+         text_.find_first_not_of(kXmlWhiteSpace, position_) == std::string_view::npos;
 }
 
 }  // namespace palpate::fem::mesh_io

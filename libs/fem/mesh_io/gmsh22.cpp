@@ -6,14 +6,11 @@
 
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/gmsh_reader.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
 
-namespace {
-
-constexpr int64_t kMaxCount = std::numeric_limits<int>::max();
-
-}  // namespace
+namespace {}  // namespace
 
 void GmshReader::ReadNodes22() {
   const int64_t count = scanner_.TextInteger(0, kMaxCount, "the number of nodes");

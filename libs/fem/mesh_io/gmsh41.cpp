@@ -6,14 +6,11 @@
 
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/gmsh_reader.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
 
-namespace {
-
-constexpr int64_t kMaxTag = std::numeric_limits<int64_t>::max();
-
-}  // namespace
+namespace {}  // namespace
 
 void GmshReader::ReadEntities41() {
   if (scanner_.binary()) scanner_.Line("the entities");

@@ -10,15 +10,11 @@
 
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
 
-namespace {
-
-constexpr int64_t kMaxCount = std::numeric_limits<int>::max();
-constexpr int64_t kMaxTag = std::numeric_limits<int64_t>::max();
-
-}  // namespace
+namespace {}  // namespace
 
 void GmshReader::Read() {
   ReadFormat();

@@ -9,12 +9,11 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
 
 namespace {
-
-constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
 std::string Quoted(std::string_view word) {
   constexpr size_t kLongest = 40;

@@ -13,13 +13,12 @@
 #include <vector>
 
 #include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/scanner.hpp"
 
 namespace palpate::fem::mesh_io {
 
 namespace {
-
-constexpr int64_t kMaxCount = std::numeric_limits<int>::max();
 
 std::string UpperCase(std::string_view word) {
   std::string upper(word);

@@ -13,6 +13,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/scalar_type.hpp"
 #include "libs/fem/mesh_io/vtu_bytes.hpp"
 
@@ -22,8 +23,6 @@ namespace {
 
 using tinyxml2::XMLElement;
 using tinyxml2::XMLText;
-
-constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
 ScalarType TypeOf(const XMLElement& array, const VtuStorage& storage) {
   static constexpr auto kTypes = std::to_array<std::pair<std::string_view, ScalarType>>({

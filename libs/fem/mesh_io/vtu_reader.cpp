@@ -10,6 +10,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
+#include "libs/fem/mesh_io/limits.hpp"
 #include "libs/fem/mesh_io/vtu_array.hpp"
 
 namespace palpate::fem::mesh_io {
@@ -19,7 +20,6 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// Counts are limited so that a file that claims more costs no memory before it is refused.
-constexpr int64_t kMaxCount = std::numeric_limits<int>::max();
 
 [[noreturn]] void FailAt(const XMLElement& element, const VtuStorage& storage,
                          const std::string& message) {

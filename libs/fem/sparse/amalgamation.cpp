@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "libs/fem/index.hpp"
 #include "libs/fem/sparse/dense/front_kernels.hpp"
 
 namespace palpate::fem::internal {
 
 namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 /// Parent of each place in the elimination tree, or -1 (Liu, "The role of elimination trees in
 /// sparse factorization", SIAM J. Matrix Anal. 1990, algorithm 4.2).

@@ -7,13 +7,12 @@
 #include <limits>
 #include <numeric>
 
+#include "libs/fem/index.hpp"
 #include "libs/fem/sparse/amalgamation.hpp"
 
 namespace palpate::fem::internal {
 
 namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 /// Offsets in a buffer for blocks that come and go in a known order: each takes the first gap that
 /// is large enough.

@@ -6,12 +6,11 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/index.hpp"
 
 namespace palpate::fem::internal {
 
 namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 long Stride(int rows) {
   constexpr int kBad = 64;

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "libs/fem/index.hpp"
+
 namespace palpate::fem::internal {
 
 namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 /// The graph of what is left of a matrix after some nodes were eliminated.
 class EliminationGraph {

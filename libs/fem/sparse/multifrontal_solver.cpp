@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/fem/index.hpp"
 #include "libs/fem/sparse/aligned_buffer.hpp"
 #include "libs/fem/sparse/dense/front_kernels.hpp"
 #include "libs/fem/sparse/factor_store.hpp"
@@ -28,8 +29,6 @@ using internal::Front;
 constexpr int kPassColumns = 96;
 /// Rows that a thread takes at a time of a front that all work on.
 constexpr int kSharedRows = 6 * kTile;
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 class MultifrontalSolver final : public SparseSolver {
  public:

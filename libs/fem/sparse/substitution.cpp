@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/fem/index.hpp"
+
 namespace palpate::fem::internal {
 
 namespace {
@@ -15,8 +17,6 @@ using dense::kTile;
 /// while its factor is in the cache.
 constexpr int kBlockColumns = 2 * kTile;
 constexpr int kMostBlocks = 4;
-
-size_t At(int index) { return static_cast<size_t>(index); }
 
 }  // namespace
 

@@ -5,13 +5,9 @@
 
 #include <algorithm>
 
+#include "libs/fem/index.hpp"
+
 namespace palpate::fem::internal {
-
-namespace {
-
-size_t At(int index) { return static_cast<size_t>(index); }
-
-}  // namespace
 
 SubstitutionPlan PlanSubstitution(const FrontTree& tree, const FrontSchedule& schedule, int size) {
   SubstitutionPlan plan;

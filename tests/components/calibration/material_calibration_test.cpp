@@ -43,8 +43,9 @@ Eigen::VectorXd MarkersOf(const robot::RobotModel& model, const fem::StaticState
 }
 
 /// What noise-free markers show of `model` as it is now.
-StaticObservation Observe(robot::RobotModel& model, const std::vector<robot::CableCommand>& cables,
-                          const std::vector<robot::DeadLoad>& loads) {
+StaticObservation ObserveModel(robot::RobotModel& model,
+                               const std::vector<robot::CableCommand>& cables,
+                               const std::vector<robot::DeadLoad>& loads) {
   StaticObservation observation;
   observation.name = "made_up";
   observation.position_m = MarkersOf(model, SolveTruth(model, cables, loads));
@@ -86,7 +87,7 @@ void ExpectModuli(const MaterialCalibration& fit, const robot::RobotModel& model
 
 TEST(CalibrateMaterial, RecoversTheModulusFromSelfWeight) {
   const auto model = Build(BeamRobot());
-  const std::vector<StaticObservation> observations = {Observe(*model, {}, {})};
+  const std::vector<StaticObservation> observations = {ObserveModel(*model, {}, {})};
   for (const double factor : {0.5, 1.8}) {
     model->SetYoungsModulus(0, 250e3);
     ExpectModuli(FitFrom(*model, observations, {factor}), *model, {250e3});
@@ -96,8 +97,8 @@ TEST(CalibrateMaterial, RecoversTheModulusFromSelfWeight) {
 TEST(CalibrateMaterial, RecoversTwoModuliFromWeightAndLoad) {
   const auto model = Build(TwoPartBeam());
   const std::vector<StaticObservation> observations = {
-      Observe(*model, {}, {}),
-      Observe(*model, {}, {LoadAt(*model, kTip, 0.005, {0.1, 0.3, -0.3})})};
+      ObserveModel(*model, {}, {}),
+      ObserveModel(*model, {}, {LoadAt(*model, kTip, 0.005, {0.1, 0.3, -0.3})})};
   const MaterialCalibration fit = FitFrom(*model, observations, {1.5, 0.7});
   ExpectModuli(fit, *model, {250e3, 150e3});
   EXPECT_EQ(fit.degrees_of_freedom, 72 - 2);
@@ -109,7 +110,7 @@ TEST(CalibrateMaterial, RecoversTheModulusFromCablesUnderTension) {
   const auto model = Build(FourLegRobot());
   model->SetGravity(Eigen::Vector3d::Zero());
   const std::vector<StaticObservation> observations = {
-      Observe(*model, {{Kind::kTension, 2.0}, {Kind::kDisplacement, 0.002}, {}, {}}, {})};
+      ObserveModel(*model, {{Kind::kTension, 2.0}, {Kind::kDisplacement, 0.002}, {}, {}}, {})};
   const double truth_Pa = model->body().materials[0].youngs_modulus_Pa;
   MaterialCalibrationSettings settings;
   const auto set_all = [&](double modulus_Pa) {
@@ -128,7 +129,7 @@ TEST_P(ReferenceShapes, OffsetsOfTheMarkersDoNotMatter) {
   const auto model = Build(FourLegRobot());
   const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.004}, {}, {}, {}};
   StaticObservation observation =
-      Observe(*model, cables, {LoadAt(*model, {0.0, 0.0, 0.125}, 0.008, {0.3, 0.0, -0.8})});
+      ObserveModel(*model, cables, {LoadAt(*model, {0.0, 0.0, 0.125}, 0.008, {0.3, 0.0, -0.8})});
   observation.reference = GetParam();
   observation.reference_position_m =
       MarkersOf(*model, GetParam() == ReferenceShape::kUndeformed ? model->RestState()
@@ -163,7 +164,7 @@ TEST(CalibrateMaterial, StandardErrorKnowsThatTheReferenceMovesToo) {
       (displacements_m(250e3 * std::exp(kStep)) - displacements_m(250e3 * std::exp(-kStep))) /
       (2.0 * kStep);
   model->SetYoungsModulus(0, 250e3);
-  StaticObservation observation = Observe(*model, {}, {load});
+  StaticObservation observation = ObserveModel(*model, {}, {load});
   observation.reference = ReferenceShape::kEquilibrium;
   observation.reference_position_m = MarkersOf(*model, SolveTruth(*model, {}, {}));
   const MaterialCalibration fit = CalibrateMaterial(*model, {observation}, {});
@@ -174,7 +175,7 @@ TEST(CalibrateMaterial, StandardErrorKnowsThatTheReferenceMovesToo) {
 
 TEST(CalibrateMaterial, StandardErrorsHoldTheTruthAsOftenAsTheySay) {
   const auto model = Build(BeamRobot());
-  const StaticObservation clean = Observe(*model, {}, {});
+  const StaticObservation clean = ObserveModel(*model, {}, {});
   std::mt19937 random(20260102);
   constexpr int kDraws = 200;
   int covered = 0;
@@ -197,7 +198,7 @@ TEST(CalibrateMaterial, StandardErrorsHoldTheTruthAsOftenAsTheySay) {
 
 TEST(CalibrateMaterial, ResidualBeyondTheNoiseWidensTheErrors) {
   const auto model = Build(BeamRobot());
-  StaticObservation observation = Observe(*model, {}, {});
+  StaticObservation observation = ObserveModel(*model, {}, {});
   const double clean_Pa = FitFrom(*model, {observation}, {1.0}).moduli[0].standard_error_Pa;
   std::mt19937 random(1);
   for (Eigen::Index m = 0; m < observation.position_m.size() / 3; ++m) {
@@ -212,7 +213,7 @@ TEST(CalibrateMaterial, ResidualBeyondTheNoiseWidensTheErrors) {
 
 TEST(CalibrateMaterial, CoordinatesThatWereNotSeenAreLeftOut) {
   const auto model = Build(BeamRobot());
-  StaticObservation observation = Observe(*model, {}, {});
+  StaticObservation observation = ObserveModel(*model, {}, {});
   observation.variance_m2.segment<3>(6).setConstant(-1.0);
   observation.position_m.segment<3>(6).setConstant(5.0);
   const MaterialCalibration fit = FitFrom(*model, {observation}, {1.3});
@@ -225,8 +226,8 @@ TEST(CalibrateMaterial, CoordinatesThatWereNotSeenAreLeftOut) {
 TEST(CalibrateMaterial, DisplacementDrivenWeightlessBodyDoesNotTellItsModulus) {
   const auto model = Build(FourLegRobot());
   model->SetGravity(Eigen::Vector3d::Zero());
-  StaticObservation observation =
-      Observe(*model, {{Kind::kDisplacement, 0.006}, {Kind::kDisplacement, 0.004}, {}, {}}, {});
+  StaticObservation observation = ObserveModel(
+      *model, {{Kind::kDisplacement, 0.006}, {Kind::kDisplacement, 0.004}, {}, {}}, {});
   std::mt19937 random(2);
   for (Eigen::Index m = 0; m < observation.position_m.size() / 3; ++m) {
     observation.position_m.segment<3>(3 * m) += NormalNoise(kSigma_m, random);
@@ -252,12 +253,12 @@ TEST(CalibrateMaterial, NamesThePartThatTheDataDoNotDetermine) {
   model->SetGravity(Eigen::Vector3d::Zero());
   // Nothing strains the outer half.
   const StaticObservation observation =
-      Observe(*model, {}, {LoadAt(*model, {-0.07, 0.015, 0.03}, 0.005, {0.0, 0.0, -2.0})});
+      ObserveModel(*model, {}, {LoadAt(*model, {-0.07, 0.015, 0.03}, 0.005, {0.0, 0.0, -2.0})});
   const MaterialCalibration fit = FitFrom(*model, {observation}, {1.1, 1.1});
   EXPECT_EQ(fit.status.code(), StatusCode::kUnobservable);
   EXPECT_THAT(fit.status.message(), testing::HasSubstr("region outer_half"));
 
-  const StaticObservation weightless = Observe(*model, {}, {});
+  const StaticObservation weightless = ObserveModel(*model, {}, {});
   const MaterialCalibration body = FitFrom(*model, {weightless}, {1.1});
   EXPECT_EQ(body.status.code(), StatusCode::kUnobservable);
   EXPECT_THAT(body.status.message(), testing::HasSubstr("the body"));
@@ -265,7 +266,7 @@ TEST(CalibrateMaterial, NamesThePartThatTheDataDoNotDetermine) {
 
 TEST(CalibrateMaterial, FailureLeavesTheModelAlone) {
   const auto model = Build(FourLegRobot());
-  StaticObservation observation = Observe(*model, {{Kind::kTension, 1.0}, {}, {}, {}}, {});
+  StaticObservation observation = ObserveModel(*model, {{Kind::kTension, 1.0}, {}, {}, {}}, {});
   observation.name = "too_tight";
   observation.cables[0].value = 1000.0;
   observation.gravity_m_s2 = {1.0, 2.0, 3.0};
@@ -282,7 +283,7 @@ TEST(CalibrateMaterial, FailureLeavesTheModelAlone) {
 
 TEST(CalibrateMaterial, SuccessLeavesTheGravityAlone) {
   const auto model = Build(BeamRobot());
-  StaticObservation tilted = Observe(*model, {}, {});
+  StaticObservation tilted = ObserveModel(*model, {}, {});
   const Eigen::Vector3d gravity_m_s2(1.0, -2.0, -9.0);
   model->SetGravity(gravity_m_s2);
   ASSERT_TRUE(CalibrateMaterial(*model, {tilted}, {}).status.ok());
@@ -291,7 +292,7 @@ TEST(CalibrateMaterial, SuccessLeavesTheGravityAlone) {
 
 TEST(CalibrateMaterial, SaysThatIterationsAreUsedUp) {
   const auto model = Build(BeamRobot());
-  const StaticObservation observation = Observe(*model, {}, {});
+  const StaticObservation observation = ObserveModel(*model, {}, {});
   model->SetYoungsModulus(0, 400e3);
   const MaterialCalibration fit = CalibrateMaterial(*model, {observation}, {.max_iterations = 1});
   EXPECT_EQ(fit.status.code(), StatusCode::kNotConverged);

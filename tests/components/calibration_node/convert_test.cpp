@@ -5,18 +5,15 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
-
 #include "components/force_estimation/node/calibration_input.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::calibration {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 robot::CalibrationFile SomeCalibration() {
   robot::CalibrationFile file;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kAddressVariable = "PALPATE_TEST_CAMERA";
 
-GenicamSettings At(const std::string& address) {
+GenicamSettings TakenOverAt(const std::string& address) {
   GenicamSettings settings;
   settings.depth.target.id = address;
   return settings;
@@ -28,7 +28,7 @@ GenicamSettings At(const std::string& address) {
 TEST(TakeOver, DISABLED_HoldTheCamera) {
   const char* address = std::getenv(kAddressVariable);
   ASSERT_NE(address, nullptr);
-  GenicamSource source(At(address));
+  GenicamSource source(TakenOverAt(address));
   while (true) source.Next(1.0);
 }
 
@@ -53,7 +53,7 @@ TEST(TakeOver, AKilledProgramDoesNotLockTheNextOneOut) {
     std::this_thread::yield();
   }
   ASSERT_TRUE(camera.device().streaming());
-  GenicamSource source(At(LoopbackAddress()));
+  GenicamSource source(TakenOverAt(LoopbackAddress()));
   EXPECT_TRUE(WaitForHealth(source, In(30.0), [](const SourceHealth& health) {
     return health.reason.find("another program controls the camera") == 0;
   }));
@@ -86,7 +86,7 @@ TEST(TakeOver, OpeningAgainAndAgainLeaksNoFilesAndNoThreads) {
   };
   SimulatedCamera camera(LoopbackAddress());
   const auto once = [&] {
-    GenicamSource source(At(LoopbackAddress()));
+    GenicamSource source(TakenOverAt(LoopbackAddress()));
     ASSERT_NE(WaitForFrame(source, In(20.0)), nullptr) << source.Health().reason;
   };
   for (int i = 0; i < 3; ++i) once();

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/diagnosis/report/figures/dominant_residual.hpp"
+#include "tests/support/not_a_number.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace palpate::diagnosis {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Vector3d kWay = Eigen::Vector3d(0.6, 0.0, -0.8);
 
 /// Three markers: the first far off but still, the second going along kWay, the third a little.

@@ -5,19 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <random>
 
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::diagnosis {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNoise_m = 3e-4;
 
 /// What was done in a recording: one cable up and down, or up and held.

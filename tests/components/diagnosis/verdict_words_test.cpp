@@ -6,18 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "components/diagnosis/report/number_text.hpp"
 #include "tests/components/diagnosis/example_result.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(NumberText, ShowsAParameterAsPreciselyAsItIsKnown) {
   EXPECT_EQ(DescribeParameter({"mu", 0.2134, 0.1951, 0.2322}).whole, "mu = 0.213 \u00B1 0.019");

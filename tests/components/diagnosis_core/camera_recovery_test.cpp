@@ -14,7 +14,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 5;
+constexpr unsigned kCameraSeed = 5;
 constexpr double kSigma_m = 1e-4;
 
 /// SmallExperiment, all of it seen by one depth camera that is moved for the last recording.
@@ -56,7 +56,7 @@ class CameraRecovery : public testing::Test {
     const Simulation truth =
         Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), one, z));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kCameraSeed);
     std::normal_distribution<double> noise_m(0.0, kSigma_m);
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       Sample& sample = observed_.samples[s];
@@ -75,9 +75,9 @@ class CameraRecovery : public testing::Test {
   void ExpectFound(const std::string& id, const std::string& recording, const Eigen::VectorXd& z) {
     const int cause = Find(id, recording);
     const Selection selection = Diagnose(cause, z);
-    ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
+    ASSERT_EQ(selection.named.size(), 1U) << "seed " << kCameraSeed;
     EXPECT_EQ(selection.named[0].cause, cause)
-        << book_->cause(selection.named[0].cause).words() << ", seed " << kSeed;
+        << book_->cause(selection.named[0].cause).words() << ", seed " << kCameraSeed;
     for (Eigen::Index p = 0; p < z.size(); ++p) {
       const Eigen::Index column = book_->first(cause) + p;
       const double sigma = std::sqrt(selection.best.posterior.covariance(column, column));
@@ -94,7 +94,7 @@ class CameraRecovery : public testing::Test {
 TEST_F(CameraRecovery, AHealthyCameraIsAcquitted) {
   const Selection selection = Diagnose(Find("depth_scale"), Eigen::VectorXd::Constant(1, 0.0015));
   EXPECT_TRUE(selection.named.empty())
-      << book_->cause(selection.named.front().cause).words() << ", seed " << kSeed;
+      << book_->cause(selection.named.front().cause).words() << ", seed " << kCameraSeed;
 }
 
 TEST_F(CameraRecovery, DepthScaleIsNamed) {

@@ -15,7 +15,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kStep = 1e-6;
+constexpr double kViewStep = 1e-6;
 const Eigen::Vector2d kFocal_px(420.0, 400.0);
 const Eigen::Vector2d kUnknown_px =
     Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -78,10 +78,10 @@ TEST(CameraView, SlopeIsThatOfMeasured) {
     for (int axis = 0; axis < 3; ++axis) {
       SeenPoint plus = point;
       SeenPoint minus = point;
-      plus.at_m[axis] += kStep;
-      minus.at_m[axis] -= kStep;
+      plus.at_m[axis] += kViewStep;
+      minus.at_m[axis] -= kViewStep;
       const Vector difference =
-          (Measured(ManyErrors(), plus) - Measured(ManyErrors(), minus)) / (2.0 * kStep);
+          (Measured(ManyErrors(), plus) - Measured(ManyErrors(), minus)) / (2.0 * kViewStep);
       EXPECT_LT((slope.col(axis) - difference).norm(), 1e-7) << axis;
     }
   }
@@ -91,9 +91,9 @@ TEST(CameraView, DerivativesByErrorsAreThoseOfMeasured) {
   const auto difference = [](const SeenPoint& point, double CameraErrors::*error) {
     CameraErrors plus = ManyErrors();
     CameraErrors minus = ManyErrors();
-    plus.*error += kStep;
-    minus.*error -= kStep;
-    return Vector((Measured(plus, point) - Measured(minus, point)) / (2.0 * kStep));
+    plus.*error += kViewStep;
+    minus.*error -= kViewStep;
+    return Vector((Measured(plus, point) - Measured(minus, point)) / (2.0 * kViewStep));
   };
   const CameraView view(ManyErrors(), kFocal_px, kDrift_m);
   for (const SeenPoint& p : {kAskew, kGrazing, kBehind}) {
@@ -107,9 +107,10 @@ TEST(CameraView, DerivativesByErrorsAreThoseOfMeasured) {
     expect(view.ByCentre(p, 0), &CameraErrors::cx_px);
     expect(view.ByCentre(p, 1), &CameraErrors::cy_px);
     expect(view.ByDistortion(p), &CameraErrors::k1);
-    const Vector by_drift = (CameraView(ManyErrors(), kFocal_px, kDrift_m + kStep).Measured(p) -
-                             CameraView(ManyErrors(), kFocal_px, kDrift_m - kStep).Measured(p)) /
-                            (2.0 * kStep);
+    const Vector by_drift =
+        (CameraView(ManyErrors(), kFocal_px, kDrift_m + kViewStep).Measured(p) -
+         CameraView(ManyErrors(), kFocal_px, kDrift_m - kViewStep).Measured(p)) /
+        (2.0 * kViewStep);
     EXPECT_LT((view.ByDrift(p) - by_drift).norm(), 1e-8);
   }
 }

@@ -13,7 +13,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 20261123;
+constexpr unsigned kDivergenceSeed = 20261123;
 constexpr Eigen::Index kParameters = 4;
 constexpr Eigen::Index kRows = 9;
 
@@ -28,7 +28,7 @@ class ExpectedEvidence : public testing::Test {
     return {.mean = Random(kParameters, 1), .covariance = 0.3 * root * root.transpose()};
   }
 
-  std::mt19937 random_{kSeed};
+  std::mt19937 random_{kDivergenceSeed};
 };
 
 TEST_F(ExpectedEvidence, IsNothingBetweenAModelAndItself) {
@@ -54,7 +54,8 @@ TEST_F(ExpectedEvidence, IsNeverBelowNothingAndGrowsWithTheData) {
     double before = 0.0;
     for (Eigen::Index rows = 1; rows <= kRows; ++rows) {
       const double now = ExpectedLnBayesFactor(J.topRows(rows), a, b);
-      EXPECT_GT(now, before - 1e-9) << "seed " << kSeed << " pair " << k << " rows " << rows;
+      EXPECT_GT(now, before - 1e-9)
+          << "seed " << kDivergenceSeed << " pair " << k << " rows " << rows;
       before = now;
     }
     EXPECT_GT(before, 0.0);
@@ -94,7 +95,7 @@ TEST_F(ExpectedEvidence, IsTheMeanOfWhatDataSay) {
   }
   const double mean = sum / kDraws;
   const double sigma = std::sqrt((squares / kDraws - mean * mean) / kDraws);
-  EXPECT_NEAR(ExpectedLnBayesFactor(J, a, b), mean, 4.0 * sigma) << "seed " << kSeed;
+  EXPECT_NEAR(ExpectedLnBayesFactor(J, a, b), mean, 4.0 * sigma) << "seed " << kDivergenceSeed;
 }
 
 TEST_F(ExpectedEvidence, InformationIsWhatAPosteriorShrinksBy) {

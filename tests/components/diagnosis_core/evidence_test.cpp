@@ -11,7 +11,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 20261122;
+constexpr unsigned kEvidenceSeed = 20261122;
 
 /// y = J z + noise of unit variance.
 struct Problem {
@@ -74,7 +74,7 @@ void ExpectAlike(const Posterior& inferred, const Posterior& dense) {
 }
 
 TEST(Infer, IsWhatTheCovarianceOfTheDataSays) {
-  for (unsigned seed = kSeed; seed < kSeed + 5; ++seed) {
+  for (unsigned seed = kEvidenceSeed; seed < kEvidenceSeed + 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Problem problem(seed);
     ExpectAlike(Infer(problem.Of(0, 14), SomeBelief()), Dense(problem, SomeBelief()));
@@ -82,7 +82,7 @@ TEST(Infer, IsWhatTheCovarianceOfTheDataSays) {
 }
 
 TEST(Infer, HoldsWhatIsBelievedForSure) {
-  const Problem problem(kSeed);
+  const Problem problem(kEvidenceSeed);
   Belief belief = SomeBelief();
   const Posterior posterior = Infer(problem.Of(0, 14), belief);
   EXPECT_EQ(posterior.mean[2], -0.7);
@@ -95,7 +95,7 @@ TEST(Infer, HoldsWhatIsBelievedForSure) {
 }
 
 TEST(Infer, ABeliefAboutAnotherMeanIsOneAboutShiftedData) {
-  Problem problem(kSeed);
+  Problem problem(kEvidenceSeed);
   const Belief belief = SomeBelief();
   Belief about_zero = belief;
   about_zero.mean.setZero();
@@ -107,7 +107,7 @@ TEST(Infer, ABeliefAboutAnotherMeanIsOneAboutShiftedData) {
 }
 
 TEST(Information, AddsUpOverIndependentData) {
-  const Problem problem(kSeed);
+  const Problem problem(kEvidenceSeed);
   Information sum = problem.Of(0, 5);
   sum.Add(problem.Of(5, 9));
   EXPECT_EQ(sum.rows, 14);

@@ -15,10 +15,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kSamples = 8;
+constexpr int kFitnessSamples = 8;
 constexpr int kPictures = 5;  ///< of each
 constexpr int kFeatures = 12;
-constexpr double kNoise_m = 5e-4;
+constexpr double kFitnessNoise_m = 5e-4;
 
 /// One recording of a robot whose skin lies so far off where it is thought to be, in `height_m` of
 /// feature and picture, beside the noise.
@@ -26,18 +26,18 @@ class PicturesOfARecording : public testing::Test {
  protected:
   std::string Judge(const std::function<double(int feature, int picture)>& height_m) {
     std::mt19937_64 random(7);
-    std::normal_distribution<double> noise_m(0.0, kNoise_m);
+    std::normal_distribution<double> noise_m(0.0, kFitnessNoise_m);
     ObservedExperiment observed;
     observed.recordings.push_back({.name = "a", .kind = "ramp"});
     observed.feature_rest_m.setZero(3, kFeatures);
     SkinClouds clouds;
-    for (int s = 0; s < kSamples; ++s) {
+    for (int s = 0; s < kFitnessSamples; ++s) {
       Sample& sample = observed.samples.emplace_back();
       sample.recording = 0;
       sample.skin.resize(kFeatures);
       for (SkinSighting& skin : sample.skin) {
         skin.count = kPictures;
-        skin.sigma_m = kNoise_m / std::sqrt(kPictures);
+        skin.sigma_m = kFitnessNoise_m / std::sqrt(kPictures);
       }
       clouds.emplace_back();
       for (int k = 0; k < kPictures; ++k) {
@@ -58,7 +58,7 @@ class PicturesOfARecording : public testing::Test {
   static double Smooth_m(int feature, int picture) {
     return 4e-3 * std::sin(0.3 * feature + 0.2 * picture);
   }
-  static int Shuffled(int picture) { return 7 * picture % (kSamples * kPictures); }
+  static int Shuffled(int picture) { return 7 * picture % (kFitnessSamples * kPictures); }
 };
 
 TEST_F(PicturesOfARecording, OfARobotThatMovesOtherwiseAreInOrder) {

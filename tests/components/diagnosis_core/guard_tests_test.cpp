@@ -15,7 +15,7 @@ namespace {
 constexpr int kRecordings = 2;
 constexpr int kSamples = 20;  // of each
 constexpr int kMarkers = 4;
-constexpr unsigned kSeed = 5;
+constexpr unsigned kLeaksSeed = 5;
 
 /// Two recordings in which one of two cables goes up and down, the other stays; markers 0 and 1 lie
 /// beside each other, and 2 and 3.
@@ -120,7 +120,7 @@ TEST(GuardTests, FindWhatGoesAlongWithTheirRates) {
 TEST(GuardTests, AreOfNoiseWhatChiSquaredSays) {
   const Scene scene;
   const GuardTests tests(scene.observed, scene.rest_m, scene.model);
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kLeaksSeed);
   std::normal_distribution<double> normal;
   constexpr int kDraws = 2000;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(tests.count());
@@ -133,7 +133,7 @@ TEST(GuardTests, AreOfNoiseWhatChiSquaredSays) {
   const auto expect = [&](const std::string& name, double expected) {
     for (Eigen::Index k = 0; k < tests.count(); ++k) {
       if (tests.NameOf(k) != name) continue;
-      EXPECT_NEAR(mean[k], expected, 0.02 * kRows) << name << ", seed " << kSeed;
+      EXPECT_NEAR(mean[k], expected, 0.02 * kRows) << name << ", seed " << kLeaksSeed;
       EXPECT_EQ(tests.NameOf(tests.MisfitBeside(k)),
                 name.starts_with("misfit") ? name : "misfit of recording r0");
     }

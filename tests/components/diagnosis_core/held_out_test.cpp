@@ -14,7 +14,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 11;
+constexpr unsigned kHeldOutSeed = 11;
 
 HeldOut LeftOut(const CauseBook& book, const ToyData& data, const Eigen::VectorXd& y,
                 const std::vector<int>& faults) {
@@ -23,7 +23,7 @@ HeldOut LeftOut(const CauseBook& book, const ToyData& data, const Eigen::VectorX
 
 TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
   const CauseBook book = ToyBook();
-  ToyData data(book, kSeed);
+  ToyData data(book, kHeldOutSeed);
   const std::vector<int> faults{0};
   const Belief belief = book.BeliefWith(faults);
   const Eigen::VectorXd y = data.Draw(belief);
@@ -53,7 +53,7 @@ TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
 
 TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {
   const CauseBook book = ToyBook();
-  ToyData data(book, kSeed);
+  ToyData data(book, kHeldOutSeed);
   const Eigen::VectorXd y = data.Draw(book.BeliefWith({})) + 6.0 * data.J().col(book.first(2));
   const HeldOut without = LeftOut(book, data, y, {});
   const HeldOutGain right = Compare(without, LeftOut(book, data, y, {2}));
@@ -65,7 +65,7 @@ TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {
   const Eigen::VectorXd healthy = data.Draw(book.BeliefWith({}));
   const HeldOutGain wrong =
       Compare(LeftOut(book, data, healthy, {}), LeftOut(book, data, healthy, {3}));
-  EXPECT_LT(wrong.ln_gain, 0.0) << "seed " << kSeed;
+  EXPECT_LT(wrong.ln_gain, 0.0) << "seed " << kHeldOutSeed;
   EXPECT_FALSE(wrong.clear);
 }
 

@@ -12,7 +12,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 7;
+constexpr unsigned kLinearSeed = 7;
 constexpr Eigen::Index kParameters = 3;
 constexpr Eigen::Index kMarkers = 2;
 
@@ -107,7 +107,7 @@ class LinearModelTest : public testing::Test {
     }
   }
 
-  std::mt19937 random_{kSeed};
+  std::mt19937 random_{kLinearSeed};
   ObservedExperiment observed_;
   Simulation simulation_;
   Eigen::Matrix3Xd rest_m_;

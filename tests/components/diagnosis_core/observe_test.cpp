@@ -14,7 +14,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr unsigned kSeed = 5;
+constexpr unsigned kObserveSeed = 5;
 
 class ObserveTest : public testing::Test {
  protected:
@@ -217,7 +217,7 @@ TEST_F(ObserveTest, BetweenRecordingsCommandsGoToZeroInHalfTheRest) {
 }
 
 TEST_F(ObserveTest, ScatterIsTheNoiseAboutAStraightWay) {
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kObserveSeed);
   std::normal_distribution<double> normal;
   const Eigen::Vector3d sigma_m(2e-4, 4e-4, 1e-3);
   Add({{0.0, {0.0}}, {20.0, {0.006}}}, [&](double t_s, int /*marker*/) {
@@ -228,7 +228,7 @@ TEST_F(ObserveTest, ScatterIsTheNoiseAboutAStraightWay) {
   // 800 positions: 2.5 % of one sigma.
   const Eigen::Vector3d measured_m = Observed().sigma_m;
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(measured_m[axis] / sigma_m[axis], 1.0, 0.1) << "seed " << kSeed;
+    EXPECT_NEAR(measured_m[axis] / sigma_m[axis], 1.0, 0.1) << "seed " << kObserveSeed;
   }
   // What is stated holds unless there is clearly more.
   experiment_.markers_sigma_m = Eigen::Vector3d(5e-4, 4.2e-4, 1e-4);

@@ -16,7 +16,7 @@ namespace {
 
 const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
 constexpr double kRadius_m = 0.005;
-const Eigen::Vector3d kForce_N(0.05, -0.1, -0.3);
+const Eigen::Vector3d kGeneralForce_N(0.05, -0.1, -0.3);
 constexpr double kSigma_m = 1e-4;
 
 /// The beam, pushed at its tip, observed along the surface normals of its feature points.
@@ -69,12 +69,12 @@ class GeneralRows : public testing::Test {
 
 TEST_F(GeneralRows, NormalDisplacementsTellAForceInThreeDirections) {
   const fem::StaticState truth =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
   fitter_.SetSites({SiteAt(kTip)});
   ModelState state = StartState();
   const ForceFit& fit = fitter_.Fit(TargetsAt(truth.x_m), {}, &state);
   ASSERT_TRUE(fit.status.ok());
-  EXPECT_LT((state.lambda_f_N - kForce_N).norm(), 1e-6);
+  EXPECT_LT((state.lambda_f_N - kGeneralForce_N).norm(), 1e-6);
   EXPECT_LT(fit.residual_m.norm(), 1e-8);
 }
 
@@ -93,7 +93,7 @@ TEST_F(GeneralRows, AKeptFactorComesToTheSameFit) {
   ModelState state = StartState();
   int linearisations = 0;
   for (int k = 0; k <= 10; ++k) {
-    const Eigen::Vector3d force_N = (1.0 + 0.002 * k) * kForce_N;
+    const Eigen::Vector3d force_N = (1.0 + 0.002 * k) * kGeneralForce_N;
     const fem::StaticState truth =
         SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, force_N)});
     fitter_.ForgetFactor();
@@ -122,7 +122,8 @@ class KeptFactor : public GeneralRows {
     fitter_.SetSites({SiteAt(kTip)});
     fitter_.KeepFactor(true);
     state_ = StartState();
-    EXPECT_TRUE(fitter_.Fit(TargetsUnder(kForce_N), {}, &state_, Work(kNoLimit)).status.ok());
+    EXPECT_TRUE(
+        fitter_.Fit(TargetsUnder(kGeneralForce_N), {}, &state_, Work(kNoLimit)).status.ok());
   }
 
   RowTargets TargetsUnder(const Eigen::Vector3d& force_N) {
@@ -135,7 +136,7 @@ class KeptFactor : public GeneralRows {
 };
 
 TEST_F(KeptFactor, TakesFewStepsFarFromItsState) {
-  const Eigen::Vector3d force_N = 1.02 * kForce_N;
+  const Eigen::Vector3d force_N = 1.02 * kGeneralForce_N;
   const ForceFit& fit = fitter_.Fit(TargetsUnder(force_N), {}, &state_, Work(kNoLimit));
   ASSERT_TRUE(fit.status.ok());
   EXPECT_EQ(fit.iterations, 0);
@@ -144,7 +145,7 @@ TEST_F(KeptFactor, TakesFewStepsFarFromItsState) {
 }
 
 TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
-  const Eigen::Vector3d force_N = 1.1 * kForce_N;
+  const Eigen::Vector3d force_N = 1.1 * kGeneralForce_N;
   const RowTargets targets = TargetsUnder(force_N);
   int stopped = 0;
   while (!fitter_.Fit(targets, {}, &state_, Work(2.0)).status.ok()) {
@@ -159,21 +160,21 @@ TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
 
 TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
   const RowTargets targets =
-      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)}).x_m);
+      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)}).x_m);
   fitter_.SetSites({SiteAt(kTip)});
   ModelState state = StartState();
   const int steps = fitter_.Fit(targets, {}, &state).iterations;
-  fitter_.LimitForceStep(0.1 * kForce_N.norm());
+  fitter_.LimitForceStep(0.1 * kGeneralForce_N.norm());
   state = StartState();
   const ForceFit& fit = fitter_.Fit(targets, {}, &state);
   ASSERT_TRUE(fit.status.ok());
   EXPECT_GT(fit.iterations, steps + 3);
-  EXPECT_LT((state.lambda_f_N - kForce_N).norm(), 1e-6);
+  EXPECT_LT((state.lambda_f_N - kGeneralForce_N).norm(), 1e-6);
 }
 
 TEST_F(GeneralRows, APriorHoldsTheForceBack) {
   const fem::StaticState truth =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
   const RowTargets targets = TargetsAt(truth.x_m);
   fitter_.SetSites({SiteAt(kTip)});
   ModelState state = StartState();
@@ -181,7 +182,7 @@ TEST_F(GeneralRows, APriorHoldsTheForceBack) {
   fitter_.SetForcePrior(1e10 * fem::QpMatrix::Identity(3, 3));
   const ForceFit& held = fitter_.Fit(targets, {}, &state);
   ASSERT_TRUE(held.status.ok());
-  EXPECT_LT(state.lambda_f_N.norm(), 0.05 * kForce_N.norm());
+  EXPECT_LT(state.lambda_f_N.norm(), 0.05 * kGeneralForce_N.norm());
   EXPECT_LT(held.covariance_N2.trace(), free_covariance.trace());
   EXPECT_LE(held.covariance_N2.diagonal().maxCoeff(), 1.001e-10);
 }
@@ -190,7 +191,7 @@ TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
   const SurfaceMap map(*model_);
   const SkinPoint true_place = map.NearestAtRest(kTip - Eigen::Vector3d(0.02, 0, 0));
   const fem::StaticState truth =
-      SolveTruth(*model_, {}, {LoadAt(*model_, true_place.rest_m, kRadius_m, kForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, true_place.rest_m, kRadius_m, kGeneralForce_N)});
   const RowTargets targets = TargetsAt(truth.x_m);
   ShapeSite site;
   site.radius_m = kRadius_m;
@@ -211,7 +212,7 @@ TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
   }
   EXPECT_GT(start_m, 0.004);
   EXPECT_LT((site.centre.rest_m - true_place.rest_m).norm(), 1e-3);
-  EXPECT_LT((state.lambda_f_N - kForce_N).norm(), 0.05 * kForce_N.norm());
+  EXPECT_LT((state.lambda_f_N - kGeneralForce_N).norm(), 0.05 * kGeneralForce_N.norm());
   // Not knowing the place costs certainty about the force, never gains any.
   const Eigen::Matrix3d known_place = fitter_.fit().covariance_N2;
   EXPECT_GE(located[0].force_covariance_N2.trace(), known_place.trace() * (1.0 - 1e-9));
@@ -221,7 +222,7 @@ TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
 TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
   SurfaceMap map(*model_);
   const fem::StaticState bent =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
   map.Deform(bent.x_m);
   const SkinPoint at_rest = map.NearestAtRest(kTip + Eigen::Vector3d(-0.03, 0.002, 0.0));
   const SkinPoint found = map.NearestNow(map.PositionNow_m(at_rest));

@@ -11,9 +11,9 @@
 namespace palpate::force_estimation {
 namespace {
 
-const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
+const Eigen::Vector3d kKnownTip(0.0, 0.015, 0.03);
 constexpr char kTipSite[] = "tip: 0, 0.015, 0.03, 0.005";
-const Eigen::Vector3d kHub(0.0, 0.0, 0.125);
+const Eigen::Vector3d kKnownHub(0.0, 0.0, 0.125);
 constexpr char kHubSite[] = "hub: 0, 0, 0.125, 0.008";
 
 /// How the four cables of four_leg are driven.
@@ -28,7 +28,7 @@ TEST_P(DrivenBody, RecoversAForceInThreeDirections) {
   const auto model = Build(FourLegRobot());
   const Eigen::Vector3d force_N(0.3, -0.2, -0.9);
   const MarkerFrame frame =
-      FrameUnder(*model, GetParam().cables, {LoadAt(*model, kHub, 0.008, force_N)});
+      FrameUnder(*model, GetParam().cables, {LoadAt(*model, kKnownHub, 0.008, force_N)});
   MarkerForceEstimator estimator(*model, WithContacts({kHubSite}));
   const ForceEstimate& estimate = estimator.Update(frame);
   ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
@@ -39,7 +39,7 @@ TEST_P(DrivenBody, RecoversAForceInThreeDirections) {
 
 TEST_P(DrivenBody, ReportsTheCablesAsTheyAre) {
   const auto model = Build(FourLegRobot());
-  const auto load = LoadAt(*model, kHub, 0.008, {0.3, -0.2, -0.9});
+  const auto load = LoadAt(*model, kKnownHub, 0.008, {0.3, -0.2, -0.9});
   const fem::StaticState truth = SolveTruth(*model, GetParam().cables, {load});
   MarkerForceEstimator estimator(*model, WithContacts({kHubSite}));
   const ForceEstimate& estimate = estimator.Update(FrameOf(*model, truth, GetParam().cables));
@@ -89,7 +89,7 @@ TEST(MarkerForceEstimator, RecoversTwoForcesAtOnce) {
   const Eigen::Vector3d at_middle_N(-0.2, 0.6, 0.1);
   const MarkerFrame frame = FrameUnder(
       *model, {},
-      {LoadAt(*model, kTip, 0.005, at_tip_N), LoadAt(*model, middle, 0.004, at_middle_N)});
+      {LoadAt(*model, kKnownTip, 0.005, at_tip_N), LoadAt(*model, middle, 0.004, at_middle_N)});
   MarkerForceEstimator estimator(*model,
                                  WithContacts({kTipSite, "middle: -0.05, 0, 0.015, 0.004"}));
   const ForceEstimate& estimate = estimator.Update(frame);
@@ -101,9 +101,10 @@ TEST(MarkerForceEstimator, RecoversTwoForcesAtOnce) {
 TEST(MarkerForceEstimator, FollowsALargeDeformationFromAColdStart) {
   const auto model = Build(BeamRobot());
   const Eigen::Vector3d force_N(0.4, -0.8, -2.0);
-  const fem::StaticState truth = SolveTruth(*model, {}, {LoadAt(*model, kTip, 0.005, force_N)});
-  const fem::NodeWeights tip = model->Patch(kTip, 0.005).weights;
-  ASSERT_GT((tip.Position(truth.x_m) - kTip).norm(), 0.02);
+  const fem::StaticState truth =
+      SolveTruth(*model, {}, {LoadAt(*model, kKnownTip, 0.005, force_N)});
+  const fem::NodeWeights tip = model->Patch(kKnownTip, 0.005).weights;
+  ASSERT_GT((tip.Position(truth.x_m) - kKnownTip).norm(), 0.02);
   MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
   const ForceEstimate& estimate = estimator.Update(FrameOf(*model, truth, {}));
   ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
@@ -115,7 +116,8 @@ TEST(MarkerForceEstimator, FollowsALargeDeformationFromAColdStart) {
 TEST(MarkerForceEstimator, FitsOnlyTheSizeOfAForceWhoseDirectionIsGiven) {
   const auto model = Build(BeamRobot());
   const Eigen::Vector3d direction = Eigen::Vector3d(0.0, 1.0, -2.0).normalized();
-  const MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, kTip, 0.005, 0.4 * direction)});
+  const MarkerFrame frame =
+      FrameUnder(*model, {}, {LoadAt(*model, kKnownTip, 0.005, 0.4 * direction)});
   MarkerForceEstimator estimator(*model, WithContacts({std::string(kTipSite) + " along 0, 1, -2"}));
   const ContactForce& contact = estimator.Update(frame).contacts[0];
   EXPECT_TRUE(contact.status.ok());
@@ -138,8 +140,9 @@ TEST(MarkerForceEstimator, ForgetsTheFrameBefore) {
                                                    {Kind::kTension, 1.0},
                                                    {Kind::kDisplacement, 0.003}};
   const MarkerFrame first =
-      FrameUnder(*model, first_cables, {LoadAt(*model, kHub, 0.008, {0.5, 0.4, -1.5})});
-  MarkerFrame frame = FrameUnder(*model, cables, {LoadAt(*model, kHub, 0.008, {-0.3, 0.1, -0.4})});
+      FrameUnder(*model, first_cables, {LoadAt(*model, kKnownHub, 0.008, {0.5, 0.4, -1.5})});
+  MarkerFrame frame =
+      FrameUnder(*model, cables, {LoadAt(*model, kKnownHub, 0.008, {-0.3, 0.1, -0.4})});
   std::mt19937 random(7);
   AddNoise(1e-4, random, &frame);
   MarkerForceEstimator warm(*model, WithContacts({kHubSite}));
@@ -172,7 +175,7 @@ TEST(MarkerForceEstimator, TurnsWithTheFrame) {
   model->SetGravity({0.0, 4.0, -9.0});
   const auto turned_model = Build(turned);
 
-  MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, kTip, 0.005, {0.1, -0.2, -0.4})});
+  MarkerFrame frame = FrameUnder(*model, {}, {LoadAt(*model, kKnownTip, 0.005, {0.1, -0.2, -0.4})});
   std::mt19937 random(3);
   AddNoise(1e-4, random, &frame);
   MarkerFrame turned_frame = frame;

@@ -11,8 +11,8 @@
 namespace palpate::force_estimation {
 namespace {
 
-const Eigen::Vector3d kHub(0.0, 0.0, 0.125);
-const Eigen::Vector3d kForce_N(0.2, -0.1, -0.7);
+const Eigen::Vector3d kTareHub(0.0, 0.0, 0.125);
+const Eigen::Vector3d kTareForce_N(0.2, -0.1, -0.7);
 
 /// four_leg whose markers are stuck on some millimetres from where the robot file has them.
 class MarkerTareTest : public testing::Test {
@@ -39,12 +39,12 @@ class MarkerTareTest : public testing::Test {
     return Reference(model_->RestState(), ReferenceShape::kUndeformed);
   }
   MarkerFrame UnderForce() {
-    return Shifted(FrameUnder(*model_, cables_, {LoadAt(*model_, kHub, 0.008, kForce_N)}));
+    return Shifted(FrameUnder(*model_, cables_, {LoadAt(*model_, kTareHub, 0.008, kTareForce_N)}));
   }
   void ExpectTheForce(const MarkerFrame& frame) {
     const ForceEstimate& estimate = estimator_.Update(frame);
     ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
-    EXPECT_LT((estimate.contacts[0].force_N - kForce_N).norm(), 1e-6);
+    EXPECT_LT((estimate.contacts[0].force_N - kTareForce_N).norm(), 1e-6);
     EXPECT_LT(estimate.residual_rms_m, 1e-9);
   }
 
@@ -71,7 +71,7 @@ TEST_F(MarkerTareTest, EquilibriumReferenceRemovesTheOffsets) {
 TEST_F(MarkerTareTest, WithoutItTheOffsetsSpoilTheForce) {
   const ForceEstimate& estimate = estimator_.Update(UnderForce());
   ASSERT_FALSE(estimate.contacts.empty());
-  EXPECT_GT((estimate.contacts[0].force_N - kForce_N).norm(), 0.01);
+  EXPECT_GT((estimate.contacts[0].force_N - kTareForce_N).norm(), 0.01);
 }
 
 TEST_F(MarkerTareTest, AveragesTheReferenceFrames) {

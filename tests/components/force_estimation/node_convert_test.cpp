@@ -6,17 +6,16 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "libs/dds/stamp.hpp"
 #include "tests/components/force_estimation/node_test_robot.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::force_estimation {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kMarkers{"m1", "m2", "m3"};
 
 dds::Message<idl::palpate_msgs::MarkerArray3> TwoMarkers() {
@@ -30,7 +29,7 @@ dds::Message<idl::palpate_msgs::MarkerArray3> TwoMarkers() {
   markers[0].sigma_m = {1e-4, 2e-4, 3e-4};
   markers[0].valid = true;
   dds::SetText(markers[1].name, "m1");
-  markers[1].position_m = {kNan, 0.0, 0.0};
+  markers[1].position_m = {kNaN, 0.0, 0.0};
   return message;
 }
 

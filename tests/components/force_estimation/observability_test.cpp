@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
 constexpr char kTipSite[] = "tip: 0, 0.015, 0.03, 0.005";
 const Eigen::Vector3d kForce_N(0.1, -0.2, -0.4);
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MarkerFrame TipForceFrame(robot::RobotModel& model) {
   return FrameUnder(model, {}, {LoadAt(model, kTip, 0.005, kForce_N)});
@@ -103,7 +102,7 @@ TEST(Observability, SaysWhereOnlyTheNormalForceIsKnown) {
 TEST(Observability, MissingAndNanMarkersAreLeftOut) {
   const auto model = Build(BeamRobot());
   MarkerFrame frame = TipForceFrame(*model);
-  frame.markers[0].position_m.y() = kNan;
+  frame.markers[0].position_m.y() = kNaN;
   frame.markers[5].valid = false;
   frame.markers[5].position_m.setConstant(1.0);
   MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
@@ -151,7 +150,7 @@ TEST(Observability, NanCommandIsRefused) {
   const auto model = Build(FourLegRobot());
   std::vector<robot::CableCommand> cables(4, {Kind::kTension, 1.0});
   MarkerFrame frame = FrameUnder(*model, cables, {});
-  frame.cables[2].value = kNan;
+  frame.cables[2].value = kNaN;
   MarkerForceEstimator estimator(*model, WithContacts({"hub: 0, 0, 0.125, 0.008"}));
   const ForceEstimate& estimate = estimator.Update(frame);
   EXPECT_EQ(estimate.status.code(), StatusCode::kInvalidInput);

@@ -15,11 +15,11 @@
 namespace palpate::force_estimation {
 namespace {
 
-using State = GapReport::State;
+using GapState = GapReport::State;
 using testing::HasSubstr;
 
-constexpr double kNoise_m = 4e-4;
-constexpr double kPeriod_s = 0.1;
+constexpr double kCloudNoise_m = 4e-4;
+constexpr double kFramePeriod_s = 0.1;
 constexpr int kPoints = 12;
 constexpr unsigned kSeed = 5;
 
@@ -29,12 +29,12 @@ using Off = std::function<double(int point, double t_s)>;
 class GapWatchTest : public testing::Test {
  protected:
   void Watch(double from_s, double to_s, const Off& off_m) {
-    for (double t_s = from_s; t_s < to_s; t_s += kPeriod_s) watch_.Add(t_s, Frame(t_s, off_m));
+    for (double t_s = from_s; t_s < to_s; t_s += kFramePeriod_s) watch_.Add(t_s, Frame(t_s, off_m));
   }
   ModelGapReport Frame(double t_s, const Off& off_m) {
     ModelGapReport report{
         {}, {{"body", 0, 0, 0}, {"leg", 0, 0, 0}}, {{"north", 0, 0, 0}, {"south", 0, 0, 0}}};
-    std::normal_distribution<double> normal(0.0, kNoise_m);
+    std::normal_distribution<double> normal(0.0, kCloudNoise_m);
     for (int p = 0; p < kPoints; ++p) {
       double squares_m2 = 0.0;
       for (int axis = 0; axis < 3; ++axis) {
@@ -59,7 +59,7 @@ class GapWatchTest : public testing::Test {
   }
   static void Finish(ModelGapPart* part) {
     part->residual_rms_m = std::sqrt(part->residual_rms_m / (3.0 * part->sample_count));
-    part->noise_rms_m = kNoise_m;
+    part->noise_rms_m = kCloudNoise_m;
   }
   static double Nothing(int /*point*/, double /*t_s*/) { return 0.0; }
 
@@ -69,21 +69,21 @@ class GapWatchTest : public testing::Test {
 
 TEST_F(GapWatchTest, HoldsThroughMinutesOfNoise) {
   Watch(0.0, 9.0, Nothing);
-  EXPECT_EQ(watch_.report().state, State::kLearning);
+  EXPECT_EQ(watch_.report().state, GapState::kLearning);
   for (double t_s = 9.0; t_s < 600.0; t_s += 1.0) {
     Watch(t_s, t_s + 1.0, Nothing);
     if (t_s < 12.0) continue;
-    ASSERT_EQ(watch_.report().state, State::kHolds) << t_s << " s, seed " << kSeed;
+    ASSERT_EQ(watch_.report().state, GapState::kHolds) << t_s << " s, seed " << kSeed;
   }
-  EXPECT_NEAR(watch_.report().residual_rms_m, kNoise_m, 0.2 * kNoise_m);
+  EXPECT_NEAR(watch_.report().residual_rms_m, kCloudNoise_m, 0.2 * kCloudNoise_m);
 }
 
 TEST_F(GapWatchTest, NamesTheCableNextToWhichTheModelIsSuddenlyOff) {
   const auto off_m = [](int p, double t_s) { return t_s > 30.0 && IsOfNorth(p) ? 1e-3 : 0.0; };
   Watch(0.0, 30.0, off_m);
-  ASSERT_EQ(watch_.report().state, State::kHolds);
+  ASSERT_EQ(watch_.report().state, GapState::kHolds);
   Watch(30.0, 36.0, off_m);
-  ASSERT_EQ(watch_.report().state, State::kGrown) << "seed " << kSeed;
+  ASSERT_EQ(watch_.report().state, GapState::kGrown) << "seed " << kSeed;
   EXPECT_THAT(watch_.report().advice, HasSubstr("cable north or its drive"));
   EXPECT_THAT(watch_.report().advice, HasSubstr("palpate diagnose"));
 }
@@ -105,31 +105,31 @@ TEST_F(GapWatchTest, TellsWhatCameSlowlyFromWhatCameAtOnce) {
 TEST_F(GapWatchTest, HoldsAgainWhereTheGrowthWent) {
   const auto off_m = [](int, double t_s) { return t_s > 20.0 && t_s < 30.0 ? 1e-3 : 0.0; };
   Watch(0.0, 29.0, off_m);
-  ASSERT_EQ(watch_.report().state, State::kGrown);
+  ASSERT_EQ(watch_.report().state, GapState::kGrown);
   Watch(29.0, 40.0, off_m);
-  EXPECT_EQ(watch_.report().state, State::kHolds);
+  EXPECT_EQ(watch_.report().state, GapState::kHolds);
   EXPECT_TRUE(watch_.report().advice.empty());
 }
 
 TEST_F(GapWatchTest, AModelThatIsFarOffFromTheStartIsSaidToBe) {
   Watch(0.0, 12.0, [](int, double) { return 3e-3; });
-  EXPECT_EQ(watch_.report().state, State::kGrown);
+  EXPECT_EQ(watch_.report().state, GapState::kGrown);
   EXPECT_THAT(watch_.report().advice, HasSubstr("from the start"));
 }
 
 TEST_F(GapWatchTest, SaysThatNothingIsSeenWhereNothingWasEstimated) {
   Watch(0.0, 15.0, Nothing);
-  for (double t_s = 15.0; t_s < 17.0; t_s += kPeriod_s) watch_.Add(t_s, {});
-  EXPECT_EQ(watch_.report().state, State::kNotSeen);
+  for (double t_s = 15.0; t_s < 17.0; t_s += kFramePeriod_s) watch_.Add(t_s, {});
+  EXPECT_EQ(watch_.report().state, GapState::kNotSeen);
   Watch(17.0, 19.5, Nothing);
-  EXPECT_EQ(watch_.report().state, State::kHolds);
+  EXPECT_EQ(watch_.report().state, GapState::kHolds);
 }
 
 TEST_F(GapWatchTest, BeginsAnewWhereTimeGoesBack) {
   Watch(100.0, 115.0, Nothing);
-  ASSERT_EQ(watch_.report().state, State::kHolds);
+  ASSERT_EQ(watch_.report().state, GapState::kHolds);
   Watch(0.0, 1.0, Nothing);
-  EXPECT_EQ(watch_.report().state, State::kLearning);
+  EXPECT_EQ(watch_.report().state, GapState::kLearning);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::SizeIs;
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 /// A ball comes down on the bar from above, before a camera that looks at it from the side.
 const std::string kPush = R"(body: {refine: 0}
@@ -64,7 +64,7 @@ TEST_F(SimulateVirtualBench, TheBallPushesTheBarDownAndIsInTheAnswer) {
   EXPECT_GT(sagged_m, -0.01 + 1e-3);  // its rest place is 10 mm above the optical axis
   EXPECT_NEAR(TipDepth_m(experiment.recordings[1], 0), sagged_m, 1e-4);
   EXPECT_GT(TipDepth_m(experiment.recordings[1], 4), sagged_m + 1e-3);
-  const Json frames = AnswerJson()["recordings"][1]["frames"];
+  const AnyJson frames = AnswerJson()["recordings"][1]["frames"];
   EXPECT_TRUE(frames[0]["forces"].empty());
   ASSERT_THAT(frames[4]["forces"], SizeIs(1));
   EXPECT_EQ(frames[4]["forces"][0]["name"], "ball");
@@ -123,13 +123,13 @@ TEST_F(SimulateVirtualBench, SameSeedSameData) {
 TEST_F(SimulateVirtualBench, AnEffectShowsInTheDataAndInTheTrueCamera) {
   Simulate();
   const double sagged_m = TipDepth_m(Read().recordings[0], 0);
-  const Json pose = AnswerJson()["recordings"][1]["T_robot_camera"];
+  const AnyJson pose = AnswerJson()["recordings"][1]["T_robot_camera"];
   Simulate(
       "effects: [{id: youngs_modulus, factor: 0.5}, {id: camera_moved, translation_m: 0.05, "
       "from_recording: 1}]\n");
   EXPECT_GT(TipDepth_m(Read().recordings[0], 0), sagged_m + 1e-3);
   EXPECT_EQ(AnswerJson()["recordings"][0]["T_robot_camera"], pose);
-  const Json moved = AnswerJson()["recordings"][1]["T_robot_camera"];
+  const AnyJson moved = AnswerJson()["recordings"][1]["T_robot_camera"];
   Eigen::Vector3d by_m;
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);

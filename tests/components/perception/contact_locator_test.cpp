@@ -18,9 +18,9 @@ namespace {
 using test::BallsOnPlate;
 using test::CloudOf;
 using test::Clouds;
+using test::ContactView;
 using test::Look;
 using test::SampleAll;
-using test::View;
 
 constexpr double kSpacing_m = 0.0014;
 
@@ -226,7 +226,7 @@ Tally LookAtMany(double post_height_m, double radius_from_m, double radius_to_m,
                        .plate_half_m = 0.06,
                        .touch_m = {{0.03 * any(random), 0.03 * any(random)}},
                        .post_height_m = post_height_m};
-    const View view{.tilt_rad = 0.7 + 0.6 * any(random), .turn_rad = 6.0 * any(random)};
+    const ContactView view{.tilt_rad = 0.7 + 0.6 * any(random), .turn_rad = 6.0 * any(random)};
     std::vector<Eigen::Vector3d> touch_m;
     const Clouds clouds = Look(scene, view, &random, &touch_m);
     const PredictedSurface plate = test::PlateSeenBy(view, scene.plate_half_m);
@@ -271,7 +271,7 @@ TEST(ContactLocator, ABallThatHoversIsNoContact) {
   std::vector<Eigen::Vector3d> unused;
   for (const double gap_m : {0.0, 0.008}) {
     const BallsOnPlate scene{.radius_m = 0.01, .touch_m = {{0.0, 0.0}}, .gap_m = gap_m};
-    const View view{.tilt_rad = 1.2};
+    const ContactView view{.tilt_rad = 1.2};
     const Clouds clouds = Look(scene, view, &random, &unused);
     EXPECT_EQ(Locate(clouds).size(), gap_m > 0.0 ? 0u : 1u);
     // Where the plate is known, less air is told from none.

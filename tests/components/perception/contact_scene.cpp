@@ -56,7 +56,7 @@ double HitPlate(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& ray, double
   return hit ? distance_m : std::numeric_limits<double>::infinity();
 }
 
-Eigen::Isometry3d PoseOf(const View& view) {
+Eigen::Isometry3d PoseOf(const ContactView& view) {
   Eigen::Isometry3d T_plate_camera = Eigen::Isometry3d::Identity();
   T_plate_camera.rotate(
       Eigen::AngleAxisd(view.turn_rad, Eigen::Vector3d::UnitZ()) *
@@ -67,7 +67,7 @@ Eigen::Isometry3d PoseOf(const View& view) {
 
 }  // namespace
 
-PredictedSurface PlateSeenBy(const View& view, double plate_half_m) {
+PredictedSurface PlateSeenBy(const ContactView& view, double plate_half_m) {
   constexpr double kThick_m = 0.02;
   const double h = plate_half_m;
   Eigen::Matrix3Xd corners_m(3, 8);
@@ -121,7 +121,7 @@ Clouds SampleAll(const BallsOnPlate& scene, double spacing_m, double distance_m)
   return {CloudOf(robot, 1e-5), CloudOf(object, 1e-5)};
 }
 
-Clouds Look(const BallsOnPlate& scene, const View& view, std::mt19937* random,
+Clouds Look(const BallsOnPlate& scene, const ContactView& view, std::mt19937* random,
             std::vector<Eigen::Vector3d>* touch_camera_m) {
   const Eigen::Isometry3d T_plate_camera = PoseOf(view);
   const Eigen::Vector3d eye_m = T_plate_camera.translation();

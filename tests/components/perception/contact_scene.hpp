@@ -36,18 +36,18 @@ Clouds SampleAll(const BallsOnPlate& scene, double spacing_m, double distance_m 
 /// the plate's normal (about x) after a turn by `turn_rad` about the normal; rays `spacing_m` apart
 /// at that distance, each with Gaussian noise of z of `sigma_m`. `touch_camera_m`: where the balls
 /// touch, in the camera frame.
-struct View {
+struct ContactView {
   double distance_m = 0.45;
   double tilt_rad = 1.0;
   double turn_rad = 0.0;
   double spacing_m = 0.0014;
   double sigma_m = 3e-4;
 };
-Clouds Look(const BallsOnPlate& scene, const View& view, std::mt19937* random,
+Clouds Look(const BallsOnPlate& scene, const ContactView& view, std::mt19937* random,
             std::vector<Eigen::Vector3d>* touch_camera_m);
 
 /// The plate as a predicted surface in that camera's frame, its underside too.
-PredictedSurface PlateSeenBy(const View& view, double plate_half_m);
+PredictedSurface PlateSeenBy(const ContactView& view, double plate_half_m);
 
 /// `points_m` with the same sigma each.
 rgbd::SensedCloud CloudOf(const std::vector<Eigen::Vector3d>& points_m, double sigma_m);

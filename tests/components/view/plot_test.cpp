@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 
 #include "components/view/plot/force_plot.hpp"
 #include "components/view/plot/series_shapes.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "tests/support/not_a_number.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace palpate::view {
@@ -23,8 +23,6 @@ namespace {
 using testing::HasSubstr;
 using testing::SizeIs;
 using tinyxml2::XMLElement;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A drawn plot, read back.
 class Drawn {

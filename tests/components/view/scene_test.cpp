@@ -14,11 +14,10 @@
 #include "components/view/png.hpp"
 #include "components/view/surface_edges.hpp"
 #include "libs/core/error.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::view {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Surface Cube() {
   Surface cube;

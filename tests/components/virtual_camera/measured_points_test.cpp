@@ -13,7 +13,7 @@
 namespace palpate::virtual_camera {
 namespace {
 
-scenario::ActiveEffect Effect(const char* id, std::map<std::string, double> parameters) {
+scenario::ActiveEffect EffectOn(const char* id, std::map<std::string, double> parameters) {
   return {.id = id, .where = {"camera"}, .parameters = std::move(parameters), .clutter = false};
 }
 
@@ -27,10 +27,10 @@ TEST(MeasuredPoints, AreThoseOfThePicture) {
   camera.depth.distortion = {-0.05, 0.02, 0.001, -0.002, 0.0};
   bench.view.t_s = kTime_s;
   const std::vector<scenario::ActiveEffect> effects = {
-      Effect("depth_scale", {{"s", 0.02}}), Effect("depth_incidence_bias", {{"b_m", 0.004}}),
-      Effect("intrinsics", {{"focal", 0.03}, {"cx_px", 6.0}, {"cy_px", -9.0}}),
-      Effect("lens_distortion", {{"k1", 0.08}}),
-      Effect("warm_up_drift", {{"amplitude_m", 0.006}, {"tau_s", 50.0}})};
+      EffectOn("depth_scale", {{"s", 0.02}}), EffectOn("depth_incidence_bias", {{"b_m", 0.004}}),
+      EffectOn("intrinsics", {{"focal", 0.03}, {"cx_px", 6.0}, {"cy_px", -9.0}}),
+      EffectOn("lens_distortion", {{"k1", 0.08}}),
+      EffectOn("warm_up_drift", {{"amplitude_m", 0.006}, {"tau_s", 50.0}})};
   VirtualCamera taker(bench.scenario, bench.skin, effects, 4);
   rgbd::RgbdFrame frame;
   taker.Take(bench.view, &frame);

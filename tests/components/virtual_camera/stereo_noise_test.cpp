@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::Ge;
 using ::testing::Le;
 
-constexpr double kFocalBaseline = 665.0 * 0.055;
+constexpr double kStereoFocalBaseline = 665.0 * 0.055;
 
 // A wall seen without anything but the sub-pixel noise; depth steps too small to matter.
 WallBench PlainWall(double distance_m, double tilt_rad = 0.0) {
@@ -123,8 +123,8 @@ TEST(StereoNoise, RoundsDisparityAndThenDepth) {
     if (raw == 0) continue;
     ++seen;
     // Some whole number of 1/32 px gives this step of depth.
-    const double steps = 32.0 * kFocalBaseline / (raw * unit_m);
-    const double z_m = 32.0 * kFocalBaseline / std::round(steps);
+    const double steps = 32.0 * kStereoFocalBaseline / (raw * unit_m);
+    const double z_m = 32.0 * kStereoFocalBaseline / std::round(steps);
     EXPECT_EQ(raw, static_cast<int>(std::lround(z_m / unit_m))) << u;
   }
   EXPECT_GT(seen, 350);
@@ -140,8 +140,9 @@ TEST(StereoNoise, IsBiasedPeriodicallyWithinAPixelOfDisparity) {
   double largest = 0.0;
   for (int v = 0; v < 480; v += 7) {
     for (int u = 300; u < 700; ++u) {
-      const double exact = kFocalBaseline / static_cast<double>(*camera.true_range().Pixel(u, v));
-      const double measured = kFocalBaseline / DepthAt(frame, bench.scenario, u, v);
+      const double exact =
+          kStereoFocalBaseline / static_cast<double>(*camera.true_range().Pixel(u, v));
+      const double measured = kStereoFocalBaseline / DepthAt(frame, bench.scenario, u, v);
       const double wanted = 0.05 * std::sin(2.0 * M_PI * exact);
       largest = std::max(largest, std::abs(measured - exact - wanted));
     }
@@ -213,8 +214,8 @@ TEST(StereoHoles, TheShadowLiesToTheLeftAndIsAsWideAsTheDisparitiesDiffer) {
   VirtualCamera camera(scene.bench.scenario, scene.bench.skin, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(scene.bench.view, &frame);
-  const int shadow = static_cast<int>(kFocalBaseline / PlateBefore::kPlate_m -
-                                      kFocalBaseline / PlateBefore::kWall_m);  // 45 px
+  const int shadow = static_cast<int>(kStereoFocalBaseline / PlateBefore::kPlate_m -
+                                      kStereoFocalBaseline / PlateBefore::kWall_m);  // 45 px
   EXPECT_EQ(scene.Holes(frame, scene.first_u - shadow + 1, scene.first_u - 2), 1.0);
   EXPECT_EQ(scene.Holes(frame, scene.first_u - shadow - 40, scene.first_u - shadow - 2), 0.0);
   EXPECT_EQ(scene.Holes(frame, scene.first_u + 1, scene.last_u - 1), 0.0);
@@ -226,8 +227,8 @@ TEST(StereoHoles, BehindANarrowThingTheOtherImagerSeesOnBothSides) {
   VirtualCamera camera(scene.bench.scenario, scene.bench.skin, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(scene.bench.view, &frame);
-  const int shift = static_cast<int>(kFocalBaseline / PlateBefore::kPlate_m -
-                                     kFocalBaseline / PlateBefore::kWall_m);
+  const int shift = static_cast<int>(kStereoFocalBaseline / PlateBefore::kPlate_m -
+                                     kStereoFocalBaseline / PlateBefore::kWall_m);
   EXPECT_EQ(scene.Holes(frame, scene.first_u - shift + 2, scene.last_u - shift - 2), 1.0);
   EXPECT_EQ(scene.Holes(frame, scene.last_u - shift + 3, scene.first_u - 3), 0.0);
 }
@@ -237,7 +238,7 @@ TEST(StereoHoles, TheLeftBorderIsOutsideTheOtherImage) {
   VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
-  const int border = static_cast<int>(kFocalBaseline / 0.5);  // 73 px
+  const int border = static_cast<int>(kStereoFocalBaseline / 0.5);  // 73 px
   for (int v = 0; v < 480; v += 20) {
     for (int u = 0; u < 848; ++u) {
       if (std::abs(u - border) <= 1) continue;

@@ -9,6 +9,7 @@
 #include "components/virtual_robot/node/convert.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::virtual_robot {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::vector<std::string> kCables = {"north", "west"};
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 dds::Message<idl::sensor_msgs::JointState> CommandOf(const std::vector<std::string>& names,
                                                      const std::vector<double>& positions) {

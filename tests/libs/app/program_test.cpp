@@ -46,7 +46,7 @@ struct SolveArguments {
   }
 };
 
-std::string Refusal(const std::function<void()>& read) {
+std::string ProgramRefusal(const std::function<void()>& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -56,7 +56,7 @@ std::string Refusal(const std::function<void()>& read) {
 }
 
 std::string RefusalOf(const Words& words) {
-  return Refusal([&] { SolveArguments().Parse(words); });
+  return ProgramRefusal([&] { SolveArguments().Parse(words); });
 }
 
 TEST(Arguments, ReadsPositionalsOptionsAndFlags) {
@@ -121,9 +121,9 @@ TEST(Verbs, RunsTheNamedOneWithItsArguments) {
 }
 
 TEST(Verbs, RefusesUnknownAndMissingOnes) {
-  EXPECT_EQ(Refusal([] { RunVerbs("palpate", "Feels.", TwoVerbs(), {"slove"}); }),
+  EXPECT_EQ(ProgramRefusal([] { RunVerbs("palpate", "Feels.", TwoVerbs(), {"slove"}); }),
             "unknown verb 'slove' (did you mean 'solve'?); see palpate --help");
-  EXPECT_EQ(Refusal([] { RunVerbs("palpate", "Feels.", TwoVerbs(), {}); }),
+  EXPECT_EQ(ProgramRefusal([] { RunVerbs("palpate", "Feels.", TwoVerbs(), {}); }),
             "a verb is missing; see palpate --help");
 }
 
@@ -193,7 +193,7 @@ class NodeOptionsTest : public ::testing::Test {
                            config_, &options_);
   }
   std::string RefusalOf(const Words& words) {
-    return Refusal([&] { Read(words); });
+    return ProgramRefusal([&] { Read(words); });
   }
 
   Config config_;

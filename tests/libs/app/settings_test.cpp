@@ -26,7 +26,7 @@ struct ContactSettings {
   }
 };
 
-struct Config {
+struct SettingsConfig {
   bool loop = false;
   int count = 51;
   double youngs_modulus_Pa = 65.0e3;
@@ -55,7 +55,7 @@ struct Config {
   }
 };
 
-std::string Refusal(const std::function<void()>& read) {
+std::string SettingsRefusal(const std::function<void()>& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -64,19 +64,19 @@ std::string Refusal(const std::function<void()>& read) {
   return "";
 }
 
-void Load(const std::string& yaml, Config* config) {
+void Load(const std::string& yaml, SettingsConfig* config) {
   LoadSettings(ParseYaml(yaml, "conf/a.yaml"), ListSettings(*config));
 }
 
 TEST(Settings, AnEmptyFileKeepsTheDefaults) {
-  Config config;
+  SettingsConfig config;
   Load("", &config);
   EXPECT_EQ(config.youngs_modulus_Pa, 65.0e3);
   EXPECT_EQ(config.count, 51);
 }
 
 TEST(Settings, TheFileSetsWhatItNamesAndNothingElse) {
-  Config config;
+  SettingsConfig config;
   Load(
       "loop: true\ncount: 7\nreliability: best_effort\nrate_hz: 30\nnames: [m1, m2]\n"
       "gravity_m_s2: [1, 2, 3]\nweights: []\ncontact:\n  radius_m: 0.01\n",
@@ -93,7 +93,7 @@ TEST(Settings, TheFileSetsWhatItNamesAndNothingElse) {
 }
 
 TEST(Settings, PathsOfAFileAreRelativeToItAndThoseOfTheCommandLineAreNot) {
-  Config config;
+  SettingsConfig config;
   Load("robot_file: ../robots/beam.yaml\n", &config);
   EXPECT_EQ(config.robot_file, "conf/../robots/beam.yaml");
   ApplyOverride("robot_file=beam.yaml", ListSettings(config));
@@ -101,42 +101,46 @@ TEST(Settings, PathsOfAFileAreRelativeToItAndThoseOfTheCommandLineAreNot) {
 }
 
 TEST(Settings, NullUnsetsAnOptionalOnly) {
-  Config config;
+  SettingsConfig config;
   config.rate_hz = 5.0;
   Load("rate_hz: null\n", &config);
   EXPECT_FALSE(config.rate_hz.has_value());
-  EXPECT_THAT(Refusal([&] { Load("count:\n", &config); }), HasSubstr("must have a value"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("count:\n", &config); }), HasSubstr("must have a value"));
 }
 
 TEST(Settings, RefusalsNameFilePlaceKeyValueAndRule) {
-  Config config;
-  EXPECT_EQ(Refusal([&] { Load("youngs_modulus_Pa: 0.5\n", &config); }),
+  SettingsConfig config;
+  EXPECT_EQ(SettingsRefusal([&] { Load("youngs_modulus_Pa: 0.5\n", &config); }),
             "conf/a.yaml:1:20: key 'youngs_modulus_Pa': must be >= 1, not 0.5");
-  EXPECT_EQ(Refusal([&] { Load("contact: {radius_m: -1}\n", &config); }),
+  EXPECT_EQ(SettingsRefusal([&] { Load("contact: {radius_m: -1}\n", &config); }),
             "conf/a.yaml:1:21: key 'contact.radius_m': must be >= 0, not -1");
-  EXPECT_THAT(Refusal([&] { Load("count: 101\n", &config); }), HasSubstr("1 to 100, not 101"));
-  EXPECT_THAT(Refusal([&] { Load("count: 0\n", &config); }), HasSubstr("1 to 100, not 0"));
-  EXPECT_THAT(Refusal([&] { Load("weights: [1, .nan]\n", &config); }), HasSubstr("weights[1]"));
-  EXPECT_THAT(Refusal([&] { Load("loop: yes\n", &config); }), HasSubstr("true or false"));
-  EXPECT_THAT(Refusal([&] { Load("names: m1\n", &config); }), HasSubstr("a list of texts"));
-  EXPECT_THAT(Refusal([&] { Load("- 1\n", &config); }), HasSubstr("must be a map of settings"));
-  EXPECT_THAT(Refusal([&] { Load("contact: 5\n", &config); }), HasSubstr("map of settings"));
-  EXPECT_THAT(Refusal([&] { Load("reliability: relyable\n", &config); }),
+  EXPECT_THAT(SettingsRefusal([&] { Load("count: 101\n", &config); }),
+              HasSubstr("1 to 100, not 101"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("count: 0\n", &config); }), HasSubstr("1 to 100, not 0"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("weights: [1, .nan]\n", &config); }),
+              HasSubstr("weights[1]"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("loop: yes\n", &config); }), HasSubstr("true or false"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("names: m1\n", &config); }), HasSubstr("a list of texts"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("- 1\n", &config); }),
+              HasSubstr("must be a map of settings"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("contact: 5\n", &config); }),
+              HasSubstr("map of settings"));
+  EXPECT_THAT(SettingsRefusal([&] { Load("reliability: relyable\n", &config); }),
               HasSubstr("did you mean 'reliable'?"));
 }
 
 TEST(Settings, UnknownKeysAreRefusedWithDidYouMean) {
-  Config config;
-  EXPECT_EQ(Refusal([&] { Load("loop: true\nyoung_modulus_Pa: 5\n", &config); }),
+  SettingsConfig config;
+  EXPECT_EQ(SettingsRefusal([&] { Load("loop: true\nyoung_modulus_Pa: 5\n", &config); }),
             "conf/a.yaml:2:1: unknown key 'young_modulus_Pa' (did you mean 'youngs_modulus_Pa'?)");
-  EXPECT_EQ(Refusal([&] { Load("contact: {radius: 5}\n", &config); }),
+  EXPECT_EQ(SettingsRefusal([&] { Load("contact: {radius: 5}\n", &config); }),
             "conf/a.yaml:1:11: unknown key 'contact.radius' (did you mean 'radius_m'?)");
-  EXPECT_EQ(Refusal([&] { Load("contcat: {radius_m: 5}\n", &config); }),
+  EXPECT_EQ(SettingsRefusal([&] { Load("contcat: {radius_m: 5}\n", &config); }),
             "conf/a.yaml:1:1: unknown key 'contcat' (did you mean 'contact'?)");
 }
 
 TEST(Settings, OverridesAreReadAsInAFile) {
-  Config config;
+  SettingsConfig config;
   const auto settings = ListSettings(config);
   ApplyOverride("contact.radius_m=0.02", settings);
   ApplyOverride("frame_id=\"a=b\"", settings);
@@ -145,23 +149,25 @@ TEST(Settings, OverridesAreReadAsInAFile) {
   EXPECT_EQ(config.contact.radius_m, 0.02);
   EXPECT_EQ(config.frame_id, "a=b");
   EXPECT_EQ(config.gravity_m_s2.z(), 1.0);
-  EXPECT_EQ(Refusal([&] { ApplyOverride("contact.radius_m=-1", settings); }),
+  EXPECT_EQ(SettingsRefusal([&] { ApplyOverride("contact.radius_m=-1", settings); }),
             "--set contact.radius_m=-1: key 'contact.radius_m': must be >= 0, not -1");
-  EXPECT_THAT(Refusal([&] { ApplyOverride("radius_m=1", settings); }),
+  EXPECT_THAT(SettingsRefusal([&] { ApplyOverride("radius_m=1", settings); }),
               AllOf(HasSubstr("unknown key 'radius_m'"), HasSubstr("--set")));
-  EXPECT_THAT(Refusal([&] { ApplyOverride("cuont=1", settings); }), HasSubstr("mean 'count'"));
-  EXPECT_THAT(Refusal([&] { ApplyOverride("count", settings); }), HasSubstr("KEY=VALUE"));
-  EXPECT_THAT(Refusal([&] { ApplyOverride("=1", settings); }), HasSubstr("KEY=VALUE"));
-  EXPECT_THAT(Refusal([&] { ApplyOverride("count=", settings); }), HasSubstr("must have a value"));
+  EXPECT_THAT(SettingsRefusal([&] { ApplyOverride("cuont=1", settings); }),
+              HasSubstr("mean 'count'"));
+  EXPECT_THAT(SettingsRefusal([&] { ApplyOverride("count", settings); }), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(SettingsRefusal([&] { ApplyOverride("=1", settings); }), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(SettingsRefusal([&] { ApplyOverride("count=", settings); }),
+              HasSubstr("must have a value"));
 }
 
 TEST(Settings, PrintedYamlReadsBackAsTheSameValues) {
-  Config config;
+  SettingsConfig config;
   config.frame_id = "a \"b\" \\ c: #d";
   config.robot_file = "/robots/no";
   config.names = {"yes", "12"};
   config.contact.radius_m = 1.0 / 3.0;
-  Config back;
+  SettingsConfig back;
   Load(PrintYaml(ListSettings(config)), &back);
   EXPECT_EQ(PrintYaml(ListSettings(back)), PrintYaml(ListSettings(config)));
   EXPECT_EQ(back.frame_id, config.frame_id);
@@ -170,7 +176,7 @@ TEST(Settings, PrintedYamlReadsBackAsTheSameValues) {
 }
 
 TEST(Settings, PrintedYamlShowsHelpAndRange) {
-  Config config;
+  SettingsConfig config;
   const std::string yaml = PrintYaml(ListSettings(config));
   EXPECT_THAT(yaml, HasSubstr("# Stiffness of the material at rest (>= 1)\n"
                               "youngs_modulus_Pa: 65000\n"));
@@ -179,7 +185,7 @@ TEST(Settings, PrintedYamlShowsHelpAndRange) {
 }
 
 TEST(Settings, MarkdownHasOneRowForEachParameter) {
-  Config config;
+  SettingsConfig config;
   const std::string table = PrintMarkdown(ListSettings(config));
   EXPECT_THAT(table, HasSubstr("| parameter | default | range | meaning |\n|---|---|---|---|\n"));
   EXPECT_THAT(table, HasSubstr("| `count` | `51` | > 0 and <= 100 | Feature points |\n"));

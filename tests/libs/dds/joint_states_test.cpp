@@ -5,17 +5,14 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
-
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::dds {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(JointStates, ComeInTheRobotsOrderAndNanMeansNotKnown) {
   Message<idl::sensor_msgs::JointState> message;
@@ -23,7 +20,7 @@ TEST(JointStates, ComeInTheRobotsOrderAndNanMeansNotKnown) {
   Resize(message->name, 2);
   SetText(message->name._buffer[0], "south");
   SetText(message->name._buffer[1], "north");
-  const std::vector<double> displacements_m{kNan, 0.01}, tensions_N{3.0, kNan};
+  const std::vector<double> displacements_m{kNaN, 0.01}, tensions_N{3.0, kNaN};
   SetNumbers(message->position, displacements_m.data(), 2);
   SetNumbers(message->effort, tensions_N.data(), 2);
   CableReading reading;

@@ -5,17 +5,15 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
-
 #include "libs/dds/message.hpp"
 #include "palpate_msgs/msg/Marker3.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::dds {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> kNames{"m1", "m2", "m3"};
 
 Message<idl::palpate_msgs::MarkerArray3> TwoMarkers() {
@@ -27,12 +25,12 @@ Message<idl::palpate_msgs::MarkerArray3> TwoMarkers() {
   markers[0].sigma_m = {1e-4, 2e-4, 3e-4};
   markers[0].valid = true;
   SetText(markers[1].name, "m1");
-  markers[1].position_m = {kNan, 0.0, 0.0};
+  markers[1].position_m = {kNaN, 0.0, 0.0};
   return message;
 }
 
 template <typename Change>
-std::string RefusalAfter(const Change& change) {
+std::string MarkersRefusalAfter(const Change& change) {
   auto message = TwoMarkers();
   change(message->markers._buffer[0]);
   std::vector<NamedMarker> markers;
@@ -85,20 +83,22 @@ TEST(NamedMarkers, MayBeWithoutANameWhereThatIsAllowed) {
 
 TEST(NamedMarkers, AreRefusedWhereTheyCannotBeUsed) {
   using Marker = idl::palpate_msgs::Marker3;
-  EXPECT_EQ(RefusalAfter([](Marker&) {}), "");
-  EXPECT_THAT(RefusalAfter([](Marker& m) { SetText(m.name, "m33"); }),
+  EXPECT_EQ(MarkersRefusalAfter([](Marker&) {}), "");
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { SetText(m.name, "m33"); }),
               HasSubstr("unknown marker 'm33' (did you mean 'm3'?)"));
-  EXPECT_THAT(RefusalAfter([](Marker& m) { SetText(m.name, "m1"); }),
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { SetText(m.name, "m1"); }),
               HasSubstr("'m1' comes twice"));
-  EXPECT_THAT(RefusalAfter([](Marker& m) { m.position_m.y = kNan; }),
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { m.position_m.y = kNaN; }),
               HasSubstr("'m3' is not finite"));
-  EXPECT_THAT(RefusalAfter([](Marker& m) { m.sigma_m.y = kNan; }), HasSubstr("'m3' is not finite"));
-  EXPECT_THAT(RefusalAfter([](Marker& m) { m.sigma_m.y = -1.0; }), HasSubstr("'m3' is not finite"));
-  for (const double off : {kNan, 1e-3}) {  // of no symmetric matrix
-    EXPECT_THAT(RefusalAfter([&](Marker& m) { m.covariance_m2[1] = off; }),
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { m.sigma_m.y = kNaN; }),
+              HasSubstr("'m3' is not finite"));
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { m.sigma_m.y = -1.0; }),
+              HasSubstr("'m3' is not finite"));
+  for (const double off : {kNaN, 1e-3}) {  // of no symmetric matrix
+    EXPECT_THAT(MarkersRefusalAfter([&](Marker& m) { m.covariance_m2[1] = off; }),
                 HasSubstr("covariance_m2 of marker 'm3' is no covariance"));
   }
-  EXPECT_THAT(RefusalAfter([](Marker& m) { m.covariance_m2[0] = 1e-6; }),
+  EXPECT_THAT(MarkersRefusalAfter([](Marker& m) { m.covariance_m2[0] = 1e-6; }),
               HasSubstr("no covariance"));
 }
 

@@ -11,7 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string RefusalOf(const std::string& content) {
+std::string ActuationRefusal(const std::string& content) {
   const TestFolder folder;
   const auto file = folder.Write("actuation.csv", content);
   return MessageOf([&] { ReadActuation(file); });
@@ -59,23 +59,23 @@ TEST(Actuation, ReadsBackExactlyWhatItWrote) {
 }
 
 TEST(Actuation, RefusesAColumnInAnotherUnitAndNamesTheRightOne) {
-  EXPECT_THAT(RefusalOf("t_s,north.displacement_mm\n0,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,north.displacement_mm\n0,1\n"),
               AllOf(HasSubstr("actuation.csv:1:5"), HasSubstr("metres are expected"),
                     HasSubstr("'north.displacement_m'")));
-  EXPECT_THAT(RefusalOf("t_s,north.tension_mN\n0,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,north.tension_mN\n0,1\n"),
               AllOf(HasSubstr("newtons are expected"), HasSubstr("'north.tension_N'")));
-  EXPECT_THAT(RefusalOf("t_ms,north.tension_N\n0,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_ms,north.tension_N\n0,1\n"),
               AllOf(HasSubstr(":1:1"), HasSubstr("seconds are expected"), HasSubstr("'t_s'")));
 }
 
 TEST(Actuation, RefusesAnUnknownOrDoubledOrMissingColumn) {
-  EXPECT_THAT(RefusalOf("t_s,north.displacment_m\n0,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,north.displacment_m\n0,1\n"),
               AllOf(HasSubstr(":1:5"), HasSubstr("did you mean 'north.displacement_m'")));
-  EXPECT_THAT(RefusalOf("t_s,north\n0,1\n"), HasSubstr("unknown column 'north'"));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N,a.tension_N\n0,1,2\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,north\n0,1\n"), HasSubstr("unknown column 'north'"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N,a.tension_N\n0,1,2\n"),
               AllOf(HasSubstr(":1:17"), HasSubstr("given twice")));
-  EXPECT_THAT(RefusalOf("a.tension_N\n1\n"), HasSubstr("'t_s' is missing"));
-  EXPECT_THAT(RefusalOf("t_s\n1\n"), HasSubstr("no column for a cable"));
+  EXPECT_THAT(ActuationRefusal("a.tension_N\n1\n"), HasSubstr("'t_s' is missing"));
+  EXPECT_THAT(ActuationRefusal("t_s\n1\n"), HasSubstr("no column for a cable"));
 }
 
 TEST(Actuation, TakesAColumnWithoutAnyValueForACableThatWasNotDriven) {
@@ -88,32 +88,33 @@ TEST(Actuation, TakesAColumnWithoutAnyValueForACableThatWasNotDriven) {
 
 TEST(Actuation, RefusesWhatIsNoFiniteNumber) {
   for (const std::string bad : {"nan", "inf", "1,5", "0x3", "1 N", "--1"}) {
-    EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0,1\n1," + bad + "\n"), HasSubstr("actuation.csv:3:"))
+    EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0,1\n1," + bad + "\n"),
+                HasSubstr("actuation.csv:3:"))
         << bad;
   }
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\nnan,1\n"), HasSubstr("actuation.csv:2:1"));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n,1\n"), HasSubstr("must not be empty"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\nnan,1\n"), HasSubstr("actuation.csv:2:1"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n,1\n"), HasSubstr("must not be empty"));
 }
 
 TEST(Actuation, RefusesTimeThatDoesNotRise) {
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0,1\n2,1\n1,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0,1\n2,1\n1,1\n"),
               AllOf(HasSubstr("actuation.csv:4:1"), HasSubstr("time must rise")));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0,1\n0,1\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0,1\n0,1\n"),
               AllOf(HasSubstr("actuation.csv:3:1"), HasSubstr("second sample")));
 }
 
 TEST(Actuation, RefusesValuesThatNoCableCanHave) {
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0,-0.5\n"),
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0,-0.5\n"),
               AllOf(HasSubstr(":2:3"), HasSubstr("cannot push")));
-  EXPECT_THAT(RefusalOf("t_s,a.displacement_m\n0,10\n"), HasSubstr("millimetres?"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.displacement_m\n0,10\n"), HasSubstr("millimetres?"));
 }
 
 TEST(Actuation, RefusesAFileWithoutRowsOrOutOfShape) {
-  EXPECT_THAT(RefusalOf(""), HasSubstr("empty"));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n"), HasSubstr("no row"));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0,1,2\n"),
+  EXPECT_THAT(ActuationRefusal(""), HasSubstr("empty"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n"), HasSubstr("no row"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0,1,2\n"),
               AllOf(HasSubstr(":2:1"), HasSubstr("3 fields"), HasSubstr("2")));
-  EXPECT_THAT(RefusalOf("t_s,a.tension_N\n0\n"), HasSubstr("1 fields"));
+  EXPECT_THAT(ActuationRefusal("t_s,a.tension_N\n0\n"), HasSubstr("1 fields"));
   EXPECT_THAT(MessageOf([] { ReadActuation("/nowhere/actuation.csv"); }),
               HasSubstr("/nowhere/actuation.csv"));
 }

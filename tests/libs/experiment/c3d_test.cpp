@@ -30,13 +30,13 @@ C3dContent TwoPoints() {
   return content;
 }
 
-CapturedMarkers Read(const std::string& bytes, const C3dOptions& options = {}) {
+CapturedMarkers ReadBytes(const std::string& bytes, const C3dOptions& options = {}) {
   const TestFolder folder;
   return ReadC3d(folder.Write("f.c3d", bytes), options);
 }
 
-std::string RefusalOf(const std::string& bytes) {
-  return MessageOf([&] { Read(bytes); });
+std::string BytesRefusal(const std::string& bytes) {
+  return MessageOf([&] { ReadBytes(bytes); });
 }
 
 struct Encoding {
@@ -51,7 +51,7 @@ TEST_P(C3dEncoding, HoldsTheSamePointsInEveryByteOrderAndNumberFormat) {
   content.processor = GetParam().processor;
   content.real_points = GetParam().real_points;
   content.analog_values_per_frame = 3;
-  const CapturedMarkers captured = Read(WriteC3d(content));
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
   EXPECT_THAT(captured.tracks.names, ElementsAre("tip", "Base-1"));
   EXPECT_DOUBLE_EQ(captured.rate_Hz, 50.0);
   ASSERT_EQ(captured.tracks.frames.size(), 20u);
@@ -79,19 +79,19 @@ TEST(C3d, ConvertsMillimetresCentimetresAndMetres) {
   C3dContent content = TwoPoints();
   for (const auto& [unit, metres] : {std::pair{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}}) {
     content.unit = unit;
-    const CapturedMarkers captured = Read(WriteC3d(content));
+    const CapturedMarkers captured = ReadBytes(WriteC3d(content));
     EXPECT_NEAR(captured.tracks.frames[0].positions_m[0]->x(), 10.0 * metres, 1e-6 * metres);
     EXPECT_NEAR(captured.residuals_m[5][0].value(), 0.05 * metres, 1e-6 * metres);
   }
   content.unit = "furlong";
-  EXPECT_THAT(RefusalOf(WriteC3d(content)), HasSubstr("'furlong' is not known"));
+  EXPECT_THAT(BytesRefusal(WriteC3d(content)), HasSubstr("'furlong' is not known"));
 }
 
 TEST(C3d, RefusesToGuessAnAbsentUnit) {
   C3dContent content = TwoPoints();
   content.unit = std::nullopt;
-  EXPECT_THAT(RefusalOf(WriteC3d(content)), HasSubstr("unit of length"));
-  const CapturedMarkers captured = Read(WriteC3d(content), {.unit_if_absent = "cm"});
+  EXPECT_THAT(BytesRefusal(WriteC3d(content)), HasSubstr("unit of length"));
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content), {.unit_if_absent = "cm"});
   EXPECT_NEAR(captured.tracks.frames[0].positions_m[0]->x(), 0.1, 1e-9);
 }
 
@@ -106,7 +106,7 @@ TEST(C3d, CountsMoreFramesThanSixteenBitsHold) {
   for (const bool trial : {true, false}) {
     content.trial_fields = trial;
     content.long_frames = !trial;
-    const CapturedMarkers captured = Read(WriteC3d(content));
+    const CapturedMarkers captured = ReadBytes(WriteC3d(content));
     ASSERT_EQ(captured.tracks.frames.size(), 70000u);
     EXPECT_NEAR(captured.tracks.frames[69999].positions_m[0]->x(), 1e-3 * (69999 % 300), 1e-8);
   }
@@ -118,17 +118,17 @@ TEST(C3d, ReadsLabelsBeyondTheFirstParameterAndNamesTheRest) {
   content.labels[4] = " ";
   content.labels_in_one_parameter = 3;
   content.frames.assign(2, std::vector<C3dContent::Point>(7));
-  EXPECT_THAT(Read(WriteC3d(content)).tracks.names,
+  EXPECT_THAT(ReadBytes(WriteC3d(content)).tracks.names,
               ElementsAre("p0", "p1", "p2", "p3", "unlabelled_5", "p5", "p6"));
   content.labels[6] = "p0";
-  EXPECT_THAT(RefusalOf(WriteC3d(content)), HasSubstr("'p0' is given to two points"));
+  EXPECT_THAT(BytesRefusal(WriteC3d(content)), HasSubstr("'p0' is given to two points"));
 }
 
 TEST(C3d, CountsTimeFromTheFirstFrameOfTheFile) {
   C3dContent content = TwoPoints();
   content.first_frame = 301;
   content.trial_fields = true;
-  const CapturedMarkers captured = Read(WriteC3d(content));
+  const CapturedMarkers captured = ReadBytes(WriteC3d(content));
   EXPECT_EQ(captured.tracks.frames.size(), 20u);
   EXPECT_EQ(captured.tracks.frames[0].t_s, 0.0);
 }
@@ -138,7 +138,7 @@ TEST(C3d, RefusesAFileThatIsNoneOrContradictsItselfWithTheByte) {
   const auto with = [&](std::size_t offset, char value) {
     std::string bytes = good;
     bytes.at(offset) = value;
-    return RefusalOf(bytes);
+    return BytesRefusal(bytes);
   };
   EXPECT_THAT(with(1, 0), AllOf(HasSubstr("f.c3d: at byte 1:"), HasSubstr("no C3D file")));
   EXPECT_THAT(with(0, 0), HasSubstr("at byte 0:"));
@@ -147,14 +147,14 @@ TEST(C3d, RefusesAFileThatIsNoneOrContradictsItselfWithTheByte) {
   EXPECT_THAT(with(8, 25), HasSubstr("POINT:FRAMES is 20, the header has 25"));
   EXPECT_THAT(with(15, 0x3c), HasSubstr("disagree whether points are integers"));
   EXPECT_THAT(with(16, 9), HasSubstr("POINT:DATA_START"));
-  EXPECT_THAT(RefusalOf(""), HasSubstr("at byte 0:"));
+  EXPECT_THAT(BytesRefusal(""), HasSubstr("at byte 0:"));
 }
 
 TEST(C3d, RefusesAPointThatIsNoFiniteNumber) {
   std::string bytes = WriteC3d(TwoPoints());
   const std::size_t data = bytes.size() - 1024;  // 20 frames of 32 bytes fill two blocks
   std::memcpy(bytes.data() + data, "\x00\x00\xc0\x7f", 4);
-  EXPECT_THAT(RefusalOf(bytes),
+  EXPECT_THAT(BytesRefusal(bytes),
               AllOf(HasSubstr("at byte " + std::to_string(data)), HasSubstr("coordinate")));
 }
 
@@ -162,11 +162,11 @@ TEST(C3d, RefusesEveryFileThatIsCutShort) {
   C3dContent content = TwoPoints();
   content.frames.resize(16);  // fills the block: no padding that could be cut unnoticed
   const std::string bytes = WriteC3d(content);
-  EXPECT_NO_THROW(Read(bytes));
+  EXPECT_NO_THROW(ReadBytes(bytes));
   for (std::size_t size = 0; size < bytes.size(); size += 7) {
-    EXPECT_THAT(RefusalOf(bytes.substr(0, size)), HasSubstr("at byte")) << size;
+    EXPECT_THAT(BytesRefusal(bytes.substr(0, size)), HasSubstr("at byte")) << size;
   }
-  EXPECT_THAT(RefusalOf(bytes.substr(0, bytes.size() - 1)), HasSubstr("16 frames"));
+  EXPECT_THAT(BytesRefusal(bytes.substr(0, bytes.size() - 1)), HasSubstr("16 frames"));
 }
 
 // A damaged file is read or refused, but never crashes the program.

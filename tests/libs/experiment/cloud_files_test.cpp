@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "libs/core/file.hpp"
 #include "libs/experiment/cloud/lzf.hpp"
@@ -11,6 +10,7 @@
 #include "libs/experiment/cloud/ply.hpp"
 #include "libs/experiment/cloud/point_cloud.hpp"
 #include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::experiment {
 namespace {
@@ -22,8 +22,6 @@ using testing::SizeIs;
 using testing::StartsWith;
 
 namespace fs = std::filesystem;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 PointCloud Small() {
   PointCloud cloud;

@@ -11,13 +11,13 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-CsvTable Parse(const std::string& content) {
+CsvTable ParseTable(const std::string& content) {
   const TestFolder folder;
   return CsvTable::Read(folder.Write("t.csv", content));
 }
 
 TEST(CsvTable, UnderstandsByteOrderMarksWindowsLinesBlanksAndQuotes) {
-  const CsvTable table = Parse("\xEF\xBB\xBF\"a\", b \r\n 1 ,\"x\"\r\n2,\r\n\r\n");
+  const CsvTable table = ParseTable("\xEF\xBB\xBF\"a\", b \r\n 1 ,\"x\"\r\n2,\r\n\r\n");
   EXPECT_EQ(table.header(), (std::vector<std::string>{"a", "b"}));
   ASSERT_EQ(table.rows(), 2u);
   EXPECT_EQ(table.Number(0, 0), 1.0);
@@ -26,7 +26,7 @@ TEST(CsvTable, UnderstandsByteOrderMarksWindowsLinesBlanksAndQuotes) {
 }
 
 TEST(CsvTable, KnowsLineAndColumnOfEachField) {
-  const CsvTable table = Parse("a,b\n10,20\n300,x");
+  const CsvTable table = ParseTable("a,b\n10,20\n300,x");
   EXPECT_EQ(table.Where(0, 1).line, 2);
   EXPECT_EQ(table.Where(0, 1).column, 4);
   EXPECT_EQ(table.Where(1, 1).line, 3);
@@ -36,17 +36,17 @@ TEST(CsvTable, KnowsLineAndColumnOfEachField) {
 }
 
 TEST(CsvTable, KeepsItsFieldsWhenMoved) {
-  CsvTable first = Parse("a\n7");
+  CsvTable first = ParseTable("a\n7");
   const CsvTable second = std::move(first);
   EXPECT_EQ(second.Number(0, 0), 7.0);
 }
 
 TEST(CsvTable, RefusesAnEmptyLineInTheMiddle) {
-  EXPECT_THAT(MessageOf([] { Parse("a,b\n1,2\n\n3,4\n"); }), HasSubstr("t.csv:3:1"));
+  EXPECT_THAT(MessageOf([] { ParseTable("a,b\n1,2\n\n3,4\n"); }), HasSubstr("t.csv:3:1"));
 }
 
 TEST(CsvTable, RefusesQuotesThatItCannotTakeApart) {
-  EXPECT_THAT(MessageOf([] { Parse("a,b\n\"1,5\",2\n"); }), HasSubstr("t.csv:2:1"));
+  EXPECT_THAT(MessageOf([] { ParseTable("a,b\n\"1,5\",2\n"); }), HasSubstr("t.csv:2:1"));
 }
 
 TEST(CsvTable, RefusesAFolder) {

@@ -15,17 +15,17 @@ using testing::SizeIs;
 
 constexpr const char* kHeader = "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n";
 
-std::vector<KnownLoad> Parse(const std::string& content) {
+std::vector<KnownLoad> ParseLoads(const std::string& content) {
   const TestFolder folder;
   return ReadLoads(folder.Write("loads.csv", content));
 }
 
-std::string RefusalOf(const std::string& content) {
-  return MessageOf([&] { Parse(content); });
+std::string LoadsRefusal(const std::string& content) {
+  return MessageOf([&] { ParseLoads(content); });
 }
 
 TEST(Loads, ASingleRowHoldsForTheWholeRecording) {
-  const auto loads = Parse(std::string(kHeader) + "3,0.1,0,0.03,0,0,-0.51\n");
+  const auto loads = ParseLoads(std::string(kHeader) + "3,0.1,0,0.03,0,0,-0.51\n");
   ASSERT_THAT(LoadsAt(loads, 0.0), SizeIs(1));
   EXPECT_EQ(LoadsAt(loads, 0.0)[0].force_N, Eigen::Vector3d(0, 0, -0.51));
   EXPECT_EQ(LoadsAt(loads, 9.0)[0].position_m, Eigen::Vector3d(0.1, 0, 0.03));
@@ -33,8 +33,8 @@ TEST(Loads, ASingleRowHoldsForTheWholeRecording) {
 }
 
 TEST(Loads, ARowHoldsUntilTheNextAndRowsOfEqualTimeActTogether) {
-  const auto loads = Parse(std::string(kHeader) +
-                           "1,0,0,0,0,0,-1\n2,0,0,0,0,0,-2\n2,0.1,0,0,0,0,-3\n4,0,0,0,0,0,0\n");
+  const auto loads = ParseLoads(
+      std::string(kHeader) + "1,0,0,0,0,0,-1\n2,0,0,0,0,0,-2\n2,0.1,0,0,0,0,-3\n4,0,0,0,0,0,0\n");
   EXPECT_THAT(LoadsAt(loads, 0.5), IsEmpty());
   ASSERT_THAT(LoadsAt(loads, 1.99), SizeIs(1));
   EXPECT_EQ(LoadsAt(loads, 1.99)[0].force_N.z(), -1.0);
@@ -47,7 +47,7 @@ TEST(Loads, ARowHoldsUntilTheNextAndRowsOfEqualTimeActTogether) {
 
 TEST(Loads, ReadBackExactlyWhatTheyWrote) {
   const TestFolder folder;
-  const auto first = Parse(
+  const auto first = ParseLoads(
       "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n"
       "0,0.1,0.2,0.3,1,2,3,0.005\n0,0,0,0,1,1,1,\n");
   EXPECT_EQ(first[1].patch_radius_m, 0.0);
@@ -60,21 +60,22 @@ TEST(Loads, ReadBackExactlyWhatTheyWrote) {
 }
 
 TEST(Loads, RefuseAnUnknownForceOrPlace) {
-  EXPECT_THAT(RefusalOf(std::string(kHeader) + "0,0,0,0,0,0,\n"),
+  EXPECT_THAT(LoadsRefusal(std::string(kHeader) + "0,0,0,0,0,0,\n"),
               AllOf(HasSubstr("loads.csv:2:13"), HasSubstr("must not be empty")));
-  EXPECT_THAT(RefusalOf(std::string(kHeader) + "0,nan,0,0,0,0,1\n"), HasSubstr("loads.csv:2:3"));
-  EXPECT_THAT(RefusalOf(std::string(kHeader) + "0,97,0,0,0,0,1\n"), HasSubstr("millimetres?"));
-  EXPECT_THAT(RefusalOf("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n0,0,0,0,0,0,1,-1\n"),
+  EXPECT_THAT(LoadsRefusal(std::string(kHeader) + "0,nan,0,0,0,0,1\n"), HasSubstr("loads.csv:2:3"));
+  EXPECT_THAT(LoadsRefusal(std::string(kHeader) + "0,97,0,0,0,0,1\n"), HasSubstr("millimetres?"));
+  EXPECT_THAT(LoadsRefusal("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n0,0,0,0,0,0,1,-1\n"),
               HasSubstr("loads.csv:2:15"));
-  EXPECT_THAT(RefusalOf("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_mm\n0,0,0,0,0,0,1,5\n"),
+  EXPECT_THAT(LoadsRefusal("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_mm\n0,0,0,0,0,0,1,5\n"),
               HasSubstr("'patch_radius_m'"));
-  EXPECT_THAT(RefusalOf("t_s,x_m,y_m,z_m,fx_mN,fy_N,fz_N\n0,0,0,0,0,0,1\n"), HasSubstr("newtons"));
+  EXPECT_THAT(LoadsRefusal("t_s,x_m,y_m,z_m,fx_mN,fy_N,fz_N\n0,0,0,0,0,0,1\n"),
+              HasSubstr("newtons"));
 }
 
 TEST(Loads, RefuseFallingTimeAndTwoLoadsAtOnePoint) {
-  EXPECT_THAT(RefusalOf(std::string(kHeader) + "1,0,0,0,0,0,1\n0,0,0,0,0,0,1\n"),
+  EXPECT_THAT(LoadsRefusal(std::string(kHeader) + "1,0,0,0,0,0,1\n0,0,0,0,0,0,1\n"),
               HasSubstr("loads.csv:3:1"));
-  EXPECT_THAT(RefusalOf(std::string(kHeader) + "1,0,0,0,0,0,1\n1,0,0,0,0,0,2\n"),
+  EXPECT_THAT(LoadsRefusal(std::string(kHeader) + "1,0,0,0,0,0,1\n1,0,0,0,0,0,2\n"),
               AllOf(HasSubstr("loads.csv:3"), HasSubstr("second load")));
 }
 

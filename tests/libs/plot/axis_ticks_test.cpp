@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "libs/core/error.hpp"
+#include "tests/support/not_a_number.hpp"
 
 namespace palpate::plot {
 namespace {
@@ -20,8 +20,6 @@ using testing::DoubleNear;
 using testing::Each;
 using testing::Ge;
 using testing::Le;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(AxisTicks, AreRoundInsideTheRangeAndEvenlyApart) {
   for (const AxisRange range : {AxisRange{0.0, 30.0},

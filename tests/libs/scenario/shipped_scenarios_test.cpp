@@ -28,7 +28,7 @@ Scenario Shipped(const std::string& name) {
 RobotNames Robot(const std::string& name) {
   return NamesOf(robot::ReadRobotFile(kSource / "config/robots" / (name + ".yaml"), app::LoadYaml));
 }
-RobotNames FourLeg() { return Robot("four_leg"); }
+RobotNames FourLegNames() { return Robot("four_leg"); }
 
 std::set<std::string> KindsOf(const Scenario& scenario) {
   std::set<std::string> kinds;
@@ -39,7 +39,7 @@ std::set<std::string> KindsOf(const Scenario& scenario) {
 TEST(ShippedScenarios, PushesIsForFourLegAndHasItInView) {
   const Scenario scenario = Shipped("pushes");
   EXPECT_EQ(scenario.name, "pushes");
-  EXPECT_NO_THROW(CheckAgainst(scenario, FourLeg()));
+  EXPECT_NO_THROW(CheckAgainst(scenario, FourLegNames()));
   ASSERT_TRUE(scenario.camera && scenario.markers);
   const Eigen::Isometry3d T_camera_robot = scenario.camera->T_robot_camera.inverse();
   EXPECT_NEAR((T_camera_robot * Eigen::Vector3d(0, 0, 0.06)).norm(), 0.45, 0.02);
@@ -69,7 +69,7 @@ TEST(ShippedScenarios, PushesRestsPushesAtOneAndTwoPlacesAndPulls) {
 
 TEST(ShippedScenarios, IdentifyHasEveryKindOfRecordingThatTellsCausesApart) {
   const Scenario scenario = Shipped("identify");
-  EXPECT_NO_THROW(CheckAgainst(scenario, FourLeg()));
+  EXPECT_NO_THROW(CheckAgainst(scenario, FourLegNames()));
   EXPECT_FALSE(scenario.camera);
   EXPECT_TRUE(scenario.markers);
   EXPECT_EQ(scenario.clutter, 1.0);
@@ -98,7 +98,7 @@ TEST(ShippedScenarios, KindsAreThoseOfAnExperiment) {
   }
 }
 
-std::string Row(const EffectKind& kind) {
+std::string TableRow(const EffectKind& kind) {
   std::string row = "| `" + std::string(kind.id) + "` | `" + DescribePlace(kind.place) + "` | ";
   for (const EffectParameter& parameter : kind.parameters) {
     if (&parameter != &kind.parameters.front()) row += "<br>";
@@ -113,7 +113,7 @@ std::string Row(const EffectKind& kind) {
 
 TEST(ScenarioReadme, HoldsTheCatalogueAsItIs) {
   std::string table = "| id | where | parameters | what |\n|---|---|---|---|\n";
-  for (const EffectKind& kind : EffectCatalogue()) table += Row(kind);
+  for (const EffectKind& kind : EffectCatalogue()) table += TableRow(kind);
   EXPECT_THAT(ReadFile(kSource / "libs/scenario/README.md"), HasSubstr(table));
 }
 

@@ -9,7 +9,7 @@ namespace palpate::test_support {
 
 namespace {
 
-constexpr double kSameSurface_m = 1e-3;  ///< seen squarely; more where it is seen edge-on
+constexpr double kSameDepth_m = 1e-3;    ///< seen squarely; more where it is seen edge-on
 constexpr double kSmallestCosine = 0.1;  ///< beyond it nothing counts as seen
 
 }  // namespace
@@ -54,7 +54,7 @@ bool SceneSight::IsSeen(const Eigen::Vector3d& centroid_m, const Eigen::Vector3d
   if (!((pixel >= 0.0).all() && (pixel <= last).all())) return false;
   const auto z_m =
       static_cast<double>(view_.Z_m(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())));
-  return z_m > 0.0 && point_m.z() < z_m + kSameSurface_m / cosine;
+  return z_m > 0.0 && point_m.z() < z_m + kSameDepth_m / cosine;
 }
 
 }  // namespace palpate::test_support

@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // Times in the terms are printed; what is asserted leaves a busy machine its room.
-constexpr seconds kPatience{30};
+constexpr seconds kCameraPatience{30};
 
 // Files and threads of a connection that is being taken down beside the present one.
 constexpr std::size_t kPassing = 6;
@@ -32,14 +32,15 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 class LostCamera : public ::testing::Test {
  protected:
   bool WaitForFrames(std::size_t count) {
-    return listener_.WaitFor([&] { return listener_.CompleteCount() >= count; }, kPatience * 2);
+    return listener_.WaitFor([&] { return listener_.CompleteCount() >= count; },
+                             kCameraPatience * 2);
   }
   bool WaitForStatus(bool ok) {
     return listener_.WaitFor(
         [&] {
           return !listener_.reports().empty() && (listener_.reports().back().status == "ok") == ok;
         },
-        kPatience);
+        kCameraPatience);
   }
   /// Kills the camera for so long; returns when frames come again.
   void KillFor(milliseconds pause);
@@ -87,7 +88,7 @@ TEST_F(LostCamera, IsReportedAndTakenUpAgain) {
   EXPECT_LE(after.files, before.files + kPassing);
   EXPECT_LE(after.threads, before.threads + kPassing);
   bench_.capture->Signal(SIGTERM);
-  EXPECT_EQ(bench_.capture->Wait(kPatience), 0) << bench_.capture->Output();
+  EXPECT_EQ(bench_.capture->Wait(kCameraPatience), 0) << bench_.capture->Output();
 }
 
 TEST_F(LostCamera, ACaptureProcessThatWasKilledLocksNobodyOut) {

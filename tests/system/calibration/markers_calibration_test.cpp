@@ -30,13 +30,13 @@ using ::testing::HasSubstr;
 
 /// Three settings of the cables, one after the other, of a body of another mesh than the model's,
 /// which is the coarse one here: shapes of many settings are solved to tell markers apart.
-const std::string kScenario = R"(name: settings
+const std::string kMarkerScenario = R"(name: settings
 body: {mesh_file: four_leg.msh, refine: 0, element: tet10, material: {youngs_modulus_Pa: 96.7e3}}
 effects:
   - {id: cable_offset, where: "cable:north", offset_m: 0.0008}
 markers: {sigma_m: 3.0e-4, rate_hz: 20}
 )" + kBallBeforeASmallCamera +
-                              R"(recordings:
+                                    R"(recordings:
   - name: settings
     kind: ramp
     duration_s: 4.4
@@ -70,7 +70,7 @@ class LiveCalibrationFromMarkers : public testing::Test {
     std::filesystem::copy_file(config / "scenarios/four_leg_coarse.msh",
                                folder_ / "four_leg_coarse.msh");
     std::filesystem::copy_file(config / "robots/four_leg.msh", folder_ / "four_leg.msh");
-    WriteFile(folder_ / "settings.yaml", kScenario);
+    WriteFile(folder_ / "settings.yaml", kMarkerScenario);
     std::string description = ReadFile(config / "robots/four_leg.yaml");
     const std::string fine = "four_leg.msh";
     description.replace(description.find(fine), fine.size(), "four_leg_coarse.msh");

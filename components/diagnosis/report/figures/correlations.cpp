@@ -14,8 +14,8 @@ namespace {
 
 using plot::SvgText;
 
-constexpr double kTop_px = 66.0, kBottom_px = 14.0, kRight_px = 12.0;
-constexpr double kScaleTitle_px = 150.0, kWidestName_px = 230.0, kLargestCell_px = 44.0;
+constexpr double kMatrixTop_px = 66.0, kMatrixBottom_px = 14.0, kMatrixRight_px = 12.0;
+constexpr double kScaleTitle_px = 150.0, kMatrixWidestName_px = 230.0, kLargestCell_px = 44.0;
 constexpr Eigen::Index kMostCauses = 12;
 
 /// -1: vermilion, 0: white, 1: blue.
@@ -24,7 +24,7 @@ plot::Color ColorOf(double correlation) {
   return plot::Mix(plot::palette::kPaper, correlation < 0.0 ? ink::kBefore : ink::kAfter, size);
 }
 
-void DrawScale(double left_px, plot::SvgDocument* svg) {
+void DrawColorScale(double left_px, plot::SvgDocument* svg) {
   constexpr int kSteps = 41;
   constexpr double kStep_px = 5.0;
   for (int i = 0; i < kSteps; ++i) {
@@ -79,23 +79,25 @@ Figure DrawCorrelations(const DiagnosisResult& result) {
                    result.correlation_names[static_cast<std::size_t>(i)]);
     name_px = std::max(name_px, plot::TextWidth_px(rows.back(), kLabelSize_px));
   }
-  const double left_px = std::clamp(name_px, kScaleTitle_px, kWidestName_px) + 20.0;
+  const double left_px = std::clamp(name_px, kScaleTitle_px, kMatrixWidestName_px) + 20.0;
   const double cell_px = std::min(
-      kLargestCell_px, (kFigureWidth_px - left_px - kRight_px) / static_cast<double>(count));
+      kLargestCell_px, (kFigureWidth_px - left_px - kMatrixRight_px) / static_cast<double>(count));
   plot::SvgDocument svg(
       kFigureWidth_px,
-      static_cast<int>(kTop_px + cell_px * static_cast<double>(count) + kBottom_px), figure.id);
-  DrawScale(left_px, &svg);
+      static_cast<int>(kMatrixTop_px + cell_px * static_cast<double>(count) + kMatrixBottom_px),
+      figure.id);
+  DrawColorScale(left_px, &svg);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double i_px = static_cast<double>(i) * cell_px;
-    svg.Text({left_px - 8.0, kTop_px + i_px + 0.5 * cell_px + 4.0},
-             plot::Shortened(rows[static_cast<std::size_t>(i)], kLabelSize_px, kWidestName_px),
-             {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
-    svg.Text({left_px + i_px + 0.5 * cell_px, kTop_px - 7.0}, std::to_string(i + 1),
+    svg.Text(
+        {left_px - 8.0, kMatrixTop_px + i_px + 0.5 * cell_px + 4.0},
+        plot::Shortened(rows[static_cast<std::size_t>(i)], kLabelSize_px, kMatrixWidestName_px),
+        {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
+    svg.Text({left_px + i_px + 0.5 * cell_px, kMatrixTop_px - 7.0}, std::to_string(i + 1),
              {.anchor = SvgText::Anchor::kMiddle, .size_px = kLabelSize_px});
     for (Eigen::Index k = 0; k < count; ++k) {
       DrawCell(result.correlation(i, k),
-               {left_px + static_cast<double>(k) * cell_px, kTop_px + i_px}, cell_px, &svg);
+               {left_px + static_cast<double>(k) * cell_px, kMatrixTop_px + i_px}, cell_px, &svg);
     }
   }
   figure.svg = svg.Element();

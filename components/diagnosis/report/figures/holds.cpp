@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostPanels = 4;
 /// Fewer say nothing about how something goes on.
-constexpr std::size_t kFewestMoments = 5;
+constexpr std::size_t kFewestOfHold = 5;
 
 bool SameCommand(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   if (a.size() != b.size()) return false;
@@ -106,7 +106,7 @@ Figure DrawHolds(const DiagnosisResult& result) {
   for (const Moments& of_recording : moments) {
     const Moments hold = LongestHold(of_recording);
     const DominantResidual rise = FindRise(hold, LogTimes(hold));
-    if (hold.size() < kFewestMoments || rise.marker < 0) continue;
+    if (hold.size() < kFewestOfHold || rise.marker < 0) continue;
     if (panels.size() < kMostPanels) panels.push_back(MakePanel(result, hold, rise));
   }
   if (panels.empty()) {

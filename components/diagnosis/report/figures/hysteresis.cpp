@@ -14,7 +14,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-constexpr std::size_t kMostPanels = 4;
+constexpr std::size_t kMostLoops = 4;
 
 double CommandOf(const ComparedMoment& moment, Eigen::Index cable) {
   return cable < moment.command.size() ? moment.command[cable]
@@ -76,7 +76,7 @@ std::vector<Loop> FindLoops(const DiagnosisResult& result, const std::vector<Mom
   return loops;
 }
 
-TracePanel MakePanel(const DiagnosisResult& result, const Loop& loop, const Moments& moments) {
+TracePanel MakeLoopPanel(const DiagnosisResult& result, const Loop& loop, const Moments& moments) {
   const auto cable = static_cast<std::size_t>(loop.cable);
   const bool in_N = UnitOf(result, cable) == "N";
   const double factor = in_N ? 1.0 : 1e3;
@@ -124,9 +124,10 @@ Figure DrawHysteresis(const DiagnosisResult& result) {
   }
   std::stable_sort(loops.begin(), loops.end(),
                    [](const Loop& a, const Loop& b) { return a.travel > b.travel; });
-  loops.resize(std::min(loops.size(), kMostPanels));
+  loops.resize(std::min(loops.size(), kMostLoops));
   std::vector<TracePanel> panels;
-  for (const Loop& loop : loops) panels.push_back(MakePanel(result, loop, moments[loop.recording]));
+  for (const Loop& loop : loops)
+    panels.push_back(MakeLoopPanel(result, loop, moments[loop.recording]));
   figure.svg = DrawTracePanels(figure.id, panels, !result.causes.empty());
   return figure;
 }

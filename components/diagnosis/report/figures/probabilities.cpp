@@ -16,8 +16,9 @@ namespace {
 
 using plot::SvgText;
 
-constexpr double kTop_px = 36.0, kRow_px = 24.0, kBar_px = 14.0, kBottom_px = 46.0;
-constexpr double kRight_px = 74.0, kWidestName_px = 290.0;
+constexpr double kProbabilityTop_px = 36.0, kProbabilityRow_px = 24.0, kProbabilityBar_px = 14.0,
+                 kProbabilityBottom_px = 46.0;
+constexpr double kProbabilityRight_px = 74.0, kProbabilityWidestName_px = 290.0;
 constexpr std::size_t kMostRivals = 8;
 
 struct Bar {
@@ -57,9 +58,10 @@ Figure DrawProbabilities(const DiagnosisResult& result) {
   for (const Bar& bar : bars) {
     name_px = std::max(name_px, plot::TextWidth_px(bar.name, kLabelSize_px));
   }
-  const double left_px = std::min(name_px, kWidestName_px) + 20.0;
-  const double height_px = kRow_px * static_cast<double>(bars.size()) + 6.0;
-  plot::SvgDocument svg(kFigureWidth_px, static_cast<int>(kTop_px + height_px + kBottom_px),
+  const double left_px = std::min(name_px, kProbabilityWidestName_px) + 20.0;
+  const double height_px = kProbabilityRow_px * static_cast<double>(bars.size()) + 6.0;
+  plot::SvgDocument svg(kFigureWidth_px,
+                        static_cast<int>(kProbabilityTop_px + height_px + kProbabilityBottom_px),
                         figure.id);
   std::vector<LegendEntry> legend;
   if (!result.causes.empty()) legend.push_back({"named", ink::kAfter});
@@ -67,18 +69,20 @@ Figure DrawProbabilities(const DiagnosisResult& result) {
   legend.push_back({"none", ink::kNone});
   legend.push_back({"other", ink::kHealthy});
   DrawLegend(legend, {left_px, 18.0}, kFigureWidth_px - left_px, &svg);
-  const plot::PlotArea area({left_px, kTop_px}, kFigureWidth_px - left_px - kRight_px, height_px,
-                            {0.0, 1.0}, {0.0, 1.0});
+  const plot::PlotArea area({left_px, kProbabilityTop_px},
+                            kFigureWidth_px - left_px - kProbabilityRight_px, height_px, {0.0, 1.0},
+                            {0.0, 1.0});
   plot::DrawAxes(area, plot::MakeTicks({0.0, 1.0}, 5), {}, true, &svg);
-  double y_px = kTop_px + 8.0;
+  double y_px = kProbabilityTop_px + 8.0;
   for (const Bar& bar : bars) {
     const double share = std::isfinite(bar.probability) ? std::clamp(bar.probability, 0.0, 1.0) : 0;
-    svg.Rectangle({left_px, y_px}, share * area.width_px(), kBar_px, bar.color);
+    svg.Rectangle({left_px, y_px}, share * area.width_px(), kProbabilityBar_px, bar.color);
     svg.Text({left_px + share * area.width_px() + 6.0, y_px + 11.0},
              ProbabilityText(bar.probability), {.size_px = kLabelSize_px});
-    svg.Text({left_px - 8.0, y_px + 11.0}, plot::Shortened(bar.name, kLabelSize_px, kWidestName_px),
+    svg.Text({left_px - 8.0, y_px + 11.0},
+             plot::Shortened(bar.name, kLabelSize_px, kProbabilityWidestName_px),
              {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
-    y_px += kRow_px;
+    y_px += kProbabilityRow_px;
   }
   svg.Text({0.5 * (area.left_px() + area.right_px()), area.bottom_px() + 36.0},
            "probability (no unit)", {.anchor = SvgText::Anchor::kMiddle, .size_px = kLabelSize_px});

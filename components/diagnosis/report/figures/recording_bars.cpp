@@ -16,9 +16,9 @@ namespace {
 
 using plot::SvgText;
 
-constexpr double kTop_px = 14.0, kBottom_px = 46.0, kRight_px = 24.0;
-constexpr double kBar_px = 7.0, kBetween_px = 11.0;
-constexpr double kWidestName_px = 190.0;
+constexpr double kBarsTop_px = 14.0, kBarsBottom_px = 46.0, kBarsRight_px = 24.0;
+constexpr double kBarsBar_px = 7.0, kBetween_px = 11.0;
+constexpr double kBarsWidestName_px = 190.0;
 /// More do not fit on a page; the table holds all.
 constexpr std::size_t kMostRecordings = 18;
 
@@ -71,9 +71,9 @@ void DrawRow(const RecordingGap& recording, const std::vector<Series>& series,
     const double value_m = recording.*one.value_m;
     if (std::isfinite(value_m)) {
       svg->Rectangle({area.left_px(), y_px}, area.X_px(1e3 * value_m) - area.left_px(),
-                     kBar_px - 1.0, one.color);
+                     kBarsBar_px - 1.0, one.color);
     }
-    y_px += kBar_px;
+    y_px += kBarsBar_px;
   }
   if (!std::isfinite(recording.noise_m)) return;
   const double noise_px = area.X_px(1e3 * recording.noise_m);
@@ -110,15 +110,15 @@ Figure DrawRecordingBars(const DiagnosisResult& result) {
     }
     if (recording.noise_m > 0.0) highest_mm = std::max(highest_mm, 1e3 * recording.noise_m);
   }
-  name_px = std::min(name_px, kWidestName_px);
+  name_px = std::min(name_px, kBarsWidestName_px);
   std::vector<LegendEntry> legend;
   for (const Series& one : series) legend.push_back({one.name, one.color});
   legend.push_back({"noise", plot::palette::kInk, LegendEntry::Mark::kTick});
-  const double group_px = kBar_px * static_cast<double>(series.size()) + kBetween_px;
-  const double left_px = name_px + 20.0, width_px = kFigureWidth_px - left_px - kRight_px;
-  const double top_px = kTop_px + LegendHeight_px(legend, kFigureWidth_px - 20.0);
+  const double group_px = kBarsBar_px * static_cast<double>(series.size()) + kBetween_px;
+  const double left_px = name_px + 20.0, width_px = kFigureWidth_px - left_px - kBarsRight_px;
+  const double top_px = kBarsTop_px + LegendHeight_px(legend, kFigureWidth_px - 20.0);
   const double height_px = group_px * static_cast<double>(recordings.size()) + 4.0;
-  plot::SvgDocument svg(kFigureWidth_px, static_cast<int>(top_px + height_px + kBottom_px),
+  plot::SvgDocument svg(kFigureWidth_px, static_cast<int>(top_px + height_px + kBarsBottom_px),
                         figure.id);
   DrawLegend(legend, {10.0, 18.0}, kFigureWidth_px - 20.0, &svg);
   const plot::AxisRange range =
@@ -129,7 +129,7 @@ Figure DrawRecordingBars(const DiagnosisResult& result) {
   for (const RecordingGap& recording : recordings) {
     DrawRow(recording, series, area, y_px, &svg);
     svg.Text({left_px - 8.0, y_px + 0.5 * (group_px - kBetween_px) + 4.0},
-             plot::Shortened(recording.name, kLabelSize_px, kWidestName_px),
+             plot::Shortened(recording.name, kLabelSize_px, kBarsWidestName_px),
              {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
     y_px += group_px;
   }

@@ -13,8 +13,8 @@
 namespace palpate::calibration {
 namespace {
 
-constexpr double kSigma = 0.003;
-constexpr int kPoseRows = 6;
+constexpr double kBiasSigma = 0.003;
+constexpr int kPoseNumbers = 6;
 constexpr int kSeeds = 6;
 constexpr double kNoNoise_m = 1e-7;
 
@@ -26,7 +26,7 @@ class DepthBiasOfAnotherRobot : public ::testing::Test {
   void Begin(std::uint64_t seed) {
     random_.seed(seed);
     robot_ = Mould();
-    std::normal_distribution<double> normal(0.0, kSigma);
+    std::normal_distribution<double> normal(0.0, kBiasSigma);
     true_bias_.coefficients.resize(geometry::CountOf(true_bias_.basis));
     for (double& coefficient : true_bias_.coefficients) coefficient = normal(random_);
   }
@@ -81,7 +81,7 @@ class DepthBiasOfAnotherRobot : public ::testing::Test {
   static Eigen::VectorXd Difference(const geometry::RigidTransform& T_a, const Eigen::VectorXd& a,
                                     const geometry::RigidTransform& T_b, const Eigen::VectorXd& b) {
     const Eigen::AngleAxisd turn(T_a.rotation() * T_b.rotation().conjugate());
-    Eigen::VectorXd difference(kPoseRows + a.size());
+    Eigen::VectorXd difference(kPoseNumbers + a.size());
     difference << turn.angle() * turn.axis(), T_a.translation_m() - T_b.translation_m(), a - b;
     return difference;
   }

@@ -19,7 +19,7 @@
 namespace palpate::calibration {
 namespace {
 
-constexpr double kNoise_m = 3e-4;
+constexpr double kMarkerNoise_m = 3e-4;
 constexpr double kOffsetSigma_m = 5e-4;
 constexpr int kSettings = 6;
 
@@ -50,7 +50,7 @@ class TableTwo : public testing::Test {
         true_m.push_back(Pulled_m(k, c) + offset_m[static_cast<size_t>(c)]);
       }
       CalibrationFrame frame = See(*bench_, TableOnePose(), "setting " + std::to_string(k),
-                                   Commands(Kind::kDisplacement, true_m), {}, kNoise_m);
+                                   Commands(Kind::kDisplacement, true_m), {}, kMarkerNoise_m);
       frame.cables = Commands(Kind::kDisplacement, commanded_m);
       frames.push_back(std::move(frame));
     }
@@ -58,7 +58,7 @@ class TableTwo : public testing::Test {
   }
 
   static void AddNoise(std::mt19937_64* random, std::vector<CalibrationFrame>* frames) {
-    std::normal_distribution<double> noise(0.0, kNoise_m);
+    std::normal_distribution<double> noise(0.0, kMarkerNoise_m);
     for (CalibrationFrame& frame : *frames) {
       for (MarkerSighting& sighting : frame.markers) {
         for (double& coordinate : sighting.position_m) coordinate += noise(*random);
@@ -145,7 +145,7 @@ MeshError Differ(robot::RobotModel& bench, robot::RobotModel& model,
     std::vector<double> pulls_m;
     for (int c = 0; c < 4; ++c) pulls_m.push_back(pulled_m(setting, c));
     return PositionsOf(See(one, geometry::RigidTransform(), "",
-                           Commands(Kind::kDisplacement, pulls_m), {}, kNoise_m)
+                           Commands(Kind::kDisplacement, pulls_m), {}, kMarkerNoise_m)
                            .markers);
   };
   std::vector<Eigen::Matrix3Xd> off_m;

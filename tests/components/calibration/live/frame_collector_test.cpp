@@ -10,25 +10,25 @@
 namespace palpate::calibration {
 namespace {
 
-constexpr std::int64_t kMs_ns = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 class FrameCollectorTest : public testing::Test {
  protected:
   /// The cable from `begin_ms` to `end_ms`.
   void Read(int begin_ms, int end_ms, double displacement_m) {
     for (int t_ms = begin_ms; t_ms <= end_ms; t_ms += 10) {
-      collector_.Add(CableReading{t_ms * kMs_ns, {{displacement_m, std::nullopt}}});
+      collector_.Add(CableReading{t_ms * kMillisecond_ns, {{displacement_m, std::nullopt}}});
     }
   }
   void SeeMarker(int t_ms, double x_m, double sigma_m = 1e-3, int marker = 1) {
-    SeenMarkers seen{t_ms * kMs_ns, {}};
+    SeenMarkers seen{t_ms * kMillisecond_ns, {}};
     seen.markers.push_back({.marker = marker,
                             .position_m = {x_m, 0.0, 0.0},
                             .covariance_m2 = sigma_m * sigma_m * Eigen::Matrix3d::Identity()});
     collector_.Add(std::move(seen));
   }
   void SeeCloud(int t_ms, int width_px = 0) {
-    collector_.Add(SeenCloud{t_ms * kMs_ns, {}, {.width_px = width_px, .height_px = 480}});
+    collector_.Add(SeenCloud{t_ms * kMillisecond_ns, {}, {.width_px = width_px, .height_px = 480}});
   }
 
   std::unique_ptr<robot::RobotModel> robot_ = force_estimation::NodeTestRobot();

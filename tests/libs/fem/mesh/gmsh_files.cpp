@@ -15,9 +15,9 @@ namespace {
 
 /// Writes one .msh file in memory: node k has tag k + 1, all tetrahedra are in the physical volume
 /// 7, "soft body", and the triangles in none.
-class Writer {
+class GmshWriter {
  public:
-  Writer(bool binary, bool big_endian) : binary_(binary), big_endian_(big_endian) {}
+  GmshWriter(bool binary, bool big_endian) : binary_(binary), big_endian_(big_endian) {}
 
   std::string Write22(const TetMesh& mesh, const std::vector<int>& surface) {
     Begin("2.2");
@@ -153,15 +153,15 @@ std::vector<MeshFile> AllGmshFiles(const TetMesh& mesh, const std::vector<int>& 
        {std::tuple("ascii", false, false), std::tuple("binary", true, false),
         std::tuple("binary_big_endian", true, true)}) {
     files.push_back(
-        {std::string(name) + "_22.msh", Writer(binary, big_endian).Write22(mesh, surface)});
+        {std::string(name) + "_22.msh", GmshWriter(binary, big_endian).Write22(mesh, surface)});
     files.push_back(
-        {std::string(name) + "_41.msh", Writer(binary, big_endian).Write41(mesh, surface)});
+        {std::string(name) + "_41.msh", GmshWriter(binary, big_endian).Write41(mesh, surface)});
   }
   return files;
 }
 
-std::string AsciiGmsh22(const TetMesh& mesh) { return Writer(false, false).Write22(mesh, {}); }
+std::string AsciiGmsh22(const TetMesh& mesh) { return GmshWriter(false, false).Write22(mesh, {}); }
 
-std::string AsciiGmsh41(const TetMesh& mesh) { return Writer(false, false).Write41(mesh, {}); }
+std::string AsciiGmsh41(const TetMesh& mesh) { return GmshWriter(false, false).Write41(mesh, {}); }
 
 }  // namespace palpate::fem::test

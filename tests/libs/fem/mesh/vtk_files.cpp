@@ -12,9 +12,9 @@ namespace palpate::fem::test {
 namespace {
 
 /// Writes one legacy .vtk file in memory; binary ones are big endian.
-class Writer {
+class VtkWriter {
  public:
-  Writer(bool version_5, bool binary) : version_5_(version_5), binary_(binary) {}
+  VtkWriter(bool version_5, bool binary) : version_5_(version_5), binary_(binary) {}
 
   std::string Write(const TetMesh& mesh, const std::vector<int>& surface) {
     text_ = std::string("# vtk DataFile Version ") + (version_5_ ? "5.1" : "3.0") + "\na cube\n" +
@@ -77,12 +77,12 @@ class Writer {
 }  // namespace
 
 std::vector<MeshFile> AllVtkFiles(const TetMesh& mesh, const std::vector<int>& surface) {
-  return {{"ascii_3.vtk", Writer(false, false).Write(mesh, surface)},
-          {"binary_3.vtk", Writer(false, true).Write(mesh, surface)},
-          {"ascii_5.vtk", Writer(true, false).Write(mesh, surface)},
-          {"binary_5.vtk", Writer(true, true).Write(mesh, surface)}};
+  return {{"ascii_3.vtk", VtkWriter(false, false).Write(mesh, surface)},
+          {"binary_3.vtk", VtkWriter(false, true).Write(mesh, surface)},
+          {"ascii_5.vtk", VtkWriter(true, false).Write(mesh, surface)},
+          {"binary_5.vtk", VtkWriter(true, true).Write(mesh, surface)}};
 }
 
-std::string AsciiVtk(const TetMesh& mesh) { return Writer(false, false).Write(mesh, {}); }
+std::string AsciiVtk(const TetMesh& mesh) { return VtkWriter(false, false).Write(mesh, {}); }
 
 }  // namespace palpate::fem::test

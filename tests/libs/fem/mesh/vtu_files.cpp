@@ -29,9 +29,9 @@ struct Variant {
 };
 
 /// Writes one .vtu file in memory, as VTK does.
-class Writer {
+class VtuWriter {
  public:
-  explicit Writer(const Variant& variant) : variant_(variant) {}
+  explicit VtuWriter(const Variant& variant) : variant_(variant) {}
 
   std::string Write(const TetMesh& mesh, const std::vector<int>& surface) {
     text_ = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" ") +
@@ -185,11 +185,11 @@ constexpr Variant kVariants[] = {
 std::vector<MeshFile> AllVtuFiles(const TetMesh& mesh, const std::vector<int>& surface) {
   std::vector<MeshFile> files;
   for (const Variant& variant : kVariants) {
-    files.push_back({std::string(variant.name) + ".vtu", Writer(variant).Write(mesh, surface)});
+    files.push_back({std::string(variant.name) + ".vtu", VtuWriter(variant).Write(mesh, surface)});
   }
   return files;
 }
 
-std::string AsciiVtu(const TetMesh& mesh) { return Writer(kVariants[0]).Write(mesh, {}); }
+std::string AsciiVtu(const TetMesh& mesh) { return VtuWriter(kVariants[0]).Write(mesh, {}); }
 
 }  // namespace palpate::fem::test

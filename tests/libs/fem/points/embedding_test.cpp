@@ -17,17 +17,17 @@
 namespace palpate::fem {
 namespace {
 
-const Eigen::Vector3d kSize_m(0.10, 0.02, 0.03);
+const Eigen::Vector3d kEmbedded_m(0.10, 0.02, 0.03);
 
 TetMesh MeshOf(ElementType element) {
-  const TetMesh mesh = BoxMesh(kSize_m, {5, 2, 3});
+  const TetMesh mesh = BoxMesh(kEmbedded_m, {5, 2, 3});
   return element == ElementType::kTet10 ? MakeQuadratic(mesh) : mesh;
 }
 
 /// Mid-edge nodes moved off the middle, as in a mesh of curved cells.
 TetMesh CurvedMesh() {
   TetMesh mesh = MeshOf(ElementType::kTet10);
-  const int corners = BoxMesh(kSize_m, {5, 2, 3}).NodeCount();
+  const int corners = BoxMesh(kEmbedded_m, {5, 2, 3}).NodeCount();
   std::mt19937 random(8);
   std::uniform_real_distribution<double> shift_m(-3e-4, 3e-4);
   for (int node = corners; node < mesh.NodeCount(); ++node) {
@@ -43,7 +43,7 @@ std::vector<Eigen::Vector3d> PointsAround(int count, unsigned seed) {
   std::vector<Eigen::Vector3d> points(static_cast<size_t>(count));
   for (Eigen::Vector3d& point : points) {
     for (int axis = 0; axis < 3; ++axis) {
-      point(axis) = -0.01 + part(random) * (kSize_m(axis) + 0.02);
+      point(axis) = -0.01 + part(random) * (kEmbedded_m(axis) + 0.02);
     }
   }
   return points;
@@ -56,11 +56,11 @@ double WeightSum(const NodeWeights& weights) {
 }
 
 bool InsideBox(const Eigen::Vector3d& point) {
-  return (point.array() >= 0.0).all() && (point.array() <= kSize_m.array()).all();
+  return (point.array() >= 0.0).all() && (point.array() <= kEmbedded_m.array()).all();
 }
 
 double DistanceToBox(const Eigen::Vector3d& point) {
-  return (point - point.cwiseMax(0.0).cwiseMin(kSize_m)).norm();
+  return (point - point.cwiseMax(0.0).cwiseMin(kEmbedded_m)).norm();
 }
 
 class Embedding : public testing::TestWithParam<ElementType> {};
@@ -159,7 +159,7 @@ TEST(PointLocator, InsideTet10APointFollowsAQuadraticMotion) {
 }
 
 TEST(PointLocator, OutsideTet10ExpandsLinearlyAboutTheNearestPointOfTheCell) {
-  const TetMesh mesh = MakeQuadratic(BoxMesh(kSize_m, {1, 1, 1}));
+  const TetMesh mesh = MakeQuadratic(BoxMesh(kEmbedded_m, {1, 1, 1}));
   const PointLocator locator(mesh);
   const Eigen::Vector3d outside(0.09, 0.005, -0.002);
   const BodyPoint point = locator.Embed(outside);
@@ -209,7 +209,7 @@ TEST(EmbedBall, OfRadiusZeroIsThePoint) {
 }
 
 TEST(EmbedBall, TakesTheMeanOverTheVolumeOfTheBall) {
-  const TetMesh mesh = MakeQuadratic(BoxMesh(kSize_m, {1, 1, 1}));
+  const TetMesh mesh = MakeQuadratic(BoxMesh(kEmbedded_m, {1, 1, 1}));
   const PointLocator locator(mesh);
   constexpr double kRadius_m = 0.003;
   const Eigen::Vector3d centre_m(0.055, 0.0101, 0.0149);
@@ -222,7 +222,7 @@ TEST(EmbedBall, TakesTheMeanOverTheVolumeOfTheBall) {
 }
 
 TEST(EmbedBall, SpreadsTheForceOverMoreNodesThanThePoint) {
-  const PointLocator locator(BoxMesh(kSize_m, {20, 4, 6}));
+  const PointLocator locator(BoxMesh(kEmbedded_m, {20, 4, 6}));
   const Eigen::Vector3d point_m(0.0512, 0.0112, 0.0172);
   const auto largest = [](const NodeWeights& weights) {
     return *std::max_element(weights.weights.begin(), weights.weights.end());

@@ -13,7 +13,7 @@ const Eigen::Vector3d kSize_m(0.1, 0.02, 0.02);
 
 /// 100 x 20 x 20 mm, E = 180 kPa, nu = 0.45, clamped at x = 0, 800 mN downwards spread over the tip
 /// face, four bricks per thickness.
-StaticProblem MakeBeam(const TetMesh& mesh) {
+StaticProblem MakeCalculixBeam(const TetMesh& mesh) {
   StaticProblem beam(mesh, {.model = MaterialModel::kStableNeoHookean,
                             .youngs_modulus_Pa = 180e3,
                             .poissons_ratio = 0.45});
@@ -26,11 +26,11 @@ StaticProblem MakeBeam(const TetMesh& mesh) {
 }
 
 StaticProblem QuadraticBeam() {
-  return MakeBeam(MakeBox({20, 4, 4}, ElementType::kTet10, kSize_m));
+  return MakeCalculixBeam(MakeBox({20, 4, 4}, ElementType::kTet10, kSize_m));
 }
 
 StaticProblem LinearBeam() {
-  return MakeBeam(MakeBox({16, 4, 4}, ElementType::kTet4, kSize_m, Cut::kSix));
+  return MakeCalculixBeam(MakeBox({16, 4, 4}, ElementType::kTet4, kSize_m, Cut::kSix));
 }
 
 /// How far the middle of the tip face moves: along the beam, and downwards, mm.

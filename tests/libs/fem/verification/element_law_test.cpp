@@ -59,16 +59,16 @@ std::string NameOf(const testing::TestParamInfo<Kind>& each) {
 }
 
 const Eigen::Array3i kCells(3, 3, 3);
-const Eigen::Vector3d kSize_m(0.06, 0.05, 0.04);
+const Eigen::Vector3d kBlock_m(0.06, 0.05, 0.04);
 
-TetMesh MakeMesh(const Kind& kind) { return MakeDistortedBox(kCells, kind.element, kSize_m, 0.2); }
+TetMesh MakeMesh(const Kind& kind) { return MakeDistortedBox(kCells, kind.element, kBlock_m, 0.2); }
 
 ElasticBody MakeBody(const Kind& kind, const TetMesh& mesh) {
   return {mesh, {kind.MaterialOf()}, std::vector<int>(static_cast<size_t>(mesh.CellCount()), 0)};
 }
 
 bool OnBoxSurface(const Eigen::Vector3d& p) {
-  return (p.array() < 1e-9).any() || (p.array() > kSize_m.array() - 1e-9).any();
+  return (p.array() < 1e-9).any() || (p.array() > kBlock_m.array() - 1e-9).any();
 }
 
 /// [3 x n], uniform in [-1, 1], the same in each run for a seed.

@@ -16,17 +16,17 @@ namespace {
 
 constexpr double kLength_m = 1.0;
 constexpr double kThickness_m = 0.01;
-constexpr double kModulus_Pa = 1e6;
+constexpr double kBeamModulus_Pa = 1e6;
 constexpr double kBending_N_m2 =
-    kModulus_Pa * kThickness_m * kThickness_m * kThickness_m * kThickness_m / 12.0;
-constexpr int kCells = 80;
+    kBeamModulus_Pa * kThickness_m * kThickness_m * kThickness_m * kThickness_m / 12.0;
+constexpr int kBeamCells = 80;
 
 /// A slender square beam along x, clamped at x = 0; nu = 0, so that sections keep their shape, as
 /// the theory of the elastica has it.
 StaticProblem MakeSlenderBeam(MaterialModel model) {
   StaticProblem beam(
-      MakeBox({kCells, 1, 1}, ElementType::kTet10, {kLength_m, kThickness_m, kThickness_m}),
-      {.model = model, .youngs_modulus_Pa = kModulus_Pa, .poissons_ratio = 0.0});
+      MakeBox({kBeamCells, 1, 1}, ElementType::kTet10, {kLength_m, kThickness_m, kThickness_m}),
+      {.model = model, .youngs_modulus_Pa = kBeamModulus_Pa, .poissons_ratio = 0.0});
   beam.Fix([](const Eigen::Vector3d& p) { return p[0] < 1e-9; });
   return beam;
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
-const fs::path kSource = PALPATE_SOURCE_DIR;
+const fs::path kRepository = PALPATE_SOURCE_DIR;
 
 /// Each cable, two against each other, a known weight, the base tilted; then the camera elsewhere.
 const std::string kScenario = R"(name: pictures
@@ -89,8 +89,8 @@ class DiagnosePictures : public testing::Test {
  protected:
   /// The robot file's robot of fewer cells, and an experiment with this hidden in it.
   void Make(const std::string& effect, int seed) {
-    std::string robot = ReadFile(kSource / "config/robots/four_leg.yaml");
-    const fs::path mesh = kSource / "config/scenarios/four_leg_coarse.msh";
+    std::string robot = ReadFile(kRepository / "config/robots/four_leg.yaml");
+    const fs::path mesh = kRepository / "config/scenarios/four_leg_coarse.msh";
     Replace("file: four_leg.msh", "file: " + mesh.string(), &robot);
     WriteFile(Robot(), robot);
     std::string scenario = kScenario;

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kSource = PALPATE_SOURCE_DIR;
+const fs::path kSourceFolder = PALPATE_SOURCE_DIR;
 
 class NextExperimentLoop : public testing::Test {
  protected:
@@ -32,7 +32,7 @@ class NextExperimentLoop : public testing::Test {
 
   /// config/scenarios/diagnose.yaml with an effect and some of its recordings only.
   static std::string Scenario(const std::string& effect, const std::set<std::string>& kept) {
-    const std::string text = ReadFile(kSource / "config/scenarios/diagnose.yaml");
+    const std::string text = ReadFile(kSourceFolder / "config/scenarios/diagnose.yaml");
     const std::string item = "  - name: ";
     std::size_t begin = text.find(item);
     std::string scenario = text.substr(0, begin);
@@ -40,7 +40,8 @@ class NextExperimentLoop : public testing::Test {
       scenario.replace(scenario.find(what), what.size(), by);
     };
     replace("effects: []", "effects: [" + effect + "]");
-    replace("four_leg_coarse.msh", (kSource / "config/scenarios/four_leg_coarse.msh").string());
+    replace("four_leg_coarse.msh",
+            (kSourceFolder / "config/scenarios/four_leg_coarse.msh").string());
     while (begin != std::string::npos) {
       const std::size_t end = text.find(item, begin + 1);
       const std::size_t name = begin + item.size();

@@ -21,8 +21,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::uint64_t kSeed = 20261101;
-constexpr int kCases = 800;
+constexpr std::uint64_t kProofSeed = 20261101;
+constexpr int kProofCases = 800;
 
 std::vector<CaseRecord> OfKind(std::vector<CaseRecord> records, CaseKind kind) {
   std::erase_if(records, [&](const CaseRecord& record) { return record.kind != kind; });
@@ -33,22 +33,22 @@ std::vector<CaseRecord> OfKind(std::vector<CaseRecord> records, CaseKind kind) {
 double FourSigma(double share, int count) { return 4.0 * std::sqrt(share * (1.0 - share) / count); }
 
 TEST(BlindProofs, WhoKnowsTheAnswersReachesEverything) {
-  const Score score = Judge(RightRecords(kSeed, kCases));
+  const Score score = Judge(RightRecords(kProofSeed, kProofCases));
   // One 95 % interval that never misses is too wide by definition, and is told so.
   Acceptance acceptance;
   acceptance.covered_at_most = 1.0;
   EXPECT_THAT(Missed(score, acceptance), IsEmpty());
   EXPECT_THAT(Missed(score), ElementsAre(HasSubstr("parameters inside their intervals")));
-  EXPECT_EQ(score.top1.count, 9 * kCases / 20);
+  EXPECT_EQ(score.top1.count, 9 * kProofCases / 20);
   EXPECT_EQ(score.top1.value(), 1.0);
-  EXPECT_EQ(score.both.count, 3 * kCases / 20);
-  EXPECT_EQ(score.false_accusations.count, 5 * kCases / 20);
-  EXPECT_EQ(score.flagged.count, 2 * kCases / 20);
-  EXPECT_EQ(score.unfit.count, kCases / 20);
+  EXPECT_EQ(score.both.count, 3 * kProofCases / 20);
+  EXPECT_EQ(score.false_accusations.count, 5 * kProofCases / 20);
+  EXPECT_EQ(score.flagged.count, 2 * kProofCases / 20);
+  EXPECT_EQ(score.unfit.count, kProofCases / 20);
 }
 
 TEST(BlindProofs, ShuffledAnswersScoreAtChance) {
-  auto records = OfKind(RightRecords(kSeed, kCases), CaseKind::kOneCause);
+  auto records = OfKind(RightRecords(kProofSeed, kProofCases), CaseKind::kOneCause);
   std::map<std::string, int> times;
   for (const CaseRecord& record : records) {
     ++times[record.truth[0].id + testing::PrintToString(record.truth[0].where)];
@@ -58,7 +58,7 @@ TEST(BlindProofs, ShuffledAnswersScoreAtChance) {
   for (const auto& [name, n] : times) chance += (n / count) * (n / count);
   std::vector<Verdict> verdicts;
   for (const CaseRecord& record : records) verdicts.push_back(*record.verdict);
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kProofSeed);
   std::shuffle(verdicts.begin(), verdicts.end(), random);
   for (std::size_t i = 0; i < records.size(); ++i) records[i].verdict = verdicts[i];
   const Score score = Judge(records);
@@ -79,7 +79,7 @@ std::string Relabelled(const std::string& where) {
 }
 
 TEST(BlindProofs, RelabelledCablesPermuteTheAnswer) {
-  auto records = OfKind(RightRecords(kSeed, kCases), CaseKind::kOneCause);
+  auto records = OfKind(RightRecords(kProofSeed, kProofCases), CaseKind::kOneCause);
   Share of_cables;
   for (CaseRecord& record : records) {
     for (std::string& where : record.verdict->causes[0].where) where = Relabelled(where);
@@ -94,7 +94,7 @@ TEST(BlindProofs, RelabelledCablesPermuteTheAnswer) {
 }
 
 TEST(BlindProofs, NoFaultEverywhereFindsNothingAndAccusesNobody) {
-  auto records = DrawnRecords(kSeed, kCases);
+  auto records = DrawnRecords(kProofSeed, kProofCases);
   for (CaseRecord& record : records) record.verdict = Verdict{.verdict = "no_fault"};
   const Score score = Judge(records);
   EXPECT_EQ(score.top1.hits, 0);
@@ -109,7 +109,7 @@ TEST(BlindProofs, NoFaultEverywhereFindsNothingAndAccusesNobody) {
 }
 
 TEST(BlindProofs, OneCauseEverywhereAccusesAllAndIsRightByChance) {
-  auto records = DrawnRecords(kSeed, kCases);
+  auto records = DrawnRecords(kProofSeed, kProofCases);
   const scenario::ActiveEffect always{
       .id = "cable_gain", .where = {"cable:north"}, .parameters = {{"g", 0.09}}};
   int there = 0;
@@ -130,7 +130,7 @@ TEST(BlindProofs, OneCauseEverywhereAccusesAllAndIsRightByChance) {
 }
 
 TEST(BlindProofs, DataUnfitEverywhereIsNoWayOut) {
-  auto records = DrawnRecords(kSeed, kCases);
+  auto records = DrawnRecords(kProofSeed, kProofCases);
   for (CaseRecord& record : records) record.verdict = Verdict{.verdict = "data_unfit"};
   const Score score = Judge(records);
   EXPECT_EQ(score.unfit.value(), 1.0);
@@ -139,10 +139,10 @@ TEST(BlindProofs, DataUnfitEverywhereIsNoWayOut) {
 }
 
 TEST(BlindProofs, WhoSaysNothingReachesNothing) {
-  auto records = DrawnRecords(kSeed, kCases);
+  auto records = DrawnRecords(kProofSeed, kProofCases);
   for (CaseRecord& record : records) record.no_verdict = "exit code 1";
   const Score score = Judge(records);
-  EXPECT_EQ(score.without_verdict.hits, kCases);
+  EXPECT_EQ(score.without_verdict.hits, kProofCases);
   EXPECT_EQ(score.top1.hits, 0);
   EXPECT_EQ(score.false_accusations.value(), 1.0);
   EXPECT_EQ(score.unfit.hits, 0);
