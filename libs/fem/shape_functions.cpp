@@ -12,7 +12,7 @@ namespace palpate::fem {
 namespace {
 
 /// Corners that each mid-edge node lies between, in the order of ElementType::kTet10.
-constexpr std::array<std::array<int, 2>, 6> kEdges{
+constexpr std::array<std::array<int, 2>, 6> kReferenceEdges{
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 Eigen::Vector4d Barycentric(const Eigen::Vector3d& xi) {
@@ -35,7 +35,7 @@ Eigen::VectorXd ShapeFunctions(ElementType type, const Eigen::Vector3d& xi) {
   Eigen::VectorXd N(10);
   for (int a = 0; a < 4; ++a) N[a] = L[a] * (2.0 * L[a] - 1.0);
   for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = kEdges[static_cast<size_t>(e)];
+    const auto [i, j] = kReferenceEdges[static_cast<size_t>(e)];
     N[4 + e] = 4.0 * L[i] * L[j];
   }
   return N;
@@ -48,7 +48,7 @@ Eigen::Matrix3Xd ShapeGradients(ElementType type, const Eigen::Vector3d& xi) {
   Eigen::Matrix3Xd dN(3, 10);
   for (int a = 0; a < 4; ++a) dN.col(a) = (4.0 * L[a] - 1.0) * dL.col(a);
   for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = kEdges[static_cast<size_t>(e)];
+    const auto [i, j] = kReferenceEdges[static_cast<size_t>(e)];
     dN.col(4 + e) = 4.0 * (L[i] * dL.col(j) + L[j] * dL.col(i));
   }
   return dN;

@@ -23,7 +23,7 @@ CalibratedModulus ReadModulus(const ConfigNode& node) {
   return modulus;
 }
 
-CalibratedPoissonsRatio ReadPoissonsRatio(const ConfigNode& node) {
+CalibratedPoissonsRatio ReadFoundPoissonsRatio(const ConfigNode& node) {
   MapReader map(node);
   CalibratedPoissonsRatio poissons;
   poissons.part = ReadText(map.Require("part"));
@@ -154,7 +154,7 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
   calibration.data = ReadText(map.Require("data"));
   calibration.data_hash = ReadText(map.Require("data_hash"));
   calibration.moduli = ReadItems(&map, "moduli", ReadModulus);
-  calibration.poissons_ratios = ReadItems(&map, "poissons_ratios", ReadPoissonsRatio);
+  calibration.poissons_ratios = ReadItems(&map, "poissons_ratios", ReadFoundPoissonsRatio);
   if (const ConfigNode* gravity = map.Optional("gravity_m_s2")) {
     calibration.gravity = ReadGravity(*gravity, map.Require("gravity_standard_error_m_s2"));
   }

@@ -15,7 +15,7 @@ namespace palpate::scenario {
 
 namespace {
 
-constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNothingDriven = std::numeric_limits<double>::quiet_NaN();
 
 /// Those of the last time that is not after `t_s`.
 std::vector<HungWeight> WeightsAt(const std::vector<HungWeight>& weights, double t_s) {
@@ -80,7 +80,7 @@ BenchInputs Schedule::RestBefore(int recording, double done) const {
   for (Eigen::Index c = 0; c < held_m.size(); ++c) {
     const bool was_driven = index > 0 && held_m[c] == held_m[c];
     const bool will_be = inputs.displacement_m[c] == inputs.displacement_m[c];
-    inputs.displacement_m[c] = was_driven ? left * held_m[c] : will_be ? 0.0 : kNotDriven;
+    inputs.displacement_m[c] = was_driven ? left * held_m[c] : will_be ? 0.0 : kNothingDriven;
   }
   if (index > 0) {
     inputs.base_tilt_deg =
@@ -102,7 +102,7 @@ BenchInputs Schedule::During(const RecordingPlan& plan, double t_s) const {
 
 Eigen::VectorXd Schedule::Commands(const RecordingPlan& plan, double t_s) const {
   Eigen::VectorXd commands =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cables_.size()), kNotDriven);
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cables_.size()), kNothingDriven);
   if (plan.commands.cables.empty()) return commands;
   const Eigen::VectorXd driven = plan.commands.At(t_s);
   for (std::size_t i = 0; i < plan.commands.cables.size(); ++i) {

@@ -15,6 +15,7 @@ import check_layers
 import check_readmes
 import check_sizes
 import check_spdx
+import check_unity
 import check_yaml
 import source_tree
 
@@ -149,6 +150,39 @@ class CheckSpdx(TreeTest):
         violations, checked = check_spdx.check_tree(self.root)
         self.assertEqual([violation.file for violation in violations], ["b.yaml", "libs/a.hpp"])
         self.assertEqual(checked, 5)
+
+
+class CheckUnity(TreeTest):
+    def violations(self, *sources, target="a"):
+        """Of sources of one target, each an anonymous namespace with these lines."""
+        commands = []
+        for k, lines in enumerate(sources):
+            file = self.plant(f"libs/{k}.cpp", f"namespace {{\n{lines}\n}}  // namespace\n")
+            commands.append({"file": str(file),
+                             "command": f"c++ -o libs/{target}.dir/{k}.cpp.o -c {file}"})
+        return check_unity.check_commands(self.root, commands)[0]
+
+    def test_finds_what_cannot_stand_in_one_translation_unit(self):
+        for one, other in (("constexpr double kA = 1.0, kB = 2.0;", "constexpr int kB{3};"),
+                           ("int At(int a) { return a; }", "int At(int b);"),
+                           ("struct Case {", "class Case final {"),
+                           ("using Kind = int;", "using Kind = long;"),
+                           ("void Case(int a,\n          long b) {", "void Case(int c, long d) {"),
+                           ("struct Case {", "int Case();")):
+            found = self.violations(one, other)
+            self.assertEqual([violation.file for violation in found], ["libs/1.cpp"], (one, other))
+
+    def test_passes_what_can(self):
+        for one, other in (("int At(int a);", "int At(long a);"),
+                           ("using Kind = int;", "using Kind = int;"),
+                           ("constexpr int kA = 1;", "constexpr int kB = kA;"),
+                           ("}  // namespace\nint At(int a);", "int At(int a);")):
+            self.assertEqual(self.violations(one, other), [], (one, other))
+
+    def test_tells_batches_and_targets_apart(self):
+        far = ["int A();"] + [f"int B{k}();" for k in range(9)] + ["int A();"]
+        self.assertEqual(self.violations(*far), [])
+        self.assertEqual(len(self.violations(*far[:9], "int A();")), 1)
 
 
 class CheckSizes(TreeTest):

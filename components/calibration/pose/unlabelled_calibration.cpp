@@ -17,7 +17,7 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoFit = std::numeric_limits<double>::infinity();
 
 /// A choice and what came of it.
 struct Attempt {
@@ -26,7 +26,7 @@ struct Attempt {
   JointCalibration joint;
 
   /// Sum of squares of all rows, robust.
-  double Cost() const { return joint.status.ok() ? 2.0 * joint.objectives.back() : kInfinity; }
+  double Cost() const { return joint.status.ok() ? 2.0 * joint.objectives.back() : kNoFit; }
   /// By how much the residual exceeds the noise, squared; at least 1.
   double Excess() const {
     return std::max(1.0, joint.chi_squared / std::max(1, joint.degrees_of_freedom));

@@ -14,13 +14,13 @@ namespace palpate::diagnosis {
 
 namespace {
 
-constexpr int kMostRounds = 40;
-constexpr double kSettled_m = 1e-9;  ///< between where nodes are and where their forces have them
-constexpr double kNear_m = 3e-4;     ///< nodes that may come to touch as others are pushed back
-constexpr double kSlow = 0.3;        ///< share of the error left by a round
-constexpr double kStride_m = 3e-3;   ///< by which nodes are pushed out in one round
-constexpr double kFar_m = 5e-4;      ///< a step that must have the tangent of where it begins
-constexpr double kFine_m = 1e-6;     ///< steps that are cheaper than another tangent
+constexpr int kMostBalanceRounds = 40;
+constexpr double kBalanced_m = 1e-9;  ///< between where nodes are and where their forces have them
+constexpr double kNear_m = 3e-4;      ///< nodes that may come to touch as others are pushed back
+constexpr double kSlow = 0.3;         ///< share of the error left by a round
+constexpr double kStride_m = 3e-3;    ///< by which nodes are pushed out in one round
+constexpr double kFar_m = 5e-4;       ///< a step that must have the tangent of where it begins
+constexpr double kFine_m = 1e-6;      ///< steps that are cheaper than another tangent
 constexpr double kShrinks = 0.5;  ///< share of a step that the next may have with the same tangent
 
 void HoldFixed(const fem::FixedDirections& fixed, const Eigen::VectorXd& position_m,
@@ -86,13 +86,13 @@ Status WallBalance::StepTogether(const std::vector<robot::CableCommand>& cables,
     std::swap(state->x_m, next_.x_m);
     std::swap(state->multipliers_N, next_.multipliers_N);
     const double error_m = LookAtDepths(*state);
-    if (step_m < kSettled_m && error_m < kSettled_m) {
+    if (step_m < kBalanced_m && error_m < kBalanced_m) {
       return fem::CheckLargestMultipliers(linearisation, *loads, state->x_m, state->multipliers_N,
-                                          kSettled_m);
+                                          kBalanced_m);
     }
     renew = step_m > (step_m > kFine_m ? kShrinks : 1.0) * before_m;
     before_m = renew ? std::numeric_limits<double>::infinity() : step_m;
-    if (error_m < kSettled_m) continue;
+    if (error_m < kBalanced_m) continue;
     if (compliance_of_ != linearisation.factor_count() || !CoversWhatTouches()) {
       const Status known = LookAtCompliance(cables, *state);
       if (!known.ok()) return known;
@@ -116,12 +116,12 @@ Status WallBalance::BalanceInTurn(const std::vector<robot::CableCommand>& cables
                                   const Eigen::VectorXd& others_N, fem::LoadState* loads,
                                   fem::StaticState* state) {
   double before_m = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostBalanceRounds; ++round) {
     loads->external_force_N = others_N + NodalForces_N(wall_, force_N_, state->x_m.size());
     const Status balanced = model_.static_solver().Solve(*loads, state).status;
     if (!balanced.ok()) return balanced;
     const double error_m = LookAtDepths(*state);
-    if (error_m < kSettled_m) return Status::Ok();
+    if (error_m < kBalanced_m) return Status::Ok();
     if (!CoversWhatTouches() || error_m > kSlow * before_m) {
       const Status known = LookAtCompliance(cables, *state);
       if (!known.ok()) return known;

@@ -12,7 +12,7 @@ namespace palpate::perception {
 namespace {
 
 constexpr int kLeastSamples = 6;
-constexpr int kRounds = 5;
+constexpr int kBendRounds = 5;
 /// A sample so many sigma off is of another surface; a little more for what a parabola cannot be.
 constexpr double kGateSigmas = 4.0;
 constexpr double kGateBend = 0.1;
@@ -43,7 +43,7 @@ bool BentSkin::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prio
   gate_m_ = kGateSigmas * prior.sigma_m + kGateBend * reach_m_;
   coefficients_.setZero();
   coefficients_[0] = z_m_;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kBendRounds; ++round) {
     Eigen::Matrix<double, 6, 6> A = PriorInformation(prior).asDiagonal();
     Coefficients b = Coefficients::Zero();
     b[0] = A(0, 0) * z_m_;

@@ -12,7 +12,7 @@ namespace {
 
 /// Share of all pixels that a chromaticity of a group has: between two groups lie those of pixels
 /// on the border of their surfaces.
-constexpr float kLeastShare = 0.005f;
+constexpr float kLeastSkinShare = 0.005f;
 /// A group of a smaller share of the largest is rare.
 constexpr float kRareShare = 0.25f;
 
@@ -49,8 +49,9 @@ RareColors::RareColors(const ColorModel::Histogram& counts) {
   for (std::size_t bin = 0; bin < ColorModel::kNoColor; ++bin) {
     of_chromaticity[bin % kChromaticities] += counts[bin];
   }
-  const float least = std::max(
-      1.0f, kLeastShare * std::accumulate(of_chromaticity.begin(), of_chromaticity.end(), 0.0f));
+  const float least =
+      std::max(1.0f, kLeastSkinShare *
+                         std::accumulate(of_chromaticity.begin(), of_chromaticity.end(), 0.0f));
   std::vector<int> group(kChromaticities, -1);
   std::vector<float> sizes;
   for (int seed = 0; seed < kChromaticities; ++seed) {

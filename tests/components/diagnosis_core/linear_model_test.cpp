@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned kLinearSeed = 7;
 constexpr Eigen::Index kParameters = 3;
-constexpr Eigen::Index kMarkers = 2;
+constexpr Eigen::Index kMarkerCount = 2;
 
 /// Four moments of two recordings, two markers, made up.
 class LinearModelTest : public testing::Test {
@@ -25,19 +25,19 @@ class LinearModelTest : public testing::Test {
         Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
     observed_.recordings[1].T_measurement_robot.translation() << 0.2, -0.1, 0.4;
     observed_.sigma_m << 1e-4, 2e-4, 5e-4;
-    observed_.markers.resize(kMarkers);
+    observed_.markers.resize(kMarkerCount);
     for (int s = 0; s < 4; ++s) {
       Sample& sample = observed_.samples.emplace_back();
       sample.recording = s < 3 ? 0 : 1;
-      sample.position_m = 0.1 * Random(3, kMarkers);
+      sample.position_m = 0.1 * Random(3, kMarkerCount);
       sample.count = Eigen::Vector2i(1 + s, 5);
       SimulatedSample& simulated = simulation_.samples.emplace_back();
       simulated.status = Status::Ok();
-      simulated.seen_m = (0.1 * Random(3, kMarkers)).reshaped();
-      simulated.markers = kMarkers;
-      simulated.jacobian_m = Random(3 * kMarkers, kParameters);
+      simulated.seen_m = (0.1 * Random(3, kMarkerCount)).reshaped();
+      simulated.markers = kMarkerCount;
+      simulated.jacobian_m = Random(3 * kMarkerCount, kParameters);
     }
-    rest_m_ = 0.1 * Random(3, kMarkers);
+    rest_m_ = 0.1 * Random(3, kMarkerCount);
     z_ = Random(kParameters, 1);
   }
 
@@ -51,7 +51,7 @@ class LinearModelTest : public testing::Test {
   /// What a recording says, from the covariance of each of its series.
   Information Dense(int recording) const {
     Information all(kParameters);
-    for (Eigen::Index coordinate = 0; coordinate < 3 * kMarkers; ++coordinate) {
+    for (Eigen::Index coordinate = 0; coordinate < 3 * kMarkerCount; ++coordinate) {
       std::vector<std::size_t> seen;
       for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
         const Sample& sample = observed_.samples[s];

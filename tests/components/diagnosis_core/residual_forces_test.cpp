@@ -12,7 +12,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr double kForce_N = 0.1;
+constexpr double kResidualForce_N = 0.1;
 constexpr int kAxis = 1;  ///< sideways, world frame
 
 class ResidualForcesOfOneForce : public HiddenCauses {
@@ -36,7 +36,7 @@ class ResidualForcesOfOneForce : public HiddenCauses {
 };
 
 TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
-  Measure({{"permanent_force", "body", kForce_N, kAxis}});
+  Measure({{"permanent_force", "body", kResidualForce_N, kAxis}});
   const Fitter fitter(observed_, body_, book_, {}, 1);
   const ResidualForces forces = FindResidualForces(observed_, book_, Named(fitter, {}));
   ASSERT_GT(forces.place_m.cols(), 0);
@@ -44,7 +44,7 @@ TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
   const Eigen::Vector3d sum_N = forces.before_N.rowwise().sum();
   const Eigen::Vector3d direction = Direction(forces.recording);
   // Tolerances may have done some of it, and small forces are believed in more than large ones.
-  EXPECT_GT(sum_N.dot(direction), 0.3 * kForce_N) << "seed " << kSeed;
+  EXPECT_GT(sum_N.dot(direction), 0.3 * kResidualForce_N) << "seed " << kSeed;
   // Along the beam hardly anything moves it, and hardly anything is known.
   const Eigen::Vector3d across = direction.cross(Eigen::Vector3d::UnitX());
   EXPECT_GT(sum_N.dot(direction), 1.5 * std::abs(sum_N.dot(across)))
@@ -52,7 +52,7 @@ TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
 }
 
 TEST_F(ResidualForcesOfOneForce, AreGoneOnceItIsNamed) {
-  Measure({{"permanent_force", "body", kForce_N, kAxis}});
+  Measure({{"permanent_force", "body", kResidualForce_N, kAxis}});
   const Fitter fitter(observed_, body_, book_, {}, 1);
   const int force = Number("permanent_force", "body");
   const ResidualForces forces = FindResidualForces(observed_, book_, Named(fitter, {force}));

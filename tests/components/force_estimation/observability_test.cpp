@@ -14,7 +14,7 @@ namespace palpate::force_estimation {
 namespace {
 
 const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
-constexpr char kTipSite[] = "tip: 0, 0.015, 0.03, 0.005";
+constexpr char kObservedSite[] = "tip: 0, 0.015, 0.03, 0.005";
 const Eigen::Vector3d kForce_N(0.1, -0.2, -0.4);
 
 MarkerFrame TipForceFrame(robot::RobotModel& model) {
@@ -36,7 +36,8 @@ TEST(Observability, ForceAtTheClampIsUnknownNotZero) {
 
 TEST(Observability, ForceAtTheClampDoesNotSpoilTheOthers) {
   const auto model = Build(BeamRobot());
-  MarkerForceEstimator estimator(*model, WithContacts({"clamp: -0.1, 0.015, 0.015", kTipSite}));
+  MarkerForceEstimator estimator(*model,
+                                 WithContacts({"clamp: -0.1, 0.015, 0.015", kObservedSite}));
   const ForceEstimate& estimate = estimator.Update(TipForceFrame(*model));
   ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
   EXPECT_EQ(estimate.contacts[0].status.code(), StatusCode::kUnobservable);
@@ -47,7 +48,8 @@ TEST(Observability, ForceAtTheClampDoesNotSpoilTheOthers) {
 
 TEST(Observability, NoContactBesideAnUnknownForceIsNotNoContact) {
   const auto model = Build(BeamRobot());
-  MarkerForceEstimator estimator(*model, WithContacts({"clamp: -0.1, 0.015, 0.015", kTipSite}));
+  MarkerForceEstimator estimator(*model,
+                                 WithContacts({"clamp: -0.1, 0.015, 0.015", kObservedSite}));
   const ForceEstimate& estimate = estimator.Update(FrameUnder(*model, {}, {}));
   EXPECT_EQ(estimate.status.code(), StatusCode::kUnobservable);
   ASSERT_EQ(estimate.contacts.size(), 2U);
@@ -67,7 +69,7 @@ TEST(Observability, OneMarkerDoesNotTellTwoForces) {
   const auto model = Build(BeamRobot());
   MarkerFrame frame = TipForceFrame(*model);
   for (size_t m = 0; m + 1 < frame.markers.size(); ++m) frame.markers[m].valid = false;
-  MarkerForceEstimator estimator(*model, WithContacts({kTipSite, "middle: -0.05, 0, 0.015"}));
+  MarkerForceEstimator estimator(*model, WithContacts({kObservedSite, "middle: -0.05, 0, 0.015"}));
   const ForceEstimate& estimate = estimator.Update(frame);
   EXPECT_EQ(estimate.status.code(), StatusCode::kUnobservable);
   ASSERT_EQ(estimate.contacts.size(), 2U);
@@ -105,7 +107,7 @@ TEST(Observability, MissingAndNanMarkersAreLeftOut) {
   frame.markers[0].position_m.y() = kNaN;
   frame.markers[5].valid = false;
   frame.markers[5].position_m.setConstant(1.0);
-  MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
+  MarkerForceEstimator estimator(*model, WithContacts({kObservedSite}));
   const ForceEstimate& estimate = estimator.Update(frame);
   ASSERT_TRUE(estimate.status.ok());
   EXPECT_LT((estimate.contacts[0].force_N - kForce_N).norm(), 1e-6);
@@ -117,7 +119,7 @@ TEST(Observability, MarkersOnAContactCountByTheirWeight) {
   const auto model = Build(BeamRobot());
   MarkerFrame frame = TipForceFrame(*model);
   frame.markers[9].position_m.z() += 0.001;  // stands where the force acts
-  Config config = WithContacts({kTipSite});
+  Config config = WithContacts({kObservedSite});
   config.contact_marker_weight = 0.0;
   MarkerForceEstimator estimator(*model, config);
   const ForceEstimate& estimate = estimator.Update(frame);
@@ -134,7 +136,7 @@ TEST(Observability, MarkersOnAContactCountByTheirWeight) {
 TEST(Observability, WithoutAnyMarkerNothingIsEstimated) {
   const auto model = Build(BeamRobot());
   MarkerFrame frame = TipForceFrame(*model);
-  MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
+  MarkerForceEstimator estimator(*model, WithContacts({kObservedSite}));
   ASSERT_TRUE(estimator.Update(frame).status.ok());
   for (MarkerObservation& marker : frame.markers) marker.valid = false;
   const ForceEstimate& estimate = estimator.Update(frame);

@@ -19,7 +19,7 @@ int CountOf(const std::vector<skin::FeatureMatch>& matches, skin::MatchState sta
                                         [&](const auto& match) { return match.state == state; }));
 }
 
-ShapeConfig With(const std::string& matching) {
+ShapeConfig WithMatching(const std::string& matching) {
   ShapeConfig config;
   config.matching = matching;
   return config;
@@ -28,7 +28,7 @@ ShapeConfig With(const std::string& matching) {
 TEST(PatchMatching, ExactCloudOfABentBodyHasNoResidual) {
   const ShapeScene& scene = FourLegScene();
   const Eigen::VectorXd x_m = Moved(scene.rest_x_m, Bend);
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const auto& matches = matching.Match(FrameOf(Cast(scene, x_m, BenchPose())), x_m);
   EXPECT_GE(CountOf(matches, skin::MatchState::kMatched), 20);
   EXPECT_EQ(CountOf(matches, skin::MatchState::kOutlier), 0);
@@ -40,7 +40,7 @@ TEST(PatchMatching, ExactCloudOfABentBodyHasNoResidual) {
 
 TEST(PatchMatching, ARowNamesItsNodesRisingAndMovesWithTheBody) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const auto& matches =
       matching.Match(FrameOf(Cast(scene, scene.rest_x_m, BenchPose())), scene.rest_x_m);
   for (const skin::FeatureMatch& match : matches) {
@@ -59,7 +59,7 @@ TEST(PatchMatching, ARowNamesItsNodesRisingAndMovesWithTheBody) {
 /// A cloud of the body `by_m` away from where the model is.
 void ExpectShiftAlongNormals(const Eigen::Vector3d& by_m, double tolerance_m) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const Eigen::VectorXd shifted_m = Shifted(scene.rest_x_m, by_m);
   const auto& matches =
       matching.Match(FrameOf(Cast(scene, shifted_m, BenchPose())), scene.rest_x_m);
@@ -93,7 +93,7 @@ TEST(SurfaceMatching, DoesNotDependOnTheRobotFrame) {
     return Eigen::Vector3d(motion * rest_m - rest_m);
   });
   for (const char* way : {"patch", "point"}) {
-    SurfaceMatching matching(*scene.features, With(way));
+    SurfaceMatching matching(*scene.features, WithMatching(way));
     const std::vector<skin::FeatureMatch> here = matching.Match(frame, scene.rest_x_m);
     const std::vector<skin::FeatureMatch> there = matching.Match(moved, moved_x_m);
     for (size_t k = 0; k < here.size(); ++k) {
@@ -111,10 +111,10 @@ TEST(SurfaceMatching, RemembersNothingOfTheFrameBefore) {
   const ShapeScene& scene = FourLegScene();
   const ShapeFrame frame = FrameOf(Cast(scene, Moved(scene.rest_x_m, Bend), BenchPose()));
   for (const char* way : {"patch", "point"}) {
-    SurfaceMatching used(*scene.features, With(way));
+    SurfaceMatching used(*scene.features, WithMatching(way));
     const Eigen::Isometry3d elsewhere = LookAt({-0.2, 0.3, 0.1}, {0.0, 0.0, 0.05});
     used.Match(FrameOf(Cast(scene, scene.rest_x_m, elsewhere), elsewhere), scene.rest_x_m);
-    SurfaceMatching fresh(*scene.features, With(way));
+    SurfaceMatching fresh(*scene.features, WithMatching(way));
     const auto& again = used.Match(frame, scene.rest_x_m);
     const auto& once = fresh.Match(frame, scene.rest_x_m);
     for (size_t k = 0; k < once.size(); ++k) {
@@ -129,7 +129,7 @@ TEST(SurfaceMatching, RemembersNothingOfTheFrameBefore) {
 /// The model moves by a little under a cloud that lies 0.3 mm off: what the rows say happens.
 TEST(PatchMatching, RowsAreTheDerivativeOfTheMatchedDistance) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const Eigen::Vector3d towards = BenchPose().linear() * Eigen::Vector3d(0.2, 0.1, -1.0);
   const ShapeFrame frame =
       FrameOf(Cast(scene, Shifted(scene.rest_x_m, 3e-4 * towards), BenchPose()));
@@ -153,7 +153,7 @@ TEST(PatchMatching, RowsAreTheDerivativeOfTheMatchedDistance) {
 
 TEST(PatchMatching, ResidualsScatterAsTheirSigmasSay) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const rgbd::SensedCloud exact = Cast(scene, scene.rest_x_m, BenchPose());
   std::mt19937 random(11);
   constexpr int kSeeds = 60;
@@ -210,7 +210,7 @@ int BestSeen(const std::vector<skin::FeatureMatch>& matches) {
 
 TEST(PatchMatching, WhatLiesFarBeforeTheSurfaceIsLeftOutAndCounted) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const rgbd::SensedCloud clean = Cast(scene, scene.rest_x_m, BenchPose());
   const std::vector<skin::FeatureMatch> matches = matching.Match(FrameOf(clean), scene.rest_x_m);
   const auto best = static_cast<size_t>(BestSeen(matches));
@@ -229,7 +229,7 @@ TEST(PatchMatching, WhatLiesFarBeforeTheSurfaceIsLeftOutAndCounted) {
 
 TEST(PatchMatching, AFewWrongPointsNearTheSurfaceDoNotMoveTheMean) {
   const ShapeScene& scene = FourLegScene();
-  SurfaceMatching matching(*scene.features, With("patch"));
+  SurfaceMatching matching(*scene.features, WithMatching("patch"));
   rgbd::SensedCloud cloud = Cast(scene, scene.rest_x_m, BenchPose());
   std::mt19937 random(8);
   AddDepthNoise(random, &cloud);
@@ -245,7 +245,7 @@ TEST(PatchMatching, AFewWrongPointsNearTheSurfaceDoNotMoveTheMean) {
 TEST(SurfaceMatching, TheOutlierDistanceIsASetting) {
   const ShapeScene& scene = FourLegScene();
   for (const char* way : {"patch", "point"}) {
-    ShapeConfig config = With(way);
+    ShapeConfig config = WithMatching(way);
     config.outlier_distance_m = 1e-3;
     SurfaceMatching matching(*scene.features, config);
     const Eigen::VectorXd away_m =

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
 
-const Eigen::Vector3d kHub_m(0.02, 0.0, 0.1);
+const Eigen::Vector3d kLiveHub_m(0.02, 0.0, 0.1);
 
 ForceEstimate Frame(double t_s, double pushed_N) {
   ForceEstimate estimate;
@@ -27,7 +27,7 @@ ForceEstimate Frame(double t_s, double pushed_N) {
     force_estimation::ContactForce contact;
     contact.name = "contact_1";
     contact.status = Status::Ok();
-    contact.position_m = kHub_m;
+    contact.position_m = kLiveHub_m;
     contact.force_N = {0.0, 0.0, -pushed_N};
     contact.ci95_N = 0.1;
     estimate.contacts = {contact};
@@ -38,7 +38,7 @@ ForceEstimate Frame(double t_s, double pushed_N) {
 class LiveComparisonTest : public testing::Test {
  protected:
   void AddTruth(double t_s, double pushed_N) {
-    comparison_.AddTruth(t_s, {{"ball", kHub_m, {0.0, 0.0, -pushed_N}}});
+    comparison_.AddTruth(t_s, {{"ball", kLiveHub_m, {0.0, 0.0, -pushed_N}}});
   }
   void Advance() {
     comparison_.Advance([&](const ForceEstimate& estimate, const std::vector<ComparedForce>& all) {

@@ -13,7 +13,7 @@ namespace palpate::command {
 
 namespace {
 
-constexpr auto kPollPeriod = std::chrono::milliseconds(50);
+constexpr auto kLivePollPeriod = std::chrono::milliseconds(50);
 constexpr double kSecondsPerNs = 1e-9;
 
 double Seconds(std::int64_t ns) { return static_cast<double>(ns) * kSecondsPerNs; }
@@ -31,7 +31,7 @@ LiveListener::LiveListener(int domain_id, Truth truth)
   loop_.Attach(forces_, [this] { TakeForces(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
   loop_.Attach(statuses_, [this] { TakeReports(); });
-  loop_.Every(kPollPeriod, [] {});
+  loop_.Every(kLivePollPeriod, [] {});
   if (!with_truth_) return;
   bench_.emplace(BenchReaders{participant_.CreateReader(dds::kTrueForcesTopic),
                               participant_.CreateReader(dds::kFrameInfoTopic),
