@@ -41,8 +41,8 @@ if(PALPATE_TIDY)
 endif()
 
 # Ten sources of a target at a time in one run of the compiler: most of a source's time goes into
-# the headers that its neighbours read, too. Off by default and in CI, so that a header which forgets
-# an include is found; on in the preset of ./run (tests/style/check_unity.py).
+# the headers that its neighbours read, too. On in the preset of ./run (tests/style/check_unity.py),
+# off by default and in CI, so that a source which forgets an include is found.
 option(PALPATE_UNITY "Compile ten sources of a target at a time" OFF)
 
 # palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,

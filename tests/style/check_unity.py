@@ -20,7 +20,8 @@ TYPE = re.compile(r"(?:struct|class|enum(?: class)?) (\w+)[^;]*$")
 CONSTANT = re.compile(r"(?:inline |static )*const(?:expr)? ")
 CONSTANT_NAME = re.compile(r"\b(k[A-Z]\w*)\s*(?:=(?!=)|[{\[(])")
 ALIAS = re.compile(r"using (\w+) = (.*);")
-FUNCTION = re.compile(r"(?!TEST|INSTANTIATE|BENCHMARK|template|using|return)[A-Za-z][^=;(]*?[\s*&](\w+)\((.*?)\)")
+FUNCTION = re.compile(r"(?!TEST|INSTANTIATE|BENCHMARK|template|using|return)"
+                      r"[A-Za-z][^=;(]*?[\s*&](\w+)\((.*?)\)")
 
 
 def parameter_types(parameters):
