@@ -4,7 +4,6 @@
 #include "libs/dds/named_markers.hpp"
 
 #include <Eigen/Cholesky>
-#include <utility>
 
 #include "libs/core/names.hpp"
 #include "libs/dds/geometry_messages.hpp"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <utility>
-
 #include "components/calibration/node/convert.hpp"
 #include "libs/core/names.hpp"
 #include "libs/dds/invalid_message.hpp"

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "components/capture/network/gvcp.hpp"
+#include "libs/gige_vision/protocol.hpp"
 
 namespace palpate::capture {
 
@@ -68,7 +68,7 @@ Probe Ask(int handle, double timeout_s) {
 Probe ProbeControl(const std::string& address, double timeout_s) {
   sockaddr_in target = {};
   target.sin_family = AF_INET;
-  target.sin_port = htons(kGvcpPort);
+  target.sin_port = htons(gige_vision::kControlPort);
   if (inet_pton(AF_INET, address.c_str(), &target.sin_addr) != 1) return Probe::kSilent;
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (handle < 0) return Probe::kSilent;

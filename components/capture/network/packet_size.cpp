@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "components/capture/network/gvcp.hpp"
+#include "libs/gige_vision/protocol.hpp"
 
 namespace palpate::capture {
 
@@ -54,7 +54,7 @@ int ChoosePacketSize_bytes(int wanted_bytes, std::optional<int> mtu_bytes,
 std::optional<std::string> LocalAddressTowards(const std::string& address) {
   sockaddr_in target = {};
   target.sin_family = AF_INET;
-  target.sin_port = htons(kGvcpPort);
+  target.sin_port = htons(gige_vision::kControlPort);
   if (inet_pton(AF_INET, address.c_str(), &target.sin_addr) != 1) return std::nullopt;
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (handle < 0) return std::nullopt;

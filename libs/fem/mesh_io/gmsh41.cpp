@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <cstdlib>
-#include <limits>
 
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/gmsh_reader.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
-
-namespace {}  // namespace
 
 void GmshReader::ReadEntities41() {
   if (scanner_.binary()) scanner_.Line("the entities");

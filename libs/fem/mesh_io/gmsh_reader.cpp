@@ -6,15 +6,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 
 #include "libs/fem/mesh_io/cell_kinds.hpp"
 #include "libs/fem/mesh_io/formats.hpp"
 #include "libs/fem/mesh_io/limits.hpp"
 
 namespace palpate::fem::mesh_io {
-
-namespace {}  // namespace
 
 void GmshReader::Read() {
   ReadFormat();

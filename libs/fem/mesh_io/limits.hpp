@@ -9,7 +9,8 @@
 
 namespace palpate::fem::mesh_io {
 
-/// Nodes and cells are counted with int.
+/// Nodes and cells are counted with int. A file that claims more costs no memory before it is
+/// refused.
 inline constexpr std::int64_t kMaxCount = std::numeric_limits<int>::max();
 /// The largest name that a Gmsh file gives a node or a cell.
 inline constexpr std::int64_t kMaxTag = std::numeric_limits<std::int64_t>::max();

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>

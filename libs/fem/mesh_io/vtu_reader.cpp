@@ -4,7 +4,6 @@
 #include <tinyxml2.h>
 
 #include <bit>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -18,8 +17,6 @@ namespace palpate::fem::mesh_io {
 namespace {
 
 using tinyxml2::XMLElement;
-
-/// Counts are limited so that a file that claims more costs no memory before it is refused.
 
 [[noreturn]] void FailAt(const XMLElement& element, const VtuStorage& storage,
                          const std::string& message) {

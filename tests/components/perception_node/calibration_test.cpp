@@ -7,8 +7,6 @@
 namespace palpate::perception {
 namespace {
 
-constexpr std::int64_t kStampStep_ns = 1'000'000'000;
-
 dds::Message<idl::palpate_msgs::Calibration> Calibration(const std::string& mesh_hash, double z_m,
                                                          const std::string& date_utc) {
   dds::Message<idl::palpate_msgs::Calibration> message;
@@ -53,12 +51,12 @@ TEST_F(PerceptionNodeTest, PredictsFromThePoseOfANewCalibration) {
   StartNode(TestConfig(), false);
   SendMesh();
   SendCamera(SmallCamera(), 1, 1);
-  SendMeshState(1 * kStampStep_ns, 0.25);
-  EXPECT_EQ(Ask(1 * kStampStep_ns + 1).prediction_ns, 0);
+  SendMeshState(1 * kSecond_ns, 0.25);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 1).prediction_ns, 0);
   ASSERT_TRUE(calibrations.Write(Calibration("hash", 0.125, "2026-01-31T12:00:00Z")));
   ASSERT_TRUE(calibrations.WaitUntilReceived(std::chrono::seconds(5)));
   // Readers do not wait for each other: ask until the node has it.
-  for (std::int64_t k = 2; k < 100 && Ask(kStampStep_ns + k).prediction_ns == 0;) ++k;
+  for (std::int64_t k = 2; k < 100 && Ask(kSecond_ns + k).prediction_ns == 0;) ++k;
   const auto vertex_m = script_.calls().back().first_vertex_m;
   ASSERT_TRUE(vertex_m);
   EXPECT_EQ(vertex_m->z(), 0.25 - 0.125);

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@
 #include "tests/libs/dds/test_participant.hpp"
 
 namespace palpate::perception {
+
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 inline rgbd::RgbdCamera SmallCamera() {
   rgbd::RgbdCamera camera;

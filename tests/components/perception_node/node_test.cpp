@@ -10,8 +10,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 TEST_F(PerceptionNodeTest, GivesCloudsReportAndContactsTheStampOfTheFrame) {
   StartNode(TestConfig());
   std::int64_t robot_ns = 0, object_ns = 0, contacts_ns = 0;

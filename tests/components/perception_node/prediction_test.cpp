@@ -7,8 +7,6 @@
 namespace palpate::perception {
 namespace {
 
-constexpr std::int64_t kPredictionStep_ns = 1'000'000'000;
-
 class PredictionTest : public PerceptionNodeTest {
  protected:
   /// With a camera, a mesh, and the states of the mesh known to the node.
@@ -25,8 +23,8 @@ class PredictionTest : public PerceptionNodeTest {
 
 TEST_F(PredictionTest, IsTheNewestStateFromBeforeTheFrameInTheCamerasFrame) {
   StartWith(TestConfig());
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns).prediction_ns, 0);
-  const std::int64_t stamp_ns = 2 * kPredictionStep_ns;
+  EXPECT_EQ(Ask(1 * kSecond_ns).prediction_ns, 0);
+  const std::int64_t stamp_ns = 2 * kSecond_ns;
   SendMeshState(stamp_ns - 200, 0.125);
   SendMeshState(stamp_ns - 100, 0.25);
   SendMeshState(stamp_ns, 0.75);
@@ -41,11 +39,11 @@ TEST_F(PredictionTest, IsNotUsedWhenItIsTooOld) {
   NodeConfig config = TestConfig();
   config.max_prediction_age_s = 0.5;
   StartWith(config);
-  SendMeshState(1 * kPredictionStep_ns, 0.25);
+  SendMeshState(1 * kSecond_ns, 0.25);
   // Until it is there.
-  for (std::int64_t i = 1; i < 100 && Ask(kPredictionStep_ns + i).prediction_ns == 0;) ++i;
-  ASSERT_EQ(answers_.back().prediction_ns, kPredictionStep_ns);
-  EXPECT_EQ(Ask(2 * kPredictionStep_ns).prediction_ns, 0);
+  for (std::int64_t i = 1; i < 100 && Ask(kSecond_ns + i).prediction_ns == 0;) ++i;
+  ASSERT_EQ(answers_.back().prediction_ns, kSecond_ns);
+  EXPECT_EQ(Ask(2 * kSecond_ns).prediction_ns, 0);
   EXPECT_EQ(LastPredictionZ_m(), std::nullopt);
 }
 
@@ -53,13 +51,13 @@ TEST_F(PredictionTest, IsAwaitedWhereItIsToBeThatOfTheFrameBefore) {
   NodeConfig config = TestConfig();
   config.await_prediction_s = 600.0;
   StartWith(config);
-  Ask(1 * kPredictionStep_ns);
-  SendFrame(1 * kPredictionStep_ns + 100);
+  Ask(1 * kSecond_ns);
+  SendFrame(1 * kSecond_ns + 100);
   ASSERT_TRUE(test_.WaitFor([&] { return received_ == 2; }));
   EXPECT_EQ(script_.calls().size(), 1u);
-  SendMeshState(1 * kPredictionStep_ns, 0.25);
-  ASSERT_TRUE(WaitForAnswer(1 * kPredictionStep_ns + 100));
-  EXPECT_EQ(answers_.back().prediction_ns, 1 * kPredictionStep_ns);
+  SendMeshState(1 * kSecond_ns, 0.25);
+  ASSERT_TRUE(WaitForAnswer(1 * kSecond_ns + 100));
+  EXPECT_EQ(answers_.back().prediction_ns, 1 * kSecond_ns);
   EXPECT_EQ(LastPredictionZ_m(), 0.25 - 0.5);
 }
 
@@ -67,19 +65,19 @@ TEST_F(PredictionTest, ThatDoesNotComeIsAwaitedNoLongerThanItIsWorth) {
   NodeConfig config = TestConfig();
   config.await_prediction_s = 1.0;
   StartWith(config);
-  Ask(1 * kPredictionStep_ns);
+  Ask(1 * kSecond_ns);
   // No state of the model follows, nor anything else that would wake the node.
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns + 100).prediction_ns, 0);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 100).prediction_ns, 0);
 }
 
 TEST_F(PredictionTest, IsKeptInTheNextRecordingOfADevice) {
   NodeConfig config = TestConfig();
   config.await_prediction_s = 600.0;
   StartWith(config);
-  Ask(5 * kPredictionStep_ns);
-  SendMeshState(5 * kPredictionStep_ns, 0.25);
+  Ask(5 * kSecond_ns);
+  SendMeshState(5 * kSecond_ns, 0.25);
   SendCamera(SmallCamera(), 2, 1);
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns).prediction_ns, 5 * kPredictionStep_ns);
+  EXPECT_EQ(Ask(1 * kSecond_ns).prediction_ns, 5 * kSecond_ns);
   EXPECT_EQ(script_.calls()[1].perception, script_.calls()[0].perception);
 }
 
@@ -87,11 +85,11 @@ TEST_F(PredictionTest, OfAnotherSequenceIsForgotten) {
   NodeConfig config = TestConfig();
   config.await_prediction_s = 600.0;
   StartWith(config);
-  Ask(1 * kPredictionStep_ns);
-  SendMeshState(1 * kPredictionStep_ns, 0.25);
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns + 100).prediction_ns, 1 * kPredictionStep_ns);
+  Ask(1 * kSecond_ns);
+  SendMeshState(1 * kSecond_ns, 0.25);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 100).prediction_ns, 1 * kSecond_ns);
   SendCamera(SmallCamera(), 2, 1, "Palpate-2");
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns + 200).prediction_ns, 0);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 200).prediction_ns, 0);
 }
 
 TEST_F(PredictionTest, IsNoneWithoutTheCamerasPose) {
@@ -99,8 +97,8 @@ TEST_F(PredictionTest, IsNoneWithoutTheCamerasPose) {
   StartNode(config, false);
   SendMesh();
   SendCamera(SmallCamera(), 1, 1);
-  SendMeshState(1 * kPredictionStep_ns, 0.25);
-  EXPECT_EQ(Ask(1 * kPredictionStep_ns + 100).status, "ok");
+  SendMeshState(1 * kSecond_ns, 0.25);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 100).status, "ok");
   EXPECT_EQ(LastPredictionZ_m(), std::nullopt);
 }
 

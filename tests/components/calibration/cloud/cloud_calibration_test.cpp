@@ -15,7 +15,6 @@
 namespace palpate::calibration {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kOthers = 0.2;  ///< share of points that are not the robot
 
 const std::vector<double> kPulls_m = {0.004, 0.0, 0.008, 0.002};

@@ -27,6 +27,7 @@ inline const rgbd::CameraModel kCamera{.width_px = 424,
                                        .fy_px = 212.5,
                                        .cx_px = 211.5,
                                        .cy_px = 119.5};
+inline constexpr double kDegree = std::numbers::pi / 180.0;  ///< in radians
 inline constexpr double kDepthSigma_m = 0.8e-3;
 
 /// The model's skin is the robot's.

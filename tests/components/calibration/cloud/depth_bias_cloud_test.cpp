@@ -10,7 +10,6 @@
 namespace palpate::calibration {
 namespace {
 
-constexpr double kBiasDegree = std::numbers::pi / 180.0;
 constexpr double kSigma = 0.003;
 constexpr int kPoseRows = 6;
 
@@ -47,7 +46,7 @@ class DepthBiasOfClouds : public ::testing::Test {
   }
 
   CloudCalibration Fit(const std::vector<CloudFrame>& frames) {
-    return CalibrateFromClouds(*model_, frames, OffBy(truth_, 20.0 * kBiasDegree, 0.05, random_),
+    return CalibrateFromClouds(*model_, frames, OffBy(truth_, 20.0 * kDegree, 0.05, random_),
                                settings_);
   }
 
@@ -85,7 +84,7 @@ TEST_F(DepthBiasOfClouds, IsFoundWithThePoseAndMakesItRight) {
     const CloudCalibration fit = Fit(frames);
     ASSERT_TRUE(fit.status.ok()) << fit.status.message();
     ASSERT_TRUE(fit.joint.depth_bias);
-    ExpectPose(fit.joint.T_robot_camera, truth_, 0.5 * kBiasDegree, 1.5e-3);
+    ExpectPose(fit.joint.T_robot_camera, truth_, 0.5 * kDegree, 1.5e-3);
     settings_.fit_depth_bias = false;
     const CloudCalibration blind = Fit(frames);
     ASSERT_TRUE(blind.status.ok()) << blind.status.message();
@@ -95,12 +94,12 @@ TEST_F(DepthBiasOfClouds, IsFoundWithThePoseAndMakesItRight) {
     found_m = std::max(found_m, OffBy_m(fit.joint, frames.front().cloud));
     blind_m = std::max(blind_m, OffBy_m(blind.joint, frames.front().cloud));
   }
-  EXPECT_LT(found_rad, 0.15 * kBiasDegree);
+  EXPECT_LT(found_rad, 0.15 * kDegree);
   EXPECT_LT(found_rad, 0.4 * blind_rad);
   EXPECT_LT(found_m, 0.2e-3);
   EXPECT_LT(found_m, 0.4 * blind_m);
-  RecordProperty("found_deg", FormatNumber(found_rad / kBiasDegree));
-  RecordProperty("blind_deg", FormatNumber(blind_rad / kBiasDegree));
+  RecordProperty("found_deg", FormatNumber(found_rad / kDegree));
+  RecordProperty("blind_deg", FormatNumber(blind_rad / kDegree));
   RecordProperty("found_m", FormatNumber(found_m));
   RecordProperty("blind_m", FormatNumber(blind_m));
 }
