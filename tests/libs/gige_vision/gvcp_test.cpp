@@ -75,7 +75,7 @@ TEST_F(Gvcp, SeveralRegistersInOneCommand) {
   ASSERT_EQ(read->body.size(), 12u);
   EXPECT_EQ(Get32(read->body, 0), 1'000'000'000u);
   EXPECT_EQ(Get32(read->body, 4), 1u);
-  EXPECT_EQ(Get32(read->body, 8), 3000u);
+  EXPECT_EQ(Get32(read->body, 8), 60'000u);
 
   ASSERT_EQ(TakeControl(), ErrorCode::kSuccess);
   Bytes writes = Encode32(boot::kStreamPacketDelay);
