@@ -18,22 +18,24 @@ namespace {
 /// The fraction of the drive's tension in one piece after the other, from the drive on.
 class TensionAlong {
  public:
-  explicit TensionAlong(const CableFriction& friction) : mu_(friction.SignedCoefficient()) {}
+  explicit TensionAlong(const CableFriction& friction) : friction_(friction) {}
 
-  /// `direction`: of the next piece, unit.
-  double Next(const Eigen::Vector3d& direction) {
-    if (mu_ == 0.0) return 1.0;
-    if (started_) turned_ += TurningAngle(before_, direction);
+  /// `direction`: of a piece after the one before, unit; it begins at eyelet `piece` - 1.
+  double Next(std::size_t piece, const Eigen::Vector3d& direction) {
+    if (friction_.coefficient == 0.0) return 1.0;
+    if (started_) {
+      lost_ += friction_.Signed(piece - 1) * TurningAngle(before_, direction);
+    }
     started_ = true;
     before_ = direction;
-    return std::exp(-mu_ * turned_);
+    return std::exp(-lost_);
   }
 
  private:
-  double mu_;
+  const CableFriction& friction_;
   bool started_ = false;
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
-  double turned_ = 0.0;
+  double lost_ = 0.0;  ///< the logarithm of the fraction that is not there
 };
 
 }  // namespace
@@ -95,6 +97,9 @@ void Cable::SetEyelet(int eyelet, const std::vector<double>& weights,
 void Cable::SetFriction(const CableFriction& friction) {
   PALPATE_CHECK(friction.coefficient >= 0.0 && std::isfinite(friction.coefficient),
                 friction.coefficient);
+  const std::size_t count = friction.sliding.size();
+  PALPATE_CHECK(count <= 1 || count == eyelets_.size(), count, eyelets_.size());
+  for (const double sliding : friction.sliding) PALPATE_CHECK(std::abs(sliding) <= 1.0, sliding);
   friction_ = friction;
 }
 
@@ -120,11 +125,12 @@ double Cable::Value(const Eigen::VectorXd& x_m) const {
 
 void Cable::AddGradient(const Eigen::VectorXd& x_m, double factor, Eigen::VectorXd& nodal) const {
   TensionAlong tension(friction_);
-  for (const Piece& piece : pieces_) {
+  for (size_t p = 0; p < pieces_.size(); ++p) {
+    const Piece& piece = pieces_[p];
     const Eigen::Vector3d vector = piece.Vector(x_m);
     const double length = vector.norm();
     if (length < kShortestPiece_m) continue;
-    const double pull = factor * tension.Next(vector / length);
+    const double pull = factor * tension.Next(p, vector / length);
     const Eigen::Vector3d direction = pull / length * vector;
     for (size_t k = 0; k < piece.nodes.size(); ++k) {
       nodal.segment<3>(3 * piece.nodes[k]) += piece.coefficients[k] * direction;
@@ -156,12 +162,13 @@ void Cable::BindTo(const fem::StiffnessMatrix& stiffness) {
 void Cable::AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
                          fem::StiffnessMatrix& stiffness) const {
   TensionAlong tension(friction_);
-  for (const Piece& piece : pieces_) {
+  for (size_t p = 0; p < pieces_.size(); ++p) {
+    const Piece& piece = pieces_[p];
     const Eigen::Vector3d vector = piece.Vector(x_m);
     const double length = vector.norm();
     if (length < kShortestPiece_m) continue;
     const Eigen::Vector3d u = vector / length;
-    const double pull = multiplier * tension.Next(u);
+    const double pull = multiplier * tension.Next(p, u);
     const Eigen::Matrix3d curvature =
         pull / length * (Eigen::Matrix3d::Identity() - u * u.transpose());
     size_t slot = 0;

@@ -8,21 +8,9 @@
 
 #include "libs/fem/node_weights.hpp"
 #include "libs/fem/scalar_constraint.hpp"
+#include "libs/robot/cable_friction.hpp"
 
 namespace palpate::robot {
-
-/// Coulomb friction of a cable in its eyelets while it slides (capstan, Euler-Eytelwein): where it
-/// turns by theta, the tension falls by exp(-mu theta) in the direction in which it slides.
-struct CableFriction {
-  enum class Sliding {
-    kIn,   ///< towards the drive: the tension falls from the drive to the tip
-    kOut,  ///< out of the drive: it rises
-  };
-  double coefficient = 0.0;  ///< mu >= 0; 0: none
-  Sliding sliding = Sliding::kIn;
-
-  double SignedCoefficient() const { return sliding == Sliding::kIn ? coefficient : -coefficient; }
-};
 
 /// A cable: from a pull point fixed to the ground through eyelets on the body, in which it slides,
 /// to the last one, where it is attached. Its value is its length outside the drive, m; its

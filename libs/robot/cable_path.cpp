@@ -14,9 +14,9 @@ double TurningAngle(const Eigen::Vector3d& before, const Eigen::Vector3d& after)
   return std::atan2(before.cross(after).norm(), before.dot(after));
 }
 
-void CablePath::Evaluate(const Eigen::Matrix3Xd& points_m, double signed_friction) {
+void CablePath::Evaluate(const Eigen::Matrix3Xd& points_m, const CableFriction& friction) {
   PALPATE_CHECK(points_m.cols() >= 2, points_m.cols());
-  friction_ = signed_friction;
+  friction_ = friction.coefficient;
   const Eigen::Index pieces = points_m.cols() - 1;
   direction_.setZero(3, pieces);
   inverse_length_.setZero(pieces);
@@ -27,7 +27,7 @@ void CablePath::Evaluate(const Eigen::Matrix3Xd& points_m, double signed_frictio
     direction_.col(j) = vector / length;
     inverse_length_[j] = 1.0 / length;
   }
-  FindTurns();
+  FindTurns(friction);
   length_gradient_.setZero(3, points_m.cols());
   force_.setZero(3, points_m.cols());
   for (Eigen::Index j = 0; j < pieces; ++j) {
@@ -37,7 +37,7 @@ void CablePath::Evaluate(const Eigen::Matrix3Xd& points_m, double signed_frictio
   }
 }
 
-void CablePath::FindTurns() {
+void CablePath::FindTurns(const CableFriction& friction) {
   constexpr double kStraight = 1e-12;  // rad
   turns_.clear();
   turned_.setZero(PieceCount());
@@ -49,14 +49,17 @@ void CablePath::FindTurns() {
     if (before >= 0) {
       const Eigen::Vector3d u = direction_.col(before);
       const Eigen::Vector3d v = direction_.col(j);
-      TurnData turn{.before = before, .after = j, .angle = TurningAngle(u, v)};
+      TurnData turn{.before = before,
+                    .after = j,
+                    .angle = TurningAngle(u, v),
+                    .sliding = friction.Sliding(static_cast<std::size_t>(j - 1))};
       const double sine = u.cross(v).norm();
       if (sine > kStraight) {
         const double cosine = u.dot(v);
         turn.by_before = -inverse_length_[before] / sine * (v - cosine * u);
         turn.by_after = -inverse_length_[j] / sine * (u - cosine * v);
       }
-      turned += turn.angle;
+      turned += turn.sliding * turn.angle;
       turned_[j] = turned;
       turns_.push_back(turn);
     }
@@ -91,7 +94,8 @@ void CablePath::ForceAlong(const Eigen::Matrix3Xd& motion_m, Eigen::Matrix3Xd* f
   size_t next_turn = 0;
   for (Eigen::Index j = 0; j < PieceCount(); ++j) {
     if (next_turn < turns_.size() && turns_[next_turn].after == j) {
-      turned_along += AngleAlong(turns_[next_turn++], motion_m);
+      turned_along += turns_[next_turn].sliding * AngleAlong(turns_[next_turn], motion_m);
+      ++next_turn;
     }
     const Eigen::Vector3d u = direction_.col(j);
     const Eigen::Vector3d moved = PieceAlong(j, motion_m);
@@ -107,12 +111,22 @@ void CablePath::ForceAlongFriction(Eigen::Matrix3Xd* force) const {
   }
 }
 
+void CablePath::ForceAlongFrictionAt(Eigen::Index eyelet, Eigen::Matrix3Xd* force) const {
+  force->setZero(3, PieceCount() + 1);
+  for (const TurnData& turn : turns_) {
+    if (turn.after - 1 != eyelet) continue;
+    for (Eigen::Index j = turn.after; j < PieceCount(); ++j) {
+      AddPieceForce(j, -turn.angle * fraction_[j] * direction_.col(j), force);
+    }
+  }
+}
+
 void CablePath::Turn(int turn, Eigen::Matrix3Xd* force, Eigen::Matrix3Xd* angle) const {
   const TurnData& data = turns_.at(static_cast<size_t>(turn));
   force->setZero(3, PieceCount() + 1);
   angle->setZero(3, PieceCount() + 1);
   for (Eigen::Index j = data.after; j < PieceCount(); ++j) {
-    AddPieceForce(j, -friction_ * fraction_[j] * direction_.col(j), force);
+    AddPieceForce(j, -friction_ * data.sliding * fraction_[j] * direction_.col(j), force);
   }
   angle->col(data.before) -= data.by_before;
   angle->col(data.before + 1) += data.by_before;

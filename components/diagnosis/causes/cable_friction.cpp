@@ -9,8 +9,8 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Capstan friction in the eyelets that a cable runs through, in the direction in which it last
-/// went; one with a knot only has none.
+/// Capstan friction in the eyelets that a cable runs through (model/sticking.hpp); one with a knot
+/// only has none.
 class CableFrictionCause final : public Cause {
  public:
   CableFrictionCause(const std::string& cable, int index)
@@ -22,6 +22,9 @@ class CableFrictionCause final : public Cause {
     draft->body.cables[static_cast<std::size_t>(index_)].friction_coefficient +=
         std::max(0.0, z[0]);
   }
+
+  /// More of it sticks for longer, which OnBody leaves out.
+  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {

@@ -103,10 +103,11 @@ std::vector<std::vector<SamplePart>> DriveTrain::PartsAt(const DriveSettings& se
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t first = k * times.size() / count;
       const std::size_t end = (k + 1) * times.size() / count;
-      SamplePart part{.taken_in = Eigen::VectorXd::Zero(path.rows())};
+      SamplePart part{.taken_in = Eigen::VectorXd::Zero(path.rows()), .times = {}, .sliding = {}};
       for (std::size_t f = first; f < end; ++f) {
         part.taken_in += path.col(times[f]) / static_cast<double>(end - first);
         part.t_s += t_s_[static_cast<std::size_t>(times[f])] / static_cast<double>(end - first);
+        part.times.push_back(times[f]);
       }
       part.share = static_cast<double>(end - first) / static_cast<double>(times.size());
       of_sample.push_back(std::move(part));

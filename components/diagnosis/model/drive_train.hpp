@@ -29,6 +29,8 @@ struct SamplePart {
   double share = 0.0;        ///< of the sample's frames
   double t_s = 0.0;          ///< mean of their stamps
   Eigen::VectorXd taken_in;  ///< [cables] as DriveTrain::At, mean over the part
+  std::vector<int> times;    ///< of its frames, among DriveTrain::t_s
+  Eigen::VectorXd sliding;   ///< [eyelets that rub] mean CableFriction::sliding; empty: 1
 };
 
 /// The drives through the whole experiment: mixing, lag, gain and offset, play, in
@@ -47,14 +49,16 @@ class DriveTrain {
   std::vector<std::vector<SamplePart>> PartsAt(const DriveSettings& settings) const;
   /// [cables x samples] 1 where a cable was last taken in, -1 let out, 0: not moved yet.
   Eigen::MatrixXi Sliding(const DriveSettings& settings) const;
+  /// [times] all stamps of commands and frames, rising.
+  const std::vector<double>& t_s() const { return t_s_; }
+  /// [cables x times] what the drives take in or pull with.
+  Eigen::MatrixXd Path(const DriveSettings& settings) const;
 
  private:
-  /// [cables x times]
-  Eigen::MatrixXd Path(const DriveSettings& settings) const;
   Eigen::VectorXd Told(const DriveSettings& settings, double t_s) const;
 
   const ObservedExperiment& observed_;
-  std::vector<double> t_s_;                 ///< all stamps of commands and frames, rising
+  std::vector<double> t_s_;
   std::vector<std::vector<int>> times_of_;  ///< [samples] indices of its frames
 };
 

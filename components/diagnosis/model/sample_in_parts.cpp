@@ -22,6 +22,17 @@ std::vector<bool> WhatHolds(const HeldShape& shape) {
   return holds;
 }
 
+/// Whether cables begin or cease to slide in the course of a sample: then no part stands for
+/// another. `friction` [eyelets that rub].
+bool TurnsRound(const std::vector<SamplePart>& parts, const Eigen::VectorXd& friction) {
+  constexpr double kLittle = 0.01;  // of CableFriction::Signed
+  return std::any_of(parts.begin(), parts.end(), [&](const SamplePart& part) {
+    const Eigen::VectorXd& first = parts.front().sliding;
+    return part.sliding.size() > 0 &&
+           (part.sliding - first).cwiseProduct(friction).cwiseAbs().maxCoeff() > kLittle;
+  });
+}
+
 /// One sample of a motion.
 class SampleInParts {
  public:
@@ -35,9 +46,12 @@ class SampleInParts {
     SimulatedSample solved;
     solved.middle = simulated->middle;
     Eigen::VectorXd mean_m;
+    std::vector<EyeletSlides> slides;
     std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
     std::map<std::size_t, Memorable> of_part;
-    const int choices = simulated->choices + 1;
+    const bool turns_round = TurnsRound(parts_, solver_.FrictionOfEyelets());
+    const bool chosen_anew = !simulated->turns_round || !turns_round;
+    const int choices = simulated->choices + (chosen_anew ? 1 : 0);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       Solve(k, &solved);
       if (k == middle || !solved.status.ok()) {
@@ -45,6 +59,7 @@ class SampleInParts {
         simulated->in_the_middle = solver_.WhatIsMemorable(past_, solved);
       }
       if (!solved.status.ok()) return;
+      if (k == middle || turns_round) AddSlides(k, solved.middle, &slides);
       if (TellsAnEnd(k)) of_part[k] = solver_.WhatIsMemorable(past_, solved);
       if (k == 0) mean_m = Eigen::VectorXd::Zero(solved.seen_m.size());
       mean_m += parts_[k].share * solved.seen_m;
@@ -54,6 +69,8 @@ class SampleInParts {
     simulated->seen_m = std::move(mean_m);
     simulated->parts = parts_.size();
     simulated->choices = choices;
+    simulated->turns_round = turns_round;
+    simulated->slides = std::move(slides);
     KeepOthers(by_what_holds, simulated);
     FindEnds(of_part, simulated);
   }
@@ -62,6 +79,7 @@ class SampleInParts {
   bool SolveShapes(SimulatedSample* simulated) {
     SimulatedSample middle = Resolved(simulated->middle);
     if (!IsHeldAs(simulated->middle, middle)) return false;
+    AddSlides(middle.middle.part, middle.middle, &middle.slides);
     Eigen::VectorXd mean_m = simulated->seen_m;
     const auto move = [&](const HeldShape& from, const HeldShape& to) {
       mean_m += from.share * (to.seen_m - from.seen_m);
@@ -85,6 +103,7 @@ class SampleInParts {
   /// The middle, about which the markers' mean lies as it did.
   void SolveMiddle(SimulatedSample* simulated) {
     SimulatedSample middle = Resolved(simulated->middle);
+    middle.slides = std::move(simulated->slides);
     Memorise(*simulated, &middle);
     middle.middle.share = 1.0;
     middle.bend_m = std::move(simulated->bend_m);
@@ -97,9 +116,16 @@ class SampleInParts {
 
  private:
   void Solve(std::size_t part, SimulatedSample* solved) {
+    solver_.SetSliding(parts_[part].sliding);
     solver_.Solve(sample_, parts_[part].taken_in, past_, solved);
     solved->middle.part = part;
     solved->middle.seen_m = solved->seen_m;
+  }
+
+  void AddSlides(std::size_t part, const HeldShape& shape, std::vector<EyeletSlides>* slides) {
+    EyeletSlides of_part = solver_.SlidesAboutShape(shape);
+    of_part.t_s = parts_[part].t_s;
+    if (of_part.IsKnown()) slides->push_back(std::move(of_part));
   }
 
   /// A shape of a robot that was a little different.
@@ -203,8 +229,9 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
     motion.SolveMiddle(simulated);
     return;
   }
-  const bool may_keep = is_known && detail == Detail::kParts && simulated->bend_is_own &&
-                        IsClearOfWalls(*solver, *simulated);
+  const bool may_keep =
+      is_known && detail == Detail::kParts && simulated->bend_is_own && !simulated->turns_round &&
+      !TurnsRound(parts, solver->FrictionOfEyelets()) && IsClearOfWalls(*solver, *simulated);
   if (!may_keep || !motion.SolveShapes(simulated)) motion.SolveAll(simulated);
 }
 

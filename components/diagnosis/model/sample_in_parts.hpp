@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 /// What of a sample of a motion is simulated.
 enum class Detail {
   kAllParts,  ///< as many parts of it as its bends need
-  kParts,     ///< what of these stands for all, where the same cables are taut still
+  kParts,     ///< what of these stands for all, where the same cables are taut and slide still
   kMiddles,   ///< its middle; how it bends about that is taken from another simulation
 };
 

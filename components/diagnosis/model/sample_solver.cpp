@@ -64,6 +64,7 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
       kept_(draft.body.mesh),
       wall_(draft.wall ? std::make_unique<WallContact>(*draft.wall) : nullptr),
       model_(draft.body, Settings(), {}, AsConstraints(&kept_, wall_.get())),
+      eyelets_(RubbingEyelets(draft.body)),
       at_wall_(wall_ ? std::make_unique<WallBalance>(wall_->wall(), &model_) : nullptr),
       sensitivity_(model_),
       markers_(MarkerPoints(draft)),
@@ -133,13 +134,25 @@ void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
       GravityIn(draft_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
 }
 
-void SampleSolver::SetSliding(const Eigen::VectorXi& way) {
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    model_.SetCableFriction(
-        c, {.coefficient = draft_.body.cables[static_cast<std::size_t>(c)].friction_coefficient,
-            .sliding = way[c] < 0 ? robot::CableFriction::Sliding::kOut
-                                  : robot::CableFriction::Sliding::kIn});
+void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
+  std::vector<robot::CableFriction> friction;  // [cables]
+  for (const robot::BodyCable& cable : draft_.body.cables) {
+    friction.push_back({cable.friction_coefficient, {}});
+    if (sliding.size() > 0) friction.back().sliding.resize(cable.eyelets.size());
   }
+  for (std::size_t k = 0; k < eyelets_.size() && sliding.size() > 0; ++k) {
+    friction[static_cast<std::size_t>(eyelets_[k].cable)]
+        .sliding[static_cast<std::size_t>(eyelets_[k].eyelet)] =
+        sliding[static_cast<Eigen::Index>(k)];
+  }
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    model_.SetCableFriction(c, friction[static_cast<std::size_t>(c)]);
+  }
+}
+
+EyeletSlides SampleSolver::SlidesAboutShape(const HeldShape& shape) {
+  if (eyelets_.empty()) return {};
+  return SlidesAbout(eyelets_, shape.commands, shape.state, model_, &sensitivity_);
 }
 
 Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {

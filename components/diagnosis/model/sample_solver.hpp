@@ -49,8 +49,12 @@ class SampleSolver {
   Memorable Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
   void Prepare(const Sample& sample, const Hereditary& past);
-  /// [cables] which way they last went through their eyelets (DriveTrain::Sliding).
-  void SetSliding(const Eigen::VectorXi& way);
+  /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the drives.
+  void SetSliding(const Eigen::VectorXd& sliding);
+  /// [RubbingEyelets] friction coefficients.
+  Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, draft_.body); }
+  /// About `shape`, which was solved last.
+  EyeletSlides SlidesAboutShape(const HeldShape& shape);
 
  private:
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
@@ -69,6 +73,7 @@ class SampleSolver {
   KeptStress kept_;                    ///< the first constraint after the cables
   std::unique_ptr<WallContact> wall_;  ///< the draft's, or none: the last
   robot::RobotModel model_;
+  std::vector<RubbingEyelet> eyelets_;
   std::unique_ptr<WallBalance> at_wall_;  ///< with the wall
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::NodeWeights> markers_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "components/diagnosis/model/eyelet_slides.hpp"
 #include "components/diagnosis/model/kept_stress.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/load_state.hpp"
@@ -47,9 +48,13 @@ struct SimulatedSample {
   HeldShape middle;
   /// In a motion: one shape for each other set of cables that are taut in parts of it.
   std::vector<HeldShape> beside;
-  std::size_t parts = 0;  ///< that these were chosen among; 0: not simulated yet
-  int choices = 0;        ///< how often they were chosen
+  std::size_t parts = 0;     ///< that these were chosen among; 0: not simulated yet
+  int choices = 0;           ///< how often they were chosen
+  bool turns_round = false;  ///< its parts differ in what slides, and each was simulated
   Memorable in_the_middle;
+  /// In order of time, of robots with eyelets that rub: about the middle, or of all parts where it
+  /// turns_round. Empty: not known.
+  std::vector<EyeletSlides> slides;
   /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
   /// it is no other than in the middle.
   std::array<Memorable, 2> at_ends;

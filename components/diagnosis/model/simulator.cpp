@@ -70,15 +70,25 @@ ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const E
 }
 
 Simulator::Simulator(const ObservedExperiment& observed, int threads)
-    : observed_(observed), threads_(threads), drives_(observed), memory_(observed) {}
+    : observed_(observed),
+      threads_(threads),
+      drives_(observed),
+      sticking_(drives_),
+      memory_(observed) {}
+
+std::vector<std::vector<SamplePart>> Simulator::PartsOf(const ModelDraft& draft,
+                                                        const Simulation& simulated) const {
+  std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
+  sticking_.Follow(draft, simulated.samples, &parts);
+  return parts;
+}
 
 /// Brings samples that are `to_do` to balance, and where it is not known, what rests. False: one
 /// failed, and of such as begin from a robot that was not far from there the others were left.
 bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
+                      const std::vector<std::vector<SamplePart>>& parts,
                       const std::vector<bool>& is_to_do, Solvers* solvers,
                       Simulation* simulation) const {
-  const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
-  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
   const auto shares = Shares(observed_, is_to_do, threads_);
   std::atomic<bool> failed = false;
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
@@ -92,7 +102,6 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
     const HeldShape* before = nullptr;
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
-      solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
       if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
         sample.middle.state = before->state;
         sample.middle.wall_force_N = before->wall_force_N;
@@ -126,13 +135,19 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
   }
   if (start != nullptr && Remembers(draft))
     UpdatePast(draft, memory_, simulation, &simulation.past);
+  std::vector<std::vector<SamplePart>> parts = PartsOf(draft, simulation);
   simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
   Solvers solvers(static_cast<std::size_t>(threads_));
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    const bool known = Sweep(draft, start != nullptr, detail, is_to_do, &solvers, &simulation);
+    const bool known =
+        Sweep(draft, start != nullptr, detail, parts, is_to_do, &solvers, &simulation);
     if (detail == Detail::kAllParts) detail = Detail::kParts;
-    if (!known || !Remembers(draft) || sweep + 1 == kMostSweeps) break;
-    is_to_do = UpdatePast(draft, memory_, simulation, &simulation.past);
+    if (!known || sweep + 1 == kMostSweeps) break;
+    is_to_do = sticking_.Follow(draft, simulation.samples, &parts);
+    if (Remembers(draft)) {
+      const std::vector<bool> is_other = UpdatePast(draft, memory_, simulation, &simulation.past);
+      for (std::size_t s = 0; s < is_to_do.size(); ++s) is_to_do[s] = is_to_do[s] || is_other[s];
+    }
     if (std::none_of(is_to_do.begin(), is_to_do.end(), [](bool one) { return one; })) break;
   }
   simulation.below_largest_J_m3 = BelowLargest_J_m3(memory_, simulation);
@@ -145,8 +160,7 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
 
 std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
                                             const Simulation& simulation) const {
-  const std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
-  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  const std::vector<std::vector<SamplePart>> parts = PartsOf(draft, simulation);
   std::vector<bool> wanted;
   for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
     wanted.push_back(!observed_.samples[s].pictures.empty() && simulation.samples[s].status.ok());
@@ -155,11 +169,11 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
   OnThreads(Shares(observed_, wanted, threads_), [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(draft, observed_);
     for (const std::size_t s : share) {
-      solver.SetSliding(sliding.col(static_cast<Eigen::Index>(s)));
       SimulatedSample solved;
       solved.middle = simulation.samples[s].middle;
       for (const SamplePart& part : parts[s]) {
         if (parts[s].size() > 1) {
+          solver.SetSliding(part.sliding);
           solver.Solve(observed_.samples[s], part.taken_in, simulation.past[s], &solved);
           if (!solved.status.ok()) break;
         }
@@ -177,7 +191,7 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
                               const ModelDraft& nominal, Simulation* simulation) const {
   const std::vector<Eigen::MatrixXd> drive_change =
       DriveChanges(drives_, nominal, causes, z, wanted, draft.drives);
-  const Eigen::MatrixXi sliding = drives_.Sliding(draft.drives);
+  const std::vector<std::vector<SamplePart>> parts = PartsOf(draft, *simulation);
   const auto shares =
       Shares(observed_, std::vector<bool>(observed_.samples.size(), true), threads_);
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
@@ -185,9 +199,7 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
     SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, observed_, &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
-      const auto column = static_cast<Eigen::Index>(s);
       solver.Prepare(observed_.samples[s], simulation->past[s]);
-      solver.SetSliding(sliding.col(column));
       const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
         const CauseMoment at{.observed = observed_,
                              .draft = draft,
@@ -197,6 +209,7 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
                              .shape = shape,
                              .model = solver.model(),
                              .points = solver.points()};
+        solver.SetSliding(parts[s][shape.part].sliding);
         return shape.share * differentiator.At(at);
       };
       Eigen::MatrixXd mean_m = jacobian_m(sample.middle);

@@ -15,6 +15,7 @@
 #include "components/diagnosis/model/sample_solver.hpp"
 #include "components/diagnosis/model/shapes_in_time.hpp"
 #include "components/diagnosis/model/simulation.hpp"
+#include "components/diagnosis/model/sticking.hpp"
 
 namespace palpate::diagnosis {
 
@@ -54,12 +55,17 @@ class Simulator {
   /// [threads] of one draft, each made where it is first needed.
   using Solvers = std::vector<std::unique_ptr<SampleSolver>>;
 
+  /// [samples] parts of those, as they slide in a robot of which `simulated` is known.
+  std::vector<std::vector<SamplePart>> PartsOf(const ModelDraft& draft,
+                                               const Simulation& simulated) const;
   bool Sweep(const ModelDraft& draft, bool is_near, Detail detail,
-             const std::vector<bool>& is_to_do, Solvers* solvers, Simulation* simulation) const;
+             const std::vector<std::vector<SamplePart>>& parts, const std::vector<bool>& is_to_do,
+             Solvers* solvers, Simulation* simulation) const;
 
   const ObservedExperiment& observed_;
   int threads_;
   DriveTrain drives_;
+  Sticking sticking_;
   Memory memory_;
 };
 

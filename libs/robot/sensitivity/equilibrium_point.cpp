@@ -21,7 +21,7 @@ void EquilibriumPoint::EvaluateRestPaths() {
   for (int c = 0; c < model_.CableCount(); ++c) {
     Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
     model_.cable(c).FindPath(model_.elastic_body().rest_m(), &path_m);
-    rest_paths_[static_cast<size_t>(c)].Evaluate(path_m, 0.0);
+    rest_paths_[static_cast<size_t>(c)].Evaluate(path_m, {});
   }
 }
 
@@ -38,7 +38,7 @@ void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
     const Cable& cable = model_.cable(c);
     Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
     cable.FindPath(x_m_, &path_m);
-    paths_[static_cast<size_t>(c)].Evaluate(path_m, cable.friction().SignedCoefficient());
+    paths_[static_cast<size_t>(c)].Evaluate(path_m, cable.friction());
   }
 }
 

@@ -64,9 +64,11 @@ ParameterPtr DriveCoupling(int driven, int by);
 /// m/N, at 0: the cable's stretch per tension at the drive, which lets out so much of it. Acts
 /// where displacement is commanded.
 ParameterPtr CableCompliance(int cable);
-/// mu of a cable's capstan friction (cable.hpp), in its direction of sliding; exact at every mu.
-/// Nothing where the cable is slack.
+/// mu of a cable's capstan friction (cable_friction.hpp) with each eyelet sliding as it is; exact
+/// at every mu. Nothing where the cable is slack.
 ParameterPtr CableFrictionCoefficient(int cable);
+/// mu s at one of its eyelets (0: next to the drive), CableFriction::Signed.
+ParameterPtr CableFrictionAt(int cable, int eyelet);
 
 /// Distance, m, by which the pull point moves along `direction` (unit).
 ParameterPtr PullPointMove(int cable, const Eigen::Vector3d& direction,

@@ -123,14 +123,15 @@ TEST_F(CableTest, FrictionTakesExpOfTheTurningAngleAtEachEyelet) {
   const std::vector<fem::NodeWeights> nodes{{{0}, {1.0}}, {{1}, {1.0}}, {{2}, {1.0}}};
   Eigen::VectorXd x_m(9);
   x_m << 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.5, 1.5, 0.0;  // turns by 90 and 45 degrees
-  for (const auto sliding : {CableFriction::Sliding::kIn, CableFriction::Sliding::kOut}) {
+  for (const std::vector<double>& sliding :
+       {std::vector{1.0}, std::vector{-1.0}, std::vector{1.0, -0.5, 0.0}}) {
     Cable cable(Eigen::Vector3d::Zero(), nodes, x_m);
     cable.SetFriction({0.3, sliding});
     Eigen::VectorXd force_N = Eigen::VectorXd::Zero(9);
     cable.AddGradient(x_m, -2.0, force_N);
-    const double sign = sliding == CableFriction::Sliding::kIn ? -1.0 : 1.0;
-    const double second_N = 2.0 * std::exp(sign * 0.3 * std::numbers::pi / 2.0);
-    const double third_N = 2.0 * std::exp(sign * 0.3 * 0.75 * std::numbers::pi);
+    const double last = sliding.size() == 1 ? sliding[0] : sliding[1];
+    const double second_N = 2.0 * std::exp(-sliding[0] * 0.3 * std::numbers::pi / 2.0);
+    const double third_N = second_N * std::exp(-last * 0.3 * std::numbers::pi / 4.0);
     const Eigen::Vector3d slanted = Eigen::Vector3d(1.0, 1.0, 0.0).normalized();
     EXPECT_LE((force_N.segment<3>(0) - Eigen::Vector3d(-2.0, second_N, 0.0)).norm(), 1e-14);
     EXPECT_LE(
@@ -142,13 +143,13 @@ TEST_F(CableTest, FrictionTakesExpOfTheTurningAngleAtEachEyelet) {
 
 TEST_F(CableTest, WithoutFrictionNothingChangesByABit) {
   Cable set = cable_;
-  set.SetFriction({0.0, CableFriction::Sliding::kOut});
+  set.SetFriction({0.0, {-1.0}});
   Eigen::VectorXd a = Eigen::VectorXd::Zero(3 * kNodes);
   cable_.AddGradient(x_m_, 1.7, a);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * kNodes);
   set.AddGradient(x_m_, 1.7, b);
   EXPECT_EQ(a, b);
-  set.SetFriction({0.1, CableFriction::Sliding::kIn});
+  set.SetFriction({0.1});
   b.setZero();
   set.AddGradient(x_m_, 1.7, b);
   EXPECT_NE(a, b);
@@ -170,9 +171,11 @@ TEST(CableDeathTest, NeedsAnEyelet) {
   EXPECT_DEATH(Cable(Eigen::Vector3d::Zero(), {}, Eigen::VectorXd::Zero(3)), "eyelets_");
 }
 
-TEST(CableDeathTest, RefusesNegativeFriction) {
+TEST(CableDeathTest, RefusesFrictionThatNoCableHas) {
   Cable cable(Eigen::Vector3d::UnitX(), {{{0}, {1.0}}}, Eigen::VectorXd::Zero(3));
-  EXPECT_DEATH(cable.SetFriction({-0.1, CableFriction::Sliding::kIn}), "coefficient");
+  EXPECT_DEATH(cable.SetFriction({-0.1}), "coefficient");
+  EXPECT_DEATH(cable.SetFriction({0.1, {1.1}}), "sliding");
+  EXPECT_DEATH(cable.SetFriction({0.1, {1.0, 1.0}}), "count");
 }
 
 }  // namespace

@@ -13,21 +13,37 @@ class FrictionCoefficient final : public Parameter {
   explicit FrictionCoefficient(int cable) : cable_(cable) {}
 
   void Describe(const EquilibriumPoint& at, ParameterColumn* column) const override {
-    const bool pulled_in =
-        at.model().cable(cable_).friction().sliding == CableFriction::Sliding::kIn;
     Eigen::Matrix3Xd force;
     at.path(cable_).ForceAlongFriction(&force);
-    at.PullPath(cable_, pulled_in ? at.tension_N(cable_) : -at.tension_N(cable_), force, column);
+    at.PullPath(cable_, at.tension_N(cable_), force, column);
   }
 
  private:
   int cable_;
 };
 
+class FrictionAtEyelet final : public Parameter {
+ public:
+  FrictionAtEyelet(int cable, int eyelet) : cable_(cable), eyelet_(eyelet) {}
+
+  void Describe(const EquilibriumPoint& at, ParameterColumn* column) const override {
+    Eigen::Matrix3Xd force;
+    at.path(cable_).ForceAlongFrictionAt(eyelet_, &force);
+    at.PullPath(cable_, at.tension_N(cable_), force, column);
+  }
+
+ private:
+  int cable_, eyelet_;
+};
+
 }  // namespace
 
 ParameterPtr CableFrictionCoefficient(int cable) {
   return std::make_unique<FrictionCoefficient>(cable);
+}
+
+ParameterPtr CableFrictionAt(int cable, int eyelet) {
+  return std::make_unique<FrictionAtEyelet>(cable, eyelet);
 }
 
 }  // namespace palpate::robot

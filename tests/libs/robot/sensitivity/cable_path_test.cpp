@@ -14,7 +14,8 @@ namespace palpate::robot {
 namespace {
 
 constexpr int kPoints = 5;
-constexpr double kFriction = 0.3;
+/// One eyelet slides in, one sticks, one slides out, and a knot.
+const CableFriction kFriction{0.3, {1.0, 0.4, -1.0, 0.0}};
 
 /// A path that turns at every eyelet, and a motion of its points.
 class CablePathTest : public testing::Test {
@@ -33,7 +34,7 @@ class CablePathTest : public testing::Test {
     return points;
   }
 
-  static CablePath PathOf(const Eigen::Matrix3Xd& points_m, double friction) {
+  static CablePath PathOf(const Eigen::Matrix3Xd& points_m, const CableFriction& friction) {
     CablePath path;
     path.Evaluate(points_m, friction);
     return path;
@@ -62,13 +63,29 @@ TEST_F(CablePathTest, ForceAlongAMotionIsTheDerivativeOfTheForce) {
 TEST_F(CablePathTest, ForceAlongFrictionIsItsDerivative) {
   Eigen::Matrix3Xd along;
   path_.ForceAlongFriction(&along);
-  const Eigen::Matrix3Xd expected =
-      Difference([&](double by) { return PathOf(points_m_, kFriction + by).force(); });
+  const Eigen::Matrix3Xd expected = Difference([&](double by) {
+    CableFriction friction = kFriction;
+    friction.coefficient += by;
+    return PathOf(points_m_, friction).force();
+  });
   EXPECT_LE((along - expected).norm(), 1e-9 * expected.norm());
 }
 
+TEST_F(CablePathTest, ForceAlongFrictionAtAnEyeletIsItsDerivative) {
+  for (std::size_t eyelet = 0; eyelet + 1 < kFriction.sliding.size(); ++eyelet) {
+    Eigen::Matrix3Xd along;
+    path_.ForceAlongFrictionAt(static_cast<Eigen::Index>(eyelet), &along);
+    const Eigen::Matrix3Xd expected = Difference([&](double by) {
+      CableFriction friction = kFriction;
+      friction.sliding[eyelet] += by / friction.coefficient;
+      return PathOf(points_m_, friction).force();
+    });
+    EXPECT_LE((along - expected).norm(), 1e-9 * expected.norm()) << eyelet;
+  }
+}
+
 TEST_F(CablePathTest, WithoutFrictionTheForceIsMinusTheGradientOfTheLength) {
-  const CablePath smooth = PathOf(points_m_, 0.0);
+  const CablePath smooth = PathOf(points_m_, {});
   EXPECT_LE((smooth.force() + smooth.length_gradient()).norm(), 1e-15);
   EXPECT_EQ(path_.length_gradient(), smooth.length_gradient());
 }
@@ -101,12 +118,13 @@ TEST_F(CablePathTest, IsThatOfTheCable) {
   std::vector<fem::NodeWeights> eyelets;
   for (int e = 1; e < kPoints; ++e) eyelets.push_back({{e}, {1.0}});
   const Eigen::VectorXd x_m = points_m_.reshaped();
-  for (const auto sliding : {CableFriction::Sliding::kIn, CableFriction::Sliding::kOut}) {
+  for (const CableFriction& friction :
+       {CableFriction{0.3}, CableFriction{0.3, {-1.0}}, kFriction}) {
     Cable cable(points_m_.col(0), eyelets, x_m);
-    cable.SetFriction({kFriction, sliding});
+    cable.SetFriction(friction);
     Eigen::VectorXd nodal = Eigen::VectorXd::Zero(x_m.size());
     cable.AddGradient(x_m, -1.0, nodal);
-    const CablePath path = PathOf(cable.Path_m(x_m), cable.friction().SignedCoefficient());
+    const CablePath path = PathOf(cable.Path_m(x_m), cable.friction());
     EXPECT_LE(
         (nodal.tail(3 * (kPoints - 1)) - path.force().rightCols(kPoints - 1).reshaped()).norm(),
         1e-14);
@@ -116,7 +134,7 @@ TEST_F(CablePathTest, IsThatOfTheCable) {
 TEST_F(CablePathTest, APieceWithoutLengthNeitherPullsNorTurns) {
   Eigen::Matrix3Xd folded_m(3, kPoints + 1);
   folded_m << points_m_.leftCols(3), points_m_.col(2), points_m_.rightCols(2);
-  const CablePath folded = PathOf(folded_m, kFriction);
+  const CablePath folded = PathOf(folded_m, {0.3, {1.0, 0.4, 0.4, -1.0, 0.0}});
   EXPECT_EQ(folded.TurnCount(), path_.TurnCount());
   EXPECT_LE((folded.force().leftCols(2) - path_.force().leftCols(2)).norm(), 1e-15);
   EXPECT_LE((folded.force().col(2) + folded.force().col(3) - path_.force().col(2)).norm(), 1e-15);

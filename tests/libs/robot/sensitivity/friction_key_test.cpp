@@ -17,7 +17,7 @@ class FrictionKey : public BeamModelTest {
 TEST_F(FrictionKey, IsThatOfTheCable) {
   const auto model = Build(TextWith("0.25"));
   EXPECT_EQ(model->cable(0).friction().coefficient, 0.25);
-  EXPECT_EQ(model->cable(0).friction().sliding, CableFriction::Sliding::kIn);
+  EXPECT_EQ(model->cable(0).friction().Sliding(0), 1.0);
   EXPECT_EQ(model->cable(1).friction().coefficient, 0.0);
 }
 

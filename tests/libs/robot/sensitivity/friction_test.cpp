@@ -9,13 +9,9 @@
 namespace palpate::robot {
 namespace {
 
-using Sliding = CableFriction::Sliding;
-
 class Friction : public SensitivityCase {
  protected:
-  void SetFriction(double mu) {
-    robot_.friction = {{mu, Sliding::kIn}, {mu, Sliding::kOut}, {0.5 * mu, Sliding::kIn}};
-  }
+  void SetFriction(double mu) { robot_.friction = {{mu}, {mu, {-1.0}}, {0.5 * mu}}; }
   Change Rubbing(int cable) const {
     return [=, this](double by) {
       RobotCase robot = robot_;
@@ -32,11 +28,28 @@ TEST_P(Friction, Coefficient) {
   }
 }
 
+/// What one eyelet alone has of friction, of a cable that sticks.
+TEST_P(Friction, AtOneEyelet) {
+  SetFriction(0.2);
+  const std::size_t count = robot_.body.cables[0].eyelets.size();
+  robot_.friction[0].sliding.assign(count, 0.3);
+  for (std::size_t e = 0; e + 1 < count; ++e) {
+    ExpectDerivative(
+        robot_, CableFrictionAt(0, static_cast<int>(e)),
+        [&](double by) {
+          RobotCase robot = robot_;
+          robot.friction[0].sliding[e] += by / robot.friction[0].coefficient;
+          return robot;
+        },
+        1e-3);
+  }
+}
+
 /// At mu = 0 only one side can be re-solved: one-sided differences of order 3.
 TEST_P(Friction, CoefficientAtZero) {
   for (const int c : {0, 1}) {
-    for (const Sliding sliding : {Sliding::kIn, Sliding::kOut}) {
-      robot_.friction[static_cast<size_t>(c)] = {0.0, sliding};
+    for (const double sliding : {1.0, -1.0}) {
+      robot_.friction[static_cast<size_t>(c)] = {0.0, {sliding}};
       Balance balance = Solve(robot_);
       const Derivative derivative = Differentiate(balance, robot_, CableFrictionCoefficient(c));
       const double step = 1e-3;
@@ -104,9 +117,9 @@ TEST_P(Friction, EquilibriaAreReached) {
 /// The far end is pulled less where the cable is drawn in, more where it is let out.
 TEST_P(Friction, TakesPullFromTheFarEndOrAddsToIt) {
   const double without = Solve(robot_).Points_m()[0];
-  robot_.friction[0] = {0.3, Sliding::kIn};
+  robot_.friction[0] = {0.3};
   const double drawn_in = Solve(robot_).Points_m()[0];
-  robot_.friction[0] = {0.3, Sliding::kOut};
+  robot_.friction[0] = {0.3, {-1.0}};
   const double let_out = Solve(robot_).Points_m()[0];
   EXPECT_GT(std::abs(drawn_in - without), 1e-6);
   EXPECT_LT((drawn_in - without) * (let_out - without), 0.0);

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/model/sticking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "components/diagnosis/model/eyelet_slides.hpp"
+#include "components/diagnosis/model/simulator.hpp"
+#include "tests/components/diagnosis_core/small_robot.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+constexpr double kPresliding_m = Sticking::kPresliding_m;
+
+TEST(StickOrSlide, FollowsWhatSlidesFreelyAndStaysWithinOne) {
+  const Eigen::Vector3d before(0.2, 1.0, -0.5);
+  const Eigen::Vector3d freely_m = kPresliding_m * Eigen::Vector3d(0.5, -3.0, 7.0);
+  const Eigen::VectorXd s = StickOrSlide(before, freely_m, Eigen::Matrix3d::Zero());
+  EXPECT_LT((s - Eigen::Vector3d(-0.3, 1.0, -1.0)).norm(), 1e-12);
+}
+
+/// s is what the slide that goes with it makes of it, however the eyelets work on each other.
+TEST(StickOrSlide, BalancesWhatItselfMoves) {
+  std::mt19937 engine(11);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  int sticking = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(4, 4, [&] { return any(engine); });
+    const Eigen::MatrixXd slide_m = 5.0 * kPresliding_m * A * A.transpose();
+    const Eigen::VectorXd before = Eigen::VectorXd::NullaryExpr(4, [&] { return any(engine); });
+    const Eigen::VectorXd freely_m =
+        8.0 * kPresliding_m * Eigen::VectorXd::NullaryExpr(4, [&] { return any(engine); });
+    const Eigen::VectorXd s = StickOrSlide(before, freely_m, slide_m);
+    const Eigen::VectorXd slid_m = freely_m + slide_m * (s - before);
+    const Eigen::VectorXd wanted = (before - slid_m / kPresliding_m).cwiseMax(-1.0).cwiseMin(1.0);
+    EXPECT_LT((s - wanted).cwiseAbs().maxCoeff(), 1e-3) << "trial " << trial;
+    sticking += static_cast<int>((s.cwiseAbs().array() < 1.0).count());
+  }
+  EXPECT_GT(sticking, 100);
+}
+
+/// A small robot whose first cable is pulled, let out by half, and pulled again.
+class StickingTest : public testing::Test {
+ protected:
+  StickingTest() { SetFriction(0.4); }
+
+  void SetFriction(double coefficient) { draft_.body.cables[0].friction_coefficient = coefficient; }
+  static ObservedExperiment Ramps(const robot::RobotBody& body) {
+    experiment::Experiment experiment;
+    experiment.recordings = {MakeRecording(
+        "ramps", body, {{0.0, {0.0}}, {4.0, {0.008}}, {6.0, {0.004}}, {8.0, {0.008}}}, 0.05)};
+    return Observe(experiment, body, {.most_samples = 24});
+  }
+  /// One part after the other.
+  std::vector<SamplePart> Parts() const {
+    const DriveTrain drives(observed_);
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(draft_.drives);
+    Sticking(drives).Follow(draft_, Simulator(observed_, 1).Run(draft_).samples, &of_samples);
+    std::vector<SamplePart> all;
+    for (const auto& parts : of_samples) all.insert(all.end(), parts.begin(), parts.end());
+    return all;
+  }
+
+  robot::RobotBody body_ = SmallRobot();
+  ObservedExperiment observed_ = Ramps(body_);
+  ModelDraft draft_ = DraftOf(body_, observed_);
+};
+
+TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
+  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(body_);
+  ASSERT_EQ(eyelets.size(), 3U);  // of cables up (two) and down; each has a knot beside
+  int sticking = 0;
+  for (const SamplePart& part : Parts()) {
+    const double first = part.sliding[0];
+    const double second = part.sliding[1];
+    if (part.t_s > 1.0 && part.t_s < 3.9) {
+      EXPECT_GT(std::min(first, second), 0.999) << part.t_s;
+    }
+    if (part.t_s > 4.0 && part.t_s < 6.0) {
+      EXPECT_LE(first, second + 1e-9) << part.t_s;  // tensions turn round from the drive on
+      sticking += std::abs(second) < 0.99 ? 1 : 0;
+    }
+    if (part.t_s > 5.9 && part.t_s < 6.0) {
+      EXPECT_LT(std::max(first, second), -0.999);
+    }
+    if (part.t_s > 7.9) {
+      EXPECT_GT(std::min(first, second), 0.999);
+    }
+  }
+  EXPECT_GE(sticking, 2);
+}
+
+TEST_F(StickingTest, TurnsRoundAtOnceWhereNothingRubs) {
+  SetFriction(0.0);
+  for (const SamplePart& part : Parts()) {
+    if (part.t_s < 4.2 || part.t_s > 6.0) continue;
+    EXPECT_LT(part.sliding.head(2).maxCoeff(), -0.999) << part.t_s;
+  }
+}
+
+/// The same experiment, one frame after the other, each in balance with how far the cables have
+/// truly slid: where the markers are then.
+TEST_F(StickingTest, SimulationIsThatOfSmallStepsThroughTime) {
+  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(body_);
+  const auto beyond_m = [&](const robot::RobotModel& model, const Eigen::VectorXd& x_m) {
+    Eigen::VectorXd lengths_m(std::ssize(eyelets));
+    for (std::size_t k = 0; k < eyelets.size(); ++k) {
+      const Eigen::Matrix3Xd path_m = model.cable(eyelets[k].cable).Path_m(x_m);
+      const auto pieces = path_m.cols() - 2 - eyelets[k].eyelet;
+      lengths_m[static_cast<Eigen::Index>(k)] =
+          (path_m.rightCols(pieces) - path_m.middleCols(path_m.cols() - 1 - pieces, pieces))
+              .colwise()
+              .norm()
+              .sum();
+    }
+    return lengths_m;
+  };
+  SampleSolver solver(draft_, observed_);
+  robot::RobotModel& model = solver.model();
+  SimulatedSample now;
+  now.middle.state = model.RestState();
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(std::ssize(eyelets));
+  Eigen::VectorXd length_m;
+  Eigen::VectorXd coefficient = Eigen::VectorXd::Zero(s.size());
+  coefficient.head(2).setConstant(0.4);
+  const DriveTrain drives(observed_);
+  const Eigen::MatrixXd path = drives.Path(draft_.drives);
+  std::vector<Eigen::VectorXd> seen_m;  // [times]
+  for (Eigen::Index k = 0; k < path.cols(); ++k) {
+    const Eigen::VectorXd before = s;
+    for (int round = 0; round < 30; ++round) {
+      solver.SetSliding(s);
+      solver.Solve(observed_.samples.front(), path.col(k), {}, &now);
+      ASSERT_TRUE(now.status.ok()) << now.status.message();
+      const Eigen::VectorXd there_m = beyond_m(model, now.middle.state.x_m);
+      if (length_m.size() == 0) length_m = there_m;
+      const Eigen::MatrixXd slide_m =
+          solver.SlidesAboutShape(now.middle).by_friction * coefficient.asDiagonal();
+      const Eigen::VectorXd next =
+          StickOrSlide(before, there_m - length_m - slide_m * (s - before), slide_m);
+      const double moved = (next - s).cwiseAbs().maxCoeff();
+      s = next;
+      if (moved < 1e-6) {
+        length_m = there_m;
+        break;
+      }
+      ASSERT_LT(round, 29) << "at " << drives.t_s()[static_cast<std::size_t>(k)];
+    }
+    seen_m.push_back(now.seen_m);
+  }
+  const Simulation simulation = Simulator(observed_, 2).Run(draft_);
+  ASSERT_TRUE(simulation.status.ok());
+  ModelDraft smooth = draft_;
+  smooth.body.cables[0].friction_coefficient = 0.0;
+  const Simulation without = Simulator(observed_, 2).Run(smooth);
+  double effect_m = 0.0;
+  double apart_m = 0.0;
+  for (std::size_t k = 0; k < observed_.samples.size(); ++k) {
+    Eigen::VectorXd mean_m = Eigen::VectorXd::Zero(now.seen_m.size());
+    const std::vector<double>& frames_s = observed_.samples[k].frame_t_s;
+    for (const double t_s : frames_s) {
+      const auto at = std::lower_bound(drives.t_s().begin(), drives.t_s().end(), t_s);
+      mean_m += seen_m[static_cast<std::size_t>(at - drives.t_s().begin())] /
+                static_cast<double>(frames_s.size());
+    }
+    effect_m = std::max(effect_m, (mean_m - without.samples[k].seen_m).cwiseAbs().maxCoeff());
+    apart_m = std::max(apart_m, (mean_m - simulation.samples[k].seen_m).cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(effect_m, 1e-4);
+  EXPECT_LT(apart_m, 0.02 * effect_m);  // where it turns round; else 1e-3 of it
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis
