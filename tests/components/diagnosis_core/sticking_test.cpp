@@ -104,70 +104,86 @@ TEST_F(StickingTest, TurnsRoundAtOnceWhereNothingRubs) {
   }
 }
 
-/// The same experiment, one frame after the other, each in balance with how far the cables have
-/// truly slid: where the markers are then.
-TEST_F(StickingTest, SimulationIsThatOfSmallStepsThroughTime) {
-  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(body_);
-  const auto beyond_m = [&](const robot::RobotModel& model, const Eigen::VectorXd& x_m) {
-    Eigen::VectorXd lengths_m(std::ssize(eyelets));
-    for (std::size_t k = 0; k < eyelets.size(); ++k) {
-      const Eigen::Matrix3Xd path_m = model.cable(eyelets[k].cable).Path_m(x_m);
-      const auto pieces = path_m.cols() - 2 - eyelets[k].eyelet;
-      lengths_m[static_cast<Eigen::Index>(k)] =
-          (path_m.rightCols(pieces) - path_m.middleCols(path_m.cols() - 1 - pieces, pieces))
-              .colwise()
-              .norm()
-              .sum();
+/// The same robot one frame after the other, each in balance with how far the cables have truly
+/// slid since the one before.
+class SmallSteps {
+ public:
+  SmallSteps(const ModelDraft& draft, const ObservedExperiment& observed)
+      : observed_(observed),
+        solver_(draft, observed),
+        eyelets_(RubbingEyelets(draft.body)),
+        coefficient_(FrictionAt(eyelets_, draft.body)),
+        s_(Eigen::VectorXd::Zero(coefficient_.size())) {
+    now_.middle.state = solver_.model().RestState();
+    length_m_ = Lengths_m();
+  }
+
+  /// What is seen with so much taken in.
+  Eigen::VectorXd StepTo(const Eigen::VectorXd& taken_in) {
+    constexpr int kMostRounds = 30;
+    const Eigen::VectorXd before = s_;
+    for (int round = 0; round < kMostRounds; ++round) {
+      solver_.SetSliding(s_);
+      solver_.Solve(observed_.samples.front(), taken_in, {}, &now_);
+      EXPECT_TRUE(now_.status.ok()) << now_.status.message();
+      const Eigen::MatrixXd slide_m =
+          solver_.SlidesAboutShape(now_.middle).by_friction * coefficient_.asDiagonal();
+      const Eigen::VectorXd freely_m = Lengths_m() - length_m_ - slide_m * (s_ - before);
+      const Eigen::VectorXd next = StickOrSlide(before, freely_m, slide_m);
+      const double moved = (next - s_).cwiseAbs().maxCoeff();
+      s_ = next;
+      if (moved > 1e-6) continue;
+      length_m_ = Lengths_m();
+      return now_.seen_m;
+    }
+    ADD_FAILURE() << "no balance";
+    return now_.seen_m;
+  }
+
+ private:
+  /// [eyelets] from each to the end of its cable.
+  Eigen::VectorXd Lengths_m() {
+    Eigen::VectorXd lengths_m(std::ssize(eyelets_));
+    for (std::size_t k = 0; k < eyelets_.size(); ++k) {
+      const robot::Cable& cable = solver_.model().cable(eyelets_[k].cable);
+      const Eigen::Matrix3Xd path_m = cable.Path_m(now_.middle.state.x_m);
+      const auto pieces = path_m.cols() - 2 - eyelets_[k].eyelet;
+      const Eigen::Matrix3Xd along_m =
+          path_m.rightCols(pieces) - path_m.middleCols(path_m.cols() - 1 - pieces, pieces);
+      lengths_m[static_cast<Eigen::Index>(k)] = along_m.colwise().norm().sum();
     }
     return lengths_m;
-  };
-  SampleSolver solver(draft_, observed_);
-  robot::RobotModel& model = solver.model();
-  SimulatedSample now;
-  now.middle.state = model.RestState();
-  Eigen::VectorXd s = Eigen::VectorXd::Zero(std::ssize(eyelets));
-  Eigen::VectorXd length_m;
-  Eigen::VectorXd coefficient = Eigen::VectorXd::Zero(s.size());
-  coefficient.head(2).setConstant(0.4);
-  const DriveTrain drives(observed_);
-  const Eigen::MatrixXd path = drives.Path(draft_.drives);
-  std::vector<Eigen::VectorXd> seen_m;  // [times]
-  for (Eigen::Index k = 0; k < path.cols(); ++k) {
-    const Eigen::VectorXd before = s;
-    for (int round = 0; round < 30; ++round) {
-      solver.SetSliding(s);
-      solver.Solve(observed_.samples.front(), path.col(k), {}, &now);
-      ASSERT_TRUE(now.status.ok()) << now.status.message();
-      const Eigen::VectorXd there_m = beyond_m(model, now.middle.state.x_m);
-      if (length_m.size() == 0) length_m = there_m;
-      const Eigen::MatrixXd slide_m =
-          solver.SlidesAboutShape(now.middle).by_friction * coefficient.asDiagonal();
-      const Eigen::VectorXd next =
-          StickOrSlide(before, there_m - length_m - slide_m * (s - before), slide_m);
-      const double moved = (next - s).cwiseAbs().maxCoeff();
-      s = next;
-      if (moved < 1e-6) {
-        length_m = there_m;
-        break;
-      }
-      ASSERT_LT(round, 29) << "at " << drives.t_s()[static_cast<std::size_t>(k)];
-    }
-    seen_m.push_back(now.seen_m);
   }
+
+  const ObservedExperiment& observed_;
+  SampleSolver solver_;
+  std::vector<RubbingEyelet> eyelets_;
+  Eigen::VectorXd coefficient_, s_, length_m_;
+  SimulatedSample now_;
+};
+
+TEST_F(StickingTest, SimulationIsThatOfSmallStepsThroughTime) {
+  SmallSteps steps(draft_, observed_);
+  const DriveTrain drives(observed_);
+  std::vector<Eigen::VectorXd> seen_m;  // [times]
+  const Eigen::MatrixXd path = drives.Path(draft_.drives);
+  for (const auto& taken_in : path.colwise()) {
+    seen_m.push_back(steps.StepTo(taken_in));
+  }
+  const auto parts = drives.PartsAt(draft_.drives);
   const Simulation simulation = Simulator(observed_, 2).Run(draft_);
-  ASSERT_TRUE(simulation.status.ok());
-  ModelDraft smooth = draft_;
-  smooth.body.cables[0].friction_coefficient = 0.0;
-  const Simulation without = Simulator(observed_, 2).Run(smooth);
+  SetFriction(0.0);
+  const Simulation without = Simulator(observed_, 2).Run(draft_);
+  ASSERT_TRUE(simulation.status.ok() && without.status.ok());
   double effect_m = 0.0;
   double apart_m = 0.0;
-  for (std::size_t k = 0; k < observed_.samples.size(); ++k) {
-    Eigen::VectorXd mean_m = Eigen::VectorXd::Zero(now.seen_m.size());
-    const std::vector<double>& frames_s = observed_.samples[k].frame_t_s;
-    for (const double t_s : frames_s) {
-      const auto at = std::lower_bound(drives.t_s().begin(), drives.t_s().end(), t_s);
-      mean_m += seen_m[static_cast<std::size_t>(at - drives.t_s().begin())] /
-                static_cast<double>(frames_s.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    Eigen::VectorXd mean_m = Eigen::VectorXd::Zero(without.samples[k].seen_m.size());
+    for (const SamplePart& part : parts[k]) {
+      for (const int time : part.times) {
+        mean_m += part.share / static_cast<double>(part.times.size()) *
+                  seen_m[static_cast<std::size_t>(time)];
+      }
     }
     effect_m = std::max(effect_m, (mean_m - without.samples[k].seen_m).cwiseAbs().maxCoeff());
     apart_m = std::max(apart_m, (mean_m - simulation.samples[k].seen_m).cwiseAbs().maxCoeff());
