@@ -42,7 +42,7 @@ struct CableSettings {
   Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest
   double max_tension_N = 1e3;      ///< > 0
   double guide_radius_m = 0.0015;  ///< >= 0; 0: barycentric points
-  /// >= 0; of the cable in its eyelets while the drive pulls it in (cable.hpp).
+  /// >= 0; of the cable in its eyelets while the drive pulls it in (cable_friction.hpp).
   double friction_coefficient = 0.0;
   SourceLocation where;
 };

@@ -85,9 +85,9 @@ class RobotModel {
   /// Moduli of body (0) and regions (k + 1); see RobotBody::materials.
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
   void SetPoissonsRatio(int material, double poissons_ratio);
-  /// Friction of a cable in its eyelets (cable.hpp); at first the robot file's, sliding in. The
-  /// static solver then takes more steps; what a load history does to the direction of sliding is
-  /// the caller's business.
+  /// Friction of a cable in its eyelets (cable_friction.hpp); at first the robot file's, sliding in
+  /// all of them. The static solver then takes more steps; what a load history does to sticking and
+  /// sliding is the caller's business.
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
