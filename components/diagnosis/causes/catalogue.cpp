@@ -51,6 +51,7 @@ constexpr Entry kCatalogue[] = {
     {"lens_distortion", MakeLensDistortion},
     {"warm_up_drift", MakeWarmUpDrift},
     {"marker_misplacement", MakeMarkerMisplacement},
+    {"discretisation", MakeDiscretisation},
 };
 
 /// Of the catalogue as well, but not looked for. Flying pixels lie along depth edges: a marker
@@ -58,7 +59,6 @@ constexpr Entry kCatalogue[] = {
 constexpr const char* kNotLookedFor[] = {
     "cable_cutting",
     "flying_pixels",
-    "discretisation",
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct CauseWorld {
   double extrinsics_rad = 0.0;
   /// How the robot moves as its file has it; none: no causes that ask for it.
   const Simulation* as_built = nullptr;
+  std::shared_ptr<const MeshError> mesh_error = nullptr;  ///< where it is known
 };
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and

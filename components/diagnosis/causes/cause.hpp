@@ -123,6 +123,9 @@ class Cause {
   /// Id of a simpler cause that is a special case of this one, and stands in its place as long as
   /// this one is not clearly better; empty: there is none.
   virtual std::string SpecialCase() const { return {}; }
+  /// Whether more is known of the robot file that it extends than what Apply makes: once it is
+  /// named, the search begins anew with that.
+  virtual bool BeginsAnew() const { return false; }
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
   virtual bool OnDrives() const { return false; }
   /// Whether OnBody leaves out at `z` what matters, as of a body that answers to its own past: then

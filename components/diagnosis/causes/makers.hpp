@@ -43,6 +43,7 @@ void MakeIntrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeLensDistortion(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeWarmUpDrift(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeDiscretisation(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeDepthBias(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeStereoRipple(const CauseWorld& world, std::vector<CausePtr>* causes);

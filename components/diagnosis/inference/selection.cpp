@@ -376,6 +376,10 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
     if (!found) break;
     selection.named.push_back(next.choice());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
+    if (fitter.book().cause(next.choice().cause).BeginsAnew()) {
+      selection.best = next.fit();
+      break;
+    }
     selection.best = seen_again(next.fit());
     if (number > 0) CheckBackward(fitter, kClearEvidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it

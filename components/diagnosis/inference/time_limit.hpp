@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace palpate::diagnosis {
@@ -20,6 +21,12 @@ class TimeLimit {
   }
 
   bool IsOver() const { return Clock::now() >= end_; }
+  /// What another limit is to be made of that ends then.
+  double left_s() const {
+    constexpr double kOver_s = 1e-3;
+    if (end_ == Clock::time_point::max()) return 0.0;
+    return std::max(kOver_s, std::chrono::duration<double>(end_ - Clock::now()).count());
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

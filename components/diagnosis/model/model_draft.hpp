@@ -12,6 +12,7 @@
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/model/camera_view.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
+#include "components/diagnosis/model/mesh_error.hpp"
 #include "components/diagnosis/model/wall.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/node_weights.hpp"
@@ -68,8 +69,10 @@ struct ModelDraft {
   double modulus_change_at_end = 0.0;  ///< grows linearly with time
   std::vector<CreepTerm> creep;
   std::optional<MullinsSoftening> mullins;
-  std::optional<Wall> wall;          ///< rides with the base
-  Eigen::Matrix3Xd marker_offset_m;  ///< [3 x markers] through the undeformed body
+  std::optional<Wall> wall;                     ///< rides with the base
+  std::shared_ptr<const MeshError> mesh_error;  ///< or nothing
+  double mesh_error_share = 0.0;                ///< so much of it is added to what is seen
+  Eigen::Matrix3Xd marker_offset_m;             ///< [3 x markers] through the undeformed body
   /// [recordings] how what is seen lies to the robot frame: p_seen = T_seen p_robot, before
   /// T_measurement_robot.
   std::vector<Eigen::Isometry3d> T_seen;

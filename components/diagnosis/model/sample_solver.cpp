@@ -256,19 +256,35 @@ Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadSta
   return {StatusCode::kNotConverged, "cables or base give way without an end"};
 }
 
+/// [shapes of the mesh's error] so much of each is added to what is seen.
+Eigen::VectorXd SampleSolver::MeshErrorAt(const Eigen::VectorXd& x_m) const {
+  return draft_.mesh_error_share *
+         draft_.mesh_error->BendIn(x_m - draft_.body.mesh.nodes_m.reshaped());
+}
+
+Eigen::VectorXd SampleSolver::OnFinerMesh(const Eigen::VectorXd& x_m) const {
+  if (draft_.mesh_error_share == 0.0) return x_m;
+  return x_m + draft_.mesh_error->of_nodes * MeshErrorAt(x_m);
+}
+
 Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const {
   const auto recording = static_cast<std::size_t>(sample.recording);
   const Eigen::Isometry3d T_measurement_robot =
       observed_.recordings[recording].T_measurement_robot * draft_.T_seen[recording];
   Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kMarkers)};
+  Eigen::VectorXd farther_m = Eigen::VectorXd::Zero(3 * std::ssize(markers_));
+  if (draft_.mesh_error_share != 0.0) farther_m = draft_.mesh_error->of_markers * MeshErrorAt(x_m);
   for (std::size_t m = 0; m < markers_.size(); ++m) {
-    sight.points.push_back({T_measurement_robot * markers_[m].Position(x_m),
-                            T_measurement_robot.linear() * skin_.Normal(m, x_m)});
+    const Eigen::Vector3d at_m =
+        markers_[m].Position(x_m) + farther_m.segment<3>(3 * static_cast<Eigen::Index>(m));
+    sight.points.push_back(
+        {T_measurement_robot * at_m, T_measurement_robot.linear() * skin_.Normal(m, x_m)});
   }
   return sight;
 }
 
-Sight SampleSolver::SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const {
+Sight SampleSolver::SightOfSkin(const Sample& sample, const Eigen::VectorXd& solved_x_m) const {
+  const Eigen::VectorXd x_m = OnFinerMesh(solved_x_m);
   const auto recording = static_cast<std::size_t>(sample.recording);
   Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kSkin)};
   if (!sight.camera) return sight;

@@ -30,6 +30,9 @@ class SampleSolver {
   /// [markers] points of the body that the markers sit at, offsets included.
   const std::vector<fem::NodeWeights>& markers() const { return markers_; }
 
+  /// [3n] where the nodes would be on the finer mesh of which the draft has the error, of a body
+  /// with its nodes at `x_m` [3n].
+  Eigen::VectorXd OnFinerMesh(const Eigen::VectorXd& x_m) const;
   /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
   Sight SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
   /// The same of the skin; features that nobody saw then are nowhere (0). A camera is there
@@ -66,6 +69,7 @@ class SampleSolver {
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState WithCommands(fem::LoadState loads, const SimulatedSample& solved) const;
   void See(const Sample& sample, SimulatedSample* solved) const;
+  Eigen::VectorXd MeshErrorAt(const Eigen::VectorXd& x_m) const;
 
   const ModelDraft& draft_;
   const ObservedExperiment& observed_;

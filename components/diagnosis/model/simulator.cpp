@@ -177,7 +177,7 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
           solver.Solve(observed_.samples[s], part.taken_in, simulation.past[s], &solved);
           if (!solved.status.ok()) break;
         }
-        const Eigen::VectorXd& x_m = solved.middle.state.x_m;
+        const Eigen::VectorXd x_m = solver.OnFinerMesh(solved.middle.state.x_m);
         shapes[s].t_s.push_back(part.t_s);
         shapes[s].nodes_m.emplace_back(x_m.reshaped(3, x_m.size() / 3).cast<float>());
       }

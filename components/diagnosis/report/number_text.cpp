@@ -16,6 +16,7 @@ namespace {
 using plot::FixedText;
 
 constexpr const char* kUnknown = "not known";
+constexpr const char* kComputed = "computed";
 
 /// Decimals that show `digits` significant digits of a value.
 int DecimalsFor(double value, int digits) {
@@ -92,7 +93,7 @@ ParameterText DescribeParameter(const FittedParameter& parameter) {
   const double half = 0.5 * (high - low);
   if (!std::isfinite(value) || !std::isfinite(half) || !(half > 0.0)) {
     text.value = NumberText(value, 3);
-    text.interval = kUnknown;
+    text.interval = half == 0.0 ? kComputed : kUnknown;
     text.whole = text.name + " = " + WithUnit(text.value, text.unit);
     return text;
   }

@@ -49,7 +49,10 @@ std::string CauseText(const NamedCause& cause, const DiagnosisResult& result) {
   for (std::size_t i = 0; i < shown; ++i) {
     text += ", " + DescribeParameter(cause.parameters[i]).whole;
   }
-  if (shown > 0) text += " (95 %)";
+  const bool fitted = std::any_of(
+      cause.parameters.begin(), cause.parameters.end(),
+      [](const FittedParameter& parameter) { return parameter.ci95_high > parameter.ci95_low; });
+  if (fitted) text += " (95 %)";
   return text + ", p = " + ProbabilityText(cause.probability);
 }
 

@@ -40,6 +40,13 @@ TEST(NumberText, SaysWhatIsNotKnown) {
   EXPECT_EQ(DescribeParameter({"mu", 0.2, kNaN, kNaN}).whole, "mu = 0.200");
 }
 
+TEST(NumberText, GivesNoIntervalToWhatWasWorkedOut) {
+  EXPECT_EQ(DescribeParameter({"relative_error", 0.2349, 0.2349, 0.2349}).interval, "computed");
+  DiagnosisResult result = FrictionExample();
+  result.causes.front().parameters = {{"relative_error", 0.2349, 0.2349, 0.2349}};
+  EXPECT_EQ(VerdictHeadline(result), "Friction of cable north, relative error = 0.235, p = 0.97.");
+}
+
 TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
   EXPECT_EQ(VerdictHeadline(FrictionExample()),
             "Friction of cable north, mu = 0.213 \u00B1 0.019 (95 %), p = 0.97.");

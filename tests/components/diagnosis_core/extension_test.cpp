@@ -7,6 +7,7 @@
 #include <set>
 
 #include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/finer_mesh.hpp"
 #include "components/diagnosis/model/simulator.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
@@ -71,7 +72,11 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
   constexpr double kOfEffect = 1e-3;  // weights of a marker that moved are those of its new place
   const Eigen::VectorXd healthy_m = SeenOf(DraftOf(body_, observed_));
   std::set<std::string> extended;
-  for (const CausePtr& cause : MakeCauses({.body = body_, .observed = observed_}, {})) {
+  const Simulation as_built = Simulator(observed_, 1).Run(DraftOf(body_, observed_));
+  const CauseWorld world{.body = body_,
+                         .observed = observed_,
+                         .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
+  for (const CausePtr& cause : MakeCauses(world, {})) {
     robot::RobotDescription robot = robot_;
     std::vector<robot::CalibratedDrive> drives;
     const Eigen::VectorXd z = FaultOf(*cause);
@@ -87,10 +92,10 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
               kOfEffect * effect_m)
         << cause->words();
   }
-  EXPECT_THAT(extended,
-              testing::IsSupersetOf({"youngs_modulus", "regional_stiffness", "density",
-                                     "gravity_direction", "cable_routing", "marker_misplacement",
-                                     "poissons_ratio", "swapped_cables", "stiffening"}));
+  EXPECT_THAT(extended, testing::IsSupersetOf({"youngs_modulus", "regional_stiffness", "density",
+                                               "gravity_direction", "cable_routing",
+                                               "marker_misplacement", "poissons_ratio",
+                                               "swapped_cables", "stiffening", "discretisation"}));
 }
 
 }  // namespace

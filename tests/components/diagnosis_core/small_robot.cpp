@@ -50,14 +50,10 @@ Eigen::Isometry3d CameraPose(const Eigen::Vector3d& at_m) {
   return T_robot_camera;
 }
 
-}  // namespace
-
-robot::RobotBody SmallRobot(fem::ElementType element) {
-  const bool quadratic = element == fem::ElementType::kTet10;
+robot::RobotBody RobotOf(const fem::TetMesh& mesh) {
   robot::RobotBody body;
   body.name = "small";
-  body.mesh = fem::BoxMesh({0.1, 0.02, 0.02}, {quadratic ? 3 : 5, quadratic ? 1 : 2, 1});
-  if (quadratic) body.mesh = fem::MakeQuadratic(body.mesh);
+  body.mesh = mesh;
   body.boundary = fem::ExtractBoundary(body.mesh);
   const fem::Material material{fem::MaterialModel::kStableNeoHookean, fem::Volumetric::kPointwise,
                                65e3, 0.42};
@@ -91,6 +87,17 @@ robot::RobotBody SmallRobot(fem::ElementType element) {
   }
   return body;
 }
+
+}  // namespace
+
+robot::RobotBody SmallRobot(fem::ElementType element) {
+  const bool quadratic = element == fem::ElementType::kTet10;
+  const fem::TetMesh cells =
+      fem::BoxMesh({0.1, 0.02, 0.02}, {quadratic ? 3 : 5, quadratic ? 1 : 2, 1});
+  return RobotOf(quadratic ? fem::MakeQuadratic(cells) : cells);
+}
+
+robot::RobotBody SmallRobotOnFinerMesh() { return RobotOf(fem::MakeQuadratic(SmallRobot().mesh)); }
 
 experiment::Recording MakeRecording(const std::string& name, const robot::RobotBody& body,
                                     const std::vector<Knot>& knots, double frame_s,

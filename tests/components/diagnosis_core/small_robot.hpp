@@ -19,6 +19,8 @@ namespace palpate::diagnosis {
 /// gravity, four markers and three cables that bend it up, sideways and down; the first runs
 /// through three eyelets. Computed in milliseconds.
 robot::RobotBody SmallRobot(fem::ElementType element = fem::ElementType::kTet4);
+/// The robot of tet4 with the same cells as tet10.
+robot::RobotBody SmallRobotOnFinerMesh();
 
 /// What was commanded at a time.
 struct Knot {

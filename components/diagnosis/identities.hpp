@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/data/observed_experiment.hpp"
+
+namespace palpate::diagnosis {
+
+/// What data of this kind cannot tell, whatever they say, for people (DIAGNOSIS, "Method").
+std::vector<std::string> Identities(const ObservedExperiment& observed);
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/joined_diagnosis.hpp"
+
+#include <algorithm>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Squares beyond the noise, as a robot within its tolerances leaves them; m^2 times moments.
+double Excess(const std::vector<RecordingGap>& recordings) {
+  double sum = 0.0;
+  for (const RecordingGap& one : recordings) {
+    const double excess_m2 = one.healthy_m * one.healthy_m - one.noise_m * one.noise_m;
+    if (excess_m2 > 0.0) sum += one.samples * excess_m2;
+  }
+  return sum;
+}
+
+/// The gap was there as the robot file has it.
+void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
+  result->gap.before_m = of_file.gap.before_m;
+  result->gap.heldout_before_m = of_file.gap.heldout_before_m;
+  for (std::size_t r = 0; r < result->recordings.size(); ++r) {
+    result->recordings[r].before_m = of_file.recordings[r].before_m;
+    result->recordings[r].healthy_m = of_file.recordings[r].healthy_m;
+    result->recordings[r].heldout_before_m = of_file.recordings[r].heldout_before_m;
+  }
+  for (ComparedMoment& moment : result->moments) {
+    for (const ComparedMoment& before : of_file.moments) {
+      if (before.recording == moment.recording && before.t_s == moment.t_s)
+        moment.before_m = before.before_m;
+    }
+  }
+}
+
+std::string Reason(const DiagnosisResult& of_finer) {
+  if (of_finer.verdict == Verdict::kNoFault)
+    return "On a finer mesh, what the simulation gets wrong is within noise and building "
+           "tolerances.";
+  return "Beside the mesh, of the robot on a finer one: " + of_finer.reason;
+}
+
+}  // namespace
+
+Diagnosis Joined(const Diagnosis& of_file, Diagnosis of_finer) {
+  const DiagnosisResult& before = of_file.result;
+  DiagnosisResult& result = of_finer.result;
+  const double excess = Excess(before.recordings);
+  const double left = excess > 0.0 ? std::min(1.0, Excess(result.recordings) / excess) : 1.0;
+  for (NamedCause& cause : result.causes) cause.explained_share *= left;
+  result.causes.insert(result.causes.begin(), before.causes.back());
+  result.causes.front().explained_share = 1.0 - left;
+  result.reason = Reason(result);
+  if (result.verdict == Verdict::kNoFault) result.verdict = Verdict::kCause;
+  if (result.verdict == Verdict::kUnexplained) result.verdict = Verdict::kPartlyExplained;
+  result.rivals = before.rivals;
+  result.no_fault_probability = before.no_fault_probability;
+  result.correlation_names = before.correlation_names;
+  result.correlation = before.correlation;
+  PutBefore(before, &result);
+  return of_finer;
+}
+
+}  // namespace palpate::diagnosis

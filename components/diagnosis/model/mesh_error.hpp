@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "components/diagnosis/model/simulation.hpp"
+#include "libs/robot/robot_body.hpp"
+
+namespace palpate::diagnosis {
+
+/// By how much farther a finer mesh would let the body move, as far as that is linear in how the
+/// body is bent: it holds for other loads and cables than it was found with, while these bend it
+/// alike.
+struct MeshError {
+  Eigen::MatrixXd shapes;            ///< [3n x shapes] orthonormal, in which bodies are bent
+  Eigen::MatrixXd of_nodes;          ///< [3n x shapes] m of motion per m of bend in each
+  Eigen::MatrixXd of_markers;        ///< [3 markers x shapes] the same
+  double size_m = 0.0;               ///< RMS over nodes and samples that it was found from
+  double relative = 0.0;             ///< of how far the nodes had moved there
+  double share_beyond_shapes = 0.0;  ///< of its square that is not linear in them
+
+  /// [shapes] of a body whose nodes have moved by `bend_m` [3n] from rest.
+  Eigen::VectorXd BendIn(const Eigen::VectorXd& bend_m) const {
+    return shapes.transpose() * bend_m;
+  }
+};
+
+/// `simulated` on the mesh of `body`, and `on_finer` on that of `finer`, of which the first nodes
+/// are those of the former; the same robot and experiment. Samples that failed on either are left
+/// out; nothing where none is left, or nothing moves.
+std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simulation& simulated,
+                                       const robot::RobotBody& finer, const Simulation& on_finer);
+
+}  // namespace palpate::diagnosis
