@@ -36,11 +36,9 @@ void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
   }
 }
 
-std::string Reason(const DiagnosisResult& of_finer) {
-  if (of_finer.verdict == Verdict::kNoFault)
-    return "On a finer mesh, what the simulation gets wrong is within noise and building "
-           "tolerances.";
-  return "Beside the mesh, of the robot on a finer one: " + of_finer.reason;
+bool IsNamed(const CauseName& name, const DiagnosisResult& result) {
+  return std::any_of(result.causes.begin(), result.causes.end(),
+                     [&](const NamedCause& named) { return named.name == name; });
 }
 
 }  // namespace
@@ -53,10 +51,14 @@ Diagnosis Joined(const Diagnosis& of_file, Diagnosis of_finer) {
   for (NamedCause& cause : result.causes) cause.explained_share *= left;
   result.causes.insert(result.causes.begin(), before.causes.back());
   result.causes.front().explained_share = 1.0 - left;
-  result.reason = Reason(result);
-  if (result.verdict == Verdict::kNoFault) result.verdict = Verdict::kCause;
+  if (result.verdict == Verdict::kNoFault) {
+    result.verdict = Verdict::kCause;
+    result.reason =
+        "On a finer mesh, what the simulation gets wrong is within noise and building tolerances.";
+  }
   if (result.verdict == Verdict::kUnexplained) result.verdict = Verdict::kPartlyExplained;
   result.rivals = before.rivals;
+  std::erase_if(result.rivals, [&](const Rival& one) { return IsNamed(one.name, result); });
   result.no_fault_probability = before.no_fault_probability;
   result.correlation_names = before.correlation_names;
   result.correlation = before.correlation;

@@ -81,7 +81,7 @@ std::vector<bool> Sticking::Follow(const ModelDraft& draft,
   const std::vector<RubbingEyelet> eyelets = RubbingEyelets(draft.body);
   if (eyelets.empty() || samples.empty()) return is_other;
   const Eigen::VectorXd coefficient = FrictionAt(eyelets, draft.body);
-  const bool known = std::all_of(samples.begin(), samples.end(),
+  const bool known = std::any_of(samples.begin(), samples.end(),
                                  [](const SimulatedSample& one) { return !one.slides.empty(); });
   const Eigen::MatrixXd in_time = known ? ThroughTime(draft, samples) : Eigen::MatrixXd();
   const Eigen::MatrixXi way = known ? Eigen::MatrixXi() : drives_.Sliding(draft.drives);

@@ -27,9 +27,9 @@ class Sticking {
   explicit Sticking(const DriveTrain& drives) : drives_(drives) {}
 
   /// Sets what slides in all `parts` [samples] of a robot as `draft` has it. How far cables slide
-  /// is known from `samples` that were simulated; where one was not, cables slide everywhere as
-  /// their drives last went. [samples] whether what a part has of friction (CableFriction::Signed)
-  /// is another than it was by more than 1e-3.
+  /// is known from `samples` that were simulated, at each time from the nearest that tells it;
+  /// where none does, cables slide everywhere as their drives last went. [samples] whether what a
+  /// part has of friction (CableFriction::Signed) is another than it was by more than 1e-3.
   std::vector<bool> Follow(const ModelDraft& draft, const std::vector<SimulatedSample>& samples,
                            std::vector<std::vector<SamplePart>>* parts) const;
 

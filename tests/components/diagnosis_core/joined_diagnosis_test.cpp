@@ -33,11 +33,16 @@ Diagnosis Leaves(double healthy_m, const std::string& cause) {
 }
 
 TEST(JoinedDiagnosis, BeginsAtTheFileAndEndsOnTheFinerMesh) {
-  const Diagnosis of_file = Leaves(5.0, "discretisation");
+  Diagnosis of_file = Leaves(5.0, "discretisation");
+  for (const char* id : {"density", "payload"}) {
+    of_file.result.rivals.emplace_back().name = {id, {"body"}};
+  }
   const DiagnosisResult result = Joined(of_file, Leaves(3.0, "density")).result;
   ASSERT_EQ(result.causes.size(), 2U);
   EXPECT_EQ(result.causes[0].name.id, "discretisation");
   EXPECT_EQ(result.causes[1].name.id, "density");
+  ASSERT_EQ(result.rivals.size(), 1U);
+  EXPECT_EQ(result.rivals[0].name.id, "payload");
   // 5^2 - 1 of squares beyond the noise, of which 3^2 - 1 stay.
   EXPECT_NEAR(result.causes[0].explained_share, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(result.causes[1].explained_share, 0.8 / 3.0, 1e-12);

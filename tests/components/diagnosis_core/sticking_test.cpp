@@ -96,6 +96,26 @@ TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
   EXPECT_GE(sticking, 2);
 }
 
+/// One that could not be simulated takes no other's sticking away.
+TEST_F(StickingTest, StaysWhereOneMomentIsNotKnown) {
+  const DriveTrain drives(observed_);
+  std::vector<SimulatedSample> samples = Simulator(observed_, 1).Run(draft_).samples;
+  const auto followed = [&] {
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(draft_.drives);
+    Sticking(drives).Follow(draft_, samples, &of_samples);
+    return of_samples;
+  };
+  const auto with_all = followed();
+  samples[samples.size() / 2].slides.clear();
+  const auto without_one = followed();
+  for (std::size_t s = 0; s < with_all.size(); ++s) {
+    for (std::size_t k = 0; k < with_all[s].size(); ++k) {
+      EXPECT_LT((with_all[s][k].sliding - without_one[s][k].sliding).cwiseAbs().maxCoeff(), 0.2)
+          << s << " " << k;
+    }
+  }
+}
+
 TEST_F(StickingTest, TurnsRoundAtOnceWhereNothingRubs) {
   SetFriction(0.0);
   for (const SamplePart& part : Parts()) {
