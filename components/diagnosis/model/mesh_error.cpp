@@ -4,7 +4,6 @@
 #include "components/diagnosis/model/mesh_error.hpp"
 
 #include <Eigen/SVD>
-#include <cmath>
 #include <vector>
 
 namespace palpate::diagnosis {
@@ -52,7 +51,6 @@ std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simul
   error.shapes = svd.matrixU().leftCols(count);
   error.of_nodes = nodes_m * per_sample;
   error.of_markers = markers_m * per_sample;
-  error.size_m = nodes_m.norm() / std::sqrt(static_cast<double>(nodes_m.size() / 3));
   error.relative = nodes_m.norm() / bend_m.norm();
   const Eigen::MatrixXd linear_m = error.of_nodes * (error.shapes.transpose() * bend_m);
   error.share_beyond_shapes = (nodes_m - linear_m).squaredNorm() / nodes_m.squaredNorm();

@@ -12,14 +12,13 @@
 namespace palpate::diagnosis {
 
 /// By how much farther a finer mesh would let the body move, as far as that is linear in how the
-/// body is bent: it holds for other loads and cables than it was found with, while these bend it
-/// alike.
+/// body is bent. Of other loads and cables than it was found with it tells a half or more: enough
+/// to know this cause from others.
 struct MeshError {
   Eigen::MatrixXd shapes;            ///< [3n x shapes] orthonormal, in which bodies are bent
   Eigen::MatrixXd of_nodes;          ///< [3n x shapes] m of motion per m of bend in each
   Eigen::MatrixXd of_markers;        ///< [3 markers x shapes] the same
-  double size_m = 0.0;               ///< RMS over nodes and samples that it was found from
-  double relative = 0.0;             ///< of how far the nodes had moved there
+  double relative = 0.0;             ///< RMS over nodes and samples, of how far they had moved
   double share_beyond_shapes = 0.0;  ///< of its square that is not linear in them
 
   /// [shapes] of a body whose nodes have moved by `bend_m` [3n] from rest.
