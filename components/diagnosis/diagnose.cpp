@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/data/fitness.hpp"
@@ -318,8 +319,7 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
     DiagnosisSettings rest = settings;
     rest.longest_s = limit.left_s();
     rest.most_causes = settings.most_causes - 1;
-    const Diagnosis finer = Diagnose(OnFinerMesh(robot), as_recorded, rest, report);
-    return finer.result.verdict == Verdict::kDataUnfit ? diagnosis : Joined(diagnosis, finer);
+    return Joined(std::move(diagnosis), Diagnose(OnFinerMesh(robot), as_recorded, rest, report));
   }
   const Question question = QuestionOf(fitter, selection);
   if (question.rivals.empty()) return diagnosis;

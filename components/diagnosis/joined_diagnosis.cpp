@@ -30,7 +30,8 @@ void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
   }
   for (ComparedMoment& moment : result->moments) {
     for (const ComparedMoment& before : of_file.moments) {
-      if (before.recording == moment.recording && before.t_s == moment.t_s)
+      const bool same = before.recording == moment.recording && before.t_s == moment.t_s;
+      if (same && before.before_m.cols() == moment.before_m.cols())
         moment.before_m = before.before_m;
     }
   }
@@ -43,9 +44,14 @@ bool IsNamed(const CauseName& name, const DiagnosisResult& result) {
 
 }  // namespace
 
-Diagnosis Joined(const Diagnosis& of_file, Diagnosis of_finer) {
+Diagnosis Joined(Diagnosis of_file, Diagnosis of_finer) {
   const DiagnosisResult& before = of_file.result;
   DiagnosisResult& result = of_finer.result;
+  if (result.verdict == Verdict::kDataUnfit) {
+    of_file.result.reason += " The finer mesh tells no more: " + result.reason + ".";
+    of_file.result.search_complete = false;
+    return of_file;
+  }
   const double excess = Excess(before.recordings);
   const double left = excess > 0.0 ? std::min(1.0, Excess(result.recordings) / excess) : 1.0;
   for (NamedCause& cause : result.causes) cause.explained_share *= left;

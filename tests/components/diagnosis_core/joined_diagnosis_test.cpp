@@ -68,5 +68,14 @@ TEST(JoinedDiagnosis, ExplainsAPartWhereMoreIsWrongThatNoCauseExplains) {
             Verdict::kPartlyExplained);
 }
 
+TEST(JoinedDiagnosis, SaysWhereTheFinerMeshCouldNotBeDiagnosed) {
+  Diagnosis of_finer;
+  of_finer.result = Unfit("no moment could be simulated");
+  const DiagnosisResult result = Joined(Leaves(5.0, "discretisation"), of_finer).result;
+  EXPECT_EQ(result.causes.size(), 1U);
+  EXPECT_FALSE(result.search_complete);
+  EXPECT_NE(result.reason.find("no moment could be simulated"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis
