@@ -3,9 +3,11 @@
 
 #include "components/diagnosis/inference/fault_size.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "libs/core/text.hpp"
 
@@ -38,11 +40,32 @@ double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int c
   return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
 }
 
+/// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence
+/// for such a one is of fits that did not come to their ends. A wall that nearly touches is one.
+bool MayBeNothing(const CauseBook& book, const Posterior& posterior, int cause) {
+  constexpr double kClearly_sigmas = 2.0;
+  if (book.cause(cause).Start()) return false;
+  std::vector<Eigen::Index> sizes;
+  for (Eigen::Index p = 0; p < book.count(cause); ++p) {
+    const Eigen::Index column = book.first(cause) + p;
+    const bool qualifies = book.cause(cause).parameters()[static_cast<std::size_t>(p)].qualifies;
+    if (!qualifies && posterior.covariance(column, column) > 0.0) sizes.push_back(column);
+  }
+  if (sizes.empty()) return false;
+  const Eigen::VectorXd z = posterior.mean(sizes);
+  const Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
+  return z.dot(covariance.ldlt().solve(z)) <
+         kClearly_sigmas * kClearly_sigmas * static_cast<double>(sizes.size());
+}
+
 }  // namespace
 
 std::string WhyNoFault(const CauseBook& book, const Posterior& posterior, int cause) {
   if (SizeInTolerances(book, posterior, cause) < kBeyondTolerance) {
     return "it is within what a healthy robot may have";
+  }
+  if (MayBeNothing(book, posterior, cause)) {
+    return "what is known of its size does not exclude that there is nothing of it";
   }
   for (Eigen::Index p = 0; p < book.count(cause); ++p) {
     const CauseParameter& parameter = book.cause(cause).parameters()[static_cast<std::size_t>(p)];

@@ -10,7 +10,8 @@
 namespace palpate::diagnosis {
 
 /// Why a cause as large as a fit has it is no fault (DIAGNOSIS, "Method" 5): within three of the
-/// tolerances that a healthy robot has, or so large that it is rather another cause in disguise.
+/// tolerances that a healthy robot has, as likely nothing at all, or so large that it is rather
+/// another cause in disguise.
 /// Empty: it may be one.
 std::string WhyNoFault(const CauseBook& book, const Posterior& posterior, int cause);
 

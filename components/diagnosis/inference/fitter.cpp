@@ -143,7 +143,10 @@ Fit Fitter::TakenFurther(Fit fit) const {
   constexpr double kLittle = 2.0;  // of chi-squared
   int in_vain = 0;
   Eigen::VectorXd to = PointFrom(fit, fit.faults);
-  for (int step = 0; step < kMostSteps && in_vain < kMostInVain && !IsOutOfTime(); ++step) {
+  // Against a healthy robot that was not fitted to its end anything is evidence.
+  const bool may_end = !fit.faults.empty();
+  for (int step = 0; step < kMostSteps && in_vain < kMostInVain; ++step) {
+    if (may_end && IsOutOfTime()) return fit;
     const double promised = MisfitAt(fit, to);
     if (MisfitAt(fit, fit.z) - promised < kLittle) return fit;
     Fit next = MovedTo(to, fit);

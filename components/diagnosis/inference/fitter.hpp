@@ -32,7 +32,8 @@ struct Fit {
 /// its derivative has two sides.
 class Fitter {
  public:
-  /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at.
+  /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at, but
+  /// for that of a healthy robot.
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body, const CauseBook& book,
          const NoiseModel& noise, int threads, TimeLimit limit = {});
 

@@ -109,6 +109,8 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
         sample.seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+        if (sample.in_the_middle.elastic_Pa.size() == 0)
+          sample.in_the_middle = solver.WhatIsMemorable({}, sample);
         continue;
       }
       SolveInParts(observed_.samples[s], parts[s], simulation->past[s], detail, &solver, &sample);

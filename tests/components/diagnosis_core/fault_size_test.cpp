@@ -36,5 +36,28 @@ TEST(FaultSize, IsNotMoreThanARobotCanHave) {
   EXPECT_THAT(WhyNot(-0.24), testing::HasSubstr("something else"));
 }
 
+/// Of what a healthy robot has nothing of: two sizes known to these sigmas, correlated, and where
+/// it acts.
+std::string WhyNotBoth(double a, double b, double correlation) {
+  std::vector<CausePtr> causes;
+  causes.push_back(std::make_unique<ToyCause>(
+      "both", std::vector<CauseParameter>{{.name = "a", .fault = 1.0},
+                                          {.name = "b", .fault = 1.0},
+                                          {.name = "x", .fault = 1.0, .qualifies = true}}));
+  const CauseBook book(std::move(causes), {});
+  Posterior posterior;
+  posterior.mean = Eigen::Vector3d(a, b, 0.0);
+  posterior.covariance = Eigen::Matrix3d::Identity();
+  posterior.covariance(0, 1) = posterior.covariance(1, 0) = correlation;
+  return WhyNoFault(book, posterior, 0);
+}
+
+TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
+  EXPECT_THAT(WhyNotBoth(1.5, 0.5, 0.0), testing::HasSubstr("nothing of it"));
+  EXPECT_EQ(WhyNotBoth(5.0, 0.0, 0.0), "");
+  EXPECT_EQ(WhyNotBoth(0.0, -5.0, 0.0), "");
+  EXPECT_EQ(WhyNotBoth(1.5, 1.5, -0.9), "");  // each may be nothing, their sum may not
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/diagnosis/finer_mesh.hpp"
 #include "components/diagnosis/model/simulator.hpp"
 #include "tests/components/diagnosis_core/small_robot.hpp"
 
@@ -93,6 +94,14 @@ TEST_F(MeshErrorTest, LeavesOutWhatFailedOnEitherMesh) {
     sample.status = {StatusCode::kNotConverged, "made up"};
   }
   EXPECT_FALSE(Compared(pulled));
+}
+
+/// A mass that the nodes share is another on more of them.
+TEST_F(MeshErrorTest, ComparesNoMeshesOfOtherBodies) {
+  robot::RobotDescription robot;
+  robot.element = fem::ElementType::kTet4;
+  robot.mass.distribution = robot::MassDistribution::kPerNode;
+  EXPECT_EQ(CompareWithFinerMesh(robot, body_, {}, {}, 1), nullptr);
 }
 
 }  // namespace

@@ -66,5 +66,20 @@ TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
   EXPECT_LT(Apart_m(whole, kept), 0.1 * effect_m);
 }
 
+/// What nothing is known of begins, as one that was near, with the first moment that fails.
+TEST_F(NearStart, EndsWithTheFirstMomentWithoutABalance) {
+  ModelDraft draft = DraftOf(body_, observed_);
+  draft.body.gravity_m_s2 *= 1e4;
+  const Simulation nothing;
+  const Simulation ended = simulator_.Run(draft, &nothing);
+  EXPECT_FALSE(ended.status.ok());
+  int tried = 0;
+  for (const SimulatedSample& sample : ended.samples) {
+    EXPECT_FALSE(sample.status.ok());
+    tried += sample.parts > 0;
+  }
+  EXPECT_LE(tried, 1);
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

@@ -31,6 +31,15 @@ TEST_F(SearchTime, ThatIsOverLeavesTheFirstCauseAndSaysSo) {
   EXPECT_TRUE(selection.best.status.ok());
 }
 
+/// Else whatever is fitted after it looks better than none.
+TEST_F(SearchTime, ThatIsOverFitsAHealthyRobotToItsEnd) {
+  const Fitter in_time(observed_, body_, book_, {}, 1);
+  const Fitter late(observed_, body_, book_, {}, 1, TimeLimit(1e-9));
+  const Fit fit = in_time.Complete(in_time.AsBuilt());
+  EXPECT_NE(fit.z, in_time.AsBuilt().z);
+  EXPECT_EQ(late.Complete(late.AsBuilt()).z, fit.z);
+}
+
 TEST(TimeLimit, IsOverAfterItsTimeAndNeverWithoutOne) {
   EXPECT_TRUE(TimeLimit(1e-9).IsOver());
   EXPECT_FALSE(TimeLimit(1e6).IsOver());
