@@ -193,7 +193,7 @@ void Extend(const CauseBook& book, const Selection& selection, Diagnosis* diagno
   diagnosis->calibration->drives = drives;
 }
 
-/// What tells the causes apart that are left: the report's ranking, and the best of it to be made.
+/// What tells the causes apart that are left: the report's ranking, and how each of it is made.
 void PlanNext(const experiment::Experiment& experiment, const ObservedExperiment& observed,
               const robot::RobotBody& body, const Fitter& fitter, const Selection& selection,
               const Question& question, int threads, Diagnosis* diagnosis) {
@@ -201,13 +201,14 @@ void PlanNext(const experiment::Experiment& experiment, const ObservedExperiment
       RankProposals(experiment, observed, body, fitter, selection, question, threads);
   DiagnosisResult& result = diagnosis->result;
   result.experiments = Describe(question, ranked);
-  if (ranked.empty()) return;
-  PlannedRecording& next = diagnosis->next.emplace();
-  next.name = NextName(experiment, ranked.front().proposal.recording.kind);
-  next.tells = WordsFor(question.best.name, result) + " from " +
-               WordsFor(ranked.front().worst_rival, result);
-  next.rest_s = experiment.rest_between_s.value_or(next.rest_s);
-  next.ranked = std::move(ranked.front());
+  for (RankedProposal& one : ranked) {
+    PlannedRecording& next = diagnosis->next.emplace_back();
+    next.name = NextName(experiment, one.proposal.recording.kind);
+    next.tells =
+        WordsFor(question.best.name, result) + " from " + WordsFor(one.worst_rival, result);
+    next.rest_s = experiment.rest_between_s.value_or(next.rest_s);
+    next.ranked = std::move(one);
+  }
 }
 
 /// Of anything that was measured.

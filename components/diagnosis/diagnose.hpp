@@ -42,7 +42,7 @@ struct Diagnosis {
   /// What belongs to the drives, for `calibration` of the other verbs; nothing: no cause does.
   std::optional<robot::CalibrationFile> calibration;
   std::vector<std::string> not_in_files;  ///< words of causes that neither file can say
-  std::optional<PlannedRecording> next;   ///< the best experiment; nothing: none is in question
+  std::vector<PlannedRecording> next;  ///< experiments, the best first; none: no question is open
 };
 
 /// Says what the simulation of a robot gets wrong in an experiment (DIAGNOSIS). Data that cannot

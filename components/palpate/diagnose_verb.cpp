@@ -138,15 +138,14 @@ void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
   WriteCalibrationFile(calibration, folder / "calibration.extended.yaml");
 }
 
-void WriteNext(const fs::path& folder, const diagnosis::Diagnosis& diagnosis) {
-  if (!diagnosis.next) {
-    diagnosis::RemovePlan(folder);
+void WriteNext(const fs::path& out, const diagnosis::Diagnosis& diagnosis) {
+  diagnosis::WritePlans(diagnosis.next, out);
+  if (diagnosis.next.empty()) {
     fmt::print("no experiment is planned: no two causes are in question\n");
     return;
   }
-  diagnosis::WritePlan(*diagnosis.next, folder);
-  fmt::print("the next experiment is in {}: {}\n", folder.string(),
-             diagnosis.next->ranked.proposal.title);
+  fmt::print("the next experiment is in {}: {}\n", (out / "plan").string(),
+             diagnosis.next.front().ranked.proposal.title);
 }
 
 void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& result) {
@@ -200,7 +199,7 @@ int Diagnose(const DiagnoseOptions& options) {
         "{}: neither robot file nor calibration can say it; the extended files are without\n",
         words);
   }
-  if (options.plan) WriteNext(options.out / "plan", diagnosis);
+  if (options.plan) WriteNext(options.out, diagnosis);
   if (!options.explain.empty()) PrintExplanation(options.explain, result);
   return result.verdict == diagnosis::Verdict::kDataUnfit ? app::kExitFailed : app::kExitDone;
 }
@@ -224,7 +223,8 @@ app::Verb DiagnoseVerb() {
                                "how perception sees the robot in pictures, perception.KEY=VALUE");
             arguments.Flag("--plan", &options->plan,
                            "write the next experiment, as files that a person, a robot or the "
-                           "virtual bench can run, into OUT/plan");
+                           "virtual bench can run, into OUT/plan; those ranked behind it into "
+                           "OUT/plan_others");
             arguments.Option("--samples", &options->most_samples, 10, 2000,
                              "moments that are compared, at most");
             arguments.Option("--minutes", &options->most_minutes, 0, 100000,

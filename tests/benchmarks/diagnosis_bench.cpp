@@ -11,6 +11,7 @@
 #include "tests/benchmarks/diagnosed_robot.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/system/blind/blind_set.hpp"
+#include "tests/system/blind/plan_set.hpp"
 #include "tests/system/blind/score.hpp"
 
 namespace palpate::benchmarks {
@@ -87,11 +88,30 @@ Block BlindBlock() {
                           .max_repetitions = 1}}};
 }
 
+Block PlanBlock() {
+  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
+  return {.heading = "the next experiment that a diagnosis proposes, against one drawn",
+          .benchmarks = {{.name = "diagnosis/next_experiment",
+                          .measure =
+                              [set](benchmark::State& state) {
+                                blind::PlanScore score;
+                                for ([[maybe_unused]] auto iteration : state) {
+                                  score = blind::Judge(blind::RunPlans(set, std::cout));
+                                }
+                                Count(state, "separated_by_proposed", score.proposed);
+                                Count(state, "separated_by_drawn", score.drawn);
+                              },
+                          .max_repetitions = 1}}};
+}
+
 }  // namespace
 
 std::vector<Block> DiagnosisBlocks() {
   std::vector<Block> blocks = {StepBlock()};
-  if (std::getenv("PALPATE_BLIND_CASES") != nullptr) blocks.push_back(BlindBlock());
+  if (std::getenv("PALPATE_BLIND_CASES") != nullptr) {
+    blocks.push_back(BlindBlock());
+    blocks.push_back(PlanBlock());
+  }
   return blocks;
 }
 

@@ -13,7 +13,9 @@ namespace palpate::benchmarks {
 /// diagnosis, each over all moments of an experiment. `diagnosis/blind`: PALPATE_BLIND_CASES hidden
 /// causes through `palpate simulate` and `palpate diagnose`, from PALPATE_BLIND_SEED on
 /// (tests/system/blind). Each case takes minutes, so that there is no such benchmark where
-/// PALPATE_BLIND_CASES is not set. It prints its own table; the figures are its counters, too.
+/// PALPATE_BLIND_CASES is not set. `diagnosis/next_experiment`: as many questions that few data
+/// leave open, with the experiment that answers them best as `palpate diagnose --plan` has it, and
+/// with one drawn of its ranking. Both print their own tables; the figures are their counters, too.
 /// Throws InputError for what is no number.
 std::vector<Block> DiagnosisBlocks();
 

@@ -156,6 +156,7 @@ class PalpateBench(unittest.TestCase):
         self.assertNotIn("diagnosis/blind", run("--benchmark_list_tests=true").stdout)
         names = run("--benchmark_list_tests=true", PALPATE_BLIND_CASES="2").stdout
         self.assertIn("\ndiagnosis/blind/", names)
+        self.assertIn("\ndiagnosis/next_experiment/", names)
         result = run("--benchmark_list_tests=true", PALPATE_BLIND_CASES="0")
         self.assertEqual(result.returncode, 2)
         self.assertIn("PALPATE_BLIND_CASES", result.stderr)

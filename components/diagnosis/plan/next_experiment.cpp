@@ -153,10 +153,8 @@ std::vector<RankedProposal> RankProposals(const experiment::Experiment& experime
 
 std::vector<ExperimentProposal> Describe(const Question& question,
                                          const std::vector<RankedProposal>& ranked) {
-  constexpr std::size_t kMostTold = 10;
   std::vector<ExperimentProposal> told;
   for (const RankedProposal& one : ranked) {
-    if (told.size() == kMostTold) break;
     told.push_back({.title = one.proposal.title,
                     .by_hand = one.proposal.by_hand,
                     .first = question.best.name,

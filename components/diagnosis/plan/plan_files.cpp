@@ -25,6 +25,8 @@ using experiment::CableQuantity;
 using experiment::Recording;
 
 constexpr const char* kScenarioFile = "recording.scenario.yaml";
+constexpr const char* kPlanFolder = "plan";
+constexpr const char* kOthersFolder = "plan_others";
 
 bool DrivesTensions(const Recording& recording) {
   if (!recording.actuation) return false;
@@ -97,6 +99,18 @@ std::string ByHandText(const PlannedRecording& plan) {
   return text;
 }
 
+/// What somebody has put beside a plan stays, and its folder.
+void RemoveOthers(const fs::path& folder) {
+  std::error_code is_not_empty;
+  std::error_code is_not_there;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, is_not_there)) {
+    if (!entry.is_directory()) continue;
+    RemovePlan(entry);
+    fs::remove(entry, is_not_empty);
+  }
+  fs::remove(folder, is_not_empty);
+}
+
 }  // namespace
 
 std::string NextName(const experiment::Experiment& experiment, experiment::RecordingKind kind) {
@@ -112,6 +126,15 @@ void RemovePlan(const fs::path& folder) {
        {"recording.yaml", "actuation.csv", "loads.csv", "by_hand.txt", kScenarioFile}) {
     fs::remove(folder / name, error);
     if (error) throw RunError((folder / name).string() + ": cannot be removed: " + error.message());
+  }
+}
+
+void WritePlans(const std::vector<PlannedRecording>& plans, const fs::path& folder) {
+  RemovePlan(folder / kPlanFolder);
+  RemoveOthers(folder / kOthersFolder);
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    const std::string rank = (k < 9 ? "0" : "") + std::to_string(k + 1);
+    WritePlan(plans[k], k == 0 ? folder / kPlanFolder : folder / kOthersFolder / rank);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "components/diagnosis/plan/next_experiment.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -28,6 +29,10 @@ std::string NextName(const experiment::Experiment& experiment, experiment::Recor
 /// commanded, which it cannot say). Files of these names are overwritten, or removed. Throws
 /// RunError.
 void WritePlan(const PlannedRecording& plan, const std::filesystem::path& folder);
+
+/// The first in `folder`/plan, those behind it in `folder`/plan_others/02 and so on. What was
+/// planned there before is removed; nothing else that lies there is. Throws RunError.
+void WritePlans(const std::vector<PlannedRecording>& plans, const std::filesystem::path& folder);
 
 /// Removes what WritePlan writes.
 void RemovePlan(const std::filesystem::path& folder);

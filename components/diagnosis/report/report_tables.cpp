@@ -100,8 +100,10 @@ std::string ExperimentTable(const DiagnosisResult& result) {
   HtmlTable table;
   table.head = {"", "experiment", "by hand", "tells apart", "expected ln BF"};
   table.numeric = {true, false, false, false, true};
+  constexpr int kMostShown = 10;
   int rank = 0;
   for (const ExperimentProposal& one : result.experiments) {
+    if (rank == kMostShown) break;
     table.rows.push_back({std::to_string(++rank), one.title,
                           one.by_hand.empty() ? "nothing" : one.by_hand,
                           WordsFor(one.first, result) + " / " + WordsFor(one.second, result),

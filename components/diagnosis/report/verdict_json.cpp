@@ -84,13 +84,22 @@ Json ToJson(const ResidualForces& forces) {
   return {{"recording", forces.recording}, {"forces", list}};
 }
 
+Json ToJson(const ExperimentProposal& one) {
+  return {{"title", one.title},
+          {"by_hand", one.by_hand},
+          {"separates", Json::array({ToJson(one.first), ToJson(one.second)})},
+          {"expected_ln_bayes_factor", Number(one.expected_ln_bayes_factor)}};
+}
+
+/// The best, and the others behind it.
 Json NextExperiment(const std::vector<ExperimentProposal>& experiments) {
   if (experiments.empty()) return nullptr;
-  const ExperimentProposal& next = experiments.front();
-  return {{"title", next.title},
-          {"by_hand", next.by_hand},
-          {"separates", Json::array({ToJson(next.first), ToJson(next.second)})},
-          {"expected_ln_bayes_factor", Number(next.expected_ln_bayes_factor)}};
+  Json next = ToJson(experiments.front());
+  next["others"] = Json::array();
+  for (std::size_t k = 1; k < experiments.size(); ++k) {
+    next["others"].push_back(ToJson(experiments[k]));
+  }
+  return next;
 }
 
 template <typename T>

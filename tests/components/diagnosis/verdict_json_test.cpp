@@ -43,6 +43,8 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(rms.size(), 5U);
   EXPECT_EQ(verdict["next_experiment"]["title"], result.experiments[0].title);
   EXPECT_EQ(verdict["next_experiment"]["separates"][1]["id"], "backlash");
+  ASSERT_EQ(verdict["next_experiment"]["others"].size(), 1U);
+  EXPECT_EQ(verdict["next_experiment"]["others"][0]["title"], result.experiments[1].title);
   EXPECT_EQ(verdict["recordings"].size(), result.recordings.size());
   EXPECT_EQ(verdict["data_hash"], result.data_hash);
 }

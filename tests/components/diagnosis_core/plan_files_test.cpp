@@ -136,5 +136,29 @@ TEST_F(PlanFiles, AreOfARecordingThatSortsAfterAll) {
   EXPECT_EQ(NextName(experiment, kind), "next_ramp_next_base_tilted");
 }
 
+TEST_F(PlanFiles, OfARankingLieBehindTheBestUntilThereIsAnother) {
+  const fs::path plan = folder_ / "plan";
+  std::vector<PlannedRecording> ranking;
+  for (const Proposal& proposal : BenchProposals(body_, Observe(SmallExperiment(body_), body_))) {
+    ranking.push_back(Plan(proposal));
+  }
+  ASSERT_GT(ranking.size(), 10U);
+  WritePlans(ranking, folder_);
+  const auto title = [](const fs::path& folder) {
+    return experiment::ReadRecording(folder, app::LoadYaml).notes;
+  };
+  EXPECT_EQ(title(plan), ranking[0].ranked.proposal.title);
+  EXPECT_EQ(title(folder_ / "plan_others/02"), ranking[1].ranked.proposal.title);
+  EXPECT_EQ(title(folder_ / "plan_others/10"), ranking[9].ranked.proposal.title);
+  WriteFile(folder_ / "plan_others/03/markers.csv", "measured");
+  WritePlans({ranking.back()}, folder_);
+  EXPECT_EQ(title(plan), ranking.back().ranked.proposal.title);
+  EXPECT_FALSE(fs::exists(folder_ / "plan_others/02"));
+  EXPECT_EQ(ReadFile(folder_ / "plan_others/03/markers.csv"), "measured");
+  EXPECT_FALSE(fs::exists(folder_ / "plan_others/03/recording.yaml"));
+  WritePlans({}, folder_);
+  EXPECT_FALSE(fs::exists(plan / "recording.yaml"));
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

@@ -10,7 +10,6 @@
 #include "libs/core/check.hpp"
 #include "libs/scenario/effect_places.hpp"
 #include "libs/scenario/robot_names.hpp"
-#include "tests/system/blind/cause_menu.hpp"
 
 namespace palpate::blind {
 
@@ -30,6 +29,8 @@ CaseKind KindOf(std::uint64_t seed) {
   return kMix[seed % kMix.size()];
 }
 
+}  // namespace
+
 ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& robot,
                         Random* random) {
   const auto* kind = scenario::FindEffect(item.id);
@@ -39,8 +40,6 @@ ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& rob
           .where = places[random->Below(places.size())],
           .parameters = item.draw(random, robot)};
 }
-
-}  // namespace
 
 BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot, Measured measured) {
   Random random(seed, "blind case");

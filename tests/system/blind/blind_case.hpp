@@ -9,6 +9,8 @@
 
 #include "libs/robot/robot_description.hpp"
 #include "libs/scenario/effect.hpp"
+#include "libs/scenario/random.hpp"
+#include "tests/system/blind/cause_menu.hpp"
 
 namespace palpate::blind {
 
@@ -40,6 +42,10 @@ struct BlindCase {
   std::vector<std::string> without = {};  ///< catalogue entries that are withheld
   Corruption corruption = Corruption::kNone;
 };
+
+/// One of the menu, at any of its places on the robot.
+scenario::ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& robot,
+                                  scenario::Random* random);
 
 /// Any 20 seeds in a row: 5 healthy, 9 with one cause, 3 with two, 2 with one outside of the
 /// catalogue, 1 of corrupted data. Two causes are of different kinds.

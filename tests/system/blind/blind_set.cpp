@@ -5,19 +5,16 @@
 
 #include <fmt/core.h>
 #include <fmt/ostream.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
-#include <future>
 #include <mutex>
 #include <random>
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
 #include "tests/system/blind/score_table.hpp"
+#include "tests/system/blind/set_folder.hpp"
+#include "tests/system/blind/two_at_a_time.hpp"
 
 namespace palpate::blind {
 
@@ -26,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLargestSeed = 2e9;
-constexpr int kAtATime = 2;
 
 /// False: the variable is not set.
 bool NumberFrom(const char* variable, double smallest, double largest, double* number) {
@@ -46,25 +42,6 @@ Measured ParseMeasured(const std::string& data) {
   throw InputError(
       fmt::format("PALPATE_BLIND_DATA is '{}', neither 'markers' nor 'pictures'", data));
 }
-
-/// A new one in the temporary folder of the machine, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(fs::temp_directory_path() / ("palpate_blind_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 }  // namespace
 
@@ -86,28 +63,22 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
              "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
              set.cases, set.measured == Measured::kPictures ? "pictures" : "markers", set.seed,
              set.samples);
-  const TemporaryFolder temporary;
-  const bool keep = !set.folder.empty();
-  if (keep) fs::create_directories(set.folder);
+  const SetFolder folder(set.folder);
   const CaseRunner runner(
       {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
-       .folder = keep ? fs::absolute(set.folder) : temporary.path(),
-       .keep = keep,
+       .folder = folder.path(),
+       .keep = folder.keeps(),
        .measured = set.measured,
        .samples = set.samples});
   std::vector<CaseRecord> records(static_cast<std::size_t>(set.cases));
-  std::atomic<std::size_t> next = 0;
   std::mutex printing;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < records.size(); i = next++) {
-      records[i] = runner.Run(set.seed + i);
-      const std::lock_guard lock(printing);
-      PrintCase(out, records[i]);
-    }
-  };
-  std::vector<std::future<void>> workers;
-  for (int i = 0; i < kAtATime; ++i) workers.push_back(std::async(std::launch::async, work));
-  for (std::future<void>& worker : workers) worker.get();
+  TwoAtATime([&](std::size_t i) {
+    if (i >= records.size()) return false;
+    records[i] = runner.Run(set.seed + i);
+    const std::lock_guard lock(printing);
+    PrintCase(out, records[i]);
+    return true;
+  });
   PrintScore(out, Judge(records));
   return records;
 }

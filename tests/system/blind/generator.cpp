@@ -68,14 +68,32 @@ Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
                 fs::copy_options::overwrite_existing);
 }
 
-void Generator::Make(const std::vector<ActiveEffect>& effects, std::uint64_t seed,
-                     const fs::path& experiment, const fs::path& answer) const {
-  Make(measured_ == Measured::kPictures ? WithPictures(scenario_text_) : scenario_text_, effects,
-       seed, experiment, answer);
+void Generator::Keep(const std::set<std::string>& recordings) {
+  const std::string item = "  - name: ";
+  std::size_t begin = scenario_text_.find(item);
+  std::string kept = scenario_text_.substr(0, begin);
+  while (begin != std::string::npos) {
+    const std::size_t end = scenario_text_.find(item, begin + 1);
+    const std::size_t name = begin + item.size();
+    const bool wanted =
+        recordings.contains(scenario_text_.substr(name, scenario_text_.find('\n', name) - name));
+    if (wanted) kept += scenario_text_.substr(begin, end - begin);
+    begin = end;
+  }
+  scenario_text_ = std::move(kept);
 }
 
-void Generator::Make(const std::string& scenario_text, const std::vector<ActiveEffect>& effects,
-                     std::uint64_t seed, const fs::path& experiment, const fs::path& answer) const {
+void Generator::Make(const std::vector<ActiveEffect>& effects, std::uint64_t seed,
+                     const fs::path& experiment, const fs::path& answer,
+                     const std::string& further) const {
+  const std::string all = scenario_text_ + further;
+  MakeFrom(measured_ == Measured::kPictures ? WithPictures(all) : all, effects, seed, experiment,
+           answer);
+}
+
+void Generator::MakeFrom(const std::string& scenario_text, const std::vector<ActiveEffect>& effects,
+                         std::uint64_t seed, const fs::path& experiment,
+                         const fs::path& answer) const {
   std::string list;
   for (const ActiveEffect& effect : effects)
     list += (list.empty() ? "" : ", ") + EffectText(effect);
@@ -89,7 +107,8 @@ void Generator::Make(const std::string& scenario_text, const std::vector<ActiveE
       "simulate", robot_file_.string(), "--scenario", scenario.string(),
       "--seed",   std::to_string(seed), "--out",      experiment.string(),
       "--answer", answer.string()};
-  if (scenario_text != scenario_text_) arguments.emplace_back("--tell-camera-pose");
+  const bool takes_pictures = scenario_text.find(kPictureCamera) != std::string::npos;
+  if (takes_pictures) arguments.emplace_back("--tell-camera-pose");
   const auto done = system_test::RunProgram("palpate", arguments, log);
   if (done != 0) throw RunError("palpate simulate: " + ReadFile(log));
 }
@@ -101,7 +120,7 @@ std::vector<double> Generator::EffectSizes_m(const std::vector<ActiveEffect>& ef
   fs::path with = experiment;
   if (measured_ == Measured::kPictures) {
     with = folder_ / (named + "_with_markers");
-    Make(scenario_text_, effects, seed, with, folder_ / (named + "_with_markers.answer.json"));
+    MakeFrom(scenario_text_, effects, seed, with, folder_ / (named + "_with_markers.answer.json"));
   }
   const auto with_m = MarkerCoordinates_m(with);
   std::vector<double> sizes_m;
@@ -109,7 +128,7 @@ std::vector<double> Generator::EffectSizes_m(const std::vector<ActiveEffect>& ef
     const std::string name = named + "_without_" + std::to_string(i);
     const fs::path other = folder_ / name;
     const fs::path answer = folder_ / (name + ".answer.json");
-    Make(scenario_text_, WithoutEffect(effects, i), seed, other, answer);
+    MakeFrom(scenario_text_, WithoutEffect(effects, i), seed, other, answer);
     sizes_m.push_back(LargestRms(with_m, MarkerCoordinates_m(other)));
     fs::remove_all(other);
     fs::remove(answer);

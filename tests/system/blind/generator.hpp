@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,14 @@ class Generator {
   Generator(std::filesystem::path robot_file, std::filesystem::path folder,
             Measured measured = Measured::kMarkers);
 
+  /// From now on only recordings of these names are made.
+  void Keep(const std::set<std::string>& recordings);
+
   /// `experiment` and `answer`: files that are not there yet. Throws RunError with what the program
-  /// said.
+  /// said. `further`: items of the scenario's `recordings` that are made behind its own.
   void Make(const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed,
-            const std::filesystem::path& experiment, const std::filesystem::path& answer) const;
+            const std::filesystem::path& experiment, const std::filesystem::path& answer,
+            const std::string& further = {}) const;
 
   /// How far each effect moves the markers in the recording where it moves them most, beside the
   /// others: RMS over all coordinates of all markers of a recording, m, whatever `experiment`
@@ -37,9 +42,9 @@ class Generator {
                                     const std::filesystem::path& experiment) const;
 
  private:
-  void Make(const std::string& scenario_text, const std::vector<scenario::ActiveEffect>& effects,
-            std::uint64_t seed, const std::filesystem::path& experiment,
-            const std::filesystem::path& answer) const;
+  void MakeFrom(const std::string& scenario_text,
+                const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed,
+                const std::filesystem::path& experiment, const std::filesystem::path& answer) const;
 
   std::filesystem::path robot_file_;
   std::filesystem::path folder_;
