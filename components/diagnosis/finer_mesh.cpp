@@ -43,7 +43,9 @@ std::shared_ptr<const MeshError> CompareWithFinerMesh(const robot::RobotDescript
   Simulation coarse;
   for (const std::size_t s : SomeOf(observed)) {
     few.samples.push_back(observed.samples[s]);
-    coarse.samples.push_back(simulated.samples[s]);
+    SimulatedSample& known = coarse.samples.emplace_back();
+    known.status = simulated.samples[s].status;
+    known.middle.state = simulated.samples[s].middle.state;
   }
   // Ends with the first sample that fails: cells so bad that ten nodes buckle fail all, and slowly.
   const Simulation nothing;

@@ -73,35 +73,35 @@ Block StepBlock() {
                      Timed(robot, "screen", [](auto& one) { one.ScreenAll(); })}};
 }
 
-Block BlindBlock() {
-  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
-  return {.heading = "diagnosis of hidden causes: whole sets",
-          .benchmarks = {{.name = "diagnosis/blind",
+/// A whole set that is run once: `work` gives its score, which `count` makes counters of.
+template <typename Work, typename CountScore>
+Block SetBlock(const std::string& heading, const std::string& name, const Work& work,
+               const CountScore& count) {
+  return {.heading = heading,
+          .benchmarks = {{.name = "diagnosis/" + name,
                           .measure =
-                              [set](benchmark::State& state) {
-                                blind::Score score;
-                                for ([[maybe_unused]] auto iteration : state) {
-                                  score = blind::Judge(blind::RunBlind(set, std::cout));
-                                }
-                                CountAll(state, score);
+                              [work, count](benchmark::State& state) {
+                                for ([[maybe_unused]] auto iteration : state) count(state, work());
                               },
                           .max_repetitions = 1}}};
 }
 
+Block BlindBlock() {
+  const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
+  return SetBlock(
+      "diagnosis of hidden causes: whole sets", "blind",
+      [set] { return blind::Judge(blind::RunBlind(set, std::cout)); }, CountAll);
+}
+
 Block PlanBlock() {
   const blind::BlindSet set = blind::BlindSet::FromEnvironment(1);
-  return {.heading = "the next experiment that a diagnosis proposes, against one drawn",
-          .benchmarks = {{.name = "diagnosis/next_experiment",
-                          .measure =
-                              [set](benchmark::State& state) {
-                                blind::PlanScore score;
-                                for ([[maybe_unused]] auto iteration : state) {
-                                  score = blind::Judge(blind::RunPlans(set, std::cout));
-                                }
-                                Count(state, "separated_by_proposed", score.proposed);
-                                Count(state, "separated_by_drawn", score.drawn);
-                              },
-                          .max_repetitions = 1}}};
+  return SetBlock(
+      "the next experiment that a diagnosis proposes, against one drawn", "next_experiment",
+      [set] { return blind::Judge(blind::RunPlans(set, std::cout)); },
+      [](benchmark::State& state, const blind::PlanScore& score) {
+        Count(state, "separated_by_proposed", score.proposed);
+        Count(state, "separated_by_drawn", score.drawn);
+      });
 }
 
 }  // namespace

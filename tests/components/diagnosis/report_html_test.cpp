@@ -182,6 +182,18 @@ TEST(ReportHtml, EscapesEveryName) {
   for (const std::string& svg : Pictures(html)) Read(svg);
 }
 
+TEST(ReportHtml, ShowsTheTenBestExperiments) {
+  DiagnosisResult result = FrictionExample();
+  const ExperimentProposal one = result.experiments.front();
+  result.experiments.assign(12, one);
+  for (std::size_t k = 0; k < result.experiments.size(); ++k) {
+    result.experiments[k].title = "experiment <" + std::to_string(k + 1) + ">";
+  }
+  const std::string html = FormatReport(result);
+  EXPECT_THAT(html, HasSubstr("experiment &lt;10&gt;"));
+  EXPECT_THAT(html, Not(HasSubstr("experiment &lt;11&gt;")));
+}
+
 TEST(ReportHtml, TellsHowToRepeat) {
   const DiagnosisResult result = FrictionExample();
   const std::string html = FormatReport(result);
