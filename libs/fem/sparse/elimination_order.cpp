@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <numeric>
 
 #include "libs/core/check.hpp"
@@ -39,7 +40,12 @@ cholmod_sparse* ToCholmod(const internal::NodeGraph& graph, cholmod_common* comm
   return sparse;
 }
 
+/// One at a time: METIS draws from the process's one stream of random numbers, and puts handlers of
+/// its own on SIGTERM and SIGABRT while it works. Two at once change each other's order, and leave
+/// a handler behind that jumps to where nobody is any more.
 std::vector<int> Order(cholmod_sparse* graph, int method, cholmod_common* common) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   common->nmethods = 1;
   common->method[0].ordering = method;
   common->postorder = 1;

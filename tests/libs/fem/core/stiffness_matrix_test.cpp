@@ -4,10 +4,13 @@
 #include "libs/fem/stiffness_matrix.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
+#include <thread>
+#include <vector>
 
 #include "tests/libs/fem/core/laws.hpp"
 
@@ -200,6 +203,24 @@ TEST(EliminationOrder, IsAPermutationWithLessFillThanTheNaturalOrder) {
   const std::vector<int> order = FindEliminationOrder(343, pairs).nodes;
   EXPECT_TRUE(std::is_permutation(order.begin(), order.end(), natural.begin(), natural.end()));
   EXPECT_LT(FactorEntries(343, pairs, order), 0.7 * FactorEntries(343, pairs, natural));
+}
+
+/// As one by one: the same order, and the process still ends where it is told to.
+TEST(EliminationOrder, IsFoundOnSeveralThreadsAtOnce) {
+  const NodePairs pairs = GridPairs(9);
+  const std::vector<int> alone = FindEliminationOrder(729, pairs).nodes;
+  std::vector<int> differ(4, 0);
+  std::vector<std::thread> threads;
+  for (int& others : differ) {
+    threads.emplace_back([&pairs, &alone, &others] {
+      for (int k = 0; k < 10; ++k) others += FindEliminationOrder(729, pairs).nodes != alone;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(differ, std::vector<int>(4, 0));
+  struct sigaction on_terminate {};
+  ASSERT_EQ(sigaction(SIGTERM, nullptr, &on_terminate), 0);
+  EXPECT_EQ(on_terminate.sa_handler, SIG_DFL);
 }
 
 TEST(EliminationOrder, TakesRepeatedPairsAndLonelyNodes) {
