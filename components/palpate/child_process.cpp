@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,6 +89,13 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
 }
 
 ChildProcess::~ChildProcess() { Stop(); }
+
+void ChildProcess::GiveWay() {
+  constexpr int kNicer = 5;
+  const int niceness = getpriority(PRIO_PROCESS, 0) + kNicer;
+  const int failed = setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), niceness);
+  PALPATE_CHECK(failed == 0 || errno == ESRCH, name_, std::strerror(errno));  // it may have ended
+}
 
 std::optional<int> ChildProcess::ExitCode() {
   int wait_status = 0;

@@ -27,6 +27,10 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  /// Where cores are short, all that runs at the usual priority goes first. Called at once, it
+  /// holds for every thread of the program.
+  void GiveWay();
+
   /// Exit code (128 + signal where a signal ended it), or nullopt while it runs.
   std::optional<int> ExitCode();
 

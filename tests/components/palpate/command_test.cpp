@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
@@ -72,6 +73,15 @@ TEST(ChildProcess, EndsWhatStillRuns) {
   ChildProcess process("/bin/sleep", {"1000"}, {}, folder / "log");
   EXPECT_FALSE(process.ExitCode());
   EXPECT_EQ(process.Stop(), 128 + SIGINT);
+}
+
+TEST(ChildProcess, GivesWayWithAllThatItStarts) {
+  const TestFolder folder;
+  const std::string ours = std::to_string(getpriority(PRIO_PROCESS, 0));
+  ChildProcess process("/bin/sh", {"-c", "until test $(nice) -gt $0; do sleep 0.01; done", ours},
+                       {}, folder / "log");
+  process.GiveWay();
+  EXPECT_EQ(process.Wait(), 0) << ReadFile(folder / "log");
 }
 
 TEST(ChildProcess, RefusesAProgramThatIsNotThere) {

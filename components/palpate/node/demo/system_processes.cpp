@@ -42,6 +42,7 @@ void SystemProcesses::StartVirtualRobot(const std::filesystem::path& robot,
   // that others have pushed off its core.
   arguments.insert(arguments.end(), {"--set", "threads=1"});
   Start("palpate-virtual-robot", arguments);
+  processes_.back()->GiveWay();  // it stands for the world, which would take none of our cores
 }
 
 void SystemProcesses::StartPlayer(const std::filesystem::path& data) {
