@@ -15,6 +15,7 @@
 #include "components/diagnosis/finer_mesh.hpp"
 #include "components/diagnosis/gap.hpp"
 #include "components/diagnosis/identities.hpp"
+#include "components/diagnosis/inference/further_causes.hpp"
 #include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/joined_diagnosis.hpp"
@@ -90,15 +91,18 @@ std::string RegisterUnknownPoses(const robot::RobotBody& body, int threads,
 }
 
 NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
-                    const Choice& choice) {
+                    const std::vector<FurtherCause>& further, const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
   const CauseBook& book = fitter.book();
   const Cause& cause = book.cause(choice.cause);
   const Eigen::VectorXd z =
       fit.posterior.mean.segment(book.first(choice.cause), book.count(choice.cause));
+  const Eigen::MatrixXd covariance = CovarianceBeside(
+      book, fit, choice.cause, further, CovarianceOverPlaces(fitter, fit, choice.cause));
+  const Eigen::VectorXd undeformed_m = fitter.DraftAt(fit).body.mesh.nodes_m.reshaped();
   NamedCause named{.name = cause.name(),
                    .words = cause.words(),
-                   .parameters = cause.Report(z, CovarianceOverPlaces(fitter, fit, choice.cause)),
+                   .parameters = cause.Report(z, covariance, undeformed_m),
                    .probability = std::min(kSurest, choice.probability),
                    .ln_bayes_factor = choice.ln_bayes_factor,
                    .cross_validated = choice.held_out.clear,
@@ -308,8 +312,10 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
     moment.t_s -= FirstFrame_s(experiment.recordings[r]) - FirstFrame_s(as_recorded.recordings[r]);
   }
   DescribeVerdict(selection, &result);
+  std::vector<FurtherCause> further;
+  if (!selection.named.empty()) further = FurtherCauses(fitter, selection.best);
   for (const Choice& choice : selection.named) {
-    result.causes.push_back(Describe(observed, fitter, selection.best, choice));
+    result.causes.push_back(Describe(observed, fitter, selection.best, further, choice));
     result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);

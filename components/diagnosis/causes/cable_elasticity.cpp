@@ -36,9 +36,9 @@ class CableElasticity final : public Cause {
   }
 
   /// What the mesh gives way by is in what was fitted, and nobody knows how much it is.
-  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                      const Eigen::MatrixXd& covariance) const override {
-    return Cause::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N);
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& undeformed_m) const override {
+    return Cause::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
   }
 
  private:

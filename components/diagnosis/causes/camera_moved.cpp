@@ -53,8 +53,8 @@ class CameraMoved final : public Cause {
   }
 
   /// How far the camera itself is from where it was, and by how much it turned.
-  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                      const Eigen::MatrixXd& covariance) const override {
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
     const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
     const Eigen::Vector3d turned_m = moved.linear() * middle_m_;
     Eigen::Matrix<double, 3, 6> slope;

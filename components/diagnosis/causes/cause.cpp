@@ -15,7 +15,8 @@ constexpr double k95 = 1.959964;  ///< of a normal distribution
 }  // namespace
 
 std::vector<FittedParameter> Cause::Report(const Eigen::VectorXd& z,
-                                           const Eigen::MatrixXd& covariance) const {
+                                           const Eigen::MatrixXd& covariance,
+                                           const Eigen::VectorXd& /*undeformed_m*/) const {
   std::vector<FittedParameter> report;
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     const CauseParameter& parameter = parameters_[p];

@@ -107,9 +107,11 @@ class Cause {
   const std::vector<CauseParameter>& parameters() const { return parameters_; }
 
   /// What people are told of `z` [parameters] with its covariance; by default each parameter with
-  /// its 95 % interval.
+  /// its 95 % interval. `undeformed_m` [3n]: the body that the fit has, which need not have the
+  /// size that the robot file says.
   virtual std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                              const Eigen::MatrixXd& covariance) const;
+                                              const Eigen::MatrixXd& covariance,
+                                              const Eigen::VectorXd& undeformed_m) const;
 
   /// `z` [parameters].
   virtual void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const = 0;

@@ -25,7 +25,8 @@ class Discretisation final : public Cause {
 
   /// By how much the mesh errs is worked out, and not fitted.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& /*z*/,
-                                      const Eigen::MatrixXd& /*covariance*/) const override {
+                                      const Eigen::MatrixXd& /*covariance*/,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
     return {{"relative_error", error_->relative, error_->relative, error_->relative}};
   }
   bool BeginsAnew() const override { return true; }

@@ -22,8 +22,7 @@ constexpr double kSkin_m = 3e-4;
 /// the body than where it is looked for, and two turns about the middle of where it is met there.
 class HiddenObstacle final : public Cause {
  public:
-  HiddenObstacle(const WallToLookAt& at, std::shared_ptr<const WallSurface> surface,
-                 std::shared_ptr<const Eigen::VectorXd> undeformed_m)
+  HiddenObstacle(const WallToLookAt& at, std::shared_ptr<const WallSurface> surface)
       : Cause({"hidden_obstacle", {"body"}}, "an obstacle in the body's way",
               {{.name = "there", .fault = 1e-3, .fault_at = 1.0, .least = 0.0, .most = 1.0},
                {.name = "farther_m",
@@ -42,8 +41,7 @@ class HiddenObstacle final : public Cause {
                 .most = kMostTilt_rad,
                 .qualifies = true}}),
         at_(at),
-        surface_(std::move(surface)),
-        undeformed_m_(std::move(undeformed_m)) {
+        surface_(std::move(surface)) {
     const Eigen::Vector3d n = at_.normal;
     tangents_.col(0) = n.unitOrthogonal();
     tangents_.col(1) = n.cross(tangents_.col(0));
@@ -91,17 +89,21 @@ class HiddenObstacle final : public Cause {
     return push;
   }
 
-  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                      const Eigen::MatrixXd& covariance) const override {
+  /// The gap is to the robot as it stands there: of one that is larger than its file says, the wall
+  /// stands that much farther from the file's body.
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& undeformed_m) const override {
     constexpr double k95 = 1.959964;
     constexpr double kStep = 1e-4;  // of the fault sigma
     const char* const names[] = {"gap_m", "nx", "ny", "nz"};
-    const Eigen::Vector4d value = GapAndNormal(z);
+    const Eigen::Vector4d value = GapAndNormal(z, undeformed_m);
     Eigen::MatrixXd slope(4, z.size());
     for (Eigen::Index p = 0; p < z.size(); ++p) {
       const double step = kStep * parameters()[static_cast<std::size_t>(p)].fault;
       const Eigen::VectorXd beside = step * Eigen::VectorXd::Unit(z.size(), p);
-      slope.col(p) = (GapAndNormal(z + beside) - GapAndNormal(z - beside)) / (2.0 * step);
+      slope.col(p) =
+          (GapAndNormal(z + beside, undeformed_m) - GapAndNormal(z - beside, undeformed_m)) /
+          (2.0 * step);
     }
     std::vector<FittedParameter> report;
     for (int k = 0; k < 4; ++k) {
@@ -141,16 +143,16 @@ class HiddenObstacle final : public Cause {
     return parameter == 1 ? -1.0 : normal_change.dot(at_.middle_m);
   }
 
-  Eigen::Vector4d GapAndNormal(const Eigen::VectorXd& z) const {
+  Eigen::Vector4d GapAndNormal(const Eigen::VectorXd& z,
+                               const Eigen::VectorXd& undeformed_m) const {
     const Wall wall = WallAt(z);
     Eigen::Vector4d value;
-    value << WallClearance_m(wall, *undeformed_m_), wall.normal;
+    value << WallClearance_m(wall, undeformed_m), wall.normal;
     return value;
   }
 
   WallToLookAt at_;
   std::shared_ptr<const WallSurface> surface_;
-  std::shared_ptr<const Eigen::VectorXd> undeformed_m_;
   Eigen::Matrix<double, 3, 2> tangents_;
 };
 
@@ -159,10 +161,9 @@ class HiddenObstacle final : public Cause {
 void MakeHiddenObstacle(const CauseWorld& world, std::vector<CausePtr>* causes) {
   if (world.as_built == nullptr) return;
   const auto surface = std::make_shared<const WallSurface>(SurfaceForWalls(world.body));
-  const auto undeformed_m =
-      std::make_shared<const Eigen::VectorXd>(world.body.mesh.nodes_m.reshaped());
-  for (const WallToLookAt& at : WallsToLookAt(surface, *undeformed_m, *world.as_built)) {
-    causes->push_back(std::make_unique<HiddenObstacle>(at, surface, undeformed_m));
+  const Eigen::VectorXd undeformed_m = world.body.mesh.nodes_m.reshaped();
+  for (const WallToLookAt& at : WallsToLookAt(surface, undeformed_m, *world.as_built)) {
+    causes->push_back(std::make_unique<HiddenObstacle>(at, surface));
   }
 }
 

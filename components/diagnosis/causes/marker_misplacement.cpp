@@ -42,8 +42,8 @@ class MarkerMisplacement final : public Cause {
         along_[static_cast<std::size_t>(parameter)].Position(at.shape.state.x_m);
   }
 
-  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                      const Eigen::MatrixXd& covariance) const override {
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
     return {SizeOf("d_m", z, covariance)};
   }
 

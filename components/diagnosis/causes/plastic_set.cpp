@@ -63,8 +63,8 @@ class PlasticSet final : public Cause {
   }
 
   /// The largest displacement.
-  std::vector<FittedParameter> Report(const Eigen::VectorXd& z,
-                                      const Eigen::MatrixXd& covariance) const override {
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
     const Eigen::Index nodes = shapes_.rows() / 3;
     Eigen::Index most = 0;
     (shapes_ * z).reshaped(3, nodes).colwise().norm().maxCoeff(&most);

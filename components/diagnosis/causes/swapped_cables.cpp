@@ -41,7 +41,8 @@ class SwappedCables final : public Cause {
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& /*z*/,
-                                      const Eigen::MatrixXd& /*covariance*/) const override {
+                                      const Eigen::MatrixXd& /*covariance*/,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
     return {};
   }
 

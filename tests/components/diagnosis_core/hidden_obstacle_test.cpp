@@ -235,8 +235,9 @@ TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
   EXPECT_TRUE(selection.guard.passed) << selection.guard.worst;
   const Posterior& posterior = selection.best.posterior;
   const Eigen::Index first = book.first(k);
-  const std::vector<FittedParameter> report = book.cause(k).Report(
-      posterior.mean.segment<4>(first), posterior.covariance.block<4, 4>(first, first));
+  const std::vector<FittedParameter> report =
+      book.cause(k).Report(posterior.mean.segment<4>(first),
+                           posterior.covariance.block<4, 4>(first, first), nominal_.assembled_m);
   const auto expect_near = [&](const FittedParameter& fitted, const std::string& name,
                                double truth) {
     EXPECT_EQ(fitted.name, name);
@@ -258,13 +259,31 @@ TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
   const Cause& obstacle = book.cause(k);
   constexpr double kDeep_m = 5e-5;
   const Eigen::Vector4d z(1.0, obstacle.parameters()[1].least - kDeep_m, 0.0, 0.0);
-  const auto report = obstacle.Report(z, 1e-12 * Eigen::Matrix4d::Identity());
+  const auto report = obstacle.Report(z, 1e-12 * Eigen::Matrix4d::Identity(), nominal_.assembled_m);
   EXPECT_EQ(report[0].value, 0.0);
   EXPECT_EQ(report[0].ci95_low, 0.0);
   for (const FittedParameter& one : report) {
     EXPECT_LE(one.ci95_low, one.value) << one.name;
     EXPECT_GE(one.ci95_high, one.value) << one.name;
   }
+}
+
+TEST_F(HiddenObstacleIsFound, AsFarAsItIsFromABodyOfAnotherSize) {
+  const CauseBook book = Book();
+  int k = 0;
+  while (book.cause(k).name().id != "hidden_obstacle") ++k;
+  const Cause& obstacle = book.cause(k);
+  const Eigen::Vector4d z(1.0, 0.0, 0.0, 0.0);
+  const Eigen::Matrix4d sure = 1e-12 * Eigen::Matrix4d::Identity();
+  const auto gap_m = [&](const Eigen::VectorXd& undeformed_m) {
+    return obstacle.Report(z, sure, undeformed_m)[0].value;
+  };
+  const auto normal = obstacle.Report(z, sure, nominal_.assembled_m);
+  const Eigen::Vector3d n{normal[1].value, normal[2].value, normal[3].value};
+  constexpr double kNearer_m = 2e-4;
+  const Eigen::VectorXd nearer_m =
+      nominal_.assembled_m - kNearer_m * n.replicate(nominal_.assembled_m.size() / 3, 1);
+  EXPECT_NEAR(gap_m(nearer_m), gap_m(nominal_.assembled_m) - kNearer_m, 1e-9);
 }
 
 /// A wall through the body, however far it is moved.
