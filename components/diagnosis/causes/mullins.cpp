@@ -39,13 +39,17 @@ class Mullins final : public Cause {
                              const CauseMoment& at) const override {
     if (parameter == 1 && z[0] == 0.0) return nullptr;
     const double m_J_m3 = parameters()[1].ValueOf(z[1]);
-    const Eigen::ArrayXd below =
-        at.simulation.below_largest_J_m3.col(at.sample).cast<double>().array() / m_J_m3;
+    const Eigen::Array<double, Eigen::Dynamic, Memory::kLooks> below =
+        at.simulation.below_largest_J_m3.middleCols<Memory::kLooks>(Memory::kLooks * at.sample)
+            .cast<double>()
+            .array() /
+        m_J_m3;
     Eigen::VectorXd softer;
     if (parameter == 0) {
-      softer = below.unaryExpr([](double u) { return std::erf(u); });
+      softer = below.unaryExpr([](double u) { return std::erf(u); }).rowwise().mean();
     } else {
-      softer = -2.0 * std::numbers::inv_sqrtpi * z[0] * below * (-below.square()).exp();
+      softer = -2.0 * std::numbers::inv_sqrtpi * z[0] *
+               (below * (-below.square()).exp()).rowwise().mean();
     }
     return robot::NodalForce(ForceOf(softer, at));
   }

@@ -22,11 +22,12 @@ Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
 }
 
 Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation) {
-  Eigen::MatrixXf energy_J_m3(simulation.at_rest.energy_J_m3.size(), memory.ColumnCount());
-  for (Eigen::Index column = 0; column < energy_J_m3.cols(); ++column) {
-    energy_J_m3.col(column) = MemorableOf(simulation, column).energy_J_m3;
+  Eigen::MatrixXf root(simulation.at_rest.energy_J_m3.size(), memory.ColumnCount());
+  for (Eigen::Index column = 0; column < root.cols(); ++column) {
+    root.col(column) = MemorableOf(simulation, column).energy_J_m3.cwiseMax(0.0F).cwiseSqrt();
   }
-  return memory.Largest(energy_J_m3) - energy_J_m3.leftCols(std::ssize(simulation.samples));
+  const Memory::Course course = memory.Follow(root);
+  return course.largest.cwiseAbs2() - course.now.cwiseAbs2();
 }
 
 void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulation& simulation,
@@ -38,9 +39,16 @@ void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulat
     if (factor.size() == 0) factor.setOnes(below_J_m3.rows());
     const Eigen::VectorXf& density_J_m3 = simulation.samples[s].in_the_middle.energy_J_m3;
     for (Eigen::Index cell = 0; cell < factor.size(); ++cell) {
-      const double below = double{below_J_m3(cell, static_cast<Eigen::Index>(s))} / mullins.m_J_m3;
-      const double wanted = 1.0 - mullins.inverse_r * std::erf(below);
-      const double answer = 4.0 * std::numbers::inv_sqrtpi * std::exp(-below * below) *
+      const Eigen::Array<double, Memory::kLooks, 1> below =
+          below_J_m3.row(cell)
+              .segment<Memory::kLooks>(Memory::kLooks * static_cast<Eigen::Index>(s))
+              .transpose()
+              .cast<double>()
+              .array() /
+          mullins.m_J_m3;
+      const double softened = below.unaryExpr([](double u) { return std::erf(u); }).mean();
+      const double wanted = 1.0 - mullins.inverse_r * softened;
+      const double answer = 4.0 * std::numbers::inv_sqrtpi * (-below.square()).exp().mean() *
                             double{density_J_m3[cell]} * mullins.inverse_r /
                             (mullins.m_J_m3 * factor[cell]);
       factor[cell] += (wanted - factor[cell]) / (1.0 + answer);

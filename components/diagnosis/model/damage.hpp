@@ -16,8 +16,9 @@ namespace palpate::diagnosis {
 /// [cells] by their corners.
 Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh);
 
-/// [cells x samples] by how much the energy density lies below the largest that each cell has seen
-/// until then, J/m^3.
+/// [cells x samples Memory::kLooks] by how much the energy density lies below the largest that each
+/// cell has seen until then, J/m^3. It grows as the square of how far the body is bent, and that is
+/// followed.
 Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation);
 
 /// A step of the damage of all samples towards what MullinsSoftening asks for after the energies of

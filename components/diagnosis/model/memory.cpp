@@ -168,24 +168,40 @@ Eigen::MatrixXd Memory::WorkOutFading(double tau_s) const {
   return weights;
 }
 
-Eigen::MatrixXf Memory::Largest(const Eigen::MatrixXf& values) const {
-  Eigen::MatrixXf largest = values.leftCols(std::ssize(observed_.samples));
-  Eigen::VectorXf until_now = Eigen::VectorXf::Zero(values.rows());
-  std::size_t node = 0;
-  for (Eigen::Index s = 0; s < largest.cols(); ++s) {
-    const double t_s = observed_.samples[static_cast<std::size_t>(s)].t_s;
-    for (; node < nodes_.size() && nodes_[node].t_s <= t_s; ++node) {
-      Eigen::VectorXf there = Eigen::VectorXf::Zero(values.rows());
-      for (Eigen::Index k = 0; k < values.cols(); ++k) {
-        const auto share = static_cast<float>(nodes_[node].share[k]);
-        if (share != 0.0F) there += share * values.col(k);
-      }
-      until_now = until_now.cwiseMax(there);
+Memory::Course Memory::Follow(const Eigen::MatrixXf& values) const {
+  const auto value_at = [&](const Node& node) {
+    Eigen::VectorXf there = Eigen::VectorXf::Zero(values.rows());
+    for (Eigen::Index k = 0; k < values.cols(); ++k) {
+      const auto share = static_cast<float>(node.share[k]);
+      if (share != 0.0F) there += share * values.col(k);
     }
-    until_now = until_now.cwiseMax(largest.col(s));
-    largest.col(s) = until_now;
+    return there;
+  };
+  const Eigen::Index looks = kLooks * std::ssize(observed_.samples);
+  Course course{Eigen::MatrixXf(values.rows(), looks), Eigen::MatrixXf(values.rows(), looks)};
+  std::size_t node = 0;  // the next one
+  Eigen::VectorXf before = value_at(nodes_.front());
+  Eigen::VectorXf next = before;
+  Eigen::VectorXf largest = Eigen::VectorXf::Zero(values.rows());
+  for (Eigen::Index look = 0; look < looks; ++look) {
+    const std::vector<double>& frames_s =
+        observed_.samples[static_cast<std::size_t>(look / kLooks)].frame_t_s;
+    const auto frame = static_cast<std::size_t>(2 * (look % kLooks) + 1) * frames_s.size() /
+                       static_cast<std::size_t>(2 * kLooks);
+    const double t_s = frames_s[frame];
+    for (; node < nodes_.size() && nodes_[node].t_s <= t_s; ++node) {
+      before = next;
+      largest = largest.cwiseMax(before);
+      if (node + 1 < nodes_.size()) next = value_at(nodes_[node + 1]);
+    }
+    const bool between = node > 0 && node < nodes_.size();
+    const double whole_s = between ? nodes_[node].t_s - nodes_[node - 1].t_s : 0.0;
+    const double share = between ? (t_s - nodes_[node - 1].t_s) / whole_s : 0.0;
+    course.now.col(look) = before + static_cast<float>(share) * (next - before);
+    largest = largest.cwiseMax(course.now.col(look));
+    course.largest.col(look) = largest;
   }
-  return largest;
+  return course;
 }
 
 }  // namespace palpate::diagnosis

@@ -30,8 +30,15 @@ class Memory {
   /// asked for once is kept; threads may ask at once.
   const Eigen::MatrixXd& Fading(double tau_s) const;
 
-  /// [n x samples] the largest that each of n quantities was until then; `values` [n x columns].
-  Eigen::MatrixXf Largest(const Eigen::MatrixXf& values) const;
+  /// Times in the course of a sample at which all is looked at that goes up to its largest: each
+  /// stands for alike many of its frames.
+  static constexpr Eigen::Index kLooks = 5;
+  struct Course {
+    Eigen::MatrixXf now;
+    Eigen::MatrixXf largest;  ///< that it was until then
+  };
+  /// [n x samples kLooks] n quantities in the course of the samples; `values` [n x columns].
+  Course Follow(const Eigen::MatrixXf& values) const;
 
  private:
   /// A time at which the quantity is a combination of those that were worked out.

@@ -76,7 +76,7 @@ struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
   Memorable at_rest;                   ///< with every command at zero, as between recordings
-  Eigen::MatrixXf below_largest_J_m3;  ///< [cells x samples] BelowLargest_J_m3 (damage.hpp)
+  Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (damage.hpp)
   std::vector<Hereditary> past;        ///< [samples] with which they are in balance
 };
 

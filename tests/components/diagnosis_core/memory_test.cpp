@@ -158,7 +158,10 @@ TEST(Memory, KnowsWhereMotionsTurn) {
   const Eigen::VectorXd remembered = memory.Fading(kTau_s) * values;
   EXPECT_NEAR(remembered[0], 0.5 * (path.Fading(1.0, kTau_s) + path.Fading(3.0, kTau_s)), 2e-4);
   EXPECT_NEAR(remembered[1], 0.5 * (path.Fading(5.0, kTau_s) + path.Fading(7.0, kTau_s)), 2e-4);
-  EXPECT_FLOAT_EQ(memory.Largest(values.transpose().cast<float>())(0, 1), 5.0F);
+  const Memory::Course course = memory.Follow(values.transpose().cast<float>());
+  for (Eigen::Index look = Memory::kLooks; look < 2 * Memory::kLooks; ++look) {
+    EXPECT_FLOAT_EQ(course.largest(0, look), 5.0F) << look;
+  }
 }
 
 TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
@@ -180,11 +183,33 @@ TEST(Memory, BeginsWhereABodyThatWasHeldUndeformedIsLetGo) {
 TEST(Memory, KnowsTheLargestUntilNow) {
   const ObservedExperiment observed = TwoRecordings();
   const Eigen::VectorXd values = ValuesOf(observed, PathThroughBoth());
-  const Eigen::MatrixXf largest = Memory(observed).Largest(values.transpose().cast<float>());
+  const Memory::Course course = Memory(observed).Follow(values.transpose().cast<float>());
   // The first motion goes on to 3 beyond its last sample; later nothing is above that.
-  EXPECT_FLOAT_EQ(largest(0, 0), static_cast<float>(values[0]));
-  EXPECT_FLOAT_EQ(largest(0, 1), static_cast<float>(values[1]));
-  for (Eigen::Index s = 2; s < largest.cols(); ++s) EXPECT_FLOAT_EQ(largest(0, s), 3.0F) << s;
+  constexpr Eigen::Index kMotion = 2 * Memory::kLooks;
+  for (Eigen::Index look = 0; look < kMotion; ++look) {
+    EXPECT_FLOAT_EQ(course.largest(0, look), course.now(0, look)) << look;
+  }
+  for (Eigen::Index look = kMotion; look < course.largest.cols(); ++look) {
+    EXPECT_FLOAT_EQ(course.largest(0, look), 3.0F) << look;
+  }
+}
+
+TEST(Memory, FollowsWhatGoesLinearlyThroughEachSample) {
+  const ObservedExperiment observed = TwoRecordings();
+  const Path path = PathThroughBoth();
+  const Eigen::VectorXd values = ValuesOf(observed, path);
+  const Memory::Course course = Memory(observed).Follow(values.transpose().cast<float>());
+  ASSERT_EQ(course.now.cols(), Memory::kLooks * std::ssize(observed.samples));
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    // The first, the middle and the last frame; of two frames the one or the other.
+    const std::vector<double>& frames_s = observed.samples[s].frame_t_s;
+    const auto look = Memory::kLooks * static_cast<Eigen::Index>(s);
+    EXPECT_NEAR(course.now(0, look), path.At(frames_s.front()), 1e-6) << s;
+    EXPECT_NEAR(course.now(0, look + Memory::kLooks / 2), path.At(frames_s[frames_s.size() / 2]),
+                1e-6)
+        << s;
+    EXPECT_NEAR(course.now(0, look + Memory::kLooks - 1), path.At(frames_s.back()), 1e-6) << s;
+  }
 }
 
 TEST(Memory, HasNothingOfWhatNeverChanges) {
