@@ -10,6 +10,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "tests/system/blind/corruption.hpp"
+#include "tests/system/blind/kept_record.hpp"
 #include "tests/system/blind/open_answer.hpp"
 #include "tests/system/process.hpp"
 
@@ -19,6 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::steady_clock;
+
+// In the folders of a case.
+constexpr char kExperiment[] = "experiment";
+constexpr char kDiagnosis[] = "diagnosis";
+constexpr char kAnswer[] = "answer.json";
+constexpr char kRecord[] = "record.json";
 
 /// A new folder, which goes with what is in it unless it is to be kept.
 class WorkFolder {
@@ -60,28 +67,53 @@ CaseRunner::CaseRunner(Settings settings)
 CaseRecord CaseRunner::Run(std::uint64_t seed) const {
   const BlindCase drawn = DrawCase(seed, robot_, settings_.measured);
   CaseRecord record{.seed = seed, .kind = drawn.kind, .corruption = drawn.corruption};
-  const std::string number = std::to_string(cases_++);
-  const WorkFolder sealed(settings_.folder / ("sealed" + number), settings_.keep);
-  const WorkFolder open(settings_.folder / ("open" + number), settings_.keep);
-  const fs::path made = sealed.path() / "experiment";
-  const fs::path answer = sealed.path() / "answer.json";
-  const Generator generator(settings_.robot_file, sealed.path(), settings_.measured);
+  if (settings_.keep && TakeKept(drawn, &record)) return record;
+  const WorkFolder sealed(Sealed(seed), settings_.keep);
+  const WorkFolder open(Open(seed), settings_.keep);
+  RunAnew(drawn, &record);
+  if (settings_.keep) KeepRecord(record, HowAsked(), sealed.path() / kRecord);
+  return record;
+}
+
+std::string CaseRunner::HowAsked() const {
+  return "--samples " + std::to_string(settings_.samples) + " --minutes " +
+         std::to_string(settings_.minutes);
+}
+
+/// Of a case that was run to its end before.
+bool CaseRunner::TakeKept(const BlindCase& drawn, CaseRecord* record) const {
+  const fs::path sealed = Sealed(drawn.seed);
+  if (!ReadKeptRecord(sealed / kRecord, HowAsked(), record)) return false;
+  if (!record->not_made.empty()) {
+    record->truth = drawn.effects;
+    return true;
+  }
+  record->truth = OpenAnswer(sealed / kExperiment, sealed / kAnswer);
+  if (record->no_verdict.empty()) {
+    record->verdict = ReadVerdict(Open(drawn.seed) / kDiagnosis / "verdict.json");
+  }
+  return true;
+}
+
+void CaseRunner::RunAnew(const BlindCase& drawn, CaseRecord* record) const {
+  const fs::path sealed = Sealed(drawn.seed);
+  const fs::path open = Open(drawn.seed);
+  const fs::path made = sealed / kExperiment;
+  const Generator generator(settings_.robot_file, sealed, settings_.measured);
   try {
-    generator.Make(drawn.effects, seed, made, answer);
+    generator.Make(drawn.effects, drawn.seed, made, sealed / kAnswer);
     if (drawn.kind != CaseKind::kCorrupted) {  // of which no cause is asked
-      record.sizes_m = generator.EffectSizes_m(drawn.effects, seed, made);
+      record->sizes_m = generator.EffectSizes_m(drawn.effects, drawn.seed, made);
     }
   } catch (const RunError& error) {
-    record.truth = drawn.effects;
-    record.not_made = LastLine(error.what());
-    return record;
+    record->truth = drawn.effects;
+    record->not_made = LastLine(error.what());
+    return;
   }
-  const fs::path data = open.path() / "experiment";
-  fs::copy(made, data, fs::copy_options::recursive);
-  Corrupt(drawn.corruption, seed, data);
-  Diagnose(drawn, data, open.path() / "diagnosis", &record);
-  record.truth = OpenAnswer(made, answer);
-  return record;
+  fs::copy(made, open / kExperiment, fs::copy_options::recursive);
+  Corrupt(drawn.corruption, drawn.seed, open / kExperiment);
+  Diagnose(drawn, open / kExperiment, open / kDiagnosis, record);
+  record->truth = OpenAnswer(made, sealed / kAnswer);
 }
 
 void CaseRunner::Diagnose(const BlindCase& drawn, const fs::path& data, const fs::path& out,

@@ -3,32 +3,16 @@
 
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "libs/robot/robot_description.hpp"
 #include "tests/system/blind/blind_case.hpp"
+#include "tests/system/blind/case_record.hpp"
 #include "tests/system/blind/generator.hpp"
-#include "tests/system/blind/verdict.hpp"
 
 namespace palpate::blind {
-
-/// What became of one case.
-struct CaseRecord {
-  std::uint64_t seed = 0;
-  CaseKind kind = CaseKind::kHealthy;
-  Corruption corruption = Corruption::kNone;
-  std::vector<scenario::ActiveEffect> truth = {};  ///< of the opened answer
-  std::vector<double> sizes_m = {};                ///< of each of them, Generator::EffectSizes_m
-  std::string not_made = {};  ///< why the virtual robot could not do it; empty: it was made
-  std::optional<Verdict> verdict = {};
-  std::string no_verdict = {};  ///< why there is none
-  double diagnosis_s = 0.0;     ///< by the clock
-};
 
 /// Runs single cases, from the drawing to the opened answer, in a folder of its own. Several may
 /// run at a time.
@@ -37,7 +21,7 @@ class CaseRunner {
   struct Settings {
     std::filesystem::path robot_file;
     std::filesystem::path folder;  ///< is there
-    bool keep = false;             ///< what a case leaves in it
+    bool keep = false;             ///< what a case leaves in it, and take what one has left
     Measured measured = Measured::kMarkers;
     int longest_diagnosis_s = 1200;
     int samples = 120;  ///< `palpate diagnose --samples`
@@ -52,12 +36,20 @@ class CaseRunner {
   CaseRecord Run(std::uint64_t seed) const;
 
  private:
+  std::filesystem::path Sealed(std::uint64_t seed) const {
+    return settings_.folder / ("sealed" + std::to_string(seed));
+  }
+  std::filesystem::path Open(std::uint64_t seed) const {
+    return settings_.folder / ("open" + std::to_string(seed));
+  }
+  std::string HowAsked() const;
+  bool TakeKept(const BlindCase& drawn, CaseRecord* record) const;
+  void RunAnew(const BlindCase& drawn, CaseRecord* record) const;
   void Diagnose(const BlindCase& drawn, const std::filesystem::path& data,
                 const std::filesystem::path& out, CaseRecord* record) const;
 
   Settings settings_;
   robot::RobotDescription robot_;
-  mutable std::atomic<int> cases_ = 0;
 };
 
 }  // namespace palpate::blind
