@@ -17,27 +17,52 @@ namespace {
 
 constexpr double kBeyondTolerance = 3.0;
 
+/// By how many sigmas the data exclude a healthy robot, of a cause with sizes that begin at nothing
+/// beside such as a healthy robot may have: of these the likeliest where the others are nothing. 0:
+/// it has none of them. Data may tell the sum of a delay and a time constant, and neither of them.
+double SigmasFromHealthy(const CauseBook& book, const Posterior& posterior, int cause) {
+  std::vector<Eigen::Index> tolerated;
+  std::vector<double> tolerance;
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index p = 0; p < book.count(cause); ++p) {
+    const Eigen::Index column = book.first(cause) + p;
+    const CauseParameter& parameter = book.cause(cause).parameters()[static_cast<std::size_t>(p)];
+    if (!(posterior.covariance(column, column) > 0.0)) continue;  // it is at its bound
+    if (const double own = book.ToleranceOf(cause, static_cast<int>(p)); own > 0.0) {
+      tolerated.push_back(column);
+      tolerance.push_back(own);
+    } else if (parameter.scale == CauseParameter::Scale::kLinear && parameter.least == 0.0) {
+      others.push_back(column);
+    }
+  }
+  if (others.empty()) return 0.0;
+  const Eigen::MatrixXd& covariance = posterior.covariance;
+  const Eigen::VectorXd gone = posterior.mean(others);
+  const Eigen::VectorXd reach =
+      kBeyondTolerance * Eigen::VectorXd::Map(tolerance.data(), std::ssize(tolerance));
+  const Eigen::MatrixXd covariance_of_others = covariance(others, others);
+  const Eigen::MatrixXd both = covariance(tolerated, others);
+  const Eigen::VectorXd likeliest =
+      posterior.mean(tolerated) - both * covariance_of_others.ldlt().solve(gone);
+  Eigen::VectorXd off(std::ssize(tolerated) + std::ssize(others));
+  off << posterior.mean(tolerated) - likeliest.cwiseMax(-reach).cwiseMin(reach), gone;
+  std::vector<Eigen::Index> all = tolerated;
+  all.insert(all.end(), others.begin(), others.end());
+  const Eigen::MatrixXd covariance_of_all = covariance(all, all);
+  return std::sqrt(off.dot(covariance_of_all.ldlt().solve(off)));
+}
+
 /// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
 /// robot has nothing of, of which the evidence says all.
 double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int cause) {
   double most = -1.0;
   for (Eigen::Index p = 0; p < book.count(cause); ++p) {
     const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
-    const Eigen::Index column = book.first(cause) + p;
-    const double z = posterior.mean[column];
-    if (tolerance > 0.0) {
-      most = std::max(most, std::abs(z) / tolerance);
-      continue;
-    }
-    // A size that begins at nothing, beside one that a healthy robot may have.
-    const CauseParameter& parameter = book.cause(cause).parameters()[static_cast<std::size_t>(p)];
-    const bool is_size =
-        parameter.scale == CauseParameter::Scale::kLinear && parameter.least == 0.0;
-    if (is_size && z > kBeyondTolerance * std::sqrt(posterior.covariance(column, column))) {
-      return std::numeric_limits<double>::infinity();
-    }
+    if (tolerance <= 0.0) continue;
+    most = std::max(most, std::abs(posterior.mean[book.first(cause) + p]) / tolerance);
   }
-  return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
+  const bool beyond = SigmasFromHealthy(book, posterior, cause) > kBeyondTolerance;
+  return most < 0.0 || beyond ? std::numeric_limits<double>::infinity() : most;
 }
 
 /// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence

@@ -59,5 +59,32 @@ TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
   EXPECT_EQ(WhyNotBoth(1.5, 1.5, -0.9), "");  // each may be nothing, their sum may not
 }
 
+/// A delay, tolerance 0.01 s, and a time constant that a healthy robot has nothing of, known to
+/// these sigmas.
+std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sigma_s,
+                       double correlation) {
+  std::vector<CausePtr> causes;
+  causes.push_back(std::make_unique<ToyCause>(
+      "late", std::vector<CauseParameter>{
+                  {.name = "delay_s", .tolerance = 0.01, .fault = 0.15, .least = 0.0},
+                  {.name = "tau_s", .fault = 0.15, .least = 0.0}}));
+  const CauseBook book(std::move(causes), {});
+  Posterior posterior;
+  posterior.mean = late_s;
+  posterior.covariance = sigma_s.cwiseAbs2().asDiagonal();
+  posterior.covariance(0, 1) = posterior.covariance(1, 0) = correlation * sigma_s[0] * sigma_s[1];
+  return WhyNoFault(book, posterior, 0);
+}
+
+TEST(FaultSize, OfWhatIsKnownTogetherCountsTogether) {
+  EXPECT_EQ(WhyNotLate({0.02, 0.08}, {0.035, 0.035}, -0.99), "");  // 0.1 s in all, +- 0.005
+  EXPECT_THAT(WhyNotLate({0.02, 0.008}, {0.035, 0.035}, -0.99), testing::HasSubstr("healthy"));
+  EXPECT_THAT(WhyNotLate({0.02, 0.08}, {0.035, 0.035}, 0.0), testing::HasSubstr("healthy"));
+  EXPECT_EQ(WhyNotLate({0.02, 0.12}, {0.035, 0.035}, 0.0), "");
+  EXPECT_EQ(WhyNotLate({0.05, 0.0}, {0.005, 0.0}, 0.0), "");  // at its bound
+  EXPECT_EQ(WhyNotLate({0.0, 0.05}, {0.0, 0.01}, 0.0), "");
+  EXPECT_THAT(WhyNotLate({0.0, 0.02}, {0.0, 0.01}, 0.0), testing::HasSubstr("healthy"));
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis
