@@ -179,6 +179,7 @@ Memory::Course Memory::Follow(const Eigen::MatrixXf& values) const {
   };
   const Eigen::Index looks = kLooks * std::ssize(observed_.samples);
   Course course{Eigen::MatrixXf(values.rows(), looks), Eigen::MatrixXf(values.rows(), looks)};
+  if (looks == 0) return course;
   std::size_t node = 0;  // the next one
   Eigen::VectorXf before = value_at(nodes_.front());
   Eigen::VectorXf next = before;

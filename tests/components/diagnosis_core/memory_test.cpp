@@ -212,6 +212,11 @@ TEST(Memory, FollowsWhatGoesLinearlyThroughEachSample) {
   }
 }
 
+TEST(Memory, FollowsNothingWhereNothingWasSeen) {
+  const ObservedExperiment observed;
+  EXPECT_EQ(Memory(observed).Follow(Eigen::MatrixXf::Ones(4, 1)).now.cols(), 0);
+}
+
 TEST(Memory, HasNothingOfWhatNeverChanges) {
   const ObservedExperiment observed = TwoRecordings();
   const Memory memory(observed);
