@@ -77,7 +77,8 @@ CaseRecord CaseRunner::Run(std::uint64_t seed) const {
 
 std::string CaseRunner::HowAsked() const {
   return "--samples " + std::to_string(settings_.samples) + " --minutes " +
-         std::to_string(settings_.minutes);
+         std::to_string(settings_.minutes) +
+         (settings_.measured == Measured::kPictures ? " of pictures" : "");
 }
 
 /// Of a case that was run to its end before.

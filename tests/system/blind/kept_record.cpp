@@ -22,9 +22,10 @@ void KeepRecord(const CaseRecord& record, const std::string& how,
 bool ReadKeptRecord(const std::filesystem::path& file, const std::string& how, CaseRecord* record) {
   if (!std::filesystem::exists(file)) return false;
   const auto json = nlohmann::json::parse(ReadFile(file), nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object() || json.value("how", "") != how) return false;
+  if (!json.is_object()) return false;
   CaseRecord kept = *record;
   try {
+    if (json.at("how").get<std::string>() != how) return false;
     json.at("sizes_m").get_to(kept.sizes_m);
     json.at("not_made").get_to(kept.not_made);
     json.at("no_verdict").get_to(kept.no_verdict);

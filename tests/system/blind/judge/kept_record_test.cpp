@@ -46,8 +46,9 @@ TEST(KeptRecord, IsNotTakenWhereItIsNotThereOrCutShort) {
   EXPECT_FALSE(ReadKeptRecord(folder.path() / "record.json", kHow, &record));
   KeepRecord(Case(), kHow, folder.path() / "record.json");
   const std::string whole = ReadFile(folder.path() / "record.json");
-  for (const std::string& bytes : {std::string(), whole.substr(0, whole.size() / 2),
-                                   std::string("[]"), std::string("{\"how\": \"--samples 60\"}")}) {
+  for (const std::string& bytes :
+       {std::string(), whole.substr(0, whole.size() / 2), std::string("[]"),
+        std::string("{\"how\": 60}"), std::string("{\"how\": \"--samples 60\"}")}) {
     WriteFile(folder.path() / "record.json", bytes);
     EXPECT_FALSE(ReadKeptRecord(folder.path() / "record.json", kHow, &record)) << bytes;
   }
