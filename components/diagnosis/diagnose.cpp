@@ -16,6 +16,7 @@
 #include "components/diagnosis/gap.hpp"
 #include "components/diagnosis/identities.hpp"
 #include "components/diagnosis/inference/further_causes.hpp"
+#include "components/diagnosis/inference/imitation.hpp"
 #include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/joined_diagnosis.hpp"
@@ -28,11 +29,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Nobody is surer than that of a cause.
-constexpr double kSurest = 0.99;
-/// What is left for something that the catalogue does not hold.
-constexpr double kOtherPassed = 0.01;
-constexpr double kOtherFailed = 0.5;
+/// What is left for something that the catalogue does not hold: nobody is surer of a cause.
+constexpr double kOtherAtLeast = 0.01;
+constexpr double kOtherWhereNoneIsNamed = 0.5;
 
 double Tolerance(const experiment::Experiment& experiment, const std::string& key) {
   const auto told = experiment.tolerances.find(key);
@@ -91,7 +90,8 @@ std::string RegisterUnknownPoses(const robot::RobotBody& body, int threads,
 }
 
 NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
-                    const std::vector<FurtherCause>& further, const Choice& choice) {
+                    const std::vector<FurtherCause>& further, double other_probability,
+                    const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
   const CauseBook& book = fitter.book();
   const Cause& cause = book.cause(choice.cause);
@@ -103,7 +103,7 @@ NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, co
   NamedCause named{.name = cause.name(),
                    .words = cause.words(),
                    .parameters = cause.Report(z, covariance, undeformed_m),
-                   .probability = std::min(kSurest, choice.probability),
+                   .probability = (1.0 - other_probability) * choice.probability,
                    .ln_bayes_factor = choice.ln_bayes_factor,
                    .cross_validated = choice.held_out.clear,
                    .seen_in = {}};
@@ -139,6 +139,14 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
   }
 }
 
+/// Of something that the catalogue does not hold, in the place of what is named or where nothing
+/// is.
+double OtherProbability(const CauseBook& book, const Selection& selection) {
+  if (selection.guard.passed) return kOtherAtLeast;
+  if (selection.named.empty()) return kOtherWhereNoneIsNamed;
+  return std::max(kOtherAtLeast, ChanceOfImitation(book, selection.healthy, selection.best));
+}
+
 /// Probabilities of the hypotheses for the first place; causes that were named have theirs, and
 /// such as one of these is a special case of are none.
 void DescribeRivals(const CauseBook& book, const Selection& selection, DiagnosisResult* result) {
@@ -156,8 +164,7 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
   const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
   double all = 0.0;
   for (const double ln_weight : ln_weights) all += std::exp(ln_weight - ln_most);
-  const double other = selection.guard.passed ? kOtherPassed : kOtherFailed;
-  result->other_probability = other;
+  const double other = result->other_probability;
   result->no_fault_probability = (1.0 - other) * std::exp(-ln_most) / all;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& one = candidates[k];
@@ -312,10 +319,12 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
     moment.t_s -= FirstFrame_s(experiment.recordings[r]) - FirstFrame_s(as_recorded.recordings[r]);
   }
   DescribeVerdict(selection, &result);
+  result.other_probability = OtherProbability(book, selection);
   std::vector<FurtherCause> further;
   if (!selection.named.empty()) further = FurtherCauses(fitter, selection.best);
   for (const Choice& choice : selection.named) {
-    result.causes.push_back(Describe(observed, fitter, selection.best, further, choice));
+    result.causes.push_back(
+        Describe(observed, fitter, selection.best, further, result.other_probability, choice));
     result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
   }
   DescribeRivals(book, selection, &result);

@@ -56,6 +56,9 @@ class ToyData {
 
   Eigen::Index rows() const { return model_.J.rows(); }
   const Eigen::MatrixXd& J() const { return model_.J; }
+  void SetColumn(Eigen::Index parameter, const Eigen::VectorXd& effect) {
+    model_.J.col(parameter) = effect;
+  }
   Eigen::MatrixXd Normal(Eigen::Index rows, Eigen::Index cols) {
     std::normal_distribution<double> normal;
     return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random_); });

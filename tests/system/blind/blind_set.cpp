@@ -69,7 +69,8 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
        .folder = folder.path(),
        .keep = folder.keeps(),
        .measured = set.measured,
-       .samples = set.samples});
+       .samples = set.samples,
+       .minutes = set.minutes});
   std::vector<CaseRecord> records(static_cast<std::size_t>(set.cases));
   std::mutex printing;
   TwoAtATime([&](std::size_t i) {

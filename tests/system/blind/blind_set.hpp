@@ -20,6 +20,7 @@ struct BlindSet {
   std::uint64_t seed = 0;
   std::filesystem::path folder = {};  ///< empty: a temporary one
   int samples = 120;                  ///< moments that diagnosis compares, at most
+  int minutes = 10;                   ///< after which it looks for no further cause
   Measured measured = Measured::kMarkers;
 
   /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError

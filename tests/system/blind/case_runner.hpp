@@ -25,7 +25,7 @@ class CaseRunner {
     Measured measured = Measured::kMarkers;
     int longest_diagnosis_s = 1200;
     int samples = 120;  ///< `palpate diagnose --samples`
-    int minutes = 5;    ///< `palpate diagnose --minutes`
+    int minutes = 10;   ///< `palpate diagnose --minutes`
   };
 
   explicit CaseRunner(Settings settings);

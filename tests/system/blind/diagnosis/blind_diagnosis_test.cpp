@@ -17,10 +17,12 @@ namespace {
 /// diagnosis has. So few condemn nobody by chance; what is found in all of them does.
 constexpr int kFewCases = 4;
 constexpr int kFewSamples = 60;
+constexpr int kFewMinutes = 5;
 
 TEST(BlindDiagnosis, ReachesWhatIsWanted) {
   BlindSet set = BlindSet::FromEnvironment(kFewCases);
   set.samples = kFewSamples;
+  set.minutes = kFewMinutes;
   EXPECT_THAT(Missed(Judge(RunBlind(set, std::cout))), testing::IsEmpty());
 }
 
