@@ -58,9 +58,9 @@ class Linearisation {
 
   /// Overwrites each column [Size()] of `columns` with K^-1 column. After a successful Update.
   void Solve(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->Solve(columns); }
-  /// SparseSolver::KeepRounded, and by it one column for a step that the next residual corrects.
+  /// SparseSolver::KeepRounded, and Solve by it for steps that the next residual corrects.
   void KeepRounded() { solver_->KeepRounded(); }
-  void SolveRounded(Eigen::Ref<Eigen::VectorXd> column) { solver_->SolveRounded(column); }
+  void SolveRounded(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->SolveRounded(columns); }
 
  private:
   Status Check() const;

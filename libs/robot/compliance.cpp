@@ -59,7 +59,7 @@ void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cabl
   lambda_a_ = lambda_a_N;
   lambda_f_ = lambda_f_N;
   FillColumns(x_m);
-  linearisation_.Solve(columns_);
+  linearisation_.SolveRounded(columns_);
   ObserveColumns();
   ObserveResponse(x_m, cable_rest_length_m);
 }

@@ -39,7 +39,7 @@ struct TautCables {
       linearisation.matrix().Reduce(nodal, pull.col(static_cast<Eigen::Index>(t)));
     }
     motion = pull;
-    linearisation.Solve(motion);
+    linearisation.SolveRounded(motion);
     compliance.compute(pull.transpose() * motion);
     if (compliance.info() != Eigen::Success) {
       return {StatusCode::kUnobservable, "two taut cables act alike"};
@@ -98,7 +98,7 @@ Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::Effe
     }
     matrix.Reduce(nodal, columns.col(i));
   }
-  linearisation.Solve(columns);
+  linearisation.SolveRounded(columns);
   cables.Hold(columns);
   if (!columns.allFinite()) return {StatusCode::kInvalidInput, "a response is not finite"};
   free_index_.resize(static_cast<size_t>(matrix.NodeCount()));

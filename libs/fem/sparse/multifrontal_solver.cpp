@@ -69,7 +69,7 @@ class MultifrontalSolver final : public SparseSolver {
   void Solve(Eigen::Ref<Eigen::MatrixXd> columns) override {
     PALPATE_CHECK(has_factor_);
     PALPATE_CHECK(columns.rows() == size_, columns.rows(), size_);
-    substitution_.Solve(columns);
+    substitution_.Solve(columns, false);
   }
 
   void KeepRounded() override {
@@ -78,14 +78,10 @@ class MultifrontalSolver final : public SparseSolver {
     has_rounded_ = false;
   }
 
-  void SolveRounded(Eigen::Ref<Eigen::VectorXd> column) override {
+  void SolveRounded(Eigen::Ref<Eigen::MatrixXd> columns) override {
     PALPATE_CHECK(has_factor_);
-    PALPATE_CHECK(column.size() == size_, column.size(), size_);
-    if (has_rounded_) {
-      substitution_.SolveRounded(column);
-    } else {
-      substitution_.Solve(column);
-    }
+    PALPATE_CHECK(columns.rows() == size_, columns.rows(), size_);
+    substitution_.Solve(columns, has_rounded_);
   }
 
   std::string Name() const override {

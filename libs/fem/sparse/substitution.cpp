@@ -37,10 +37,10 @@ Substitution::Substitution(const FrontTree& tree, const FrontSchedule& schedule,
   }
 }
 
-void Substitution::Solve(Eigen::Ref<Eigen::MatrixXd> columns) {
+void Substitution::Solve(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded) {
   constexpr Eigen::Index kAtOnce = kBlockColumns * kMostBlocks;
   for (Eigen::Index first = 0; first < columns.cols(); first += kAtOnce) {
-    SolveBlocks(columns.middleCols(first, std::min(kAtOnce, columns.cols() - first)), false);
+    SolveBlocks(columns.middleCols(first, std::min(kAtOnce, columns.cols() - first)), rounded);
   }
 }
 
@@ -54,34 +54,48 @@ bool Substitution::IsZero(int f, const Block& block) const {
 
 void Substitution::Forward(int f, const Block& block) {
   if (IsZero(f, block)) return;
-  const int first = 3 * tree_.fronts()[At(f)].first_node;
-  double* pivot_rows = block.rows + static_cast<long>(first) * block.width;
-  const double* inverse = factor_.inverse() + first;
-  const int* below_rows = plan_.forward_rows[At(f)].data();
   if (block.rounded) {
-    kernels_.solve_forward_rounded(factor_.Rounded(f), inverse, pivot_rows, below_rows, block.rows);
-  } else if (block.width == 1) {
-    kernels_.solve_forward_one(factor_.Panel(f), inverse, pivot_rows, below_rows, block.rows);
+    Forward(kernels_.rounded, factor_.Rounded(f), f, block);
   } else {
-    kernels_.solve_forward(factor_.Panel(f), inverse, block.width, pivot_rows, below_rows,
-                           block.rows);
+    Forward(kernels_.exact, factor_.Panel(f), f, block);
   }
 }
 
 void Substitution::Backward(int f, const Block& block, int thread) {
+  if (block.rounded) {
+    Backward(kernels_.rounded, factor_.Rounded(f), f, block, thread);
+  } else {
+    Backward(kernels_.exact, factor_.Panel(f), f, block, thread);
+  }
+}
+
+template <typename Value>
+void Substitution::Forward(const dense::SubstitutionKernelsOf<Value>& kernels,
+                           const dense::FactorPanelOf<Value>& factor, int f, const Block& block) {
+  const int first = 3 * tree_.fronts()[At(f)].first_node;
+  double* pivot_rows = block.rows + static_cast<long>(first) * block.width;
+  const double* inverse = factor_.inverse() + first;
+  const int* below_rows = plan_.forward_rows[At(f)].data();
+  if (block.width == 1) {
+    kernels.solve_forward_one(factor, inverse, pivot_rows, below_rows, block.rows);
+  } else {
+    kernels.solve_forward(factor, inverse, block.width, pivot_rows, below_rows, block.rows);
+  }
+}
+
+template <typename Value>
+void Substitution::Backward(const dense::SubstitutionKernelsOf<Value>& kernels,
+                            const dense::FactorPanelOf<Value>& factor, int f, const Block& block,
+                            int thread) {
   const int first = 3 * tree_.fronts()[At(f)].first_node;
   double* pivot_rows = block.rows + static_cast<long>(first) * block.width;
   const double* inverse = factor_.inverse() + first;
   const int* below_rows = tree_.fronts()[At(f)].below_rows.data();
-  if (block.rounded) {
-    kernels_.solve_backward_rounded(factor_.Rounded(f), inverse, pivot_rows, below_rows, block.rows,
-                                    sums_[At(thread)].data());
-  } else if (block.width == 1) {
-    kernels_.solve_backward_one(factor_.Panel(f), inverse, pivot_rows, below_rows, block.rows,
-                                sums_[At(thread)].data());
+  if (block.width == 1) {
+    kernels.solve_backward_one(factor, inverse, pivot_rows, below_rows, block.rows,
+                               sums_[At(thread)].data());
   } else {
-    kernels_.solve_backward(factor_.Panel(f), inverse, block.width, pivot_rows, below_rows,
-                            block.rows);
+    kernels.solve_backward(factor, inverse, block.width, pivot_rows, below_rows, block.rows);
   }
 }
 
@@ -117,7 +131,7 @@ void Substitution::AddShares(const Block& block) const {
   }
 }
 
-/// At most kBlockColumns kMostBlocks columns; `rounded`: one, by the rounded factor.
+/// At most kBlockColumns kMostBlocks columns.
 void Substitution::SolveBlocks(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded) {
   const int count = static_cast<int>(columns.cols());
   Block blocks[kMostBlocks];

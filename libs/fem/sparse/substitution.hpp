@@ -24,10 +24,8 @@ class Substitution {
   Substitution(const FrontTree& tree, const FrontSchedule& schedule,
                const dense::FrontKernels& kernels, ThreadTeam& team, FactorStore& factor, int size);
 
-  /// Overwrites each column [size] with its solution.
-  void Solve(Eigen::Ref<Eigen::MatrixXd> columns);
-  /// One column, by the rounded factor.
-  void SolveRounded(Eigen::Ref<Eigen::VectorXd> column) { SolveBlocks(column, true); }
+  /// Overwrites each column [size] with its solution; `rounded`: by the rounded factor.
+  void Solve(Eigen::Ref<Eigen::MatrixXd> columns, bool rounded);
 
   size_t Bytes() const { return rows_.bytes(); }
 
@@ -49,6 +47,12 @@ class Substitution {
   bool IsZero(int f, const Block& block) const;
   void Forward(int f, const Block& block);
   void Backward(int f, const Block& block, int thread);
+  template <typename Value>
+  void Forward(const dense::SubstitutionKernelsOf<Value>& kernels,
+               const dense::FactorPanelOf<Value>& factor, int f, const Block& block);
+  template <typename Value>
+  void Backward(const dense::SubstitutionKernelsOf<Value>& kernels,
+                const dense::FactorPanelOf<Value>& factor, int f, const Block& block, int thread);
 
   const FrontTree& tree_;
   const FrontSchedule& schedule_;

@@ -59,6 +59,29 @@ struct Run {
   int length = 0;
 };
 
+/// Substitution by a factor, in double precision. By a rounded one half the memory is read, which
+/// is what the time of few columns goes with.
+template <typename Value>
+struct SubstitutionKernelsOf {
+  using Factor = FactorPanelOf<Value>;
+
+  /// Forward substitution: overwrites `pivot_rows` [pivots][width] and subtracts from row
+  /// `below_rows[i]` of `all_rows` [..][width], for each row i below the pivots. width is kTile or
+  /// 2 kTile columns of right-hand sides, stored row after row.
+  void (*solve_forward)(const Factor& factor, const double* inverse, int width, double* pivot_rows,
+                        const int* below_rows, double* all_rows);
+  /// Backward substitution: overwrites `pivot_rows` with what the rows below, already solved, and
+  /// the factor's transpose make of them.
+  void (*solve_backward)(const Factor& factor, const double* inverse, int width, double* pivot_rows,
+                         const int* below_rows, const double* all_rows);
+  /// The same for a single right-hand side.
+  void (*solve_forward_one)(const Factor& factor, const double* inverse, double* pivot_rows,
+                            const int* below_rows, double* all_rows);
+  /// `sums` [pivots][kTile] is room to work in, aligned like a panel.
+  void (*solve_backward_one)(const Factor& factor, const double* inverse, double* pivot_rows,
+                             const int* below_rows, const double* all_rows, double* sums);
+};
+
 /// Dense steps of a multifrontal Cholesky factorisation, compiled for each instruction set. Rows
 /// and columns are counted from the panel's first; ranges are half open and start at multiples of
 /// kTile, so that threads can share a front.
@@ -91,27 +114,8 @@ struct FrontKernels {
   void (*store_rounded)(const Panel& panel, const RoundedPanel& factor, int tile_begin,
                         int tile_end);
 
-  /// Forward substitution: overwrites `pivot_rows` [pivots][width] and subtracts from row
-  /// `below_rows[i]` of `all_rows` [..][width], for each row i below the pivots. width is kTile or
-  /// 2 kTile columns of right-hand sides, stored row after row.
-  void (*solve_forward)(const FactorPanel& factor, const double* inverse, int width,
-                        double* pivot_rows, const int* below_rows, double* all_rows);
-  /// Backward substitution: overwrites `pivot_rows` with what the rows below, already solved, and
-  /// the factor's transpose make of them.
-  void (*solve_backward)(const FactorPanel& factor, const double* inverse, int width,
-                         double* pivot_rows, const int* below_rows, const double* all_rows);
-  /// The same for a single right-hand side.
-  void (*solve_forward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
-                            const int* below_rows, double* all_rows);
-  /// `sums` [pivots][kTile] is room to work in, aligned like a panel.
-  void (*solve_backward_one)(const FactorPanel& factor, const double* inverse, double* pivot_rows,
-                             const int* below_rows, const double* all_rows, double* sums);
-  /// Both in double precision with a rounded factor, of which half the memory is read.
-  void (*solve_forward_rounded)(const RoundedPanel& factor, const double* inverse,
-                                double* pivot_rows, const int* below_rows, double* all_rows);
-  void (*solve_backward_rounded)(const RoundedPanel& factor, const double* inverse,
-                                 double* pivot_rows, const int* below_rows, const double* all_rows,
-                                 double* sums);
+  SubstitutionKernelsOf<double> exact;
+  SubstitutionKernelsOf<float> rounded;
 };
 
 const FrontKernels& SelectFrontKernels(InstructionSet set);

@@ -14,7 +14,6 @@
 
 namespace {
 
-using palpate::fem::dense::FactorPanel;
 using palpate::fem::dense::FactorPanelOf;
 using palpate::fem::dense::FrontKernels;
 using palpate::fem::dense::kTile;
@@ -328,6 +327,13 @@ void StoreFactor(const Panel& panel, const FactorPanelOf<Value>& factor, int til
 
 namespace {
 
+template <typename Value>
+constexpr palpate::fem::dense::SubstitutionKernelsOf<Value> kSubstitution{
+    .solve_forward = SolveForwardAny<Value>,
+    .solve_backward = SolveBackwardAny<Value>,
+    .solve_forward_one = SolveForwardOne<Value>,
+    .solve_backward_one = SolveBackwardOne<Value>};
+
 constexpr FrontKernels kKernels{.clear = Clear,
                                 .extend_add = ExtendAdd,
                                 .factor_tile = FactorAnyTile,
@@ -336,11 +342,7 @@ constexpr FrontKernels kKernels{.clear = Clear,
                                 .update_below = UpdateBelow,
                                 .store = StoreFactor<double>,
                                 .store_rounded = StoreFactor<float>,
-                                .solve_forward = SolveForwardAny,
-                                .solve_backward = SolveBackwardAny,
-                                .solve_forward_one = SolveForwardOne<double>,
-                                .solve_backward_one = SolveBackwardOne<double>,
-                                .solve_forward_rounded = SolveForwardOne<float>,
-                                .solve_backward_rounded = SolveBackwardOne<float>};
+                                .exact = kSubstitution<double>,
+                                .rounded = kSubstitution<float>};
 
 }  // namespace

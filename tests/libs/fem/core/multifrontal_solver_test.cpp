@@ -116,10 +116,12 @@ TEST_P(MultifrontalSolver, SolvesWithAFrontOfAnySize) {
     }
     solver->KeepRounded();
     ASSERT_TRUE(solver->Factorize(values).ok());
-    const Eigen::VectorXd b = RandomColumns(3 * nodes, 1);
-    Eigen::VectorXd x = b;
-    solver->SolveRounded(x);
-    EXPECT_LE((dense * x - b).norm(), 1e-4 * b.norm()) << nodes << " nodes, rounded";
+    for (const int columns : {1, 3, 12}) {
+      const Eigen::MatrixXd b = RandomColumns(3 * nodes, columns);
+      Eigen::MatrixXd x = b;
+      solver->SolveRounded(x);
+      EXPECT_LE((dense * x - b).norm(), 1e-4 * b.norm()) << nodes << " nodes, rounded " << columns;
+    }
   }
 }
 
@@ -129,28 +131,34 @@ TEST_P(MultifrontalSolver, SolvesByARoundedFactor) {
     const StiffnessMatrix matrix = MakeGridMatrix(25.0, 1);
     ThreadTeam team(threads);
     const auto solver = MakeMultifrontalSolver(matrix.Pattern(), team, GetParam());
-    const Eigen::VectorXd b = RandomColumns(matrix.Size(), 1);
     ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
-    Eigen::VectorXd exact = b;
-    solver->Solve(exact);
     solver->KeepRounded();
-    Eigen::VectorXd x = b;
+    const Eigen::MatrixXd all = RandomColumns(matrix.Size(), 80);
+    Eigen::MatrixXd exact = all;
+    solver->Solve(exact);
+    Eigen::MatrixXd x = all;
     solver->SolveRounded(x);
     EXPECT_EQ(x, exact) << "rounded from the next factorisation on";
     ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
-    x = b;
-    solver->SolveRounded(x);
-    EXPECT_LE((x - exact).norm(), 1e-6 * exact.norm());
-    EXPECT_GE((x - exact).norm(), 1e-12 * exact.norm()) << "not rounded";
-    for (int step = 0; step < 2; ++step) {
-      Eigen::VectorXd left = b - matrix.Times(x);
-      solver->SolveRounded(left);
-      x += left;
+    for (const int columns : {1, 3, 12, 80}) {
+      SCOPED_TRACE(columns);
+      const Eigen::MatrixXd b = all.leftCols(columns);
+      const Eigen::MatrixXd wanted = exact.leftCols(columns);
+      x = b;
+      solver->SolveRounded(x);
+      EXPECT_LE((x - wanted).norm(), 1e-6 * wanted.norm());
+      EXPECT_GE((x - wanted).norm(), 1e-12 * wanted.norm()) << "not rounded";
+      for (int step = 0; step < 2; ++step) {
+        Eigen::MatrixXd left(b.rows(), columns);
+        for (int c = 0; c < columns; ++c) left.col(c) = b.col(c) - matrix.Times(x.col(c));
+        solver->SolveRounded(left);
+        x += left;
+      }
+      EXPECT_LE((x - wanted).norm(), 1e-13 * wanted.norm());
+      Eigen::MatrixXd again = b;
+      solver->Solve(again);
+      EXPECT_LE((again - wanted).norm(), 1e-13 * wanted.norm());
     }
-    EXPECT_LE((x - exact).norm(), 1e-13 * exact.norm());
-    Eigen::VectorXd again = b;
-    solver->Solve(again);
-    EXPECT_EQ(again, exact);
   }
 }
 
