@@ -50,6 +50,10 @@ void LiveComparison::AddEstimate(const force_estimation::ForceEstimate& estimate
   first_s_ = frames_ == 0 ? estimate.t_s : first_s_;
   last_s_ = estimate.t_s;
   ++frames_;
+  // A camera that streams before there is a robot says nothing of the rate.
+  if (frames_with_robot_ > 0 || estimate.status.code() != StatusCode::kNoRobotSeen) {
+    if (frames_with_robot_++ == 0) robot_since_s_ = estimate.t_s;
+  }
   results_ += HasResult(estimate.status) ? 1 : 0;
   if (latency_s && HasResult(estimate.status)) latencies_s_.push_back(*latency_s);
   waiting_.push_back(estimate);
@@ -96,13 +100,15 @@ void LiveComparison::KeepIfBest(double t_s, const std::vector<ComparedForce>& co
 }
 
 double LiveComparison::Rate_hz() const {
-  if (frames_ < 2 || !(last_s_ > first_s_)) return std::numeric_limits<double>::quiet_NaN();
-  return (frames_ - 1) / (last_s_ - first_s_);
+  if (frames_with_robot_ < 2 || !(last_s_ > robot_since_s_)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return (frames_with_robot_ - 1) / (last_s_ - robot_since_s_);
 }
 
 std::string LiveComparison::ToText() const {
   std::string text = fmt::format("  {:<18} {}", "frames", frames_);
-  if (frames_ > 1) text += fmt::format(", {:.1f} a second", Rate_hz());
+  if (frames_with_robot_ > 1) text += fmt::format(", {:.1f} a second", Rate_hz());
   for (const auto& [status, count] : statuses_) text += fmt::format("; {} {}", count, status);
   text += "\n";
   if (!latencies_s_.empty()) {

@@ -52,7 +52,7 @@ class LiveComparison {
   const std::optional<ForceMoment>& best() const { return best_; }
   int frames() const { return frames_; }    ///< answered; stale ones do not count
   int results() const { return results_; }  ///< frames that say which forces act
-  /// Frames a second between the first and the last; NaN below two.
+  /// Frames a second between the first in which there is a robot and the last; NaN below two.
   double Rate_hz() const;
   const std::vector<double>& latencies_s() const { return latencies_s_; }
 
@@ -75,6 +75,8 @@ class LiveComparison {
   double best_worth_ = 0.0;
   int frames_ = 0;
   int results_ = 0;
+  int frames_with_robot_ = 0;  ///< from the first of them on
+  double robot_since_s_ = 0.0;
   double first_s_ = 0.0;
   double last_s_ = 0.0;
   std::vector<double> latencies_s_;

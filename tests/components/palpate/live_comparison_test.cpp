@@ -99,6 +99,20 @@ TEST_F(LiveComparisonTest, KeepsTheMomentOfMostSteadyForceForThePicture) {
   EXPECT_EQ(comparison_.Tracks()[0].t_s[0], 0.0);
 }
 
+TEST_F(LiveComparisonTest, TheRateIsThatWithARobot) {
+  const auto add = [&](double t_s, StatusCode code) {
+    ForceEstimate frame = Frame(t_s, 0.0);
+    frame.status = Status(code, "");
+    comparison_.AddEstimate(frame, std::nullopt);
+  };
+  add(100.0, StatusCode::kNoRobotSeen);  // the camera is there first
+  EXPECT_TRUE(std::isnan(comparison_.Rate_hz()));
+  for (int i = 0; i < 5; ++i) add(102.0 + 0.25 * i, StatusCode::kNoContact);
+  add(103.25, StatusCode::kNoRobotSeen);  // it was covered
+  EXPECT_NEAR(comparison_.Rate_hz(), 4.0, 1e-9);
+  EXPECT_EQ(comparison_.frames(), 7);
+}
+
 TEST_F(LiveComparisonTest, AStaleAnswerIsNoFrame) {
   ForceEstimate stale = Frame(100.0, 0.0);
   stale.status = Status(StatusCode::kStale, "no frames for 2 s");
