@@ -242,14 +242,15 @@ Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status
   return fit_.MatchAndFit(frame, bias_);
 }
 
-/// Until the misfit falls no more.
+/// Until the misfit falls no more. Where it is good before and after, noise says which is better,
+/// and the later round has seen the contacts about the shape that was found.
 Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
   ShapeFit::Attempt best;
   for (int round = 0; round < kRoundsToBegin; ++round) {
     const double misfit = fit_.Misfit();
     fit_.KeepIn(&best);
     const Status status = FindContacts(frame);
-    if (!status.ok() || fit_.Misfit() > misfit) {
+    if (!status.ok() || fit_.Misfit() > std::max(misfit, kGoodMisfit)) {
       fit_.GoBack(best);
       return fit_.MatchAndFit(frame, bias_);
     }
