@@ -50,12 +50,12 @@ class ShapeFit {
   /// Matches and fits forces, in rounds, until the features stay where they are. kBudgetReached:
   /// the state is sound, and nearer, but the frame's work is used up.
   Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
-  /// Contacts that seem to pull go to the body's other side, where they push, if they may be there.
-  /// True where one did: the shape is to be fitted again.
-  bool TurnOverPulls();
   /// The same where the shape may be far away, as with contacts that are new: in a frame that has
   /// the time it goes on where steps are used up, or lead nowhere.
   Status MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias);
+  /// Contacts that seem to pull go to the body's other side, where they push, if they may be there.
+  /// True where one did: the shape is to be fitted again.
+  bool TurnOverPulls();
   /// Moves the contacts to where the deformation, and where they were seen, ask for: all the way in
   /// their first frames, then by a share of it, so that noise is averaged.
   Status Locate(const ShapeFrame& frame, const DepthBias& bias);

@@ -262,8 +262,8 @@ Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
 /// About the shape of the last fit: those that are seen, those that are not, and where they are.
 Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
   Status status = Status::Ok();
-  if (fit_.SeeAgain(frame)) status = fit_.MatchAndFit(frame, bias_);
-  if (status.ok() && fit_.TurnOverPulls()) status = fit_.MatchAndFit(frame, bias_);
+  if (fit_.SeeAgain(frame)) status = fit_.MatchAndFitFromFar(frame, bias_);
+  if (status.ok() && fit_.TurnOverPulls()) status = fit_.MatchAndFitFromFar(frame, bias_);
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
   return status;

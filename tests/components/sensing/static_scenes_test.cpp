@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/support/sensing/accuracy.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
@@ -51,6 +53,27 @@ TEST_F(StaticScenes, ForcesInViewAreRightInTheFirstPicture) {
   EXPECT_LE(seen.median_location_error_m, 0.004);
   EXPECT_EQ(seen.false_alarms, 0);
   EXPECT_GE(seen.force_coverage, 0.8);
+}
+
+/// The leg has moved aside by half its thickness: what touches its side lies where its top would
+/// be if nothing pushed.
+TEST(StaticScene, APushOnTheSideOfALegIsNoneOnItsTop) {
+  constexpr std::uint64_t kSideSeed = 4;
+  constexpr double kLargestCable_m = 0.003;
+  SensingScene scene(FourLeg(), BallScenario(), kSideSeed);
+  SensingChain chain(FourLeg(), scene, {.eyes = ChainSettings::Eyes::kPerception}, kSideSeed);
+  chain.Learn(40, 4, kLargestCable_m);
+  ASSERT_TRUE(scene.Start(scene.Nothing()).ok());
+  ContactGenerator generator(scene, {.where = Where::kVisible, .largest_cable_m = kLargestCable_m},
+                             kSideSeed);
+  ASSERT_TRUE(generator.Next());
+  scene.Show(generator.path().back());
+  chain.Open();
+  const force_estimation::ForceEstimate& estimate = chain.Take();
+  ASSERT_EQ(estimate.contacts.size(), 1U) << estimate.status.message() << ", seed " << kSideSeed;
+  const Eigen::Vector3d push_N = generator.path().back().forces.front().force_N;
+  ASSERT_GT(std::abs(push_N.y()), 0.9 * push_N.norm());
+  EXPECT_LT((estimate.contacts[0].force_N - push_N).norm(), 0.2 * push_N.norm());
 }
 
 TEST_F(StaticScenes, ForcesOutOfViewAreFoundInTheFirstPicture) {
