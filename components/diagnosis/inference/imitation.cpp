@@ -77,17 +77,38 @@ class BesideTolerances {
   }
 
  private:
+  /// [parameters] of a fault, what is believed of their squares.
   Eigen::VectorXd FaultSquares(int cause) const {
     constexpr double kNone = 1e-12;  // of what is held where it is
     const Belief belief = book_.BeliefWith({cause});
-    const auto sigma = belief.sigma.segment(book_.first(cause), book_.count(cause));
-    return sigma.array().square().max(kNone);
+    const auto sigma = belief.sigma.segment(book_.first(cause), book_.count(cause)).array();
+    const auto mean = belief.mean.segment(book_.first(cause), book_.count(cause)).array();
+    return (sigma.square() + mean.square()).max(kNone);
   }
 
   const CauseBook& book_;
   Eigen::VectorXd tolerance_;
   Eigen::MatrixXd H_;
 };
+
+struct Imitation {
+  int by = -1;
+  double explained = 0.0;  ///< together with those named before
+};
+
+/// The cause of another id that explains most of the withheld one; none: there is no other.
+std::optional<Imitation> BestBeside(const CauseBook& book, const BesideTolerances& beside,
+                                    const std::vector<int>& named, int withheld) {
+  std::optional<Imitation> best;
+  for (int other = 0; other < book.size(); ++other) {
+    const bool is_named = std::find(named.begin(), named.end(), other) != named.end();
+    const bool is_withheld = book.cause(other).name().id == book.cause(withheld).name().id;
+    if (!book.CanBeFault(other) || is_named || is_withheld) continue;
+    const double explained = std::min(1.0, beside.ExplainedBy(With(named, other), withheld));
+    if (!best || explained > best->explained) best = Imitation{other, explained};
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -101,19 +122,11 @@ std::vector<double> ExplainedByOthers(const CauseBook& book, const Information& 
     double& explained = most[static_cast<std::size_t>(k)];
     explained = 0.0;
     std::vector<int> named;
-    for (std::size_t number = 0; number < others; ++number) {
-      std::optional<int> next;
-      for (int other = 0; other < book.size(); ++other) {
-        const bool is_named = std::find(named.begin(), named.end(), other) != named.end();
-        const bool is_withheld = book.cause(other).name().id == book.cause(k).name().id;
-        if (!book.CanBeFault(other) || is_named || is_withheld) continue;
-        const double with_it = std::min(1.0, beside.ExplainedBy(With(named, other), k));
-        if (with_it <= explained) continue;
-        explained = with_it;
-        next = other;
-      }
-      if (!next) break;
-      named.push_back(*next);
+    while (named.size() < others) {
+      const std::optional<Imitation> next = BestBeside(book, beside, named, k);
+      if (!next || next->explained <= explained) break;
+      explained = next->explained;
+      named.push_back(next->by);
     }
   }
   return most;
