@@ -98,7 +98,7 @@ Status RowResponses::Add(robot::RobotModel& model, const std::vector<robot::Effe
     }
     matrix.Reduce(nodal, columns.col(i));
   }
-  linearisation.SolveRounded(columns);
+  linearisation.SolveRounded(columns);  // which leaves less than 1e-6 of them
   cables.Hold(columns);
   if (!columns.allFinite()) return {StatusCode::kInvalidInput, "a response is not finite"};
   free_index_.resize(static_cast<size_t>(matrix.NodeCount()));

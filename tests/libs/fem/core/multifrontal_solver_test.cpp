@@ -132,32 +132,37 @@ TEST_P(MultifrontalSolver, SolvesByARoundedFactor) {
     ThreadTeam team(threads);
     const auto solver = MakeMultifrontalSolver(matrix.Pattern(), team, GetParam());
     ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
-    solver->KeepRounded();
     const Eigen::MatrixXd all = RandomColumns(matrix.Size(), 80);
-    Eigen::MatrixXd exact = all;
-    solver->Solve(exact);
-    Eigen::MatrixXd x = all;
-    solver->SolveRounded(x);
-    EXPECT_EQ(x, exact) << "rounded from the next factorisation on";
-    ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
-    for (const int columns : {1, 3, 12, 80}) {
-      SCOPED_TRACE(columns);
-      const Eigen::MatrixXd b = all.leftCols(columns);
-      const Eigen::MatrixXd wanted = exact.leftCols(columns);
-      x = b;
+    const std::vector<int> counts{1, 3, 12, 80};
+    std::vector<Eigen::MatrixXd> exact;
+    for (const int columns : counts) {
+      exact.emplace_back(all.leftCols(columns));
+      solver->Solve(exact.back());
+    }
+    solver->KeepRounded();
+    for (size_t k = 0; k < counts.size(); ++k) {
+      Eigen::MatrixXd x = all.leftCols(counts[k]);
       solver->SolveRounded(x);
-      EXPECT_LE((x - wanted).norm(), 1e-6 * wanted.norm());
-      EXPECT_GE((x - wanted).norm(), 1e-12 * wanted.norm()) << "not rounded";
+      EXPECT_EQ(x, exact[k]) << "rounded from the next factorisation on";
+    }
+    ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
+    for (size_t k = 0; k < counts.size(); ++k) {
+      SCOPED_TRACE(counts[k]);
+      const Eigen::MatrixXd b = all.leftCols(counts[k]);
+      Eigen::MatrixXd x = b;
+      solver->SolveRounded(x);
+      EXPECT_LE((x - exact[k]).norm(), 1e-6 * exact[k].norm());
+      EXPECT_GE((x - exact[k]).norm(), 1e-12 * exact[k].norm()) << "not rounded";
       for (int step = 0; step < 2; ++step) {
-        Eigen::MatrixXd left(b.rows(), columns);
-        for (int c = 0; c < columns; ++c) left.col(c) = b.col(c) - matrix.Times(x.col(c));
+        Eigen::MatrixXd left(b.rows(), b.cols());
+        for (Eigen::Index c = 0; c < b.cols(); ++c) left.col(c) = b.col(c) - matrix.Times(x.col(c));
         solver->SolveRounded(left);
         x += left;
       }
-      EXPECT_LE((x - wanted).norm(), 1e-13 * wanted.norm());
+      EXPECT_LE((x - exact[k]).norm(), 1e-13 * exact[k].norm());
       Eigen::MatrixXd again = b;
       solver->Solve(again);
-      EXPECT_LE((again - wanted).norm(), 1e-13 * wanted.norm());
+      EXPECT_EQ(again, exact[k]);
     }
   }
 }
