@@ -7,8 +7,19 @@
 
 #include "libs/core/check.hpp"
 #include "libs/fem/index.hpp"
+#include "libs/fem/sparse/recent_orders.hpp"
 
 namespace palpate::fem {
+
+namespace {
+
+/// The process's own.
+EliminationOrder FindOrder(int node_count, const NodePairs& pairs) {
+  static RecentOrders recent;
+  return recent.Find(node_count, pairs);
+}
+
+}  // namespace
 
 StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed,
                                  const NodePairs& pairs)
@@ -28,7 +39,7 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
   }
   std::sort(free_pairs.begin(), free_pairs.end());
   free_pairs.erase(std::unique(free_pairs.begin(), free_pairs.end()), free_pairs.end());
-  EliminationOrder order = FindEliminationOrder(free_node_count_, free_pairs);
+  EliminationOrder order = FindOrder(free_node_count_, free_pairs);
   supernode_start_ = std::move(order.supernode_start);
   std::vector<int> place(order.nodes.size());
   for (size_t k = 0; k < order.nodes.size(); ++k) place[At(order.nodes[k])] = static_cast<int>(k);

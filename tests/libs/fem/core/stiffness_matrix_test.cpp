@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "libs/fem/sparse/recent_orders.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -227,6 +228,41 @@ TEST(EliminationOrder, TakesRepeatedPairsAndLonelyNodes) {
   std::vector<int> order = FindEliminationOrder(4, {{0, 2}, {2, 0}, {0, 2}}).nodes;
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(RecentOrders, AreThoseThatWouldBeFound) {
+  RecentOrders recent;
+  for (int round = 0; round < 2; ++round) {
+    for (const int edge : {3, 4, 5}) {
+      const NodePairs pairs = GridPairs(edge);
+      const int nodes = edge * edge * edge;
+      const EliminationOrder order = recent.Find(nodes, pairs);
+      const EliminationOrder found = FindEliminationOrder(nodes, pairs);
+      EXPECT_EQ(order.nodes, found.nodes);
+      EXPECT_EQ(order.supernode_start, found.supernode_start);
+    }
+  }
+  EXPECT_EQ(recent.found_count(), 3);
+}
+
+TEST(RecentOrders, AreOfTheirOwnPairsAndNodes) {
+  RecentOrders recent;
+  recent.Find(4, {{0, 1}});
+  recent.Find(4, {{0, 2}});
+  EXPECT_EQ(recent.Find(5, {{0, 1}}).nodes.size(), 5u);
+  EXPECT_EQ(recent.found_count(), 3);
+}
+
+TEST(RecentOrders, ForgetTheOneThatWasNotAskedForTheLongest) {
+  RecentOrders recent;
+  for (int nodes = 1; nodes <= RecentOrders::kKept; ++nodes) recent.Find(nodes, {});
+  recent.Find(1, {});
+  recent.Find(RecentOrders::kKept + 1, {});
+  EXPECT_EQ(recent.found_count(), RecentOrders::kKept + 1);
+  recent.Find(1, {});
+  EXPECT_EQ(recent.found_count(), RecentOrders::kKept + 1);
+  recent.Find(2, {});
+  EXPECT_EQ(recent.found_count(), RecentOrders::kKept + 2);
 }
 
 }  // namespace
