@@ -168,7 +168,8 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
   return {StatusCode::kNotConverged, "Newton iterations used up"};
 }
 
-/// The step from here, and the residual that it begins with.
+/// The step from here, and the residual that it begins with. There is none where a kept tangent
+/// has led to the balance.
 Status StaticSolver::Linearise(const LoadState& loads, const StaticState& state, bool may_keep,
                                StaticResult* result) {
   const auto measure = [&] {
@@ -183,6 +184,9 @@ Status StaticSolver::Linearise(const LoadState& loads, const StaticState& state,
     if (!known.ok()) return known;
     measure();
     const bool balanced = result->residual_relative <= settings_.relative_tolerance;
+    if (balanced && ConstraintError(loads, state) <= settings_.constraint_tolerance_m) {
+      return Status::Ok();  // nobody takes a step from here
+    }
     if (balanced || result->residual_relative < settings_.keep_tangent_below * before) {
       return step_.ComputeChord(loads, state.x_m, state.multipliers_N);
     }
