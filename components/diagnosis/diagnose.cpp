@@ -133,6 +133,8 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
     result->verdict = Verdict::kCause;
     result->reason = "The causes that are named explain the gap.";
   }
+  result->leftover = {guard.passed, guard.worst, guard.surprise, guard.surprise_limit,
+                      guard.excess};
   result->search_complete = selection.complete;
   if (!selection.complete) {
     result->reason += " The time was over: fits ended early, and not all causes were tried.";

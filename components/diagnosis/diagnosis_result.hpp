@@ -105,6 +105,15 @@ struct ResidualForces {
   Eigen::Matrix3Xd after_N;   ///< for what the named causes leave
 };
 
+/// The test of what is left that is least like noise (GuardResult).
+struct Leftover {
+  bool is_noise = false;
+  std::string test;
+  double surprise = 0.0;
+  double surprise_limit = 0.0;
+  double excess = 0.0;
+};
+
 /// Everything that a report says. Lists are sorted, the most important first.
 struct DiagnosisResult {
   Verdict verdict = Verdict::kDataUnfit;
@@ -115,6 +124,7 @@ struct DiagnosisResult {
   std::vector<CauseName> indistinguishable_from;  ///< of the first cause
   double no_fault_probability = 0.0;
   double other_probability = 0.0;  ///< of something that the catalogue does not hold
+  Leftover leftover;
   GapSummary gap;
   std::vector<RecordingGap> recordings;
   ResidualForces residual_forces;

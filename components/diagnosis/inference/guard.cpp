@@ -61,8 +61,9 @@ GuardResult Guard(const ObservedExperiment& observed, const Eigen::Matrix3Xd& ma
   result.surprise = standardised(tests).maxCoeff(&worst);
   result.worst = guard_tests.NameOf(worst);
   const double expected = mean[guard_tests.MisfitBeside(worst)];
-  const double excess = (tests[worst] - mean[worst]) / expected;
-  result.passed = result.surprise <= worst_of_draws[rank] || excess < kLeastExcess;
+  result.excess = (tests[worst] - mean[worst]) / expected;
+  result.surprise_limit = worst_of_draws[rank];
+  result.passed = result.surprise <= result.surprise_limit || result.excess < kLeastExcess;
   return result;
 }
 

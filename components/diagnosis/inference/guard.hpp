@@ -15,6 +15,8 @@ struct GuardResult {
   bool passed = false;
   double surprise = 0.0;  ///< the worst test, in standard deviations of what a right model leaves
   std::string worst;      ///< "misfit of recording RH_hold", "runs in recording RB_repeat", ...
+  double surprise_limit = 0.0;  ///< up to which it may be noise
+  double excess = 0.0;  ///< how far the worst test is off, as a share of its recording's noise
 };
 
 /// GuardTests of the residual, compared with what `draws` experiments of the fitted model leave

@@ -84,6 +84,15 @@ Json ToJson(const ResidualForces& forces) {
   return {{"recording", forces.recording}, {"forces", list}};
 }
 
+Json ToJson(const Leftover& left) {
+  if (left.test.empty()) return nullptr;
+  return {{"is_noise", left.is_noise},
+          {"test", left.test},
+          {"surprise", Number(left.surprise)},
+          {"surprise_limit", Number(left.surprise_limit)},
+          {"excess", Number(left.excess)}};
+}
+
 Json ToJson(const ExperimentProposal& one) {
   return {{"title", one.title},
           {"by_hand", one.by_hand},
@@ -120,6 +129,7 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                      {"indistinguishable_from", List(result.indistinguishable_from)},
                      {"no_fault_probability", Number(result.no_fault_probability)},
                      {"other_probability", Number(result.other_probability)},
+                     {"what_is_left", ToJson(result.leftover)},
                      {"residual_m_rms", ToJson(result.gap)},
                      {"next_experiment", NextExperiment(result.experiments)},
                      {"recordings", List(result.recordings)},

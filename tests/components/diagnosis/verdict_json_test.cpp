@@ -65,6 +65,17 @@ TEST(VerdictJson, HoldsTheForcesThatWouldDoWhatIsLeft) {
   EXPECT_EQ(Written(DataUnfitExample())["residual_forces"]["forces"], json::array());
 }
 
+TEST(VerdictJson, SaysWhatIsLeastLikeNoise) {
+  DiagnosisResult result = FrictionExample();
+  result.leftover = {false, "runs in recording r1", 4.7, 3.7, 0.31};
+  EXPECT_EQ(Written(result)["what_is_left"], json({{"is_noise", false},
+                                                   {"test", "runs in recording r1"},
+                                                   {"surprise", 4.7},
+                                                   {"surprise_limit", 3.7},
+                                                   {"excess", 0.31}}));
+  EXPECT_TRUE(Written(DataUnfitExample())["what_is_left"].is_null());
+}
+
 TEST(VerdictJson, SpellsEveryVerdict) {
   std::vector<std::string> spelled;
   for (const DiagnosisResult& result : AllExamples()) spelled.push_back(Written(result)["verdict"]);
