@@ -64,6 +64,7 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
 void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selection) {
   constexpr double kWorthAFit = -3.0;
   constexpr int kMostTried = 2;
+  const double before = selection->best.posterior.ln_evidence;
   int tried = 0;
   for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
     const int most_tried = fitter.IsOutOfTime() ? 1 : kMostTried;
@@ -71,9 +72,11 @@ void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selecti
     if (exchange.named + 1 == selection->named.size()) continue;
     ++tried;
     Choice& choice = selection->named[exchange.named];
-    Fit other = fitter.Complete(fitter.Refine(
-        Exchanged(selection->best.faults, choice.cause, exchange.other), selection->best));
-    const double ln_gain = other.posterior.ln_evidence - selection->best.posterior.ln_evidence;
+    Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.cause, exchange.other),
+                              selection->best);
+    if (other.posterior.ln_evidence - before < kWorthAFit) continue;
+    other = fitter.Complete(std::move(other));
+    const double ln_gain = other.posterior.ln_evidence - before;
     const bool general = fitter.book().IsSpecialCase(choice.cause, exchange.other);
     if (!other.status.ok() || ln_gain <= (general ? clear_evidence : 0.0)) continue;
     if (!WhyNoFault(fitter.book(), other.posterior, exchange.other).empty()) continue;

@@ -158,7 +158,8 @@ class NextCause {
     SortRefined();
     for (std::size_t k = fits_.size(); k-- > 0;) {
       const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
-      if (behind < kAlike) Complete(k);
+      // Only of the first cause others want to know how likely those are that are not clear.
+      if (behind < kAlike && candidates_[k].ln_bayes_factor >= least) Complete(k);
     }
     SortRefined();
   }
