@@ -279,7 +279,9 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
     cables_.SetTensions(tension_N);
     status = solver_.Solve(task, state_, &next_);
   }
+  if (status.ok()) status = FollowSoftening(&task);
   if (!status.ok()) {
+    softening_.Restore(&elastic_);
     cables_.SetTensions(tension_N);
     cables_.Evaluate(state_.x_m);
     PlaceTools(now_);
@@ -288,6 +290,19 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
   }
   Commit(t_s, inputs, h_s);
   return status;
+}
+
+/// Steps of a dynamic motion are so short that what they soften may wait for the next.
+Status Bench::FollowSoftening(StepTask* task) {
+  constexpr int kMostRounds = 12;
+  constexpr double kSettled = 2e-3;
+  if (!softening_.answers_strain() || IsDynamic(motion_)) return Status::Ok();
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (softening_.Approach(&elastic_, next_.x_m) < kSettled) break;
+    task->start_m = next_.x_m;
+    if (Status status = solver_.Solve(*task, state_, &next_); !status.ok()) return status;
+  }
+  return Status::Ok();
 }
 
 void Bench::Commit(double t_s, const BenchInputs& inputs, double h_s) {

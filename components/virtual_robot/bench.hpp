@@ -66,6 +66,7 @@ class Bench {
   Status StepTo(double t_s, const BenchInputs& inputs, int halvings_left);
   Status Step(double t_s, const BenchInputs& inputs);
   bool IsTouched() const;
+  Status FollowSoftening(StepTask* task);
   void Commit(double t_s, const BenchInputs& inputs, double h_s);
 
   scenario::Motion motion_;

@@ -17,18 +17,25 @@ namespace palpate::virtual_robot {
 /// effect in filled rubber, Proc. R. Soc. Lond. A 455, 1999, with their beta = 0),
 ///   eta = 1 - erf((W_max - W) / m) / r,
 /// W the energy density of the undamaged material, averaged over each cell, and W_max its largest
-/// value so far. The factor of a step follows from the
-/// state before it, in steps that are the shorter the more the strain under a given load answers.
+/// value so far. It follows the strain in steps that are the shorter the more this answers under a
+/// given load: several for a state that must be in balance with it, one where states follow each
+/// other closely.
 class Softening {
  public:
   /// `duration_s` > 0: after which the temperature is at its end. Throws InputError.
   Softening(const fem::TetMesh& mesh, const Effects& effects, double duration_s);
 
   bool active() const { return mullins_.has_value() || temperature_change_ != 0.0; }
+  bool answers_strain() const { return mullins_.has_value(); }
   const Eigen::VectorXd& factor_of_cell() const { return factor_; }  ///< [cells]
 
   /// A virgin material at `x_m`, at time 0 of the experiment, and the factors set in `body`.
   void Reset(fem::ElasticBody* body, const Eigen::VectorXd& x_m);
+  /// A step of the damage towards what a body at `x_m` asks for, should it come to rest there: its
+  /// W_max is that of before. By how much the worst cell's was off.
+  double Approach(fem::ElasticBody* body, const Eigen::VectorXd& x_m);
+  /// Back to the state of the last Update or Reset.
+  void Restore(fem::ElasticBody* body);
   /// The same material at `x_m`, `since_s` after the beginning.
   void Update(fem::ElasticBody* body, const Eigen::VectorXd& x_m, double since_s);
 
@@ -38,7 +45,9 @@ class Softening {
     double m_J_m3;
   };
 
-  void Damage(const fem::ElasticBody& body, const Eigen::VectorXd& x_m);
+  double Damage(const fem::ElasticBody& body, const Eigen::VectorXd& x_m,
+                Eigen::VectorXd* largest_J_m3);
+  void SetFactors(fem::ElasticBody* body);
 
   std::optional<Mullins> mullins_;
   double temperature_change_ = 0.0;  ///< of the moduli, relative, at the end
@@ -46,6 +55,7 @@ class Softening {
   double warmth_ = 1.0;           ///< factor of temperature now
   Eigen::VectorXd volume_m3_;     ///< [cells]
   Eigen::VectorXd damage_;        ///< [cells] eta
+  Eigen::VectorXd left_damage_;   ///< [cells] that of the last Update
   Eigen::VectorXd largest_J_m3_;  ///< [cells] W_max
   Eigen::VectorXd factor_;
 };

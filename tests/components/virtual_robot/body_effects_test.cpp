@@ -219,6 +219,24 @@ TEST_F(BodyEffects, StretchedRubberIsSofterTheSecondTimeUpToWhereItWasBefore) {
   EXPECT_NEAR(sag_m(14.0, 0.008) / most_m, 1.0, 0.02);
 }
 
+TEST_F(BodyEffects, SofteningDoesNotLagBehindTheLoad) {
+  const Effects mullins = {Effect("mullins", {"body"}, {{"r", 2.0}, {"m", 20.0}})};
+  const auto sag_after_m = [&](double time_step_s) {
+    scenario::Scenario scenario = PlainScenario();
+    scenario.motion.time_step_s = time_step_s;
+    VirtualRobot robot(beam_, scenario, mullins, 1);
+    EXPECT_TRUE(robot.Start(0.0, NoInputs(0)).ok());
+    for (const auto& [t_s, mass_kg] : {std::pair{1.0, 0.008}, std::pair{2.0, 0.004}}) {
+      Inputs hung = NoInputs(0);
+      hung.weights = {Weight(kTip_m, mass_kg)};
+      EXPECT_TRUE(robot.Advance(t_s, hung).ok());
+    }
+    return kTip_m.z() - robot.MarkerPositions_m()(2, 0);
+  };
+  const double in_many_steps_m = sag_after_m(0.01);
+  EXPECT_NEAR(sag_after_m(0.25) / in_many_steps_m, 1.0, 0.005);
+}
+
 TEST_F(BodyEffects, MisplacedMarkerStandsOffByItsSizeWhereTheSeedSays) {
   const Effects misplaced = {Effect("marker_misplacement", {"marker:tip"}, {{"d_m", 0.002}})};
   beam_.gravity_m_s2.setZero();
