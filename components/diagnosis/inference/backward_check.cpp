@@ -37,12 +37,14 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
   constexpr double kWorthALook = -8.0;
   const CauseBook& book = fitter.book();
   const Fit& best = selection.best;
+  const Information data = best.model.All();
   std::vector<Exchange> exchanges;
   for (std::size_t n = 0; n < selection.named.size(); ++n) {
     for (int k = 0; k < book.size(); ++k) {
       if (!book.CanBeFault(k) || IsNamed(book, best.faults, k)) continue;
       const std::vector<int> others = Exchanged(best.faults, selection.named[n].cause, k);
-      const double promised = fitter.Guess(best, others).ln_evidence - best.posterior.ln_evidence;
+      const double promised =
+          book.InferWithin(data, others).ln_evidence - best.posterior.ln_evidence;
       if (promised < kWorthALook) continue;
       const auto same = std::find_if(exchanges.begin(), exchanges.end(), [&](const Exchange& one) {
         return one.named == n && book.cause(one.other).name() == book.cause(k).name();
