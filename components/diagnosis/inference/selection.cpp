@@ -158,7 +158,7 @@ class NextCause {
     SortRefined();
     for (std::size_t k = fits_.size(); k-- > 0;) {
       const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
-      // Only of the first cause others want to know how likely those are that are not clear.
+      // How likely a further one is that cannot get clear, nobody asks.
       if (behind < kAlike && candidates_[k].ln_bayes_factor >= least) Complete(k);
     }
     SortRefined();
