@@ -292,7 +292,8 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
   return status;
 }
 
-/// Steps of a dynamic motion are so short that what they soften may wait for the next.
+/// Steps of a dynamic motion are so short that what they soften may wait for the next, as does what
+/// has not settled after so many rounds.
 Status Bench::FollowSoftening(StepTask* task) {
   constexpr int kMostRounds = 12;
   constexpr double kSettled = 2e-3;
