@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "components/diagnosis/causes/makers.hpp"
@@ -10,18 +12,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// MullinsSoftening, z[0] = 1 / r, z[1] about one of the energy densities that it is looked for at.
-/// What it does at a moment is a force: that of the softened cells, as far as they are. What the
-/// energies then answer is left out.
+/// MullinsSoftening: z[0] how much a cell softens that is so far below its largest energy density
+/// as m is looked for at, z[1] ln of how many times that m is. Data that tell little of where
+/// softening ends tell z[0] all the same; of 1 / r they would only tell what it is if m were known,
+/// and about every m another share of that. What it does at a moment is a force: that of the
+/// softened cells, as far as they are. What the energies then answer is left out.
 class Mullins final : public Cause {
  public:
   explicit Mullins(double m_J_m3)
       : Cause({"mullins", {"body"}}, "softening of the body where it was strained before",
-              {{.name = "r",
-                .fault = 0.4,
-                .least = 0.0,
-                .most = 1.0,
-                .scale = CauseParameter::Scale::kInverse},
+              {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
                {.name = "m",
                 .nominal = m_J_m3,
                 .fault = 0.6,
@@ -29,7 +29,10 @@ class Mullins final : public Cause {
                 .qualifies = true}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    if (z[0] > 0.0) draft->mullins = MullinsSoftening{z[0], parameters()[1].ValueOf(z[1])};
+    if (z[0] > 0.0) {
+      draft->mullins =
+          MullinsSoftening{std::min(1.0, z[0] / Reach(z[1])), parameters()[1].ValueOf(z[1])};
+    }
   }
 
   /// What energies answer to the softening is up to twice 1 / r of it.
@@ -44,17 +47,68 @@ class Mullins final : public Cause {
             .cast<double>()
             .array() /
         m_J_m3;
-    Eigen::VectorXd softer;
-    if (parameter == 0) {
-      softer = below.unaryExpr([](double u) { return std::erf(u); }).rowwise().mean();
-    } else {
-      softer = -2.0 * std::numbers::inv_sqrtpi * z[0] *
-               (below * (-below.square()).exp()).rowwise().mean();
+    const double reach = Reach(z[1]);
+    Eigen::VectorXd softer =
+        below.unaryExpr([](double u) { return std::erf(u); }).rowwise().mean() / reach;
+    if (parameter == 1) {
+      softer *= -z[0] * ReachChange(z[1]) / reach;
+      softer -= 2.0 * std::numbers::inv_sqrtpi * z[0] / reach *
+                (below * (-below.square()).exp()).rowwise().mean().matrix();
     }
     return robot::NodalForce(ForceOf(softer, at));
   }
 
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& undeformed_m) const override {
+    std::vector<FittedParameter> report = Cause::Report(z, covariance, undeformed_m);
+    report[0] = {.name = "r",
+                 .value = Reach(z[1]) / z[0],
+                 .ci95_low = QuantileOfR(0.025, z, covariance),
+                 .ci95_high = QuantileOfR(0.975, z, covariance)};
+    return report;
+  }
+
  private:
+  /// r times z[0], and its derivative.
+  static double Reach(double z_m) { return std::erf(std::exp(-z_m)); }
+  static double ReachChange(double z_m) {
+    const double u = std::exp(-z_m);
+    return -2.0 * std::numbers::inv_sqrtpi * u * std::exp(-u * u);
+  }
+
+  /// Below which r is with this probability; at least 1. Along z[1], of which r is no linear
+  /// function, each of many values stands for as much of what is believed of it.
+  static double QuantileOfR(double probability, const Eigen::VectorXd& z,
+                            const Eigen::MatrixXd& covariance) {
+    constexpr int kSlices = 81;
+    constexpr double kFarthest = 4.0;  // sigma
+    constexpr double kMost = 1e6;
+    constexpr int kHalvings = 60;
+    const double sigma_m = std::sqrt(covariance(1, 1));
+    const double slope = sigma_m > 0.0 ? covariance(0, 1) / covariance(1, 1) : 0.0;
+    const double rest = std::sqrt(std::max(covariance(0, 0) - slope * covariance(0, 1), 1e-12));
+    const auto is_less = [&](double r) {
+      double less = 0.0;
+      double all = 0.0;
+      for (int k = 0; k < kSlices; ++k) {
+        const double t = kFarthest * (2.0 * k / (kSlices - 1) - 1.0);
+        const double weight = std::exp(-0.5 * t * t);
+        const double softening = z[0] + slope * sigma_m * t;
+        const double at_r = Reach(z[1] + sigma_m * t) / r;
+        less += weight * 0.5 * std::erfc((at_r - softening) / (std::numbers::sqrt2 * rest));
+        all += weight;
+      }
+      return less / all;
+    };
+    double low = 1.0;
+    double high = kMost;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = std::sqrt(low * high);
+      (is_less(middle) < probability ? low : high) = middle;
+    }
+    return low;
+  }
+
   /// F_int of the cells, each so weighted; weights above -1.
   static Eigen::VectorXd ForceOf(const Eigen::VectorXd& weight, const CauseMoment& at) {
     fem::ElasticBody& body = at.model.elastic_body();
