@@ -109,11 +109,12 @@ class HiddenObstacle final : public Cause {
     for (int k = 0; k < 4; ++k) {
       const double of_skin_m2 = k == 0 ? kSkin_m * kSkin_m : 0.0;
       const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance) + of_skin_m2);
-      const double least =
-          k == 0 ? 0.0 : -1.0;  // a wall that stands in the model's skin touches it
+      // A wall that stands in the model's skin touches it.
+      const double least = k == 0 ? 0.0 : -1.0;
       const double most = k == 0 ? std::numeric_limits<double>::infinity() : 1.0;
-      report.push_back({names[k], std::max(least, value[k]), std::max(least, value[k] - half),
-                        std::min(most, value[k] + half)});
+      const double can_be = std::clamp(value[k], least, most);
+      report.push_back(
+          {names[k], can_be, std::max(least, can_be - half), std::min(most, can_be + half)});
     }
     return report;
   }

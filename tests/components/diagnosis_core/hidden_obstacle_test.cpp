@@ -257,14 +257,16 @@ TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
   int k = 0;
   while (book.cause(k).name().id != "hidden_obstacle") ++k;
   const Cause& obstacle = book.cause(k);
-  constexpr double kDeep_m = 5e-5;
-  const Eigen::Vector4d z(1.0, obstacle.parameters()[1].least - kDeep_m, 0.0, 0.0);
-  const auto report = obstacle.Report(z, 1e-12 * Eigen::Matrix4d::Identity(), nominal_.assembled_m);
-  EXPECT_EQ(report[0].value, 0.0);
-  EXPECT_EQ(report[0].ci95_low, 0.0);
-  for (const FittedParameter& one : report) {
-    EXPECT_LE(one.ci95_low, one.value) << one.name;
-    EXPECT_GE(one.ci95_high, one.value) << one.name;
+  for (const double deep_m : {5e-5, 5e-3}) {  // the deeper in a body that is larger than its file's
+    const Eigen::Vector4d z(1.0, obstacle.parameters()[1].least - deep_m, 0.0, 0.0);
+    const auto report =
+        obstacle.Report(z, 1e-12 * Eigen::Matrix4d::Identity(), nominal_.assembled_m);
+    EXPECT_EQ(report[0].value, 0.0);
+    EXPECT_EQ(report[0].ci95_low, 0.0);
+    for (const FittedParameter& one : report) {
+      EXPECT_LE(one.ci95_low, one.value) << one.name << ", " << deep_m << " m deep";
+      EXPECT_GE(one.ci95_high, one.value) << one.name << ", " << deep_m << " m deep";
+    }
   }
 }
 
