@@ -10,19 +10,10 @@
 
 #include "components/diagnosis/inference/fitter.hpp"
 #include "components/diagnosis/inference/guard.hpp"
-#include "components/diagnosis/inference/held_out.hpp"
+#include "components/diagnosis/inference/next_cause.hpp"
 #include "components/diagnosis/inference/screening.hpp"
 
 namespace palpate::diagnosis {
-
-/// One cause that was named.
-struct Choice {
-  int cause = -1;
-  double ln_bayes_factor = 0.0;
-  double probability = 0.0;  ///< among all candidates and none, guesses as likely as each other
-  HeldOutGain held_out = {};
-  std::vector<double> ln_gain_of_recording = {};  ///< of what was predicted
-};
 
 /// Which causes explain an experiment.
 struct Selection {

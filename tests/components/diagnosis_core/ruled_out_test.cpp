@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -11,6 +13,8 @@
 
 namespace palpate::diagnosis {
 namespace {
+
+constexpr double kGain = 0.1;
 
 /// What a gain does, as something of which no robot has so much.
 class GainInDisguise final : public Cause {
@@ -23,38 +27,68 @@ class GainInDisguise final : public Cause {
                 .fault_at = kGain,
                 .plausible = 0.05}}) {}
 
-  static constexpr double kGain = 0.1;
-
   bool OnDrives() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     draft->drives.gain[0] += z[0];
   }
 };
 
+/// Promises what a gain does, and does no more than a part of it.
+class Boaster final : public Cause {
+ public:
+  explicit Boaster(int number)
+      : Cause({"boaster", {std::to_string(number)}}, "a boaster",
+              {{.name = "z", .tolerance = 0.001, .fault = 0.02, .fault_at = kGain}}) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->drives.gain[0] += std::min(z[0], 0.2 * kGain);
+  }
+};
+
 class RuledOut : public HiddenCauses {
  protected:
-  /// With so many causes in disguise beside the real ones.
-  Selection Select(int disguises) {
-    Measure({{"cable_gain", "cable:up", GainInDisguise::kGain}});
-    std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
-    for (int k = 0; k < disguises; ++k) causes.push_back(std::make_unique<GainInDisguise>(k));
-    with_disguises_ =
-        std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
-    const Fitter fitter(observed_, body_, *with_disguises_, {}, 1);
+  /// With so many causes of this class beside gains.
+  template <class Other>
+  Selection Select(int others, TimeLimit limit = {}) {
+    Measure({{"cable_gain", "cable:up", kGain}});
+    std::vector<std::string> without = CatalogueIds();
+    std::erase(without, "cable_gain");
+    std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, without);
+    for (int k = 0; k < others; ++k) causes.push_back(std::make_unique<Other>(k));
+    with_others_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
+    const Fitter fitter(observed_, body_, *with_others_, {}, 1, limit);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
-  std::string IdOf(int cause) const { return with_disguises_->cause(cause).name().id; }
+  std::string IdOf(int cause) const { return with_others_->cause(cause).name().id; }
 
-  std::unique_ptr<CauseBook> with_disguises_;
+  std::unique_ptr<CauseBook> with_others_;
 };
 
 /// However many are simulated first in vain.
 TEST_F(RuledOut, CausesMakeRoomForTheNextOnes) {
-  const Selection selection = Select(6);
+  const Selection selection = Select<GainInDisguise>(6);
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   EXPECT_EQ(IdOf(selection.named[0].cause), "cable_gain");
   EXPECT_GT(selection.named[0].probability, 0.9) << "what was ruled out is no rival";
   EXPECT_TRUE(selection.alike.empty());
+}
+
+/// These explain enough to be named, if none promised more.
+TEST_F(RuledOut, OrSurpassedByWhatAnotherPromises) {
+  const Selection selection = Select<Boaster>(4);
+  ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
+  EXPECT_EQ(IdOf(selection.named[0].cause), "cable_gain");
+}
+
+TEST_F(RuledOut, AreNotNamedWhereThereIsNoTimeToSeeWhatAnotherPromises) {
+  const Selection selection = Select<Boaster>(4, TimeLimit(1e-9));
+  EXPECT_TRUE(selection.named.empty());
+  EXPECT_FALSE(selection.complete);
+  ASSERT_FALSE(selection.candidates.empty());
+  EXPECT_EQ(IdOf(selection.candidates.front().cause), "boaster");
+  EXPECT_TRUE(selection.candidates.front().refined);
+  EXPECT_THAT(selection.candidates.front().why_not, testing::HasSubstr("was not simulated"));
 }
 
 }  // namespace
