@@ -144,9 +144,10 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
 /// Of something that the catalogue does not hold, in the place of what is named or where nothing
 /// is.
 double OtherProbability(const CauseBook& book, const Selection& selection) {
-  if (selection.guard.passed) return kOtherAtLeast;
-  if (selection.named.empty()) return kOtherWhereNoneIsNamed;
-  return std::max(kOtherAtLeast, ChanceOfImitation(book, selection.healthy, selection.best));
+  const bool passed = selection.guard.passed;
+  if (selection.named.empty()) return passed ? kOtherAtLeast : kOtherWhereNoneIsNamed;
+  return std::max(kOtherAtLeast,
+                  ChanceOfImitation(book, selection.healthy, selection.best, passed));
 }
 
 /// Probabilities of the hypotheses for the first place; causes that were named have theirs, and

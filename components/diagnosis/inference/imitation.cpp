@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -153,14 +154,22 @@ double ShareOfImitated(const CauseBook& book, const Information& data, std::size
 }
 
 double ExplainedOfMisfit(const Fit& healthy, const Fit& fit) {
+  constexpr double kSeen = 2.0;  // sigma of chi-squared
+  const auto rows = static_cast<double>(fit.model.y.size());
   const double explained = healthy.posterior.misfit - fit.posterior.misfit;
-  const double left = std::max(0.0, fit.posterior.misfit - static_cast<double>(fit.model.y.size()));
+  const double left = std::max(kSeen * std::sqrt(2.0 * rows), fit.posterior.misfit - rows);
   return explained > 0.0 ? explained / (explained + left) : 0.0;
 }
 
-double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit) {
-  const double imitated = ShareOfImitated(book, healthy.model.All(), fit.faults.size(),
-                                          ExplainedOfMisfit(healthy, fit));
+double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit,
+                         bool looks_like_noise) {
+  constexpr double kOutside = 1.0 / 6.0;  // as likely as one cause of the catalogue
+  constexpr double kFurther = 1.0 / 3.0;  // as likely as that there is none
+  const std::size_t named = fit.faults.size();
+  const double before =
+      looks_like_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;
+  const double imitated =
+      before * ShareOfImitated(book, healthy.model.All(), named, ExplainedOfMisfit(healthy, fit));
   return imitated / (1.0 + imitated);
 }
 

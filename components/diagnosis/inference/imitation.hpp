@@ -24,13 +24,18 @@ double ShareOfImitated(const CauseBook& book, const Information& data, std::size
                        double explained);
 
 /// How much of what is beyond tolerances and noise a fit explains, of what `healthy` leaves, in
-/// squares of noise; [0, 1].
+/// squares of noise; [0, 1]. What the noise's own scatter may hide counts as left.
 double ExplainedOfMisfit(const Fit& healthy, const Fit& fit);
 
 /// How likely it is that what is named stands in the place of a cause that the catalogue does not
-/// hold, where what it leaves is not noise: something is there that has no name. Before, this is as
-/// likely to be beside what is named as in its place; in its place only if that explains so much
-/// of it, as is more or less usual among causes. [0, 0.5]
-double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit);
+/// hold. In its place only if what is named explains so much of it, as is more or less usual among
+/// causes; before,
+/// - where what is left is not noise, something is there that has no name: it is as likely to be
+///   beside what is named as in its place;
+/// - where it looks like noise, as likely as of seven robots with a fault one has such a one, and
+///   each further cause is a third as likely as that there is none.
+/// [0, 1)
+double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit,
+                         bool looks_like_noise);
 
 }  // namespace palpate::diagnosis
