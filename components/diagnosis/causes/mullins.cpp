@@ -62,7 +62,7 @@ class Mullins final : public Cause {
                                       const Eigen::VectorXd& undeformed_m) const override {
     std::vector<FittedParameter> report = Cause::Report(z, covariance, undeformed_m);
     report[0] = {.name = "r",
-                 .value = Reach(z[1]) / z[0],
+                 .value = std::max(1.0, Reach(z[1]) / z[0]),
                  .ci95_low = QuantileOfR(0.025, z, covariance),
                  .ci95_high = QuantileOfR(0.975, z, covariance)};
     return report;

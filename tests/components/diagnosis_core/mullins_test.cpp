@@ -33,6 +33,15 @@ TEST_F(Mullins, SoftensSoMuchAsItIsSaidToWhereMIsLookedFor) {
   EXPECT_NEAR(report[1].value, draft.mullins->m_J_m3, 1e-9);
 }
 
+TEST_F(Mullins, HasNoRBelowOne) {
+  const Cause& mullins = book_.cause(Number("mullins", "body"));
+  const Eigen::Vector2d more_than_can_be(0.9, 0.5);
+  const auto report = mullins.Report(more_than_can_be, 1e-4 * Eigen::Matrix2d::Identity(), {});
+  EXPECT_EQ(report[0].value, 1.0);
+  EXPECT_GE(report[0].ci95_high, 1.0);
+  EXPECT_NEAR(report[0].ci95_low, 1.0, 1e-9);
+}
+
 TEST_F(Mullins, HasIntervalsOfAsMuchAsIsBelieved) {
   constexpr int kDraws = 100000;
   const Cause& mullins = book_.cause(Number("mullins", "body"));
