@@ -78,6 +78,17 @@ TEST_F(CauseDerivatives, AreOfEveryCauseOfTheCatalogue) {
   }
 }
 
+/// What energies answer is left out there: up to twice the softening.
+TEST_F(CauseDerivatives, AreThoseOfApplyWhereABodySoftensTooLittleForRuns) {
+  const Eigen::Vector2d z(0.015, 0.7);
+  constexpr double kAnswer = 0.05;
+  for (const CausePtr& cause : causes_) {
+    if (cause->name().id != "mullins") continue;
+    ASSERT_FALSE(cause->NeedsRuns(z));
+    ExpectDerivative(*cause, z, kAnswer, LeastShare("mullins"));
+  }
+}
+
 TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   constexpr double kShare = 0.31;  // of the fault sigma; no kink of the drives' play lies there
   constexpr double kTolerance = 2e-3;

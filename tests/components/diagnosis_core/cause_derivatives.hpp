@@ -152,11 +152,14 @@ class CauseDerivatives : public testing::Test {
                         double least_share = 1e-3) const {
     const CauseList one{&cause};
     const Eigen::MatrixXd analytic = Analytic(one, z);
-    double whole_m = 0.0;  // of what runs tell, which is as exact as their pasts are settled
+    // Where softening is far from its end m says nothing, and its column is what the last share of
+    // the pasts leaves: of that of the softening.
+    double whole_m = 0.0;
     for (Eigen::Index p = cause.name().id == "hidden_obstacle" ? 1 : 0; p < z.size(); ++p) {
       const CauseParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
       const Eigen::VectorXd difference = parameter.fault * Difference(one, z, p, parameter);
-      if (cause.NeedsRuns(z)) whole_m = std::max(whole_m, difference.norm());
+      if (cause.name().id == "mullins" && cause.NeedsRuns(z))
+        whole_m = std::max(whole_m, difference.norm());
       ExpectAlike(parameter.fault * analytic.col(p), difference, tolerance,
                   cause.words() + ", " + parameter.name, least_share, whole_m);
     }
