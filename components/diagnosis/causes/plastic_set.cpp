@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <Eigen/QR>
+#include <cmath>
 
 #include "components/diagnosis/causes/makers.hpp"
 #include "libs/fem/elastic_body.hpp"
@@ -14,9 +15,14 @@ namespace {
 
 constexpr Eigen::Index kModes = 5;
 
-/// [3n x kModes] the softest shapes of the body at rest, largest displacement 1, by subspace
-/// iteration on the inverse of its stiffness. Empty where it has none.
-Eigen::MatrixXd SoftestShapes(const robot::RobotBody& body) {
+/// What a body is easily bent to, the softest first.
+struct SoftShapes {
+  Eigen::MatrixXd nodal;       ///< [3n x kModes] at rest, largest displacement 1
+  Eigen::VectorXd compliance;  ///< [kModes] in proportion to the softest one's
+};
+
+/// By subspace iteration on the inverse of the stiffness at rest. Empty where it has none.
+SoftShapes SoftestShapes(const robot::RobotBody& body) {
   constexpr int kIterations = 25;
   fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell);
   fem::Linearisation linearisation(elastic, {}, body.fixed);
@@ -30,27 +36,42 @@ Eigen::MatrixXd SoftestShapes(const robot::RobotBody& body) {
             .array()
             .sin();
   }
+  SoftShapes soft;
   for (int i = 0; i < kIterations; ++i) {
     linearisation.Solve(shapes);
-    shapes = Eigen::HouseholderQR<Eigen::MatrixXd>(shapes).householderQ() *
-             Eigen::MatrixXd::Identity(shapes.rows(), kModes);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shapes);
+    soft.compliance = qr.matrixQR().diagonal().cwiseAbs();
+    shapes = qr.householderQ() * Eigen::MatrixXd::Identity(shapes.rows(), kModes);
   }
-  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(none.size(), kModes);
+  soft.compliance /= soft.compliance.maxCoeff();
+  soft.nodal = Eigen::MatrixXd::Zero(none.size(), kModes);
   for (Eigen::Index k = 0; k < kModes; ++k) {
-    linearisation.matrix().AddExpanded(shapes.col(k), 1.0, nodal.col(k));
-    nodal.col(k) /= nodal.col(k).reshaped(3, none.size() / 3).colwise().norm().maxCoeff();
+    linearisation.matrix().AddExpanded(shapes.col(k), 1.0, soft.nodal.col(k));
+    soft.nodal.col(k) /= soft.nodal.col(k).reshaped(3, none.size() / 3).colwise().norm().maxCoeff();
   }
-  return nodal;
+  return soft;
+}
+
+/// What bent a body for good bent it by its compliance, so that it is in its softest shapes that it
+/// stays bent the most. What it was built with may be any of them.
+std::vector<CauseParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
+  constexpr double kTolerance_m = 1e-4;
+  constexpr double kSoftest_m = 3e-3;
+  std::vector<CauseParameter> parts;
+  for (const double softness : compliance) {
+    const double fault_m = std::hypot(kTolerance_m, kSoftest_m * softness);
+    parts.push_back({.name = "tip_m", .tolerance = kTolerance_m, .fault = fault_m});
+  }
+  return parts;
 }
 
 /// The body was bent for good after the drives were zeroed, in a mixture of its softest shapes.
 class PlasticSet final : public Cause {
  public:
-  explicit PlasticSet(Eigen::MatrixXd shapes)
+  explicit PlasticSet(SoftShapes soft)
       : Cause({"plastic_set", {"body"}}, "bent rest shape of the body",
-              std::vector<CauseParameter>(kModes,
-                                          {.name = "tip_m", .tolerance = 1e-4, .fault = 3e-3})),
-        shapes_(std::move(shapes)) {}
+              PartsOfShapes(soft.compliance)),
+        shapes_(std::move(soft.nodal)) {}
 
   void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
     draft->body.mesh.nodes_m += (shapes_ * z).reshaped(3, draft->body.mesh.NodeCount());
@@ -79,9 +100,9 @@ class PlasticSet final : public Cause {
 }  // namespace
 
 void MakePlasticSet(const CauseWorld& world, std::vector<CausePtr>* causes) {
-  Eigen::MatrixXd shapes = SoftestShapes(world.body);
-  if (shapes.size() == 0) return;
-  causes->push_back(std::make_unique<PlasticSet>(std::move(shapes)));
+  SoftShapes soft = SoftestShapes(world.body);
+  if (soft.nodal.size() == 0) return;
+  causes->push_back(std::make_unique<PlasticSet>(std::move(soft)));
 }
 
 }  // namespace palpate::diagnosis
