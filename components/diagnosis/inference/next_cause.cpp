@@ -23,6 +23,11 @@ constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 }  // namespace
 
+double AlikeWithin(double likeness) {
+  constexpr double kSameEffect = 0.95;
+  return likeness > kSameEffect ? kClearEvidence : kAlikeEvidence;
+}
+
 bool NextCause::Look() {
   candidates_ = Screen(fitter_, before_, before_.faults);
   if (likely_) TryOut(*likely_);
@@ -44,10 +49,10 @@ bool NextCause::Look() {
 std::vector<Candidate> NextCause::Alike() const {
   std::vector<Candidate> alike;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    const bool close =
-        candidates_[k].ln_bayes_factor > candidates_[found_].ln_bayes_factor - kAlikeEvidence;
-    const bool can_be = !candidates_[k].ruled_out && !IsSpecialCaseOf(found_, k);
-    if (k != found_ && close && can_be) alike.push_back(candidates_[k]);
+    const Candidate& rival = candidates_[k];
+    const double behind = candidates_[found_].ln_bayes_factor - rival.ln_bayes_factor;
+    const bool can_be = !rival.ruled_out && !IsSpecialCaseOf(found_, k);
+    if (k != found_ && can_be && behind < AlikeWithin(rival.likeness)) alike.push_back(rival);
   }
   return alike;
 }

@@ -16,6 +16,11 @@ namespace palpate::diagnosis {
 inline constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 inline constexpr double kAlikeEvidence = 3.0;   ///< ln BF within which causes fit alike
 
+/// ln BF within which a rival is not told apart from what is named. Of causes whose effects are the
+/// same (canonical correlation above 0.95; DIAGNOSIS, "Method" 8) what is believed beforehand of
+/// their sizes decides, not the data: only clear evidence is enough.
+double AlikeWithin(double likeness);
+
 /// One cause that was named.
 struct Choice {
   int cause = -1;

@@ -13,15 +13,15 @@ namespace {
 
 /// Whether a cause that fitted as well as one that was named still could stand in its place, now
 /// that others are named beside.
-bool IsAlike(const Fitter& fitter, const Selection& selection, int cause) {
+bool IsAlike(const Fitter& fitter, const Selection& selection, const Candidate& rival) {
   const std::vector<int>& faults = selection.best.faults;
-  if (std::find(faults.begin(), faults.end(), cause) != faults.end()) return false;
+  if (std::find(faults.begin(), faults.end(), rival.cause) != faults.end()) return false;
   if (faults.size() < 2) return true;
   return std::any_of(faults.begin(), faults.end(), [&](int named) {
     std::vector<int> others = faults;
-    std::replace(others.begin(), others.end(), named, cause);
+    std::replace(others.begin(), others.end(), named, rival.cause);
     return fitter.Guess(selection.best, others).ln_evidence >
-           selection.best.posterior.ln_evidence - kAlikeEvidence;
+           selection.best.posterior.ln_evidence - AlikeWithin(rival.likeness);
   });
 }
 
@@ -78,7 +78,7 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   }
   selection.complete = !fitter.IsOutOfTime();  // else fits may have ended early, too
   std::erase_if(selection.alike,
-                [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike.cause); });
+                [&](const Candidate& alike) { return !IsAlike(fitter, selection, alike); });
   report(steps - 1, steps, "looking at what is left");
   if (look_again && !selection.named.empty())
     selection.healthy = fitter.SeenAnew(std::move(selection.healthy));

@@ -190,45 +190,79 @@ void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
                                    "all cables let out by " + drives.Text(by_length.front(), 1.0)));
 }
 
+/// As a person who does it calls it, and tells it to somebody who shall do it.
+struct ByHand {
+  std::string title;
+  std::string words;
+};
+
+ByHand Hang(const robot::RobotBody& body, const Eigen::Vector3d& place_m, Proposal* proposal) {
+  const double mass_kg = MassToHang_kg(body);
+  PlannedWeight& weight = proposal->weight.emplace();
+  weight = {.position_m = place_m, .mass_kg = mass_kg, .patch_radius_m = PatchToHang_m(body)};
+  experiment::KnownLoad load;
+  load.position_m = place_m;
+  load.force_N =
+      experiment::BaseRotation(proposal->recording).transpose() * (mass_kg * body.gravity_m_s2);
+  load.patch_radius_m = weight.patch_radius_m;
+  proposal->recording.loads = {load};
+  const std::string grams = FormatNumber(std::round(1e4 * mass_kg) / 10.0) + " g";
+  const std::string where = WordsForPlace(body, place_m);
+  return {.title = grams + " hung " + where, .words = "hang " + grams + " " + where};
+}
+
+ByHand Tilt(int axis, Proposal* proposal) {
+  const std::string angle = FormatNumber(kTilt_deg);
+  const std::string about = axis == 0 ? "x" : "y";
+  proposal->recording.base_tilt_deg = kTilt_deg * Eigen::Vector2d::Unit(axis);
+  return {.title = "base tilted by " + angle + " degrees about " + about,
+          .words = "tilt the base by " + angle + " degrees about its " + about +
+                   " axis, the camera with it,"};
+}
+
+constexpr const char* kBefore = " before the recording begins";
+
 void AddWeights(const robot::RobotBody& body, const Drives& drives,
                 std::vector<Proposal>* proposals) {
-  const double mass_kg = MassToHang_kg(body);
-  if (mass_kg <= 0.0) return;
+  if (MassToHang_kg(body) <= 0.0) return;
   for (const Eigen::Vector3d& place_m : PlacesToHang(body)) {
-    const std::string grams = FormatNumber(std::round(1e4 * mass_kg) / 10.0) + " g";
-    const std::string words = WordsForPlace(body, place_m);
-    Proposal proposal =
-        Script(drives).Stay(kHang_s).Finish(RecordingKind::kKnownLoad, grams + " hung " + words);
-    proposal.by_hand = "hang " + grams + " " + words + " before the recording begins";
-    proposal.weight = PlannedWeight{
-        .position_m = place_m, .mass_kg = mass_kg, .patch_radius_m = PatchToHang_m(body)};
-    experiment::KnownLoad load;
-    load.position_m = place_m;
-    load.force_N = mass_kg * body.gravity_m_s2;
-    load.patch_radius_m = proposal.weight->patch_radius_m;
-    proposal.recording.loads = {load};
+    Proposal proposal = Script(drives).Stay(kHang_s).Finish(RecordingKind::kKnownLoad, "");
+    const ByHand hung = Hang(body, place_m, &proposal);
+    proposal.title = hung.title;
+    proposal.by_hand = hung.words + kBefore;
     proposals->push_back(std::move(proposal));
   }
 }
 
 void AddTilts(const Drives& drives, std::vector<Proposal>* proposals) {
-  const std::string angle = FormatNumber(kTilt_deg);
   for (const int axis : {0, 1}) {
-    const std::string about = axis == 0 ? "x" : "y";
     Script script(drives);
     script.Stay(0.5 * kHang_s);
     if (!drives.driven.empty()) {
       const int c = drives.driven[static_cast<std::size_t>(axis) % drives.driven.size()];
       script.To({c}, 1.0, kRamp_s).To({c}, 0.0, kRamp_s);
     }
-    Proposal proposal = script.Finish(RecordingKind::kBaseTilted,
-                                      "base tilted by " + angle + " degrees about " + about +
-                                          (drives.driven.empty() ? ""
-                                                                 : ", at rest and with a cable "
-                                                                   "pulled"));
-    proposal.by_hand = "tilt the base by " + angle + " degrees about its " + about +
-                       " axis, the camera with it, before the recording begins";
-    proposal.recording.base_tilt_deg = kTilt_deg * Eigen::Vector2d::Unit(axis);
+    Proposal proposal = script.Finish(RecordingKind::kBaseTilted, "");
+    const ByHand tilted = Tilt(axis, &proposal);
+    proposal.title =
+        tilted.title + (drives.driven.empty() ? "" : ", at rest and with a cable pulled");
+    proposal.by_hand = tilted.words + kBefore;
+    proposals->push_back(std::move(proposal));
+  }
+}
+
+/// What pulls at a body turns with the tilt, and what bends it for good does not; where gravity
+/// points to, the weight tells.
+void AddTiltedWeights(const robot::RobotBody& body, const Drives& drives,
+                      std::vector<Proposal>* proposals) {
+  const std::vector<Eigen::Vector3d> places_m = PlacesToHang(body);
+  if (MassToHang_kg(body) <= 0.0 || places_m.empty()) return;
+  for (const int axis : {0, 1}) {
+    Proposal proposal = Script(drives).Stay(kHang_s).Finish(RecordingKind::kBaseTilted, "");
+    const ByHand tilted = Tilt(axis, &proposal);
+    const ByHand hung = Hang(body, places_m.front(), &proposal);
+    proposal.title = tilted.title + ", " + hung.title;
+    proposal.by_hand = tilted.words + " and " + hung.words + kBefore;
     proposals->push_back(std::move(proposal));
   }
 }
@@ -244,6 +278,7 @@ std::vector<Proposal> BenchProposals(const robot::RobotBody& body,
   AddSlackening(drives, &proposals);
   AddWeights(body, drives, &proposals);
   if (!body.gravity_m_s2.isZero()) AddTilts(drives, &proposals);
+  AddTiltedWeights(body, drives, &proposals);
   return proposals;
 }
 

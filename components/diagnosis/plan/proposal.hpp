@@ -33,9 +33,9 @@ struct Proposal {
 
 /// What can be done with this robot: each cable pulled a quarter farther than in these data, two
 /// and all together, all one after the other quickly, each held for a minute, all let out, a weight
-/// on two places, the base tilted about x and about y. Cables that these data drove are driven in
-/// the way that they were (m or N); where none was, all are, by a share of the body's size. Begins
-/// and ends with all commands at zero.
+/// on two places, the base tilted about x and about y, both at once. Cables that these data drove
+/// are driven in the way that they were (m or N); where none was, all are, by a share of the body's
+/// size. Begins and ends with all commands at zero.
 std::vector<Proposal> BenchProposals(const robot::RobotBody& body,
                                      const ObservedExperiment& observed);
 

@@ -95,13 +95,28 @@ TEST(BenchProposals, OfABodyWithoutCablesAreWeightsAndTilts) {
   experiment.recordings = {MakeRecording("a", body, {{0.0, {}}, {5.0, {}}}, 0.5)};
   experiment.recordings.front().actuation.reset();
   const std::vector<Proposal> proposals = Proposals(body, experiment);
-  ASSERT_EQ(proposals.size(), 4U);
+  ASSERT_EQ(proposals.size(), 6U);  // and both at once
   for (const Proposal& proposal : proposals) {
     EXPECT_FALSE(proposal.recording.actuation) << proposal.title;
     EXPECT_FALSE(proposal.by_hand.empty()) << proposal.title;
   }
   body.gravity_m_s2.setZero();
   EXPECT_TRUE(Proposals(body, experiment).empty());
+}
+
+TEST(BenchProposals, HangWeightsDownwardsOffATiltedBase) {
+  const robot::RobotBody body = SmallRobot();
+  int tilted = 0;
+  for (const Proposal& proposal : Proposals(body, SmallExperiment(body))) {
+    if (!proposal.weight) continue;
+    ASSERT_EQ(proposal.recording.loads.size(), 1U) << proposal.title;
+    const Eigen::Vector3d world_N =
+        BaseRotation(proposal.recording) * proposal.recording.loads.front().force_N;
+    EXPECT_LT((world_N - proposal.weight->mass_kg * body.gravity_m_s2).norm(), 1e-12)
+        << proposal.title;
+    tilted += proposal.recording.base_tilt_deg ? 1 : 0;
+  }
+  EXPECT_EQ(tilted, 2);
 }
 
 TEST(PlacesToHang, AreTheFarEndAndAnother) {
