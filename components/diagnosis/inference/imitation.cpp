@@ -163,8 +163,8 @@ double ExplainedOfMisfit(const Fit& healthy, const Fit& fit) {
 
 double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit,
                          bool looks_like_noise) {
-  constexpr double kOutside = 1.0 / 6.0;  // as likely as one cause of the catalogue
-  constexpr double kFurther = 1.0 / 3.0;  // as likely as that there is none
+  constexpr double kOutside = 1.0 / 20.0;  // as likely as one cause of the catalogue
+  constexpr double kFurther = 1.0 / 3.0;   // as likely as that there is none
   const std::size_t named = fit.faults.size();
   const double before =
       looks_like_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;

@@ -32,8 +32,8 @@ double ExplainedOfMisfit(const Fit& healthy, const Fit& fit);
 /// causes; before,
 /// - where what is left is not noise, something is there that has no name: it is as likely to be
 ///   beside what is named as in its place;
-/// - where it looks like noise, as likely as of seven robots with a fault one has such a one, and
-///   each further cause is a third as likely as that there is none.
+/// - where it looks like noise, a twentieth as likely as one cause of the catalogue, and each
+///   further cause is a third as likely as that there is none (docs/diagnosis.md says from where).
 /// [0, 1)
 double ChanceOfImitation(const CauseBook& book, const Fit& healthy, const Fit& fit,
                          bool looks_like_noise);
