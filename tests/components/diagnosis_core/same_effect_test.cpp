@@ -13,7 +13,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-constexpr double kGain = 0.1;
+constexpr double kHiddenGain = 0.1;
 
 /// A gain of the same cable of which much more is believed to be likely.
 class Twin final : public Cause {
@@ -32,7 +32,7 @@ class SameEffect : public HiddenCauses {
  protected:
   /// With a twin of the gain that is hidden beside the real causes.
   Selection Select(double fault_of_twin) {
-    Measure({{"cable_gain", "cable:up", kGain}});
+    Measure({{"cable_gain", "cable:up", kHiddenGain}});
     std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
     causes.push_back(std::make_unique<Twin>(fault_of_twin));
     with_twin_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
