@@ -198,8 +198,9 @@ struct ByHand {
 
 ByHand Hang(const robot::RobotBody& body, const Eigen::Vector3d& place_m, Proposal* proposal) {
   const double mass_kg = MassToHang_kg(body);
-  PlannedWeight& weight = proposal->weight.emplace();
-  weight = {.position_m = place_m, .mass_kg = mass_kg, .patch_radius_m = PatchToHang_m(body)};
+  const PlannedWeight weight{
+      .position_m = place_m, .mass_kg = mass_kg, .patch_radius_m = PatchToHang_m(body)};
+  proposal->weight = weight;
   experiment::KnownLoad load;
   load.position_m = place_m;
   load.force_N =
