@@ -115,7 +115,7 @@ TEST(ReplaySource, RealTimeDropsTheOldestForASlowReaderAndCounts) {
   ReplaySource source(config, 2, app::LoadYaml);
   source.Next(20.0);
   const Deadline deadline = In(20.0);
-  while (source.Health().frames < 10 && std::chrono::steady_clock::now() < deadline) {
+  while (source.Health().frames_dropped < 7 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::yield();
   }
   const auto rest = PlayAll(source);

@@ -32,6 +32,7 @@ class FrameListener {
     Clock::time_point arrival;   ///< of its last part
     bool complete() const { return depth && color && has_info; }
   };
+  using FrameSets = std::map<std::int64_t, FrameSet>;  ///< by stamp
   struct Report {
     Clock::time_point arrival;
     std::string status;
@@ -40,8 +41,8 @@ class FrameListener {
 
   FrameListener();
 
-  /// By stamp. Pictures older than the last few are emptied.
-  const std::map<std::int64_t, FrameSet>& frames() const { return frames_; }
+  /// Pictures older than the last few are emptied.
+  const FrameSets& frames() const { return frames_; }
   /// Stamps of the states that the virtual robot published.
   const std::set<std::int64_t>& states() const { return states_; }
   /// Of the component `capture`, newest last.
@@ -74,7 +75,7 @@ class FrameListener {
   dds::Reader<idl::palpate_msgs::FrameInfo> info_;
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   dds::Reader<idl::palpate_msgs::ComponentStatus> status_;
-  std::map<std::int64_t, FrameSet> frames_;
+  FrameSets frames_;
   std::set<std::int64_t> states_;
   std::vector<Report> reports_;
 };

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -62,20 +63,21 @@ std::string KernelTrouble() {
          std::to_string(kReceiveBuffer_bytes);
 }
 
-Streamed CountFrames(const FrameListener& listener) {
+Streamed CountFrames(const FrameListener::FrameSets& frames, const std::set<std::int64_t>& states) {
   Streamed streamed;
-  if (listener.frames().size() < 3) return streamed;
-  const auto first = listener.frames().begin();
-  const auto last = std::prev(listener.frames().end(), 2);
-  for (auto frame = first; frame != std::next(last); ++frame) {
-    ++(frame->second.complete() ? streamed.frames : streamed.incomplete);
+  if (frames.size() < 5) return streamed;
+  const FrameListener::FrameSets watched(std::next(frames.begin()), std::prev(frames.end(), 2));
+  for (const auto& [stamp_ns, set] : watched) {
+    ++(set.complete() ? streamed.frames : streamed.incomplete);
   }
+  const auto told = [](const auto& entry) { return entry.second.has_info; };
+  const auto first = std::find_if(watched.begin(), watched.end(), told);
+  const auto last = std::find_if(watched.rbegin(), watched.rend(), told);
+  if (first == watched.end()) return streamed;
   streamed.sent = last->second.frame_id - first->second.frame_id + 1;
-  for (const std::int64_t stamp_ns : listener.states()) {
-    const bool inside =
-        stamp_ns > first->first - kSameStamp_ns && stamp_ns < last->first + kSameStamp_ns;
-    streamed.states += inside ? 1 : 0;
-  }
+  streamed.states =
+      static_cast<std::size_t>(std::distance(states.upper_bound(first->first - kSameStamp_ns),
+                                             states.lower_bound(last->first + kSameStamp_ns)));
   streamed.span_s = 1e-9 * static_cast<double>(last->first - first->first);
   return streamed;
 }
@@ -91,7 +93,7 @@ Streamed Stream(VirtualBench& bench, FrameListener& listener, const std::string&
   const Used before(bench);
   listener.ListenFor(StreamTime());
   const Used after(bench);
-  const Streamed streamed = CountFrames(listener);
+  const Streamed streamed = CountFrames(listener.frames(), listener.states());
   Print(name, streamed, before, after);
   return streamed;
 }

@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <set>
 #include <string>
 
 #include "tests/system/bench/frame_listener.hpp"
@@ -26,8 +28,10 @@ struct Streamed {
   double rate_hz() const { return static_cast<double>(frames - 1) / span_s; }
 };
 
-/// What of the frames that `listener` has seen is whole; the last set may still be on its way.
-Streamed CountFrames(const FrameListener& listener);
+/// What of `frames` is whole, but for the first set, which may have begun before anybody listened,
+/// and the last two, which may still be on their way. Only sets whose facts came tell the camera's
+/// own count.
+Streamed CountFrames(const FrameListener::FrameSets& frames, const std::set<std::int64_t>& states);
 
 /// Why a machine cannot show the figures that are asserted; empty: it can. Pictures of 1.2 MB come
 /// in bursts, which the receive buffers of a stock kernel (net.core.rmem_max) do not hold.

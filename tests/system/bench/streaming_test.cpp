@@ -16,6 +16,41 @@ void ExpectShare(std::size_t count, double share, std::size_t whole) {
   EXPECT_GE(static_cast<double>(count), share * static_cast<double>(whole));
 }
 
+/// A whole set with the camera's number `frame_id`.
+FrameListener::FrameSet Whole(std::uint64_t frame_id) {
+  FrameListener::FrameSet set;
+  set.depth.emplace();
+  set.color.emplace();
+  set.has_info = true;
+  set.frame_id = frame_id;
+  return set;
+}
+
+TEST(CountFrames, ASetThatIsCutByWhenOneListensIsNoLoss) {
+  FrameListener::FrameSets frames;
+  frames[0].depth.emplace();
+  for (int i = 1; i < 20; ++i) frames[i * 33'000'000] = Whole(11 + i);
+  frames[20 * 33'000'000].depth.emplace();
+  const Streamed streamed = CountFrames(frames, {});
+  EXPECT_EQ(streamed.frames, 18u);
+  EXPECT_EQ(streamed.sent, 18u);
+  EXPECT_EQ(streamed.incomplete, 0u);
+}
+
+TEST(CountFrames, WhatIsMissedBetweenIsALoss) {
+  FrameListener::FrameSets frames;
+  for (int i = 0; i < 20; ++i) {
+    if (i != 5) frames[i * 33'000'000] = Whole(11 + i);
+  }
+  frames[9 * 33'000'000].color.reset();
+  frames[1 * 33'000'000] = {};
+  const Streamed streamed = CountFrames(frames, {2 * 33'000'000, 3 * 33'000'000});
+  EXPECT_EQ(streamed.sent, 16u);
+  EXPECT_EQ(streamed.frames, 14u);
+  EXPECT_EQ(streamed.incomplete, 2u);
+  EXPECT_EQ(streamed.states, 2u);
+}
+
 TEST(VirtualBench, StreamsWholeFrameSets) {
   const TestFolder folder;
   FrameListener listener;
