@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/diagnosis/causes/makers.hpp"
+#include "components/diagnosis/causes/quantile.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -61,10 +62,17 @@ class Mullins final : public Cause {
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
     std::vector<FittedParameter> report = Cause::Report(z, covariance, undeformed_m);
+    constexpr double kLeast = 1e-6;  // of 1 / r
+    const TwoParameters both{z, covariance, parameters()[1].least, parameters()[1].most};
+    const auto inverse_below = [&](double probability) {
+      return std::max(kLeast, Quantile(probability, both, 1.0, [](double inverse, double z_m) {
+                        return inverse * Reach(z_m);
+                      }));
+    };
     report[0] = {.name = "r",
                  .value = std::max(1.0, Reach(z[1]) / z[0]),
-                 .ci95_low = QuantileOfR(0.025, z, covariance),
-                 .ci95_high = QuantileOfR(0.975, z, covariance)};
+                 .ci95_low = 1.0 / inverse_below(0.975),
+                 .ci95_high = 1.0 / inverse_below(0.025)};
     return report;
   }
 
@@ -74,39 +82,6 @@ class Mullins final : public Cause {
   static double ReachChange(double z_m) {
     const double u = std::exp(-z_m);
     return -2.0 * std::numbers::inv_sqrtpi * u * std::exp(-u * u);
-  }
-
-  /// Below which r is with this probability; at least 1. Along z[1], of which r is no linear
-  /// function, each of many values stands for as much of what is believed of it.
-  static double QuantileOfR(double probability, const Eigen::VectorXd& z,
-                            const Eigen::MatrixXd& covariance) {
-    constexpr int kSlices = 81;
-    constexpr double kFarthest = 4.0;  // sigma
-    constexpr double kMost = 1e6;
-    constexpr int kHalvings = 60;
-    const double sigma_m = std::sqrt(covariance(1, 1));
-    const double slope = sigma_m > 0.0 ? covariance(0, 1) / covariance(1, 1) : 0.0;
-    const double rest = std::sqrt(std::max(covariance(0, 0) - slope * covariance(0, 1), 1e-12));
-    const auto is_less = [&](double r) {
-      double less = 0.0;
-      double all = 0.0;
-      for (int k = 0; k < kSlices; ++k) {
-        const double t = kFarthest * (2.0 * k / (kSlices - 1) - 1.0);
-        const double weight = std::exp(-0.5 * t * t);
-        const double softening = z[0] + slope * sigma_m * t;
-        const double at_r = Reach(z[1] + sigma_m * t) / r;
-        less += weight * 0.5 * std::erfc((at_r - softening) / (std::numbers::sqrt2 * rest));
-        all += weight;
-      }
-      return less / all;
-    };
-    double low = 1.0;
-    double high = kMost;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = std::sqrt(low * high);
-      (is_less(middle) < probability ? low : high) = middle;
-    }
-    return low;
   }
 
   /// F_int of the cells, each so weighted; weights above -1.

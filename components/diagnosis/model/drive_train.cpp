@@ -9,6 +9,12 @@
 
 namespace palpate::diagnosis {
 
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
 DriveSettings::DriveSettings(int cables)
     : mixing(Eigen::MatrixXd::Identity(cables, cables)),
       gain(Eigen::VectorXd::Zero(cables)),
@@ -44,39 +50,52 @@ Eigen::VectorXd DriveTrain::Told(const DriveSettings& settings, double t_s) cons
       sum += share * command[drive];
       driven = true;
     }
-    told[cable] = driven ? sum : std::numeric_limits<double>::quiet_NaN();
+    told[cable] = driven ? sum : kUnknown;
   }
   return told;
 }
 
+void DriveTrain::GoTo(double t_s, const DriveSettings& settings, Place* now) const {
+  const Eigen::VectorXd next = Told(settings, t_s);
+  const double h_s = t_s - now->t_s;
+  for (Eigen::Index c = 0; c < next.size(); ++c) {
+    // tau dy/dt + y = u, exactly for u that goes linearly.
+    const double told = now->told[c];
+    double& followed = now->followed[c];
+    const double behind = h_s > 0.0 ? (next[c] - told) / h_s * settings.tau_s : 0.0;
+    const bool lags = settings.tau_s > 0.0 && h_s > 0.0 && !std::isnan(followed + behind);
+    followed = lags
+                   ? next[c] - behind + (followed - told + behind) * std::exp(-h_s / settings.tau_s)
+                   : next[c];
+    const bool by_tension = observed_.timeline.by_tension[static_cast<std::size_t>(c)];
+    const double geared =
+        (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
+    const double half = by_tension ? 0.0 : 0.5 * settings.play_m[c];
+    double& taken_in = now->taken_in[c];
+    taken_in = std::isnan(taken_in) || std::isnan(geared)
+                   ? geared
+                   : std::clamp(taken_in, std::min(geared - half, geared + half),
+                                std::max(geared - half, geared + half));
+  }
+  now->told = next;
+  now->t_s = t_s;
+}
+
 Eigen::MatrixXd DriveTrain::Path(const DriveSettings& settings) const {
-  const Timeline& timeline = observed_.timeline;
-  const auto cables = static_cast<Eigen::Index>(timeline.cables.size());
-  Eigen::MatrixXd path(cables, static_cast<Eigen::Index>(t_s_.size()));
-  Eigen::VectorXd told = Told(settings, t_s_.front());
-  Eigen::VectorXd followed = told;
+  const std::vector<double>& turns_s = observed_.timeline.t_s;
+  Eigen::MatrixXd path(std::ssize(observed_.timeline.cables), std::ssize(t_s_));
+  const Eigen::VectorXd told = Told(settings, t_s_.front());
+  const auto unknown = Eigen::VectorXd::Constant(told.size(), kUnknown);
+  Place now{.t_s = t_s_.front(), .told = told, .followed = told, .taken_in = unknown};
+  auto turn = turns_s.begin();
   for (Eigen::Index k = 0; k < path.cols(); ++k) {
-    const auto now = static_cast<std::size_t>(k);
-    const Eigen::VectorXd next = Told(settings, t_s_[now]);
-    const double h_s = k > 0 ? t_s_[now] - t_s_[now - 1] : 0.0;
-    for (Eigen::Index c = 0; c < cables; ++c) {
-      // tau dy/dt + y = u, exactly for u that goes linearly.
-      const double behind = h_s > 0.0 ? (next[c] - told[c]) / h_s * settings.tau_s : 0.0;
-      const bool lags = settings.tau_s > 0.0 && h_s > 0.0 && !std::isnan(followed[c] + behind);
-      followed[c] = lags ? next[c] - behind +
-                               (followed[c] - told[c] + behind) * std::exp(-h_s / settings.tau_s)
-                         : next[c];
-      const bool by_tension = timeline.by_tension[static_cast<std::size_t>(c)];
-      const double geared =
-          (1.0 + settings.gain[c]) * followed[c] + (by_tension ? 0.0 : settings.offset_m[c]);
-      const double half = by_tension ? 0.0 : 0.5 * settings.play_m[c];
-      const double before = k > 0 ? path(c, k - 1) : geared;
-      path(c, k) = std::isnan(before) || std::isnan(geared)
-                       ? geared
-                       : std::clamp(before, std::min(geared - half, geared + half),
-                                    std::max(geared - half, geared + half));
+    const double t_s = t_s_[static_cast<std::size_t>(k)];
+    // What is delayed turns between these times.
+    for (; turn != turns_s.end() && *turn + settings.delay_s < t_s; ++turn) {
+      if (*turn + settings.delay_s > now.t_s) GoTo(*turn + settings.delay_s, settings, &now);
     }
-    told = next;
+    GoTo(t_s, settings, &now);
+    path.col(k) = now.taken_in;
   }
   return path;
 }

@@ -55,7 +55,17 @@ class DriveTrain {
   Eigen::MatrixXd Path(const DriveSettings& settings) const;
 
  private:
+  /// Where drives are, [cables] each.
+  struct Place {
+    double t_s;
+    Eigen::VectorXd told;
+    Eigen::VectorXd followed;
+    Eigen::VectorXd taken_in;  ///< NaN: not known yet
+  };
+
   Eigen::VectorXd Told(const DriveSettings& settings, double t_s) const;
+  /// On to a later time, before which the command does not turn.
+  void GoTo(double t_s, const DriveSettings& settings, Place* now) const;
 
   const ObservedExperiment& observed_;
   std::vector<double> t_s_;

@@ -29,7 +29,7 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
                                           const CauseList& causes, const Eigen::VectorXd& z,
                                           const std::vector<bool>& wanted,
                                           const DriveSettings& drives) {
-  constexpr double kStep = 1e-3;  // of the parameter's fault sigma
+  constexpr double kStep = 1e-4;  // of the parameter's fault sigma
   const Eigen::MatrixXd taken_in = train.At(drives);
   std::vector<Eigen::MatrixXd> changes;
   Eigen::Index column = 0;

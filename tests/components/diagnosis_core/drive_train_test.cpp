@@ -128,6 +128,16 @@ TEST(DriveTrain, FirstOrderIsExactForARampHoweverFewTheFrames) {
   EXPECT_NEAR(taken_in[2], expected, 1e-15);
 }
 
+TEST(DriveTrain, ADelayChangesNothingButTheTimeOfWhatFollows) {
+  DriveSettings settings(2);
+  settings.tau_s = 1.5;
+  settings.play_m[0] = 0.002;
+  const Eigen::MatrixXd prompt = DriveTrain(UpAndDown({0.5, 7.0, 10.4, 12.0, 19.0})).At(settings);
+  settings.delay_s = 0.7;
+  const Eigen::MatrixXd late = DriveTrain(UpAndDown({1.2, 7.7, 11.1, 12.7, 19.7})).At(settings);
+  EXPECT_LT((late - prompt).cwiseAbs().maxCoeff(), 1e-15);
+}
+
 TEST(DriveTrain, MixesSwapsAndCouples) {
   const ObservedExperiment observed = UpAndDown({5.0});
   DriveSettings settings(2);
