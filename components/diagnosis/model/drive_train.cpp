@@ -85,8 +85,10 @@ Eigen::MatrixXd DriveTrain::Path(const DriveSettings& settings) const {
   const std::vector<double>& turns_s = observed_.timeline.t_s;
   Eigen::MatrixXd path(std::ssize(observed_.timeline.cables), std::ssize(t_s_));
   const Eigen::VectorXd told = Told(settings, t_s_.front());
-  const auto unknown = Eigen::VectorXd::Constant(told.size(), kUnknown);
-  Place now{.t_s = t_s_.front(), .told = told, .followed = told, .taken_in = unknown};
+  Place now{.t_s = t_s_.front(),
+            .told = told,
+            .followed = told,
+            .taken_in = Eigen::VectorXd::Constant(told.size(), kUnknown)};
   auto turn = turns_s.begin();
   for (Eigen::Index k = 0; k < path.cols(); ++k) {
     const double t_s = t_s_[static_cast<std::size_t>(k)];
