@@ -175,6 +175,19 @@ TEST(BlindScore, ParametersComeByNameVectorsAsAWhole) {
   EXPECT_EQ(errors.covered.count, 5);
 }
 
+TEST(BlindScore, ABentShapesSizeCountsAndNotItsSign) {
+  for (const double drawn_m : {0.002, -0.002}) {
+    const ActiveEffect bent{
+        .id = "plastic_set", .where = {"body"}, .parameters = {{"tip_m", drawn_m}}};
+    const ParameterErrors right = CompareParameters(bent, {{"tip_m", {0.0022, 0.0018, 0.0026}}});
+    EXPECT_EQ(right.covered.hits, 1);
+    EXPECT_NEAR(right.of_value.at(0), 0.1, 1e-9);
+    const ParameterErrors wrong = CompareParameters(bent, {{"tip_m", {-0.002, -0.003, -0.001}}});
+    EXPECT_EQ(wrong.covered.hits, 0);
+    EXPECT_EQ(wrong.covered.count, 1);
+  }
+}
+
 TEST(BlindScore, AFactorsErrorIsAlsoThatOfTheFault) {
   const ParameterErrors errors = CompareParameters(kDense, {{"factor", {1.26, 1.1, 1.3}}});
   EXPECT_THAT(errors.of_value, ElementsAre(testing::DoubleNear(0.05, 1e-12)));
