@@ -31,12 +31,6 @@ std::string VectorOf(const std::string& parameter) {
   return found == kVectors.end() ? parameter : found->second;
 }
 
-/// Of what goes where the seed says, how far is all there is to tell: the other way is as good.
-bool IsSize(const std::string& parameter) {
-  static const std::set<std::string> kSizes = {"tip_m", "d_m", "translation_m", "rotation_rad"};
-  return kSizes.count(parameter) > 0;
-}
-
 double NominalOf(const scenario::ActiveEffect& effect, const std::string& parameter) {
   const auto* kind = scenario::FindEffect(effect.id);
   PALPATE_CHECK(kind != nullptr, effect.id);
@@ -48,12 +42,17 @@ double NominalOf(const scenario::ActiveEffect& effect, const std::string& parame
 
 }  // namespace
 
+double WhatIsToTell(const std::string& parameter, double drawn) {
+  static const std::set<std::string> kSizes = {"tip_m", "d_m", "translation_m", "rotation_rad"};
+  return kSizes.count(parameter) > 0 ? std::abs(drawn) : drawn;
+}
+
 ParameterErrors CompareParameters(const scenario::ActiveEffect& truth,
                                   const std::map<std::string, Estimate>& told) {
   ParameterErrors errors;
   std::map<std::string, Squares> vectors;
   for (const auto& [name, drawn] : truth.parameters) {
-    const double value = IsSize(name) ? std::abs(drawn) : drawn;
+    const double value = WhatIsToTell(name, drawn);
     Squares& squares = vectors[VectorOf(name)];
     const auto found = told.find(name);
     errors.told.Add(found != told.end());

@@ -24,6 +24,9 @@ struct ParameterErrors {
   std::vector<double> of_place_m;  ///< where a load acts: |error|
 };
 
+/// What of a true parameter a verdict can tell: of what goes where the seed says its size.
+double WhatIsToTell(const std::string& parameter, double drawn);
+
 /// `told`: by name, as in verdict.json. The truth's directions that the seed draws have no
 /// parameter.
 ParameterErrors CompareParameters(const scenario::ActiveEffect& truth,

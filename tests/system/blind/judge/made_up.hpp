@@ -12,6 +12,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/system/blind/case_runner.hpp"
+#include "tests/system/blind/parameter_errors.hpp"
 
 /// Cases as they are drawn, judged without data: the verdicts are made up.
 namespace palpate::blind {
@@ -24,7 +25,8 @@ inline robot::RobotDescription FourLeg() {
 /// As the name of the cause, right to 1 % with intervals of 5 %.
 inline Suspect Accused(const scenario::ActiveEffect& effect, double probability = 0.97) {
   Suspect suspect{.id = effect.id, .where = effect.where, .probability = probability};
-  for (const auto& [name, value] : effect.parameters) {
+  for (const auto& [name, drawn] : effect.parameters) {
+    const double value = WhatIsToTell(name, drawn);
     const double wide = 0.05 * std::abs(value);
     suspect.parameters[name] = {1.01 * value, value - wide, value + wide};
   }
