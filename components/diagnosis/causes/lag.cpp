@@ -45,7 +45,9 @@ class Lag final : public Cause {
 
  private:
   /// Of all lateness, the time constant.
-  static double Share(double z_rounded) { return std::sqrt(std::clamp(0.5 + z_rounded, 0.0, 1.0)); }
+  double Share(double z_rounded) const {
+    return std::sqrt(std::clamp(parameters()[1].ValueOf(z_rounded), 0.0, 1.0));
+  }
 
   template <typename PartOf>
   FittedParameter Part(const std::string& name, const Eigen::VectorXd& z,

@@ -36,7 +36,9 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
   for (std::size_t k = 0; k < causes.size(); ++k) {
     for (const CauseParameter& parameter : causes[k]->parameters()) {
       changes.emplace_back();
-      const double step = kStep * parameter.fault;
+      const double forward = kStep * parameter.fault;
+      // Beyond what can be, nothing changes any more.
+      const double step = z[column] + forward > parameter.most ? -forward : forward;
       Eigen::VectorXd beside = z;
       beside[column++] += step;
       if (!wanted[k] || !causes[k]->OnDrives()) continue;
