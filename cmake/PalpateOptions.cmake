@@ -41,8 +41,8 @@ if(PALPATE_TIDY)
 endif()
 
 # Ten sources of a target at a time in one run of the compiler: most of a source's time goes into
-# the headers that its neighbours read, too. On in the preset of ./run (tests/style/check_unity.py),
-# off by default and in CI, so that a source which forgets an include is found.
+# the headers and templates that its neighbours use, too. On in the presets of optimised builds,
+# where tests/style/check_includes.py finds what a source forgets to include; off in debug and tidy.
 option(PALPATE_UNITY "Compile ten sources of a target at a time" OFF)
 
 # palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,

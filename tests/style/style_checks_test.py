@@ -11,11 +11,11 @@ import tempfile
 import unittest
 
 import check_format
+import check_includes
 import check_layers
 import check_readmes
 import check_sizes
 import check_spdx
-import check_unity
 import check_yaml
 import source_tree
 
@@ -152,37 +152,30 @@ class CheckSpdx(TreeTest):
         self.assertEqual(checked, 5)
 
 
-class CheckUnity(TreeTest):
-    def violations(self, *sources, target="a"):
-        """Of sources of one target, each an anonymous namespace with these lines."""
-        commands = []
-        for k, lines in enumerate(sources):
-            file = self.plant(f"libs/{k}.cpp", f"namespace {{\n{lines}\n}}  // namespace\n")
-            commands.append({"file": str(file),
-                             "command": f"c++ -o libs/{target}.dir/{k}.cpp.o -c {file}"})
-        return check_unity.check_commands(self.root, commands)[0]
+class CheckIncludes(TreeTest):
+    def violations(self, source):
+        """Of a source beside two headers, of which the second includes the first."""
+        self.plant("libs/a.hpp", "namespace palpate::a {\nstruct Case {\n  int b;\n};\n"
+                   "double Mean(const Case& of);\n}\n")
+        self.plant("libs/b.hpp", '#include "libs/a.hpp"\nnamespace palpate::b {\n'
+                   "using Kind = int;\n}\n")
+        self.plant("libs/c.cpp", source)
+        return self.rules(check_includes.check_tree(self.root)[0])
 
-    def test_finds_what_cannot_stand_in_one_translation_unit(self):
-        for one, other in (("constexpr double kA = 1.0, kB = 2.0;", "constexpr int kB{3};"),
-                           ("int At(int a) { return a; }", "int At(int b);"),
-                           ("struct Case {", "class Case final {"),
-                           ("using Kind = int;", "using Kind = long;"),
-                           ("void Case(int a,\n          long b) {", "void Case(int c, long d) {"),
-                           ("struct Case {", "int Case();")):
-            found = self.violations(one, other)
-            self.assertEqual([violation.file for violation in found], ["libs/1.cpp"], (one, other))
+    def test_finds_what_a_source_forgets(self):
+        for line, name in (("a::Case of;", "Case"), ("const double m = Mean(c);", "Mean"),
+                           ("palpate::b::Kind k;", "Kind"), ("std::vector<Case> of;", "Case")):
+            found = self.violations('R"(\n)";\nnamespace palpate {\n' + line + "\n}\n")
+            self.assertIn(f"libs/c.cpp:4: {name}: include libs/", found, line)
+        self.assertIn("Kind: include libs/b.hpp",
+                      self.violations('#include "libs/a.hpp"\nCase c;\nKind k;\n'))
 
-    def test_passes_what_can(self):
-        for one, other in (("int At(int a);", "int At(long a);"),
-                           ("using Kind = int;", "using Kind = int;"),
-                           ("constexpr int kA = 1;", "constexpr int kB = kA;"),
-                           ("}  // namespace\nint At(int a);", "int At(int a);")):
-            self.assertEqual(self.violations(one, other), [], (one, other))
-
-    def test_tells_batches_and_targets_apart(self):
-        far = ["int A();"] + [f"int B{k}();" for k in range(9)] + ["int A();"]
-        self.assertEqual(self.violations(*far), [])
-        self.assertEqual(len(self.violations(*far[:9], "int A();")), 1)
+    def test_passes_what_is_reached_and_what_others_have(self):
+        self.assertEqual(self.violations('#include "libs/b.hpp"\na::Case of;\nKind k;\n'), "")
+        for line in ("x.Mean(c);", "x->Mean(c);", "Eigen::Case of;", "Other::Mean(c);",
+                     "double Mean(int of) {\n}\ndouble m = Mean(1);", "struct Case;\nCase* of;",
+                     "// Case", 'say("Case");', "#include <Case>", "TEST(Case, Mean) {"):
+            self.assertEqual(self.violations(line + "\n"), "", line)
 
 
 class CheckSizes(TreeTest):

@@ -45,6 +45,7 @@ class BlindData : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new system_test::TestFolder;
     generator_ = new Generator(kRobot, *folder_ / "");
+    generator_->Keep({"R0_rest", "RA_north", "RB_repeat", "RZ_rest"});
     generator_->Make({kMisplaced}, kSeed, Experiment(), Answer());
     generator_->Make({kLate}, kSeed, Late(), *folder_ / "late.answer.json");
   }

@@ -14,7 +14,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
-#include "tests/system/blind/diagnosis/palpate_command.hpp"
+#include "tests/system/blind/diagnose_verb/palpate_command.hpp"
 
 /// `palpate diagnose` as a person calls it, on robots of the virtual bench.
 namespace palpate::blind {
@@ -83,7 +83,7 @@ TEST_F(DiagnoseVerbOfARod, AcquitsAHealthyOne) {
   // Its creep, within the tolerance, is in the data of what follows a hold.
   seed_ = "11";
   Make("", "diagnose_rod.yaml");
-  ASSERT_EQ(Diagnose({"--samples", "60"}), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   EXPECT_EQ(verdict["verdict"], "no_fault") << verdict["reason"];
 }
@@ -92,7 +92,7 @@ TEST_F(DiagnoseVerbOfARod, NamesItsCreep) {
   constexpr double kG = 0.2;
   seed_ = "24";
   Make("{id: viscoelastic_creep, g: 0.2, tau_s: 15}", "diagnose_rod.yaml");
-  ASSERT_EQ(Diagnose({"--samples", "60"}), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   ASSERT_EQ(verdict["causes"].size(), 1U) << verdict["reason"];
   EXPECT_EQ(verdict["causes"][0]["id"], "viscoelastic_creep");
@@ -118,7 +118,7 @@ TEST_F(DiagnoseVerbOfCoarseCells, NamesThemAndWhatIsWrongBesideThem) {
   constexpr double kGain = 0.1;
   seed_ = "8";
   Make("{id: cable_gain, where: 'cable:north', g: 0.1}");
-  ASSERT_EQ(Diagnose({"--samples", "60"}), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   EXPECT_EQ(verdict["verdict"], "cause") << verdict["reason"];
   ASSERT_EQ(verdict["causes"].size(), 2U) << verdict["reason"];
@@ -139,7 +139,7 @@ TEST_F(DiagnoseVerbOfCoarseCells, AcquitsThemWhereTheDataAreOfSuch) {
   mesh_of_truth_ = file_mesh_;
   element_of_truth_ = "element: tet4";
   Make("");
-  ASSERT_EQ(Diagnose({"--samples", "60"}), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   EXPECT_EQ(verdict["verdict"], "no_fault") << verdict["reason"];
 }
@@ -147,7 +147,7 @@ TEST_F(DiagnoseVerbOfCoarseCells, AcquitsThemWhereTheDataAreOfSuch) {
 TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   constexpr double kFactor = 0.7;
   Make("{id: youngs_modulus, factor: 0.7}");
-  ASSERT_EQ(Diagnose(), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   EXPECT_EQ(verdict["verdict"], "cause") << verdict["reason"];
   ASSERT_EQ(verdict["causes"].size(), 1U);
@@ -172,7 +172,7 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
 TEST_F(DiagnoseVerb, NamesTheDepthScaleOfTheCameraThatMeasuredTheMarkers) {
   constexpr double kScale = -0.019;
   Make("{id: depth_scale, s: -0.019}", "diagnose_camera.yaml");
-  ASSERT_EQ(Diagnose({"--samples", "50"}), 0) << ReadFile(folder_ / "diagnose.log");
+  ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
   ASSERT_EQ(verdict["causes"].size(), 1U) << verdict["reason"];
   EXPECT_EQ(verdict["causes"][0]["id"], "depth_scale");
