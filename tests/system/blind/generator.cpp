@@ -59,6 +59,20 @@ double LargestRms(const std::map<std::string, Eigen::VectorXd>& with,
 
 }  // namespace
 
+std::string WithRecordings(const std::string& scenario, const std::set<std::string>& names) {
+  const std::string item = "  - name: ";
+  std::size_t begin = scenario.find(item);
+  std::string kept = scenario.substr(0, begin);
+  while (begin != std::string::npos) {
+    const std::size_t end = scenario.find(item, begin + 1);
+    const std::size_t name = begin + item.size();
+    if (names.contains(scenario.substr(name, scenario.find('\n', name) - name)))
+      kept += scenario.substr(begin, end - begin);
+    begin = end;
+  }
+  return kept;
+}
+
 Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
     : robot_file_{std::move(robot_file)}, folder_{std::move(folder)}, measured_{measured} {
   const fs::path scenarios = fs::path(PALPATE_SOURCE_DIR) / "config/scenarios";
@@ -69,18 +83,7 @@ Generator::Generator(fs::path robot_file, fs::path folder, Measured measured)
 }
 
 void Generator::Keep(const std::set<std::string>& recordings) {
-  const std::string item = "  - name: ";
-  std::size_t begin = scenario_text_.find(item);
-  std::string kept = scenario_text_.substr(0, begin);
-  while (begin != std::string::npos) {
-    const std::size_t end = scenario_text_.find(item, begin + 1);
-    const std::size_t name = begin + item.size();
-    const bool wanted =
-        recordings.contains(scenario_text_.substr(name, scenario_text_.find('\n', name) - name));
-    if (wanted) kept += scenario_text_.substr(begin, end - begin);
-    begin = end;
-  }
-  scenario_text_ = std::move(kept);
+  scenario_text_ = WithRecordings(scenario_text_, recordings);
 }
 
 void Generator::Make(const std::vector<ActiveEffect>& effects, std::uint64_t seed,

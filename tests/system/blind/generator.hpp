@@ -16,6 +16,9 @@
 
 namespace palpate::blind {
 
+/// A scenario without the recordings that are of other names.
+std::string WithRecordings(const std::string& scenario, const std::set<std::string>& names);
+
 /// Makes experiments of config/scenarios/diagnose.yaml with `palpate simulate`, each a process.
 /// Where pictures are asked for, a small depth camera takes them in the place of markers.
 class Generator {

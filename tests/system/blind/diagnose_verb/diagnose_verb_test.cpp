@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/system/blind/diagnose_verb/palpate_command.hpp"
+#include "tests/system/blind/generator.hpp"
 
 /// `palpate diagnose` as a person calls it, on robots of the virtual bench.
 namespace palpate::blind {
@@ -45,6 +47,7 @@ class DiagnoseVerb : public testing::Test {
         &scenario);
     if (!element_of_truth_.empty()) Replace("element: tet10", element_of_truth_, &scenario);
     Replace("effects: []", "effects: [" + effect + "]", &scenario);
+    if (!recordings_.empty()) scenario = WithRecordings(scenario, recordings_);
     WriteFile(folder_ / "scenario.yaml", scenario);
     const auto made =
         Palpate({"simulate", robot_, "--scenario", (folder_ / "scenario.yaml").string(), "--seed",
@@ -67,6 +70,7 @@ class DiagnoseVerb : public testing::Test {
   std::string mesh_ = "four_leg_coarse.msh";  ///< of the scenario
   std::string mesh_of_truth_;                 ///< in the place of that; empty: that
   std::string element_of_truth_;              ///< in the place of the scenario's, or empty
+  std::set<std::string> recordings_;          ///< of the scenario; empty: all
   std::string seed_ = "7";
 };
 
@@ -76,6 +80,8 @@ class DiagnoseVerbOfARod : public DiagnoseVerb {
   DiagnoseVerbOfARod() {
     robot_ = (kSource / "config/robots/rod.yaml").string();
     mesh_ = "rod_coarse.msh";
+    recordings_ = {"R0_rest",   "RA_a_up", "RA_b_down", "RA_c_left", "RA_d_right",
+                   "RB_repeat", "RH_hold", "RS_weight", "RZ_rest"};
   }
 };
 
@@ -109,6 +115,8 @@ class DiagnoseVerbOfCoarseCells : public DiagnoseVerb {
     Replace("file: four_leg.msh", "file: " + file_mesh_, &robot);
     robot_ = (folder_ / "four_leg.yaml").string();
     WriteFile(robot_, robot);
+    recordings_ = {"R0_rest", "RA_east",  "RA_north",  "RA_south",
+                   "RA_west", "RC_pairs", "RS_weight", "RZ_rest"};
   }
 
   const std::string file_mesh_ = (kSource / "config/robots/four_leg.msh").string();
@@ -171,6 +179,8 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
 
 TEST_F(DiagnoseVerb, NamesTheDepthScaleOfTheCameraThatMeasuredTheMarkers) {
   constexpr double kScale = -0.019;
+  recordings_ = {"R0_rest",   "RA_east",  "RA_north",  "RA_south",  "RA_west",
+                 "RB_repeat", "RM_moved", "RS_weight", "RT_tilt_x", "RZ_rest"};
   Make("{id: depth_scale, s: -0.019}", "diagnose_camera.yaml");
   ASSERT_EQ(Diagnose({"--samples", "40"}), 0) << ReadFile(folder_ / "diagnose.log");
   const Json verdict = Verdict();
