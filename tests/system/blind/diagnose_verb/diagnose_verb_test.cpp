@@ -15,6 +15,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/test_folder.hpp"
 #include "tests/system/blind/diagnose_verb/palpate_command.hpp"
 #include "tests/system/blind/generator.hpp"
 
@@ -29,15 +30,6 @@ const fs::path kSource = PALPATE_SOURCE_DIR;
 
 class DiagnoseVerb : public testing::Test {
  protected:
-  DiagnoseVerb()
-      : folder_(fs::temp_directory_path() /
-                (std::string("palpate_diagnose_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~DiagnoseVerb() override { fs::remove_all(folder_); }
-
   /// An experiment of this scenario of config/scenarios with this hidden in it.
   void Make(const std::string& effect, const std::string& of = "diagnose.yaml") {
     std::string scenario = ReadFile(kSource / "config/scenarios" / of);
@@ -65,7 +57,8 @@ class DiagnoseVerb : public testing::Test {
   }
   Json Verdict() const { return Json::parse(ReadFile(folder_ / "out/verdict.json")); }
 
-  fs::path folder_;
+  test_support::TestFolder own_folder_;
+  const fs::path folder_ = own_folder_.path();
   std::string robot_ = "four_leg";
   std::string mesh_ = "four_leg_coarse.msh";  ///< of the scenario
   std::string mesh_of_truth_;                 ///< in the place of that; empty: that

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libs/core/file.hpp"
+#include "tests/support/test_folder.hpp"
 #include "tests/system/blind/generator.hpp"
 #include "tests/system/process.hpp"
 
@@ -25,12 +26,6 @@ const fs::path kSourceFolder = PALPATE_SOURCE_DIR;
 
 class NextExperimentLoop : public testing::Test {
  protected:
-  NextExperimentLoop() : folder_(fs::temp_directory_path() / "palpate_next_experiment") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~NextExperimentLoop() override { fs::remove_all(folder_); }
-
   void Run(const std::vector<std::string>& arguments) {
     const fs::path log = folder_ / "log";
     system_test::Process process("palpate", arguments, log);
@@ -52,7 +47,8 @@ class NextExperimentLoop : public testing::Test {
   }
 
   static constexpr double kFactor = 1.3;
-  fs::path folder_;
+  test_support::TestFolder own_folder_;
+  const fs::path folder_ = own_folder_.path();
 };
 
 /// Of rho g / E displacements of cables tell the ratio alone (DIAGNOSIS, "Identities").
