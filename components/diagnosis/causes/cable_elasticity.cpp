@@ -9,9 +9,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// What a healthy robot's simulation has of it, m/N: a cable ends in a point, at which every mesh
-/// gives way by something else. Two meshes of four_leg of like fineness differ by 0.03 to 0.09
-/// mm/N; one twice as fine gives way by some 0.3 mm/N more, which is not covered.
+/// What a healthy robot's simulation has of it, m/N, beside what all cables have (CableEnds): a
+/// cable ends in a point, at which every mesh gives way by something else. Two meshes of four_leg
+/// of like fineness differ by 0.03 to 0.09 mm/N.
 constexpr double kOfMesh_m_N = 5e-5;
 
 /// z is the compliance, m/N.

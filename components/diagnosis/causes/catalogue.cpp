@@ -84,6 +84,7 @@ std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std:
   for (const Entry& entry : kCatalogue) {
     if (!IndexOf(entry.id, without)) entry.make(world, &causes);
   }
+  MakeCableEnds(world, &causes);
   MakeExtrinsics(world, &causes);
   MakeDepthBias(world, &causes);
   MakeStereoRipple(world, &causes);

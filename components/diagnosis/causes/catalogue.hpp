@@ -23,7 +23,8 @@ struct CauseWorld {
 };
 
 /// Every cause of the catalogue at every place of this robot where it can show in these data, and
-/// `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never faults.
+/// `cable_ends`, `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never
+/// faults.
 /// `without`: ids that are left out. Throws InputError for one that is not of the catalogue.
 std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
 

@@ -45,6 +45,7 @@ void MakeWarmUpDrift(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeDiscretisation(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes);
+void MakeCableEnds(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeDepthBias(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeStereoRipple(const CauseWorld& world, std::vector<CausePtr>* causes);
 void MakeSkinOffset(const CauseWorld& world, std::vector<CausePtr>* causes);

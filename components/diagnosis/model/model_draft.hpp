@@ -59,7 +59,8 @@ struct ModelDraft {
   /// afterwards.
   Eigen::VectorXd assembled_m;
   DriveSettings drives;
-  Eigen::VectorXd cable_compliance_m_N;  ///< [cables] stretch per tension at the drive
+  Eigen::VectorXd cable_compliance_m_N;  ///< [cables] stretch per tension at the drive; < 0: less
+                                         ///< than the mesh gives way by
   /// The base stands askew by so much beside what is known of its tilt: gravity in the robot frame
   /// is (R_tilt R_askew)' g.
   Eigen::Matrix3d R_askew = Eigen::Matrix3d::Identity();

@@ -77,7 +77,7 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
       of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
       of_body_(solver->model()) {
   for (int c = 0; c < solver->model().CableCount(); ++c) {
-    if (draft.cable_compliance_m_N[c] > 0.0) compliant_.push_back(c);
+    if (draft.cable_compliance_m_N[c] != 0.0) compliant_.push_back(c);
   }
 }
 

@@ -190,7 +190,7 @@ Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSam
   std::vector<int> compliant;
   for (int c = 0; c < model_.CableCount(); ++c) {
     const auto& command = solved->middle.commands[static_cast<std::size_t>(c)];
-    if (draft_.cable_compliance_m_N[c] > 0.0 && command.kind == Kind::kDisplacement) {
+    if (draft_.cable_compliance_m_N[c] != 0.0 && command.kind == Kind::kDisplacement) {
       compliant.push_back(c);
     }
   }
@@ -333,7 +333,7 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   // Cables that give way begin from what they gave way by before.
   std::vector<robot::CableCommand> commands = Commands(taken_in);
   for (std::size_t c = 0; c < commands.size() && !solved->middle.commands.empty(); ++c) {
-    const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] > 0.0;
+    const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] != 0.0;
     if (gives_way && commands[c].kind == solved->middle.commands[c].kind)
       commands[c] = solved->middle.commands[c];
   }
