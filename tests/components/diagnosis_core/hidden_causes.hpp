@@ -27,7 +27,7 @@ class HiddenCauses : public testing::Test {
     int parameter = 0;
   };
 
-  HiddenCauses() : HiddenCauses(SmallRobot(), SmallExperiment(SmallRobot())) {}
+  HiddenCauses() : HiddenCauses(SmallRobot(), SmallExperimentOfEachCable(SmallRobot())) {}
   HiddenCauses(robot::RobotBody body, const experiment::Experiment& experiment)
       : body_(std::move(body)),
         observed_(Observe(experiment, body_, {.most_samples = 40})),

@@ -158,6 +158,19 @@ experiment::Experiment SmallExperiment(const robot::RobotBody& body) {
   return experiment;
 }
 
+experiment::Experiment SmallExperimentOfEachCable(const robot::RobotBody& body) {
+  experiment::Experiment experiment = SmallExperiment(body);
+  const std::vector<double> low{0.002, 0.004, 0.002};
+  experiment.recordings.push_back(MakeRecording("e_each", body,
+                                                {{48.0, low},
+                                                 {50.0, {0.007, 0.004, 0.002}},
+                                                 {52.0, {0.002, 0.008, 0.002}},
+                                                 {54.0, {0.002, 0.004, 0.006}},
+                                                 {56.0, low}},
+                                                0.1));
+  return experiment;
+}
+
 std::map<std::string, rgbd::CameraModel> SmallCameras() {
   const rgbd::CameraModel camera{.width_px = 640,
                                  .height_px = 480,
