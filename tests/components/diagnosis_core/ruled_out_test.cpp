@@ -57,7 +57,7 @@ class RuledOut : public HiddenCauses {
   template <class Other>
   Selection Select(int others, const std::vector<std::string>& without, TimeLimit limit = {}) {
     Measure({{"cable_gain", "cable:up", kGain}});
-    std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, without);
+    std::vector<CausePtr> causes = Causes(without);
     for (int k = 0; k < others; ++k) causes.push_back(std::make_unique<Other>(k));
     with_others_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_others_, {}, 1, limit);

@@ -33,7 +33,7 @@ class SameEffect : public HiddenCauses {
   /// With a twin of the gain that is hidden beside the real causes.
   Selection Select(double fault_of_twin) {
     Measure({{"cable_gain", "cable:up", kHiddenGain}});
-    std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
+    std::vector<CausePtr> causes = Causes();
     causes.push_back(std::make_unique<Twin>(fault_of_twin));
     with_twin_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_twin_, {}, 1);
