@@ -142,7 +142,8 @@ void NextCause::RefineTheBest() {
     const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
     candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_guessed : kImpossible;
     candidate.refined = true;
-    best = std::max(best, candidate.ln_bayes_factor);
+    // Where one gains on what was guessed of it, another may, too.
+    best = std::max(best, std::min(candidate.ln_guessed, candidate.ln_bayes_factor));
     fits_.push_back(std::move(fit));
   }
   SortRefined();

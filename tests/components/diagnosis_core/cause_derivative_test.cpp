@@ -112,6 +112,14 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   }
 }
 
+TEST_F(CauseDerivatives, AreThoseOfApplyWhereEndsOfCablesGiveWayLessThanTheMesh) {
+  constexpr double kTolerance = 2e-3;
+  const auto ends = std::find_if(causes_.begin(), causes_.end(),
+                                 [](const auto& one) { return one->name().id == "cable_ends"; });
+  ASSERT_NE(ends, causes_.end());
+  ExpectDerivative(**ends, Eigen::VectorXd::Constant(1, -1.5), kTolerance);
+}
+
 TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
   CauseList all;
   for (const CausePtr& cause : causes_) {

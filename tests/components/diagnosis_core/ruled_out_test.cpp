@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -46,6 +47,19 @@ class Boaster final : public Cause {
   }
 };
 
+/// Promises less than it does.
+class Understater final : public Cause {
+ public:
+  explicit Understater(int number)
+      : Cause({"understater", {std::to_string(number)}}, "an understater",
+              {{.name = "z", .tolerance = 0.001, .fault = 0.015}}) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+    draft->drives.gain[0] += z[0] + z[0] * std::abs(z[0]) / (0.5 * kGain);
+  }
+};
+
 class RuledOut : public HiddenCauses {
  protected:
   static std::vector<std::string> AllButGains() {
@@ -82,6 +96,17 @@ TEST_F(RuledOut, OrSurpassedByWhatAnotherPromises) {
   const Selection selection = Select<Boaster>(4, AllButGains());
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   EXPECT_EQ(IdOf(selection.named[0].cause), "cable_gain");
+}
+
+/// What one gains on its guess is nothing against the guess of another.
+TEST_F(RuledOut, AreNoneByAGuess) {
+  const Selection selection = Select<Understater>(2, CatalogueIds());
+  ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
+  ASSERT_EQ(selection.alike.size(), 1U);
+  EXPECT_EQ(IdOf(selection.alike[0].cause), "understater");
+  EXPECT_TRUE(selection.alike[0].refined);
+  const Candidate& first = selection.candidates.front();
+  EXPECT_GT(first.ln_bayes_factor, first.ln_guessed + 10.0) << "else the test shows nothing";
 }
 
 TEST_F(RuledOut, AreNotNamedWhereThereIsNoTimeToSeeWhatAnotherPromises) {
