@@ -109,6 +109,9 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
     present[k] = multipliers_N[c];
   }
   qp.c -= qp.H * present;
+  for (Eigen::Index k = 0; k < bounded; ++k) {
+    qp.H(k, k) += loads.command(constraint[static_cast<size_t>(k)]).compliance_m_N;
+  }
   const BoundedQpResult solution = SolveBoundedQp(qp, present);
   if (!solution.status.ok()) return solution.status;
   for (Eigen::Index k = 0; k < bounded; ++k) {
@@ -133,7 +136,7 @@ double ConstraintError_m(const Linearisation& linearisation, const LoadState& lo
     const ConstraintCommand& command = loads.command(c);
     if (!IsBounded(loads, c)) continue;
     if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the drive cannot pull harder
-    const double excess = Value(linearisation, c, x_m) - command.value;
+    const double excess = Value(linearisation, c, x_m) - command.Bound_m(multipliers_N[c]);
     error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
   }
   return error;
@@ -157,7 +160,7 @@ Status CheckLargestMultipliers(const Linearisation& linearisation, const LoadSta
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
     const ConstraintCommand& command = loads.command(c);
     if (!IsBounded(loads, c)) continue;
-    const double excess = Value(linearisation, c, x_m) - command.value;
+    const double excess = Value(linearisation, c, x_m) - command.Bound_m(multipliers_N[c]);
     if (multipliers_N[c] >= command.max_multiplier_N && excess > tolerance_m) {
       return {StatusCode::kTensionLimit, "constraint " + std::to_string(c) + " needs more than " +
                                              std::to_string(command.max_multiplier_N) + " N"};

@@ -15,7 +15,8 @@ namespace palpate::fem {
 
 /// Newton's step of a loaded body from a state towards equilibrium: dx = K^-1 r + K^-1 H_a' dlambda
 /// (paper, eq. 6), the multipliers from delta_a = W_aa lambda + delta_a^free (eq. 4) under their
-/// bounds, W_aa = H_a K^-1 H_a', as a bounded QP. Nothing is allocated after construction.
+/// bounds, W_aa = H_a K^-1 H_a' and what the bounds give way by, as a bounded QP. Nothing is
+/// allocated after construction.
 class EquilibriumStep {
  public:
   explicit EquilibriumStep(Linearisation& linearisation);

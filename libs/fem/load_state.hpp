@@ -14,11 +14,16 @@ struct ConstraintCommand {
   enum class Mode {
     kOff,         ///< multiplier 0
     kMultiplier,  ///< multiplier given (cable tension, N)
-    kUpperBound,  ///< g(x) <= value, 0 <= multiplier <= max_multiplier_N, one of the two equal
+    kUpperBound,  ///< g(x) <= Bound_m, 0 <= multiplier <= max_multiplier_N, one of the two equal
   };
   Mode mode = Mode::kOff;
   double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
   double max_multiplier_N = std::numeric_limits<double>::infinity();
+  /// Of kUpperBound: by how much the bound gives way under its multiplier; less than 0: the body
+  /// gives way less than it is modelled to, by less than it is.
+  double compliance_m_N = 0.0;
+
+  double Bound_m(double multiplier_N) const { return value + compliance_m_N * multiplier_N; }
 };
 
 /// Everything that loads the body.

@@ -87,7 +87,8 @@ LoadState StaticSolver::Interpolate(const StaticState& start, const LoadState& t
     ConstraintCommand& command = loads.commands[static_cast<size_t>(c)];
     double from = start.multipliers_N[c];
     if (command.mode == Mode::kUpperBound) {
-      from = linearisation_.constraints()[static_cast<size_t>(c)]->Value(start.x_m);
+      from = linearisation_.constraints()[static_cast<size_t>(c)]->Value(start.x_m) -
+             command.compliance_m_N * start.multipliers_N[c];
     } else if (command.mode == Mode::kOff) {
       command.mode = Mode::kMultiplier;
       command.value = 0.0;
@@ -212,7 +213,7 @@ bool StaticSolver::TakeFullStep(StaticState* state) {
 }
 
 /// Full Newton steps are taken as long as they bring the residual down; otherwise the step is
-/// halved until the potential energy, with exact penalties for the bounds, falls.
+/// halved until the potential energy, with exact penalties for the bounds where it leads, falls.
 bool StaticSolver::TakeStep(const LoadState& loads, double residual_before, StaticState* state) {
   for (Eigen::Index c = 0; c < penalties_.size(); ++c) {
     const double needed = 2.0 * std::max(step_.multipliers_N()[c], state->multipliers_N[c]);
@@ -263,7 +264,7 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
     const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(x_m);
     merit += command.mode == Mode::kMultiplier
                  ? command.value * value
-                 : penalties_[c] * std::max(0.0, value - command.value);
+                 : penalties_[c] * std::max(0.0, value - command.Bound_m(step_.multipliers_N()[c]));
   }
   return merit;
 }
@@ -277,8 +278,8 @@ double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state
     if (command.mode != Mode::kUpperBound) continue;
     // The residual holds lambda dg/dx already; the merit does not.
     slope += state.multipliers_N[c] * step_.gradient(c).dot(step_.dx());
-    const double excess =
-        linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) - command.value;
+    const double excess = linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) -
+                          command.Bound_m(step_.multipliers_N()[c]);
     slope -= penalties_[c] * std::max(0.0, excess);
   }
   return std::min(slope, 0.0);

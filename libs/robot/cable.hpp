@@ -31,7 +31,12 @@ class Cable final : public fem::ScalarConstraint {
   void SetEyelet(int eyelet, const std::vector<double>& weights, const Eigen::VectorXd& rest_x_m);
   const CableFriction& friction() const { return friction_; }
   void SetFriction(const CableFriction& friction);
-  /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body.
+  /// By how much more of it is outside the drive for each N at the drive, m/N; 0 at first. Negative
+  /// where the body gives way less than its mesh does where the cable ends.
+  double compliance_m_N() const { return compliance_m_N_; }
+  void SetCompliance(double compliance_m_N) { compliance_m_N_ = compliance_m_N; }
+  /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body;
+  /// of one that stretches, what is left of that.
   double Displacement_m(const Eigen::VectorXd& x_m) const { return rest_length_m_ - Value(x_m); }
   /// [3 x eyelets + 1], pull point first.
   Eigen::Matrix3Xd Path_m(const Eigen::VectorXd& x_m) const;
@@ -68,6 +73,7 @@ class Cable final : public fem::ScalarConstraint {
   std::vector<fem::NodeWeights> eyelets_;
   std::vector<Piece> pieces_;
   CableFriction friction_;
+  double compliance_m_N_ = 0.0;
   double rest_length_m_ = 0.0;
 };
 

@@ -132,7 +132,8 @@ fem::ConstraintCommand RobotModel::ToConstraint(int cable_index,
     case CableCommand::Kind::kDisplacement:
       return {.mode = Mode::kUpperBound,
               .value = cable(cable_index).rest_length_m() - command.value,
-              .max_multiplier_N = limit};
+              .max_multiplier_N = limit,
+              .compliance_m_N = cable(cable_index).compliance_m_N()};
   }
   PALPATE_CHECK(false, static_cast<int>(command.kind));
   return {};
@@ -194,9 +195,10 @@ fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
 CableState RobotModel::StateOfCable(int cable_index, const fem::StaticState& state) const {
   const Cable& one = cable(cable_index);
   const double length = one.Value(state.x_m);
+  const double tension_N = state.multipliers_N[cable_index];
   return {.length_m = length,
-          .displacement_m = one.rest_length_m() - length,
-          .tension_N = state.multipliers_N[cable_index]};
+          .displacement_m = one.rest_length_m() - length + one.compliance_m_N() * tension_N,
+          .tension_N = tension_N};
 }
 
 }  // namespace palpate::robot

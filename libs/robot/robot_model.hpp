@@ -91,6 +91,10 @@ class RobotModel {
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
+  /// Cable::compliance_m_N, which equilibria and their sensitivities know.
+  void SetCableCompliance(int cable, double compliance_m_N) {
+    cables_.at(static_cast<size_t>(cable)).SetCompliance(compliance_m_N);
+  }
   /// The point fixed to the ground that a cable is pulled from; at first the robot file's. Its rest
   /// length and displacements count from the undeformed body with the point there.
   void SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m);

@@ -3,7 +3,6 @@
 
 #include "components/diagnosis/model/sample_differentiator.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -75,11 +74,7 @@ SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseL
       markers_seen_(SeesMarkers(observed)),
       marker_rows_(robot::RowsOfPoints(solver->markers())),
       of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
-      of_body_(solver->model()) {
-  for (int c = 0; c < solver->model().CableCount(); ++c) {
-    if (draft.cable_compliance_m_N[c] != 0.0) compliant_.push_back(c);
-  }
-}
+      of_body_(solver->model()) {}
 
 void SampleDifferentiator::Collect(const CauseMoment& at) {
   acting_.clear();
@@ -98,23 +93,6 @@ void SampleDifferentiator::Collect(const CauseMoment& at) {
     acting_.push_back(std::move(sum));
     column_of_.push_back(one.column);
   }
-  for (const int c : compliant_) acting_.push_back(robot::CableOffset(c));
-}
-
-/// What the drives hold changes with the tension: du = -C dT, dT = T_p + T_u du.
-void SampleDifferentiator::GiveWay(Eigen::MatrixXd* motions_m) const {
-  const auto count = std::ssize(compliant_);
-  const auto acting = std::ssize(column_of_);
-  if (count == 0 || acting == 0) return;
-  const Eigen::MatrixXd& tension_N = of_rows_.tension_N();
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
-  Eigen::MatrixXd given(count, acting);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int c = compliant_[static_cast<std::size_t>(k)];
-    slope.row(k) += draft_.cable_compliance_m_N[c] * tension_N.row(c).tail(count);
-    given.row(k) = -draft_.cable_compliance_m_N[c] * tension_N.row(c).head(acting);
-  }
-  motions_m->leftCols(acting) += motions_m->rightCols(count) * slope.partialPivLu().solve(given);
 }
 
 /// What stands in the body's way, in the robot frame, after all else.
@@ -161,10 +139,9 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
   const bool known = at.simulated().status.ok() &&
                      of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok();
   if (!known) return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-  Eigen::MatrixXd motions_m = of_rows_.motion_m();
-  if (!compliant_.empty()) GiveWay(&motions_m);
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
-    jacobian_m(coordinate_of_, column_of_[k]) = motions_m.col(static_cast<Eigen::Index>(k));
+    jacobian_m(coordinate_of_, column_of_[k]) =
+        of_rows_.motion_m().col(static_cast<Eigen::Index>(k));
   }
   if (!AddPushes(at, &jacobian_m).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -47,7 +47,6 @@ class SampleDifferentiator {
   static std::vector<WantedParameter> Wanted(const CauseList& causes, const Eigen::VectorXd& z,
                                              const std::vector<bool>& wanted);
   void Collect(const CauseMoment& at);
-  void GiveWay(Eigen::MatrixXd* motions_m) const;
   Status AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m);
   void Observe(const CauseMoment& at);
   void ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const;
@@ -66,7 +65,6 @@ class SampleDifferentiator {
   robot::SensitivitySolver of_body_;
   std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
   std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter
-  std::vector<int> compliant_;               ///< cables, whose offsets come after `acting_`
 };
 
 }  // namespace palpate::diagnosis

@@ -3,7 +3,6 @@
 
 #include "components/diagnosis/model/sample_solver.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +19,6 @@ using Kind = robot::CableCommand::Kind;
 
 /// Of loops between equilibrium and what gives way under it.
 constexpr int kMostRounds = 12;
-constexpr double kSettled_m = 1e-10;
 constexpr double kSettled_rad = 1e-8;
 /// By which a wall may stand in the undeformed body: what file and mesh may be off.
 constexpr double kDeepest_m = 1e-3;
@@ -74,6 +72,7 @@ SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& ob
       base_middle_m_(MiddleOfBase(draft.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
     zero_shift_m_[c] = model_.cable(c).rest_length_m() - model_.cable(c).Value(draft.assembled_m);
+    model_.SetCableCompliance(c, draft.cable_compliance_m_N[c]);
   }
 }
 
@@ -161,65 +160,27 @@ Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {
   return model_.static_solver().Solve(loads, &shape->state).status;
 }
 
-fem::LoadState SampleSolver::WithCommands(fem::LoadState loads,
-                                          const SimulatedSample& solved) const {
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const auto cable = static_cast<std::size_t>(c);
-    loads.commands[cable] = model_.ToConstraint(c, solved.middle.commands[cable]);
-  }
+/// Everything that loads the body at a sample, the base as it stands undeformed.
+fem::LoadState SampleSolver::LoadsOf(const Sample& sample,
+                                     const std::vector<robot::CableCommand>& commands) const {
+  fem::LoadState loads = model_.Loads(commands, LoadsAt(sample));
   loads.commands[static_cast<std::size_t>(model_.CableCount())] = kept_.Command();
   if (wall_) {
     loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
                              .value = WallContact::kThere_N};
   }
-  if (base_turn_rad_.isZero()) return loads;
+  return loads;
+}
+
+void SampleSolver::HoldBase(fem::LoadState* loads) const {
+  if (base_turn_rad_.isZero()) return;
   const double angle_rad = base_turn_rad_.norm();
   const Eigen::AngleAxisd turn(angle_rad, base_turn_rad_ / angle_rad);
   const Eigen::VectorXd& rest_m = model_.body().mesh.nodes_m.reshaped();
   for (Eigen::Index node = 0; node < rest_m.size() / 3; ++node) {
-    loads.fixed_position_m.segment<3>(3 * node) =
+    loads->fixed_position_m.segment<3>(3 * node) =
         base_middle_m_ + turn * (rest_m.segment<3>(3 * node) - base_middle_m_);
   }
-  return loads;
-}
-
-/// Newton's method on what the drives hold: a stretched cable takes in less. Sets `moved` where it
-/// took a step.
-Status SampleSolver::StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved,
-                                   bool* moved) {
-  std::vector<int> compliant;
-  for (int c = 0; c < model_.CableCount(); ++c) {
-    const auto& command = solved->middle.commands[static_cast<std::size_t>(c)];
-    if (draft_.cable_compliance_m_N[c] != 0.0 && command.kind == Kind::kDisplacement) {
-      compliant.push_back(c);
-    }
-  }
-  if (compliant.empty()) return Status::Ok();
-  const auto count = static_cast<Eigen::Index>(compliant.size());
-  Eigen::VectorXd beyond_m(count);
-  std::vector<robot::ParameterPtr> offsets;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int c = compliant[static_cast<std::size_t>(k)];
-    const double stretch_m = draft_.cable_compliance_m_N[c] * solved->middle.state.multipliers_N[c];
-    beyond_m[k] = solved->middle.commands[static_cast<std::size_t>(c)].value + stretch_m -
-                  (taken_in[c] + zero_shift_m_[c]);
-    offsets.push_back(robot::CableOffset(c));
-  }
-  if (beyond_m.cwiseAbs().maxCoeff() < kSettled_m) return Status::Ok();
-  const Status known = sensitivity_.Compute(solved->middle.commands, solved->middle.state, offsets);
-  if (!known.ok()) return known;
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int c = compliant[static_cast<std::size_t>(k)];
-    slope.row(k) += draft_.cable_compliance_m_N[c] * sensitivity_.tension_N().row(c);
-  }
-  const Eigen::VectorXd step_m = slope.partialPivLu().solve(beyond_m);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto cable = static_cast<std::size_t>(compliant[static_cast<std::size_t>(k)]);
-    solved->middle.commands[cable].value -= step_m[k];
-  }
-  *moved = true;
-  return Status::Ok();
 }
 
 /// A step towards the turn that goes with the moment on the base. Sets `moved` where it is not
@@ -244,16 +205,16 @@ Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticStat
   return Status::Ok();
 }
 
-Status SampleSolver::GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
-                             SimulatedSample* solved) {
+Status SampleSolver::GiveWay(fem::LoadState loads, HeldShape* shape) {
+  base_turn_rad_.setZero();
   for (int round = 0; round < kMostRounds; ++round) {
     bool moved = false;
-    Status status = Balance(WithCommands(loads, *solved), &solved->middle);
-    if (status.ok()) status = StretchCables(taken_in, solved, &moved);
-    if (status.ok()) status = TurnBase(loads, solved->middle.state, &moved);
+    HoldBase(&loads);
+    Status status = Balance(loads, shape);
+    if (status.ok()) status = TurnBase(loads, shape->state, &moved);
     if (!status.ok() || !moved) return status;
   }
-  return {StatusCode::kNotConverged, "cables or base give way without an end"};
+  return {StatusCode::kNotConverged, "the base gives way without an end"};
 }
 
 /// [shapes of the mesh's error] so much of each is added to what is seen.
@@ -330,17 +291,8 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   // It may come from a robot without the wall, or with one.
   state.multipliers_N.conservativeResizeLike(Eigen::VectorXd::Zero(
       static_cast<Eigen::Index>(model_.linearisation().constraints().size())));
-  // Cables that give way begin from what they gave way by before.
-  std::vector<robot::CableCommand> commands = Commands(taken_in);
-  for (std::size_t c = 0; c < commands.size() && !solved->middle.commands.empty(); ++c) {
-    const bool gives_way = draft_.cable_compliance_m_N[static_cast<Eigen::Index>(c)] != 0.0;
-    if (gives_way && commands[c].kind == solved->middle.commands[c].kind)
-      commands[c] = solved->middle.commands[c];
-  }
-  solved->middle.commands = std::move(commands);
-  base_turn_rad_.setZero();
-  fem::LoadState loads = model_.Loads(solved->middle.commands, LoadsAt(sample));
-  solved->status = GiveWay(taken_in, loads, solved);
+  solved->middle.commands = Commands(taken_in);
+  solved->status = GiveWay(LoadsOf(sample, solved->middle.commands), &solved->middle);
   if (solved->status.ok()) See(sample, solved);
 }
 

@@ -40,7 +40,7 @@ class SampleSolver {
   Sight SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
-  /// sample with `taken_in` [cables], compliant cables and base at what they give way by.
+  /// sample with `taken_in` [cables], a compliant base at what it gives way by.
   void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const Hereditary& past,
              SimulatedSample* solved);
   /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
@@ -63,11 +63,11 @@ class SampleSolver {
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
   std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
   Status Balance(const fem::LoadState& loads, HeldShape* shape);
-  Status GiveWay(const Eigen::VectorXd& taken_in, const fem::LoadState& loads,
-                 SimulatedSample* solved);
-  Status StretchCables(const Eigen::VectorXd& taken_in, SimulatedSample* solved, bool* moved);
+  Status GiveWay(fem::LoadState loads, HeldShape* shape);
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
-  fem::LoadState WithCommands(fem::LoadState loads, const SimulatedSample& solved) const;
+  fem::LoadState LoadsOf(const Sample& sample,
+                         const std::vector<robot::CableCommand>& commands) const;
+  void HoldBase(fem::LoadState* loads) const;
   void See(const Sample& sample, SimulatedSample* solved) const;
   Eigen::VectorXd MeshErrorAt(const Eigen::VectorXd& x_m) const;
 

@@ -66,6 +66,34 @@ void CableTerms::FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow*
   }
 }
 
+Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
+                               const Eigen::MatrixXd& commanded_length_m, Eigen::MatrixXd* length_m,
+                               Eigen::MatrixXd* tension_N) const {
+  const Eigen::Index count = TautCount();
+  if (count == 0) return Status::Ok();
+  fem::QpMatrix W(count, count);
+  for (Eigen::Index t = 0; t < count; ++t) {
+    const int c = taut_[static_cast<size_t>(t)];
+    W.row(t) = per_tension.row(c);
+    W(t, t) -= point_.model().cable(c).compliance_m_N();
+  }
+  const Eigen::PartialPivLU<fem::QpMatrix> lu(W);
+  constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
+  if (!(lu.rcond() >= kAlike)) return {StatusCode::kUnobservable, "two taut cables act alike"};
+  for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
+    fem::QpVector wanted(count);
+    for (Eigen::Index t = 0; t < count; ++t) {
+      const int c = taut_[static_cast<size_t>(t)];
+      wanted[t] = commanded_length_m(c, p) - (*length_m)(c, p);
+    }
+    const fem::QpVector tension = lu.solve(wanted);
+    length_m->col(p).noalias() += per_tension.lazyProduct(tension);
+    for (Eigen::Index t = 0; t < count; ++t)
+      (*tension_N)(taut_[static_cast<size_t>(t)], p) = tension[t];
+  }
+  return Status::Ok();
+}
+
 Status UndoTurns(Eigen::MatrixXd coupling, Eigen::MatrixXd* right) {
   coupling.diagonal().array() += 1.0;
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(coupling);
@@ -74,30 +102,6 @@ Status UndoTurns(Eigen::MatrixXd coupling, Eigen::MatrixXd* right) {
     return {StatusCode::kUnobservable, "friction leaves the equilibrium undetermined"};
   }
   *right = lu.solve(*right);
-  return Status::Ok();
-}
-
-Status HoldLengths(const std::vector<int>& taut, const fem::QpMatrix& per_tension,
-                   const Eigen::MatrixXd& commanded_length_m, Eigen::MatrixXd* length_m,
-                   Eigen::MatrixXd* tension_N) {
-  const auto count = static_cast<Eigen::Index>(taut.size());
-  if (count == 0) return Status::Ok();
-  fem::QpMatrix W(count, count);
-  for (Eigen::Index t = 0; t < count; ++t) W.row(t) = per_tension.row(taut[static_cast<size_t>(t)]);
-  const Eigen::PartialPivLU<fem::QpMatrix> lu(W);
-  constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
-  if (!(lu.rcond() >= kAlike)) return {StatusCode::kUnobservable, "two taut cables act alike"};
-  for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
-    fem::QpVector wanted(count);
-    for (Eigen::Index t = 0; t < count; ++t) {
-      const int c = taut[static_cast<size_t>(t)];
-      wanted[t] = commanded_length_m(c, p) - (*length_m)(c, p);
-    }
-    const fem::QpVector tension = lu.solve(wanted);
-    length_m->col(p).noalias() += per_tension.lazyProduct(tension);
-    for (Eigen::Index t = 0; t < count; ++t)
-      (*tension_N)(taut[static_cast<size_t>(t)], p) = tension[t];
-  }
   return Status::Ok();
 }
 

@@ -41,6 +41,12 @@ class CableTerms {
   const std::vector<NodalRow>& angles() const { return angles_; }    ///< [turns] B
   /// Fills A [Size x turns].
   void FillTurnForces(Eigen::Ref<Eigen::MatrixXd> columns);
+  /// Gives the taut cables what tension keeps them at the lengths that are commanded, as far as
+  /// they do not stretch under it. All [cables x p]; `per_tension` [cables x taut]
+  /// dlength/dtension. `length_m` and `tension_N` are those at fixed tensions of taut cables
+  /// before, and what they are after. kUnobservable where two taut cables act alike.
+  Status HoldLengths(const fem::QpMatrix& per_tension, const Eigen::MatrixXd& commanded_length_m,
+                     Eigen::MatrixXd* length_m, Eigen::MatrixXd* tension_N) const;
 
  private:
   bool Rubs(int cable) const;
@@ -57,13 +63,5 @@ class CableTerms {
 /// (I + B' K^-1 A)^-1 right, in its place, for `coupling` = B' K^-1 A or its transpose.
 /// kUnobservable where friction leaves the equilibrium undetermined.
 Status UndoTurns(Eigen::MatrixXd coupling, Eigen::MatrixXd* right);
-
-/// Gives the `taut` cables what tension keeps them at the lengths that are commanded. All [cables x
-/// p]; `per_tension` [cables x taut] dlength/dtension. `length_m` and `tension_N` are those at
-/// fixed tensions of taut cables before, and what they are after. kUnobservable where two taut
-/// cables act alike.
-Status HoldLengths(const std::vector<int>& taut, const fem::QpMatrix& per_tension,
-                   const Eigen::MatrixXd& commanded_length_m, Eigen::MatrixXd* length_m,
-                   Eigen::MatrixXd* tension_N);
 
 }  // namespace palpate::robot

@@ -142,8 +142,8 @@ Status PointSensitivity::PullTautCables() {
     model_.cable(cables_.taut()[static_cast<size_t>(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
     per_tension.col(t) = per_force_m_N_ * nodal_;
   }
-  Status status = HoldLengths(cables_.taut(), per_tension.topRows(cables), commanded_length_m_,
-                              &length_m_, &tension_N_);
+  Status status = cables_.HoldLengths(per_tension.topRows(cables), commanded_length_m_, &length_m_,
+                                      &tension_N_);
   if (!status.ok()) return status;
   for (Eigen::Index t = 0; t < taut; ++t) {
     motion_m_.noalias() += per_tension.bottomRows(rows_ - cables).col(t) *

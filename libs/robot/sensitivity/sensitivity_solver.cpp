@@ -114,7 +114,7 @@ Status SensitivitySolver::EliminateTautCables() {
     }
     for (Eigen::Index t = 0; t < taut; ++t) per_tension(c, t) = row.Dot(columns_.col(t));
   }
-  return HoldLengths(cables_.taut(), per_tension, commanded_length_m_, &length_m_, &tension_N_);
+  return cables_.HoldLengths(per_tension, commanded_length_m_, &length_m_, &tension_N_);
 }
 
 void SensitivitySolver::PointMotions(std::span<const fem::NodeWeights> points,

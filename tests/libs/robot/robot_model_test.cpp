@@ -83,6 +83,41 @@ TEST_F(RobotModelTest, TheTensionOfADisplacementGivesThatDisplacement) {
   EXPECT_LE((by_tension.x_m - by_displacement.x_m).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+/// By full steps and by a line search, from rest in one go.
+TEST_F(RobotModelTest, ACableThatStretchesIsShorterByLess) {
+  for (const int full_steps : {fem::StaticSettings{}.max_full_steps, 0}) {
+    for (const double compliance_m_N : {1e-3, -1e-4}) {
+      const auto model = Build(FullRobotText(), {.max_full_steps = full_steps});
+      model->SetCableCompliance(0, compliance_m_N);
+      model->SetCableCompliance(1, compliance_m_N);
+      fem::StaticState state = model->RestState();
+      const fem::StaticResult result = model->Solve({Displace(0.012), Displace(-0.03)}, {}, &state);
+      ASSERT_TRUE(result.status.ok()) << result.status.message();
+      const CableState north = model->StateOfCable(0, state);
+      ASSERT_GT(north.tension_N, 0.1);
+      const double stretch_m = compliance_m_N * north.tension_N;
+      EXPECT_NEAR(north.length_m, model->cable_rest_length_m()[0] - 0.012 + stretch_m, 1e-9);
+      EXPECT_NEAR(north.displacement_m, 0.012, 1e-9);
+      EXPECT_EQ(model->StateOfCable(1, state).tension_N, 0.0);
+      const auto stiff = Build(FullRobotText());
+      fem::StaticState held = stiff->RestState();
+      ASSERT_TRUE(stiff->Solve({Displace(0.012 - stretch_m), {}}, {}, &held).status.ok());
+      EXPECT_LE((state.x_m - held.x_m).cwiseAbs().maxCoeff(), 1e-8);
+    }
+  }
+}
+
+/// Each is counted from where the one before left the cable.
+TEST_F(RobotModelTest, ACableThatStretchesIsPulledOnInSmallerPieces) {
+  const auto model = Build(FullRobotText(), {.max_newton_iterations = 10, .max_full_steps = 3});
+  model->SetCableCompliance(0, 2e-3);
+  fem::StaticState state = model->RestState();
+  const fem::StaticResult result = model->Solve({Displace(0.02), {}}, {}, &state);
+  ASSERT_TRUE(result.status.ok()) << result.status.message();
+  EXPECT_GT(result.load_steps, 1);
+  EXPECT_NEAR(model->StateOfCable(0, state).displacement_m, 0.02, 1e-9);
+}
+
 TEST_F(RobotModelTest, ReachesTwentyMillimetresOfCableInOneGo) {
   for (const char* law : {"neo_hookean", "stable_neo_hookean", "corotational"}) {
     const auto model = Build(StiffBeam(law));

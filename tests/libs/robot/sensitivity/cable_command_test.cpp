@@ -78,21 +78,25 @@ TEST_P(CableCommands, CouplingOfDrives) {
   }
 }
 
-/// The compliant cable re-solved: its tension lets out as much as it stretches, by fixed-point
-/// steps.
 TEST_P(CableCommands, ComplianceOfACable) {
   for (const int c : Driven()) {
-    const Balance stiff = Solve(robot_);
     const auto changed = [&](double compliance_m_N) {
       RobotCase robot = robot_;
-      for (int step = 0; step < 5; ++step) {
-        const double tension_N = Solve(robot, &stiff.state).Tensions_N()[c];
-        robot.cables[static_cast<size_t>(c)].value =
-            robot_.cables[static_cast<size_t>(c)].value - compliance_m_N * tension_N;
-      }
+      robot.compliance_m_N[c] += compliance_m_N;
       return robot;
     };
     ExpectDerivative(robot_, CableCompliance(c), changed, 2e-5);
+    robot_.compliance_m_N[c] = c == 0 ? 2e-3 : -2e-4;
+    ExpectDerivative(robot_, CableCompliance(c), changed, 2e-5);
+  }
+}
+
+/// More that gives way, and less than the mesh does.
+TEST_P(CableCommands, OffsetOfCablesThatStretch) {
+  robot_.compliance_m_N << 2e-3, -2e-4, 5e-4;
+  for (const double mu : {0.0, 0.3}) {
+    for (CableFriction& friction : robot_.friction) friction.coefficient = mu;
+    for (const int c : Driven()) ExpectDerivative(robot_, CableOffset(c), Taking(c, 1.0), 1e-5);
   }
 }
 

@@ -105,6 +105,7 @@ RobotCase SoftBeam(const CaseKind& kind) {
   robot.loads = {{body.markers[1].point.weights, {0.01, 0.05, -0.02}}};
   robot.held_motion_m = Eigen::VectorXd::Zero(3 * body.mesh.NodeCount());
   robot.friction.resize(robot.cables.size());
+  robot.compliance_m_N = Eigen::VectorXd::Zero(std::ssize(robot.cables));
   return robot;
 }
 
@@ -122,6 +123,7 @@ Balance Solve(const RobotCase& robot, const fem::StaticState* start) {
       fem::StaticSettings{.relative_tolerance = 1e-13, .constraint_tolerance_m = 1e-14});
   for (int c = 0; c < balance.model->CableCount(); ++c) {
     balance.model->SetCableFriction(c, robot.friction[static_cast<size_t>(c)]);
+    balance.model->SetCableCompliance(c, robot.compliance_m_N[c]);
   }
   balance.state = start != nullptr ? *start : balance.model->RestState();
   fem::LoadState loads = balance.model->Loads(robot.cables, robot.loads);

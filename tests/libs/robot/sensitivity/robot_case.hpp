@@ -24,6 +24,7 @@ struct RobotCase {
   std::vector<DeadLoad> loads;
   Eigen::VectorXd held_motion_m;        ///< [3n] of held nodes, from their rest positions
   std::vector<CableFriction> friction;  ///< [cables]
+  Eigen::VectorXd compliance_m_N;       ///< [cables]
 };
 
 /// Balanced to rounding.
