@@ -46,6 +46,7 @@ class FourLegSensitivity : public testing::TestWithParam<CaseKind> {
     robot_.loads = {{robot_.body.markers[0].point.weights, {0.05, 0.1, -0.05}}};
     robot_.held_motion_m = Eigen::VectorXd::Zero(3 * robot_.body.mesh.NodeCount());
     robot_.friction.resize(robot_.cables.size());
+    robot_.compliance_m_N = Eigen::VectorXd::Zero(std::ssize(robot_.cables));
   }
 
   /// The robot with `change` made to it by so much.
