@@ -91,7 +91,8 @@ class RobotModel {
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
-  /// Cable::compliance_m_N, which equilibria and their sensitivities know.
+  /// Cable::compliance_m_N, which equilibria and their sensitivities know; Compliance (eq. 5) has
+  /// cables that do not stretch.
   void SetCableCompliance(int cable, double compliance_m_N) {
     cables_.at(static_cast<size_t>(cable)).SetCompliance(compliance_m_N);
   }

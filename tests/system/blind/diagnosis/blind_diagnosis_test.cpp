@@ -13,8 +13,9 @@
 namespace palpate::blind {
 namespace {
 
-/// Some six minutes of two cores, with what making them takes: half the moments that a person's
-/// diagnosis has. So few condemn nobody by chance; what is found in all of them does.
+/// Some three minutes of two cores, and up to six, with what making them takes: half the moments
+/// that a person's diagnosis has. So few condemn nobody by chance; what is found in all of them
+/// does.
 constexpr int kFewCases = 4;
 constexpr int kFewSamples = 60;
 constexpr int kFewMinutes = 5;
