@@ -18,6 +18,8 @@ namespace {
 using scenario::ActiveEffect;
 using scenario::Random;
 
+}  // namespace
+
 CaseKind KindOf(std::uint64_t seed) {
   constexpr CaseKind kH = CaseKind::kHealthy;
   constexpr CaseKind kO = CaseKind::kOneCause;
@@ -28,8 +30,6 @@ CaseKind KindOf(std::uint64_t seed) {
                                              kC, kO, kT, kH, kO, kO, kU, kH, kT, kO};
   return kMix[seed % kMix.size()];
 }
-
-}  // namespace
 
 ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescription& robot,
                         Random* random) {

@@ -48,7 +48,10 @@ scenario::ActiveEffect DrawEffect(const MenuItem& item, const robot::RobotDescri
                                   scenario::Random* random);
 
 /// Any 20 seeds in a row: 5 healthy, 9 with one cause, 3 with two, 2 with one outside of the
-/// catalogue, 1 of corrupted data. Two causes are of different kinds.
+/// catalogue, 1 of corrupted data.
+CaseKind KindOf(std::uint64_t seed);
+
+/// Two causes are of different kinds.
 BlindCase DrawCase(std::uint64_t seed, const robot::RobotDescription& robot,
                    Measured measured = Measured::kMarkers);
 

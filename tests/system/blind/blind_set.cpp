@@ -5,8 +5,10 @@
 
 #include <fmt/core.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <mutex>
 #include <random>
 
@@ -43,6 +45,17 @@ Measured ParseMeasured(const std::string& data) {
       fmt::format("PALPATE_BLIND_DATA is '{}', neither 'markers' nor 'pictures'", data));
 }
 
+CaseKind ParseKind(const std::string& text) {
+  std::vector<std::string> kinds;
+  for (const CaseKind kind : {CaseKind::kHealthy, CaseKind::kOneCause, CaseKind::kTwoCauses,
+                              CaseKind::kOutside, CaseKind::kCorrupted}) {
+    if (ToString(kind) == text) return kind;
+    kinds.push_back(ToString(kind));
+  }
+  throw InputError(
+      fmt::format("PALPATE_BLIND_KIND is '{}', none of: {}", text, fmt::join(kinds, ", ")));
+}
+
 }  // namespace
 
 BlindSet BlindSet::FromEnvironment(int cases) {
@@ -54,15 +67,24 @@ BlindSet BlindSet::FromEnvironment(int cases) {
   }
   if (const char* folder = std::getenv("PALPATE_BLIND_FOLDER")) set.folder = folder;
   if (const char* data = std::getenv("PALPATE_BLIND_DATA")) set.measured = ParseMeasured(data);
+  if (const char* kind = std::getenv("PALPATE_BLIND_KIND")) set.kind = ParseKind(kind);
   return set;
+}
+
+std::vector<std::uint64_t> BlindSet::Seeds() const {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t next = seed; std::ssize(seeds) < cases; ++next) {
+    if (!kind || KindOf(next) == *kind) seeds.push_back(next);
+  }
+  return seeds;
 }
 
 std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
   fmt::print(out,
-             "{} blind cases of {} from seed {} on, {} moments each; one again: "
+             "{} blind cases{} of {} from seed {} on, {} moments each; one again: "
              "PALPATE_BLIND_SEED=<its seed> PALPATE_BLIND_CASES=1\n",
-             set.cases, set.measured == Measured::kPictures ? "pictures" : "markers", set.seed,
-             set.samples);
+             set.cases, set.kind ? " (" + ToString(*set.kind) + ")" : "",
+             set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
   const SetFolder folder(set.folder);
   const CaseRunner runner(
       {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
@@ -71,11 +93,12 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
        .measured = set.measured,
        .samples = set.samples,
        .minutes = set.minutes});
-  std::vector<CaseRecord> records(static_cast<std::size_t>(set.cases));
+  const std::vector<std::uint64_t> seeds = set.Seeds();
+  std::vector<CaseRecord> records(seeds.size());
   std::mutex printing;
   TwoAtATime([&](std::size_t i) {
     if (i >= records.size()) return false;
-    records[i] = runner.Run(set.seed + i);
+    records[i] = runner.Run(seeds[i]);
     const std::lock_guard lock(printing);
     PrintCase(out, records[i]);
     return true;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <vector>
 
@@ -13,8 +14,9 @@
 namespace palpate::blind {
 
 /// Which cases. From the environment: PALPATE_BLIND_CASES (1 to 100000), PALPATE_BLIND_SEED (of the
-/// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_FOLDER (everything
-/// is kept there; without it nothing is), PALPATE_BLIND_DATA (markers, or pictures).
+/// first case, 0 to 2000000000; the next case has the next seed), PALPATE_BLIND_KIND (healthy, one
+/// cause, two causes, outside, corrupted: the next seeds of this kind alone), PALPATE_BLIND_FOLDER
+/// (everything is kept there; without it nothing is), PALPATE_BLIND_DATA (markers, or pictures).
 struct BlindSet {
   int cases = 0;
   std::uint64_t seed = 0;
@@ -22,10 +24,14 @@ struct BlindSet {
   int samples = 120;                  ///< moments that diagnosis compares, at most
   int minutes = 10;                   ///< after which it looks for no further cause
   Measured measured = Measured::kMarkers;
+  std::optional<CaseKind> kind = {};  ///< none: all, in their mix
 
   /// `cases`: where the environment does not say; the seed then is a fresh one. Throws InputError
-  /// for what is no number.
+  /// for what is none of this.
   static BlindSet FromEnvironment(int cases);
+
+  /// Of all cases.
+  std::vector<std::uint64_t> Seeds() const;
 };
 
 /// Runs them, two at a time, through processes: palpate simulate, palpate diagnose. Prints the

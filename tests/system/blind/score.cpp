@@ -4,8 +4,6 @@
 #include "tests/system/blind/score.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "libs/core/check.hpp"
@@ -170,23 +168,6 @@ std::string Outcome(const CaseRecord& record, const Limits& limits) {
   }
   if (IsFirst(record)) return "named" + absent + small;
   return (IsAmongThree(record) ? "AMONG THREE" : "MISSED") + small;
-}
-
-double CalibrationError(const std::vector<Forecast>& forecasts) {
-  struct Bin {
-    double probability = 0.0;
-    double right = 0.0;
-  };
-  std::array<Bin, 10> bins;
-  for (const Forecast& forecast : forecasts) {
-    const auto bin =
-        std::min<std::size_t>(static_cast<std::size_t>(10.0 * forecast.probability), 9);
-    bins[bin].probability += forecast.probability;
-    bins[bin].right += forecast.right ? 1.0 : 0.0;
-  }
-  double sum = 0.0;
-  for (const Bin& bin : bins) sum += std::abs(bin.probability - bin.right);
-  return forecasts.empty() ? 0.0 : sum / static_cast<double>(forecasts.size());
 }
 
 double Median(std::vector<double> values) {

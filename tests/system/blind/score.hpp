@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/system/blind/case_runner.hpp"
+#include "tests/system/blind/forecast.hpp"
 #include "tests/system/blind/share.hpp"
 
 namespace palpate::blind {
@@ -18,12 +19,6 @@ struct Limits {
   double single_m = 3e-4;      ///< at least this,
   double single_sigmas = 0.3;  ///< and this many sigma
   double each_of_two_sigmas = 0.5;
-};
-
-/// What the first cause of a verdict is said to be worth, and whether it is one of those hidden.
-struct Forecast {
-  double probability = 0.0;
-  bool right = false;
 };
 
 /// How a set of cases came out. A case without a verdict counts against the diagnosis wherever a
@@ -55,16 +50,13 @@ struct Score {
   std::vector<double> fault_errors;      ///< |error| / |truth - nominal|
   std::vector<double> place_errors_m;    ///< of loads
   std::vector<double> heldout_gains;     ///< of one cause: of squared error beyond noise, what went
-  std::vector<Forecast> forecasts;       ///< of sound data
+  std::vector<Forecast> forecasts;       ///< of first causes, of sound data
 };
 
 Score Judge(const std::vector<CaseRecord>& records, const Limits& limits = {});
 
 /// How a single case came out, for people: "named", "accused", "missed", ...
 std::string Outcome(const CaseRecord& record, const Limits& limits = {});
-
-/// Mean over bins of probability, weighted by how many fall in: |mean probability - share right|.
-double CalibrationError(const std::vector<Forecast>& forecasts);
 
 /// NaN where there is none.
 double Median(std::vector<double> values);

@@ -118,6 +118,8 @@ void PrintScore(std::ostream& out, const Score& score, const Acceptance& accepta
          fmt::format(">= {:.3g}", a.median_heldout_gain_at_least));
   Number(out, "calibration error of probabilities", CalibrationError(score.forecasts),
          score.forecasts.size(), fmt::format("<= {:.3g}", a.calibration_error_at_most));
+  Number(out, "  by chance, were they right", CalibrationErrorByChance(score.forecasts),
+         score.forecasts.size(), "");
   Row(out, "without a verdict", score.without_verdict, AtMost(a.without_verdict_at_most));
   Row(out, "not made", {score.not_made, score.cases}, AtMost(a.not_made_at_most));
 }

@@ -200,14 +200,6 @@ TEST(BlindScore, HeldOutGainIsCountedAboveTheNoise) {
   EXPECT_THAT(Judge({record}).heldout_gains, ElementsAre(testing::DoubleNear(9.0 / 16.0, 1e-12)));
 }
 
-TEST(BlindScore, ProbabilitiesAreHeldToTheShareThatIsRight) {
-  std::vector<Forecast> forecasts;
-  for (int i = 0; i < 100; ++i) forecasts.push_back({0.95, i < 95});
-  EXPECT_NEAR(CalibrationError(forecasts), 0.0, 1e-12);
-  for (int i = 0; i < 100; ++i) forecasts.push_back({0.55, i < 95});
-  EXPECT_NEAR(CalibrationError(forecasts), 0.2, 1e-12);
-}
-
 TEST(BlindAcceptance, BinomialTailsAreThoseOfTheClosedForm) {
   EXPECT_NEAR(BinomialAtMost(0, 10, 0.3), std::pow(0.7, 10), 1e-12);
   EXPECT_NEAR(BinomialAtMost(9, 10, 0.3), 1.0 - std::pow(0.3, 10), 1e-12);
