@@ -150,19 +150,15 @@ double OtherProbability(const CauseBook& book, const Selection& selection) {
                   ChanceOfImitation(book, selection.healthy, selection.best, passed));
 }
 
-/// Probabilities of the hypotheses for the first place; causes that were named have theirs, and
-/// such as one of these is a special case of are none.
+/// Probabilities of the hypotheses for the first place; causes that were named have theirs.
 void DescribeRivals(const CauseBook& book, const Selection& selection, DiagnosisResult* result) {
   const auto& candidates = selection.candidates;
   const double ln_share =
       -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
   std::vector<double> ln_weights{0.0};  // of no fault, then of the candidates
   for (const Candidate& one : candidates) {
-    const bool general = std::any_of(
-        selection.named.begin(), selection.named.end(),
-        [&](const Choice& choice) { return book.IsSpecialCase(choice.cause, one.cause); });
-    ln_weights.push_back(general || one.ruled_out ? -std::numeric_limits<double>::infinity()
-                                                  : one.ln_bayes_factor + ln_share);
+    ln_weights.push_back(one.ruled_out ? -std::numeric_limits<double>::infinity()
+                                       : one.ln_bayes_factor + ln_share);
   }
   const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
   double all = 0.0;

@@ -122,8 +122,8 @@ class Cause {
   /// Where what it does has kinks a linear model says little: then the most probable causes of its
   /// name are simulated before one stands for all, of those with the same number here only one.
   virtual std::optional<int> Start() const { return std::nullopt; }
-  /// Id of a simpler cause that is a special case of this one, and stands in its place as long as
-  /// this one is not clearly better; empty: there is none.
+  /// Id of a simpler cause that is a special case of this one: what that does this one does, too,
+  /// with parameters that it has no need of; empty: there is none.
   virtual std::string SpecialCase() const { return {}; }
   /// Whether more is known of the robot file that it extends than what Apply makes: once it is
   /// named, the search begins anew with that.

@@ -63,7 +63,7 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
 
 /// The first of the promising exchanges that keeps its promise. What was named last was chosen
 /// beside all others: it stays.
-void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selection) {
+void ExchangeOne(const Fitter& fitter, Selection* selection) {
   constexpr double kWorthAFit = -3.0;
   constexpr int kMostTried = 2;
   const double before = selection->best.posterior.ln_evidence;
@@ -78,9 +78,7 @@ void ExchangeOne(const Fitter& fitter, double clear_evidence, Selection* selecti
                               selection->best);
     if (other.posterior.ln_evidence - before < kWorthAFit) continue;
     other = fitter.Complete(std::move(other));
-    const double ln_gain = other.posterior.ln_evidence - before;
-    const bool general = fitter.book().IsSpecialCase(choice.cause, exchange.other);
-    if (!other.status.ok() || ln_gain <= (general ? clear_evidence : 0.0)) continue;
+    if (!other.status.ok() || other.posterior.ln_evidence <= before) continue;
     if (!WhyNoFault(fitter.book(), other.posterior, exchange.other).empty()) continue;
     choice.cause = exchange.other;
     selection->best = std::move(other);
@@ -131,7 +129,7 @@ void WeighEach(const Fitter& fitter, Selection* selection) {
 }  // namespace
 
 void CheckBackward(const Fitter& fitter, double clear_evidence, Selection* selection) {
-  ExchangeOne(fitter, clear_evidence, selection);
+  ExchangeOne(fitter, selection);
   DropTheUnclear(fitter, clear_evidence, selection);
   WeighEach(fitter, selection);
 }

@@ -23,9 +23,10 @@ constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 }  // namespace
 
-double AlikeWithin(double likeness) {
+double AlikeWithin(const CauseBook& book, int named, const Candidate& rival) {
   constexpr double kSameEffect = 0.95;
-  return likeness > kSameEffect ? kClearEvidence : kAlikeEvidence;
+  const bool same = rival.likeness > kSameEffect && !book.IsSpecialCase(rival.cause, named);
+  return same ? kClearEvidence : kAlikeEvidence;
 }
 
 bool NextCause::Look() {
@@ -41,7 +42,6 @@ bool NextCause::Look() {
     RefineTheBest();
     FindOneThatIsClear(held_out);
   }
-  if (found_ < candidates_.size()) PreferASpecialCase(held_out);
   Explain();
   return found_ < candidates_.size();
 }
@@ -51,8 +51,9 @@ std::vector<Candidate> NextCause::Alike() const {
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Candidate& rival = candidates_[k];
     const double behind = candidates_[found_].ln_bayes_factor - rival.ln_bayes_factor;
-    const bool can_be = !rival.ruled_out && !IsSpecialCaseOf(found_, k);
-    if (k != found_ && can_be && behind < AlikeWithin(rival.likeness)) alike.push_back(rival);
+    if (k == found_ || rival.ruled_out || IsSpecialCaseOf(found_, k)) continue;
+    const double within = AlikeWithin(fitter_.book(), candidates_[found_].cause, rival);
+    if (behind < within) alike.push_back(rival);
   }
   return alike;
 }
@@ -108,22 +109,6 @@ void NextCause::PutSpecialCasesNext(std::size_t first, std::size_t end) {
       std::rotate(next, candidates_.begin() + static_cast<std::ptrdiff_t>(special),
                   candidates_.begin() + static_cast<std::ptrdiff_t>(special + 1));
     }
-  }
-}
-
-void NextCause::PreferASpecialCase(const HeldOut& held_out) {
-  const double found = candidates_[found_].ln_bayes_factor;
-  for (std::size_t k = 0; k < fits_.size(); ++k) {
-    if (!IsSpecialCaseOf(k, found_)) continue;
-    if (candidates_[k].ln_bayes_factor < found - kClearEvidence) continue;
-    const Choice general = choice_;
-    const bool clear = IsClear(held_out, k);
-    if (clear && candidates_[k].ln_bayes_factor >= found - kClearEvidence) {
-      candidates_[found_].why_not = "a simpler cause does nearly as well";
-      found_ = k;
-      return;
-    }
-    choice_ = general;
   }
 }
 
@@ -236,7 +221,7 @@ double NextCause::Probability(std::size_t k) const {
   const double ln_share = -std::log(static_cast<double>(candidates_.size()));
   double others = std::exp(-candidates_[k].ln_bayes_factor - ln_share);
   for (std::size_t other = 0; other < candidates_.size(); ++other) {
-    if (candidates_[other].ruled_out || IsSpecialCaseOf(k, other)) continue;
+    if (candidates_[other].ruled_out) continue;
     others += std::exp(candidates_[other].ln_bayes_factor - candidates_[k].ln_bayes_factor);
   }
   return 1.0 / others;

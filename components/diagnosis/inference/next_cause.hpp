@@ -16,10 +16,11 @@ namespace palpate::diagnosis {
 inline constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
 inline constexpr double kAlikeEvidence = 3.0;   ///< ln BF within which causes fit alike
 
-/// ln BF within which a rival is not told apart from what is named. Of causes whose effects are the
-/// same (canonical correlation above 0.95; DIAGNOSIS, "Method" 8) what is believed beforehand of
-/// their sizes decides, not the data: only clear evidence is enough.
-double AlikeWithin(double likeness);
+/// ln BF within which a rival is not told apart from the cause that is named. Of causes whose
+/// effects are the same (canonical correlation above 0.95; DIAGNOSIS, "Method" 8) what is believed
+/// beforehand of their sizes decides, not the data: only clear evidence is enough. Not so of a
+/// special case: what speaks against it is what the data have of all else that the cause can do.
+double AlikeWithin(const CauseBook& book, int named, const Candidate& rival);
 
 /// One cause that was named.
 struct Choice {
@@ -43,8 +44,8 @@ class NextCause {
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
-  /// Those that fit as well as what was found, but for such as it is a special case of: no data
-  /// tell these from it.
+  /// Those that fit as well as what was found, but for such as it is a special case of: these do
+  /// all that it does, and are only less likely for what else they could do.
   std::vector<Candidate> Alike() const;
 
  private:
@@ -61,7 +62,6 @@ class NextCause {
   void FindOneThatIsClear(const HeldOut& held_out);
   /// Behind those that they are special cases of, as far as these are looked at.
   void PutSpecialCasesNext(std::size_t first, std::size_t end);
-  void PreferASpecialCase(const HeldOut& held_out);
   /// The next ones that were not simulated before.
   void RefineTheBest();
   /// The start that fits best after a few rounds becomes the candidate's cause, and goes on.

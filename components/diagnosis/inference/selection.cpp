@@ -21,7 +21,7 @@ bool IsAlike(const Fitter& fitter, const Selection& selection, const Candidate& 
     std::vector<int> others = faults;
     std::replace(others.begin(), others.end(), named, rival.cause);
     return fitter.Guess(selection.best, others).ln_evidence >
-           selection.best.posterior.ln_evidence - AlikeWithin(rival.likeness);
+           selection.best.posterior.ln_evidence - AlikeWithin(fitter.book(), named, rival);
   });
 }
 

@@ -3,18 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "components/diagnosis/inference/selection.hpp"
 #include "tests/components/diagnosis_core/hidden_causes.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-/// A mass, and a force sideways of a size beside it.
+/// A mass, and a force sideways beside it.
 class SpecialCase : public HiddenCauses {
  protected:
-  static constexpr double kLittle_N = 0.004;
-  static constexpr double kMuch_N = 0.1;
-
   Selection Select(double force_N) {
     Measure({{"payload", "body", 0.01}, {"permanent_force", "body", force_N, 1}});
     const Fitter fitter(observed_, body_, book_, {}, 1);
@@ -28,23 +28,43 @@ class SpecialCase : public HiddenCauses {
     ADD_FAILURE() << "no " << id;
     return 0.0;
   }
+  bool IsAlike(const std::string& id, const Selection& selection) const {
+    return std::any_of(selection.alike.begin(), selection.alike.end(),
+                       [&](const Candidate& one) { return IdOf(one.cause) == id; });
+  }
 };
 
-TEST_F(SpecialCase, StandsWhereTheGeneralCauseIsNotClearlyBetter) {
-  const Selection selection = Select(kLittle_N);
-  ASSERT_EQ(selection.named.size(), 1U);
+TEST_F(SpecialCase, IsNamedWhereTheGeneralCauseHasNoNeedOfWhatElseItCanDo) {
+  const Selection selection = Select(0.0);
+  ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double better =
-      LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
-  ASSERT_NEAR(better, 0.0, 3.0) << "else it would not be alike; seed " << kSeed;
+      LnBayesFactorOf("payload", selection) - LnBayesFactorOf("permanent_force", selection);
+  ASSERT_GT(better, kAlikeEvidence);
   EXPECT_EQ(IdOf(selection.named[0].cause), "payload");
-  EXPECT_GT(selection.named[0].probability, 0.9);
-  for (const Candidate& alike : selection.alike) EXPECT_NE(IdOf(alike.cause), "permanent_force");
+  EXPECT_NEAR(selection.named[0].probability, 1.0 / (1.0 + std::exp(-better)), 1e-3);
+  EXPECT_FALSE(IsAlike("permanent_force", selection));
 }
 
-TEST_F(SpecialCase, GivesWayToTheGeneralCauseThatIs) {
-  const Selection selection = Select(kMuch_N);
-  ASSERT_EQ(selection.named.size(), 1U);
+TEST_F(SpecialCase, IsAlikeAsOtherCausesAreHoweverMuchTheirEffectsAreTheSame) {
+  const int force = Number("permanent_force", "body");
+  const int mass = Number("payload", "body");
+  constexpr double kSame = 0.999;
+  EXPECT_EQ(AlikeWithin(book_, force, {.cause = mass, .likeness = kSame}), kAlikeEvidence);
+  const int other = Number("density", "body");
+  EXPECT_EQ(AlikeWithin(book_, force, {.cause = other, .likeness = kSame}), kClearEvidence);
+  EXPECT_EQ(AlikeWithin(book_, force, {.cause = other, .likeness = 0.9}), kAlikeEvidence);
+}
+
+TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) {
+  const Selection selection = Select(-0.017);
+  ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
+  const double behind =
+      LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
+  ASSERT_GT(behind, kAlikeEvidence);
+  ASSERT_LT(behind, kClearEvidence)
+      << "their effects are much the same: that does not make them alike";
   EXPECT_EQ(IdOf(selection.named[0].cause), "permanent_force");
+  EXPECT_FALSE(IsAlike("payload", selection));
 }
 
 }  // namespace
