@@ -38,10 +38,13 @@ double Tolerance(const experiment::Experiment& experiment, const std::string& ke
   return told == experiment.tolerances.end() ? 0.0 : told->second;
 }
 
+/// What is told of each marker's coordinates is of the length of its offset, too.
 std::map<std::string, double> CauseTolerances(const experiment::Experiment& experiment) {
   std::map<std::string, double> tolerances = experiment.tolerances;
   const auto marker = tolerances.find("marker_bias_m");
-  if (marker != tolerances.end()) tolerances["marker_misplacement"] = marker->second;
+  if (marker != tolerances.end()) {
+    tolerances["marker_misplacement"] = std::sqrt(3.0) * marker->second;
+  }
   return tolerances;
 }
 

@@ -43,6 +43,9 @@ struct CauseParameter {
   Scale scale = Scale::kLinear;
   /// It says where or how the cause's other parameters act: without these it is of no effect.
   bool qualifies = false;
+  /// It is one of the vector that the cause's parameters so marked make up together: how large the
+  /// cause is, and which tolerance it has, is said of the length of that.
+  bool component = false;
   /// Of |z|: beyond, something else looks like it (DIAGNOSIS, "Method" 5).
   double plausible = std::numeric_limits<double>::infinity();
 

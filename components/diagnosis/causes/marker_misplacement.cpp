@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
+#include <cmath>
+
 #include "components/diagnosis/causes/makers.hpp"
 
 #include "libs/fem/embedding.hpp"
@@ -48,8 +51,13 @@ class MarkerMisplacement final : public Cause {
   }
 
  private:
-  /// 1 mm in all, one sigma, in any direction.
-  static CauseParameter Component() { return {.name = "d_m", .tolerance = 0.58e-3, .fault = 5e-3}; }
+  static CauseParameter Component() {
+    constexpr double kTolerance_m = 1e-3;  // of its length
+    return {.name = "d_m",
+            .tolerance = kTolerance_m / std::sqrt(3.0),
+            .fault = 5e-3,
+            .component = true};
+  }
 
   Eigen::Index index_;
   std::vector<fem::NodeWeights> along_;  ///< [axes] derivative of its weights, 1/m

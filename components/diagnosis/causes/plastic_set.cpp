@@ -60,7 +60,8 @@ std::vector<CauseParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
   std::vector<CauseParameter> parts;
   for (const double softness : compliance) {
     const double fault_m = std::hypot(kTolerance_m, kSoftest_m * softness);
-    parts.push_back({.name = "tip_m", .tolerance = kTolerance_m, .fault = fault_m});
+    parts.push_back(
+        {.name = "tip_m", .tolerance = kTolerance_m, .fault = fault_m, .component = true});
   }
   return parts;
 }

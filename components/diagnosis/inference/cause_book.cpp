@@ -4,8 +4,22 @@
 #include "components/diagnosis/inference/cause_book.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::diagnosis {
+
+namespace {
+
+/// Of the first parameter, or of the length of the vector that it is a component of.
+double FirstTolerance(const std::vector<CauseParameter>& parameters) {
+  const auto components = static_cast<double>(
+      std::count_if(parameters.begin(), parameters.end(),
+                    [](const CauseParameter& parameter) { return parameter.component; }));
+  const CauseParameter& first = parameters.front();
+  return first.component ? std::sqrt(components) * first.tolerance : first.tolerance;
+}
+
+}  // namespace
 
 CauseBook::CauseBook(std::vector<CausePtr> causes, std::map<std::string, double> tolerances)
     : causes_(std::move(causes)), first_{0}, tolerances_(std::move(tolerances)) {
@@ -19,7 +33,7 @@ double CauseBook::ToleranceOf(int k, int parameter) const {
   const double own = parameters[static_cast<std::size_t>(parameter)].tolerance;
   const auto told = tolerances_.find(cause(k).name().id);
   if (told == tolerances_.end()) return own;
-  const double first = parameters.front().tolerance;
+  const double first = FirstTolerance(parameters);
   return first > 0.0 ? own * told->second / first : parameter == 0 ? told->second : own;
 }
 

@@ -17,7 +17,8 @@ namespace palpate::diagnosis {
 class CauseBook {
  public:
   /// `tolerances` (experiment.yaml): cause id -> sigma of its first parameter for a healthy robot,
-  /// the others in proportion. One of something that is no cause here is of no effect.
+  /// or of the length of the vector that this is a component of, the others in proportion. One of
+  /// something that is no cause here is of no effect.
   CauseBook(std::vector<CausePtr> causes, std::map<std::string, double> tolerances);
 
   int size() const { return static_cast<int>(causes_.size()); }

@@ -56,11 +56,21 @@ double SigmasFromHealthy(const CauseBook& book, const Posterior& posterior, int 
 /// robot has nothing of, of which the evidence says all.
 double SizeInTolerances(const CauseBook& book, const Posterior& posterior, int cause) {
   double most = -1.0;
+  double squares = 0.0;
+  int components = 0;
   for (Eigen::Index p = 0; p < book.count(cause); ++p) {
     const double tolerance = book.ToleranceOf(cause, static_cast<int>(p));
     if (tolerance <= 0.0) continue;
-    most = std::max(most, std::abs(posterior.mean[book.first(cause) + p]) / tolerance);
+    const double size = std::abs(posterior.mean[book.first(cause) + p]) / tolerance;
+    if (book.cause(cause).parameters()[static_cast<std::size_t>(p)].component) {
+      squares += size * size;
+      ++components;
+    } else {
+      most = std::max(most, size);
+    }
   }
+  // The tolerance of a vector's length is by that root more than that of each of its components.
+  if (components > 0) most = std::max(most, std::sqrt(squares / components));
   const bool beyond = SigmasFromHealthy(book, posterior, cause) > kBeyondTolerance;
   return most < 0.0 || beyond ? std::numeric_limits<double>::infinity() : most;
 }

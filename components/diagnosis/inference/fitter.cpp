@@ -288,6 +288,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
       damping = std::max(kLeastDamping, kDampMore * damping);
       to = placed ? PointFrom(fit, faults, damping) : 0.5 * (fit.z + to);
       in_vain += placed;
+      if (placed && IsOutOfTime()) break;
       continue;
     }
     in_vain = 0;

@@ -48,6 +48,15 @@ TEST(CauseBook, TakesTolerancesOfTheExperiment) {
   EXPECT_NEAR(book.BeliefWith({0}).sigma[1], 1.2, 1e-15) << "a fault is no tighter than healthy";
 }
 
+TEST(CauseBook, TakesTheToleranceOfAVectorAsThatOfItsLength) {
+  const CauseParameter along{.name = "d", .tolerance = 0.1, .fault = 1.0, .component = true};
+  std::vector<CausePtr> causes;
+  causes.push_back(std::make_unique<ToyCause>(
+      "vector", std::vector<CauseParameter>{along, along, along, along}));
+  const CauseBook book(std::move(causes), {{"vector", 0.6}});
+  for (int p = 0; p < 4; ++p) EXPECT_NEAR(book.ToleranceOf(0, p), 0.3, 1e-15);
+}
+
 /// Data that say z of each parameter to within 0.1.
 Information Says(const Eigen::VectorXd& z) {
   Information data(z.size());

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/components/diagnosis_core/toy_causes.hpp"
 
 namespace palpate::diagnosis {
@@ -34,6 +36,29 @@ TEST(FaultSize, IsNotMoreThanARobotCanHave) {
   EXPECT_EQ(WhyNot(0.19), "");
   EXPECT_THAT(WhyNot(0.21), testing::HasSubstr("g = 0.21"));
   EXPECT_THAT(WhyNot(-0.24), testing::HasSubstr("something else"));
+}
+
+/// A place that is off by so much, 1 mm being the tolerance of its length.
+std::string WhyNotOff(const Eigen::Vector3d& off_m) {
+  const CauseParameter along{
+      .name = "d_m", .tolerance = 1e-3 / std::sqrt(3.0), .fault = 5e-3, .component = true};
+  std::vector<CausePtr> causes;
+  causes.push_back(
+      std::make_unique<ToyCause>("place", std::vector<CauseParameter>{along, along, along}));
+  const CauseBook book(std::move(causes), {});
+  Posterior posterior;
+  posterior.mean = off_m;
+  posterior.covariance = 1e-8 * Eigen::Matrix3d::Identity();
+  return WhyNoFault(book, posterior, 0);
+}
+
+TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
+  for (const Eigen::Vector3d& towards :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, -1, 1),
+        Eigen::Vector3d(0.2, 0.5, -0.7)}) {
+    EXPECT_THAT(WhyNotOff(2.9e-3 * towards.normalized()), testing::HasSubstr("healthy"));
+    EXPECT_EQ(WhyNotOff(3.1e-3 * towards.normalized()), "");
+  }
 }
 
 /// Of what a healthy robot has nothing of: two sizes known to these sigmas, correlated, and where
