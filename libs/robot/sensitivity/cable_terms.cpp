@@ -101,7 +101,7 @@ Status UndoTurns(Eigen::MatrixXd coupling, Eigen::MatrixXd* right) {
   if (!(lu.rcond() >= kSingular)) {
     return {StatusCode::kUnobservable, "friction leaves the equilibrium undetermined"};
   }
-  *right = lu.solve(*right);
+  if (right->cols() > 0) *right = lu.solve(*right);
   return Status::Ok();
 }
 

@@ -21,7 +21,7 @@ class ToleranceBudget : public HiddenCauses {
     constexpr double kExact = 1e-9;  // of any unit: nothing moves by so little
     std::map<std::string, double> exact;
     for (int k = 0; k < book_.size(); ++k) exact[book_.cause(k).name().id] = kExact;
-    return {MakeCauses({.body = body_, .observed = observed_}, {}), exact};
+    return {Causes(), exact};
   }
 
   /// ln BF of the cause that looks most like what was measured.
@@ -60,6 +60,7 @@ class ToleranceBudget : public HiddenCauses {
 
 TEST_F(ToleranceBudget, KeepsHealthyRobotsFromBeingAccused) {
   const CauseBook without = BookWithoutTolerances();
+  ASSERT_EQ(without.parameter_count(), book_.parameter_count());
   int accused = 0;
   int accused_without = 0;
   for (const Information& robot : HealthyRobots()) {
