@@ -57,9 +57,21 @@ std::vector<int> RivalsOf(const Selection& selection) {
   });
   if (first == candidates.end()) return rivals;
   for (const Candidate& one : candidates) {
+    if (one.ruled_out) continue;
     if (one.ln_bayes_factor > first->ln_bayes_factor - kInQuestion) add(one.cause);
   }
   return rivals;
+}
+
+/// Where none was named: the causes that there is some evidence for, the most first.
+std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
+  std::vector<Candidate> some = selection.candidates;
+  std::erase_if(some, [](const Candidate& one) {
+    return one.ruled_out || one.ln_bayes_factor < kSomeEvidence;
+  });
+  SortByEvidence(&some);
+  if (some.size() > kMostRivals) some.resize(kMostRivals);
+  return some;
 }
 
 /// Causes that any hypothesis believes in.
@@ -113,11 +125,14 @@ Question QuestionOf(const Fitter& fitter, const Selection& selection) {
     return question;
   }
   if (!selection.guard.passed) return question;
+  const std::vector<Candidate> some = WithSomeEvidence(selection);
+  if (some.empty()) return question;
   question.best = {.name = {"no_fault", {"body"}}, .faults = {}, .posterior = best.posterior};
-  for (const Candidate& one : selection.candidates) {
-    if (one.ln_bayes_factor < kSomeEvidence || question.rivals.size() == kMostRivals) continue;
+  for (const Candidate& one : some) {
     question.rivals.push_back(HypothesisOf(fitter, best, {one.cause}, one.cause));
   }
+  const double of_all_causes = std::log(static_cast<double>(selection.candidates.size()));
+  if (some.front().ln_bayes_factor > of_all_causes) std::swap(question.best, question.rivals[0]);
   return question;
 }
 

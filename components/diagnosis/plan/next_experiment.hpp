@@ -27,8 +27,10 @@ struct Question {
 
 /// The rivals of the first cause that was named are those that fit as well, and those whose
 /// evidence is less clearly below than what a cause must have (ln BF 10). Where none was named and
-/// nothing else is left to explain, causes with some evidence are asked against the healthy robot.
-/// An unexplained gap leaves no question: what makes it is not in the catalogue.
+/// nothing else is left to explain, causes with some evidence are asked against the healthy robot,
+/// or, where that is less likely than the likeliest of them, this one against the others and the
+/// healthy robot. An unexplained gap leaves no question: what makes it is not in the catalogue.
+/// Causes that are ruled out are in no question.
 Question QuestionOf(const Fitter& fitter, const Selection& selection);
 
 /// A proposal and what is expected of it.

@@ -3,7 +3,7 @@
 
 #include "components/diagnosis/plan/next_experiment.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <map>
@@ -180,6 +180,7 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   selection_.best = selection_.healthy;
   selection_.candidates = {{.cause = NumberOf("density"), .ln_bayes_factor = 4.0},
                            {.cause = NumberOf("lag"), .ln_bayes_factor = 2.0}};
+  selection_.candidates.resize(100);  // ln BF 4.6 and more are likelier than a healthy robot
   selection_.guard.passed = false;
   EXPECT_TRUE(RankAgain().empty());
   selection_.guard.passed = true;
@@ -187,6 +188,26 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   EXPECT_EQ(question_.best.name.id, "no_fault");
   ASSERT_EQ(question_.rivals.size(), 1U);
   EXPECT_EQ(question_.rivals.front().name.id, "density");
+}
+
+/// No tilt tells these two apart, however well it told either from none.
+TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
+  Rank("payload", 2e-3, "plastic_set");
+  selection_.named.clear();
+  selection_.alike.clear();
+  selection_.best = selection_.healthy;
+  selection_.candidates = {{.cause = NumberOf("density"), .ln_bayes_factor = 8.0},
+                           {.cause = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
+                           {.cause = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}};
+  selection_.candidates.resize(100);
+  selection_.guard.passed = true;
+  const std::vector<RankedProposal> ranked = RankAgain();
+  EXPECT_EQ(question_.best.name.id, "youngs_modulus");
+  std::vector<std::string> rivals;
+  for (const Hypothesis& rival : question_.rivals) rivals.push_back(rival.name.id);
+  EXPECT_THAT(rivals, testing::UnorderedElementsAre("no_fault", "density"));
+  ASSERT_FALSE(ranked.empty());
+  EXPECT_TRUE(HasWeight(ranked.front())) << Told(ranked);
 }
 
 }  // namespace
