@@ -132,7 +132,7 @@ void NextCause::RefineTheBest() {
     fits_.push_back(std::move(fit));
   }
   SortRefined();
-  // Out of time, only those are that would be named.
+  // Out of time, only what may be named is completed (IsClear).
   for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
     const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
     // How likely a further one is that cannot get clear, nobody asks.
