@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "tests/components/diagnosis_core/small_robot.hpp"
@@ -66,6 +69,16 @@ class NextExperiment : public testing::Test {
   std::vector<RankedProposal> RankAgain() {
     question_ = QuestionOf(*fitter_, selection_);
     return RankProposals(experiment_, observed_, body_, *fitter_, selection_, question_, 1);
+  }
+
+  /// A healthy robot where there is some evidence for these, of a hundred causes: those with ln BF
+  /// 4.6 and more are likelier than none.
+  void NameNone(std::vector<Candidate> candidates) {
+    selection_.named.clear();
+    selection_.alike.clear();
+    selection_.best = selection_.healthy;
+    selection_.candidates = std::move(candidates);
+    selection_.candidates.resize(100);
   }
 
   static RecordingKind KindOf(const RankedProposal& one) { return one.proposal.recording.kind; }
@@ -175,12 +188,8 @@ TEST_F(NextExperiment, IsNoneWhereNothingIsInQuestion) {
 
 TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   Rank("payload", 2e-3, "plastic_set");
-  selection_.named.clear();
-  selection_.alike.clear();
-  selection_.best = selection_.healthy;
-  selection_.candidates = {{.cause = NumberOf("density"), .ln_bayes_factor = 4.0},
-                           {.cause = NumberOf("lag"), .ln_bayes_factor = 2.0}};
-  selection_.candidates.resize(100);  // ln BF 4.6 and more are likelier than a healthy robot
+  NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 4.0},
+            {.cause = NumberOf("lag"), .ln_bayes_factor = 2.0}});
   selection_.guard.passed = false;
   EXPECT_TRUE(RankAgain().empty());
   selection_.guard.passed = true;
@@ -193,13 +202,9 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
 /// No tilt tells these two apart, however well it told either from none.
 TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
   Rank("payload", 2e-3, "plastic_set");
-  selection_.named.clear();
-  selection_.alike.clear();
-  selection_.best = selection_.healthy;
-  selection_.candidates = {{.cause = NumberOf("density"), .ln_bayes_factor = 8.0},
-                           {.cause = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
-                           {.cause = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}};
-  selection_.candidates.resize(100);
+  NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 8.0},
+            {.cause = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
+            {.cause = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}});
   selection_.guard.passed = true;
   const std::vector<RankedProposal> ranked = RankAgain();
   EXPECT_EQ(question_.best.name.id, "youngs_modulus");
