@@ -10,13 +10,13 @@
 
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/data/fitness.hpp"
-#include "components/diagnosis/data/one_clock.hpp"
+#include "components/diagnosis/data/timebase.hpp"
 #include "components/diagnosis/exchanged_cables.hpp"
 #include "components/diagnosis/finer_mesh.hpp"
 #include "components/diagnosis/gap.hpp"
 #include "components/diagnosis/identities.hpp"
+#include "components/diagnosis/inference/confusability_of_faults.hpp"
 #include "components/diagnosis/inference/further_causes.hpp"
-#include "components/diagnosis/inference/imitation.hpp"
 #include "components/diagnosis/inference/other_places.hpp"
 #include "components/diagnosis/inference/residual_forces.hpp"
 #include "components/diagnosis/joined_diagnosis.hpp"
@@ -96,12 +96,12 @@ NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, co
                     const std::vector<FurtherCause>& further, double other_probability,
                     const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
-  const CauseBook& book = fitter.book();
-  const Cause& cause = book.cause(choice.cause);
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const FaultModel& cause = hypotheses.cause(choice.cause);
   const Eigen::VectorXd z =
-      fit.posterior.mean.segment(book.first(choice.cause), book.count(choice.cause));
+      fit.posterior.mean.segment(hypotheses.first(choice.cause), hypotheses.count(choice.cause));
   const Eigen::MatrixXd covariance = CovarianceBeside(
-      book, fit, choice.cause, further, CovarianceOverPlaces(fitter, fit, choice.cause));
+      hypotheses, fit, choice.cause, further, CovarianceOverPlaces(fitter, fit, choice.cause));
   const Eigen::VectorXd undeformed_m = fitter.DraftAt(fit).body.mesh.nodes_m.reshaped();
   NamedCause named{.name = cause.name(),
                    .words = cause.words(),
@@ -119,14 +119,14 @@ NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, co
 }
 
 void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
-  const GuardResult& guard = selection.guard;
-  const std::string left = "what is left is not noise (" + guard.worst + ")";
+  const GoodnessOfFit& goodness_of_fit = selection.goodness_of_fit;
+  const std::string left = "what is left is not noise (" + goodness_of_fit.worst + ")";
   if (selection.named.empty()) {
-    result->verdict = guard.passed ? Verdict::kNoFault : Verdict::kUnexplained;
-    result->reason = guard.passed
+    result->verdict = goodness_of_fit.passed ? Verdict::kNoFault : Verdict::kUnexplained;
+    result->reason = goodness_of_fit.passed
                          ? "What the simulation gets wrong is within noise and building tolerances."
                          : "No cause of the catalogue explains the gap: " + left + ".";
-  } else if (!guard.passed) {
+  } else if (!goodness_of_fit.passed) {
     result->verdict = Verdict::kPartlyExplained;
     result->reason = "The cause explains a part; " + left + ".";
   } else if (!selection.alike.empty()) {
@@ -136,8 +136,8 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
     result->verdict = Verdict::kCause;
     result->reason = "The causes that are named explain the gap.";
   }
-  result->leftover = {guard.passed, guard.worst, guard.surprise, guard.surprise_limit,
-                      guard.excess};
+  result->leftover = {goodness_of_fit.passed, goodness_of_fit.worst, goodness_of_fit.surprise,
+                      goodness_of_fit.surprise_limit, goodness_of_fit.excess};
   result->search_complete = selection.complete;
   if (!selection.complete) {
     result->reason += " The time was over: fits ended early, and not all causes were tried.";
@@ -146,15 +146,16 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
 
 /// Of something that the catalogue does not hold, in the place of what is named or where nothing
 /// is.
-double OtherProbability(const CauseBook& book, const Selection& selection) {
-  const bool passed = selection.guard.passed;
+double OtherProbability(const HypothesisSet& hypotheses, const Selection& selection) {
+  const bool passed = selection.goodness_of_fit.passed;
   if (selection.named.empty()) return passed ? kOtherAtLeast : kOtherWhereNoneIsNamed;
   return std::max(kOtherAtLeast,
-                  ChanceOfImitation(book, selection.healthy, selection.best, passed));
+                  ProbabilityOfConfusion(hypotheses, selection.healthy, selection.best, passed));
 }
 
 /// Probabilities of the hypotheses for the first place; causes that were named have theirs.
-void DescribeRivals(const CauseBook& book, const Selection& selection, DiagnosisResult* result) {
+void DescribeRivals(const HypothesisSet& hypotheses, const Selection& selection,
+                    DiagnosisResult* result) {
   const auto& candidates = selection.candidates;
   const double ln_share =
       -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
@@ -174,28 +175,28 @@ void DescribeRivals(const CauseBook& book, const Selection& selection, Diagnosis
                                    [&](const Choice& choice) { return choice.cause == one.cause; });
     if (named) continue;
     result->rivals.push_back(
-        {.name = book.cause(one.cause).name(),
-         .words = book.cause(one.cause).words(),
+        {.name = hypotheses.cause(one.cause).name(),
+         .words = hypotheses.cause(one.cause).words(),
          .probability = (1.0 - other) * std::exp(ln_weights[k + 1] - ln_most) / all,
          .ln_bayes_factor = one.ln_bayes_factor,
-         .likeness = one.likeness,
+         .canonical_correlation = one.canonical_correlation,
          .why_not = one.why_not});
   }
   for (const int cause : selection.compared) {
-    result->correlation_names.push_back(book.cause(cause).words());
+    result->correlation_names.push_back(hypotheses.cause(cause).words());
   }
-  result->correlation = selection.likeness;
+  result->correlation = selection.canonical_correlation;
   for (const Candidate& one : selection.alike) {
-    result->indistinguishable_from.push_back(book.cause(one.cause).name());
+    result->indistinguishable_from.push_back(hypotheses.cause(one.cause).name());
   }
 }
 
-void Extend(const CauseBook& book, const Selection& selection, Diagnosis* diagnosis) {
+void Extend(const HypothesisSet& hypotheses, const Selection& selection, Diagnosis* diagnosis) {
   std::vector<robot::CalibratedDrive> drives;
   for (const Choice& choice : selection.named) {
-    const Cause& cause = book.cause(choice.cause);
-    const Eigen::VectorXd z =
-        selection.best.posterior.mean.segment(book.first(choice.cause), book.count(choice.cause));
+    const FaultModel& cause = hypotheses.cause(choice.cause);
+    const Eigen::VectorXd z = selection.best.posterior.mean.segment(hypotheses.first(choice.cause),
+                                                                    hypotheses.count(choice.cause));
     if (!cause.Extend(z, &diagnosis->extended, &drives)) {
       diagnosis->not_in_files.push_back(cause.words());
     }
@@ -236,10 +237,10 @@ bool HasPictures(const ObservedExperiment& observed) {
                      [](const Sample& sample) { return !sample.pictures.empty(); });
 }
 
-bool IsAmong(const CauseBook& book, const std::optional<CauseName>& name) {
-  const CauseList causes = book.All();
+bool IsAmong(const HypothesisSet& hypotheses, const std::optional<CauseName>& name) {
+  const FaultModelList causes = hypotheses.All();
   return name && std::any_of(causes.begin(), causes.end(),
-                             [&](const Cause* cause) { return cause->name() == *name; });
+                             [&](const FaultModel* cause) { return cause->name() == *name; });
 }
 
 experiment::Experiment WithoutPictures(experiment::Experiment experiment) {
@@ -286,22 +287,23 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   if (HasPictures(observed)) {
     report(0, settings.most_causes + 3, "looking at the pictures");
     matcher.emplace(body);
-    result = Unfit(
-        LookAtPictures(nearest.draft, settings.threads, settings.pictures, &*matcher, &observed));
+    result = Unfit(LookAtPictures(nearest.hypothesis, settings.threads, settings.pictures,
+                                  &*matcher, &observed));
     if (!result.reason.empty()) return diagnosis;
   }
   report(0, settings.most_causes + 3, "simulating the robot as its file has it");
   const Simulation simulation = Simulator(observed, settings.threads).Run(DraftOf(body, observed));
-  const CauseBook book(MakeCauses({.body = body,
-                                   .observed = observed,
-                                   .extrinsics_m = Tolerance(experiment, "extrinsics_m"),
-                                   .extrinsics_rad = Tolerance(experiment, "extrinsics_rad"),
-                                   .as_built = &simulation,
-                                   .mesh_error = CompareWithFinerMesh(
-                                       robot, body, observed, simulation, settings.threads)},
-                                  settings.without),
-                       CauseTolerances(experiment));
-  const Fitter fitter(observed, body, book, settings.noise, settings.threads, limit);
+  const HypothesisSet hypotheses(
+      MakeCauses(
+          {.body = body,
+           .observed = observed,
+           .extrinsics_m = Tolerance(experiment, "extrinsics_m"),
+           .extrinsics_rad = Tolerance(experiment, "extrinsics_rad"),
+           .as_built = &simulation,
+           .mesh_error = CompareWithFinerMesh(robot, body, observed, simulation, settings.threads)},
+          settings.without),
+      CauseTolerances(experiment));
+  const Fitter fitter(observed, body, hypotheses, settings.noise, settings.threads, limit);
   Fit as_built = fitter.AsBuilt(&simulation);
   result = Unfit(WhyUnfit(observed, as_built.simulation));
   if (!result.reason.empty()) return diagnosis;
@@ -313,27 +315,28 @@ Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Exper
   }
   const Selection selection =
       SelectCauses(observed, fitter, as_built, settings.most_causes, report, look_again,
-                   IsAmong(book, nearest.exchanged) ? nearest.exchanged : std::nullopt);
+                   IsAmong(hypotheses, nearest.exchanged) ? nearest.exchanged : std::nullopt);
   if (matcher) as_built = fitter.Resimulated(std::move(as_built));
-  DescribeGap(observed, body, book, as_built, selection, &result);
+  DescribeGap(observed, body, hypotheses, as_built, selection, &result);
   for (ComparedMoment& moment : result.moments) {
     const auto r = static_cast<std::size_t>(moment.recording);
     moment.t_s -= FirstFrame_s(experiment.recordings[r]) - FirstFrame_s(as_recorded.recordings[r]);
   }
   DescribeVerdict(selection, &result);
-  result.other_probability = OtherProbability(book, selection);
+  result.other_probability = OtherProbability(hypotheses, selection);
   std::vector<FurtherCause> further;
   if (!selection.named.empty()) further = FurtherCauses(fitter, selection.best);
   for (const Choice& choice : selection.named) {
     result.causes.push_back(
         Describe(observed, fitter, selection.best, further, result.other_probability, choice));
-    result.causes.back().explained_share = ExplainedShare(observed, book, selection, choice.cause);
+    result.causes.back().explained_share =
+        ExplainedShare(observed, hypotheses, selection, choice.cause);
   }
-  DescribeRivals(book, selection, &result);
-  result.residual_forces = FindResidualForces(observed, book, selection);
+  DescribeRivals(hypotheses, selection, &result);
+  result.residual_forces = FindResidualForces(observed, hypotheses, selection);
   result.identities = Identities(observed);
-  Extend(book, selection, &diagnosis);
-  if (!selection.named.empty() && book.cause(selection.named.back().cause).BeginsAnew()) {
+  Extend(hypotheses, selection, &diagnosis);
+  if (!selection.named.empty() && hypotheses.cause(selection.named.back().cause).BeginsAnew()) {
     DiagnosisSettings rest = settings;
     rest.longest_s = limit.left_s();
     rest.most_causes = settings.most_causes - 1;

@@ -53,7 +53,8 @@ struct Rival {
   std::string words;
   double probability = 0.0;
   double ln_bayes_factor = 0.0;  ///< against the healthy robot
-  double likeness = 0.0;         ///< canonical correlation with the first named cause, in [0, 1]
+  double canonical_correlation =
+      0.0;  ///< canonical correlation with the first named cause, in [0, 1]
   std::string why_not;
 };
 
@@ -105,7 +106,7 @@ struct ResidualForces {
   Eigen::Matrix3Xd after_N;   ///< for what the named causes leave
 };
 
-/// The test of what is left that is least like noise (GuardResult).
+/// The test of what is left that is least like noise (GoodnessOfFit).
 struct Leftover {
   bool is_noise = false;
   std::string test;

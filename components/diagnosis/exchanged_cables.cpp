@@ -71,7 +71,7 @@ class Distance {
  public:
   /// Both must outlive it. Looks at the pictures from where `as_in_file` stands.
   Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
-           SkinSource* pictures, const ModelDraft& as_in_file)
+           SkinSource* pictures, const ModelHypothesis& as_in_file)
       : telling_(telling),
         simulator_(telling, threads),
         surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
@@ -81,15 +81,15 @@ class Distance {
     clouds_ = matcher.clouds();
   }
 
-  double MeanSquareOf_m2(const ModelDraft& draft) {
-    const Simulation simulation = simulator_.Run(draft);
+  double MeanSquareOf_m2(const ModelHypothesis& hypothesis) {
+    const Simulation simulation = simulator_.Run(hypothesis);
     if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
     sum_m2_ = 0.0;
     count_ = 0.0;
     if (clouds_.empty()) {
       AddMarkers(simulation);
     } else {
-      AddClouds(simulator_.Shapes(draft, simulation));
+      AddClouds(simulator_.Shapes(hypothesis, simulation));
     }
     return sum_m2_ / count_;
   }
@@ -137,20 +137,20 @@ class Distance {
 
 NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
                                  int threads, SkinSource* pictures) {
-  NearestRobot nearest{.draft = DraftOf(body, observed)};
-  const ModelDraft as_in_file = nearest.draft;
+  NearestRobot nearest{.hypothesis = DraftOf(body, observed)};
+  const ModelHypothesis as_in_file = nearest.hypothesis;
   const ObservedExperiment telling = OfMostPulled(observed, pictures != nullptr);
   Distance distance(body, telling, threads, pictures, as_in_file);
   double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
-  std::vector<CausePtr> exchanges;
+  std::vector<FaultModelPtr> exchanges;
   MakeSwappedCables({.body = body, .observed = telling}, &exchanges);
-  for (const CausePtr& exchange : exchanges) {
-    ModelDraft draft = as_in_file;
-    exchange->Apply(Eigen::VectorXd::Ones(1), &draft);
-    const double mean_m2 = distance.MeanSquareOf_m2(draft);
+  for (const FaultModelPtr& exchange : exchanges) {
+    ModelHypothesis hypothesis = as_in_file;
+    exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    const double mean_m2 = distance.MeanSquareOf_m2(hypothesis);
     if (!(mean_m2 < least_m2)) continue;
     least_m2 = mean_m2;
-    nearest = {std::move(draft), exchange->name()};
+    nearest = {std::move(hypothesis), exchange->name()};
   }
   return nearest;
 }

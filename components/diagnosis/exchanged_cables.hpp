@@ -5,14 +5,14 @@
 
 #include <optional>
 
-#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/causes/fault_model.hpp"
 #include "components/diagnosis/skin/skin_source.hpp"
 
 namespace palpate::diagnosis {
 
 /// A robot and what it has that the file's has not.
 struct NearestRobot {
-  ModelDraft draft;
+  ModelHypothesis hypothesis;
   std::optional<CauseName> exchanged = {};  ///< the cables; none: it is the file's
 };
 

@@ -124,30 +124,30 @@ struct Sums {
 };
 
 /// Parameters with these causes, of each recording their own or one for all (ResidualsOf).
-using Parameters = std::vector<Eigen::VectorXd>(const CauseBook&, const Fit&,
+using Parameters = std::vector<Eigen::VectorXd>(const HypothesisSet&, const Fit&,
                                                 const std::vector<int>& causes);
 
 /// As all other recordings have them.
-std::vector<Eigen::VectorXd> LeftOut(const CauseBook& book, const Fit& fit,
+std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit& fit,
                                      const std::vector<int>& causes) {
   std::vector<Eigen::VectorXd> z;
   for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
-    z.push_back(book.InferWithin(fit.model.AllBut(r), causes).mean);
+    z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes).mean);
   }
   return z;
 }
 
-std::vector<Eigen::VectorXd> AsFitted(const CauseBook& book, const Fit& fit,
+std::vector<Eigen::VectorXd> AsFitted(const HypothesisSet& hypotheses, const Fit& fit,
                                       const std::vector<int>& causes) {
-  return {book.InferWithin(fit.model.All(), causes).mean};
+  return {hypotheses.InferWithin(fit.model.All(), causes).mean};
 }
 
-double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
+double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
                       const Selection& selection, int cause, const Parameters& parameters) {
   const Fit& best = selection.best;
   const Fit& healthy = selection.healthy;
   const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
-    return ResidualsOf(observed, fit, parameters(book, fit, causes));
+    return ResidualsOf(observed, fit, parameters(hypotheses, fit, causes));
   };
   std::vector<int> others = best.faults;
   std::erase(others, cause);
@@ -199,25 +199,26 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
 
 }  // namespace
 
-double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
+double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
                       const Selection& selection, int cause) {
-  return std::max(ExplainedShare(observed, book, selection, cause, AsFitted),
-                  ExplainedShare(observed, book, selection, cause, LeftOut));
+  return std::max(ExplainedShare(observed, hypotheses, selection, cause, AsFitted),
+                  ExplainedShare(observed, hypotheses, selection, cause, LeftOut));
 }
 
 void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
-                 const CauseBook& book, const Fit& as_built, const Selection& selection,
+                 const HypothesisSet& hypotheses, const Fit& as_built, const Selection& selection,
                  DiagnosisResult* result) {
   DescribeBody(observed, body, result);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(book.parameter_count());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(hypotheses.parameter_count());
   const Fit& best = selection.best;
   const Fit& healthy = selection.healthy;
   const Residuals before_m = ResidualsOf(observed, as_built, {none});
   const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
   const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
   const Residuals heldout_before_m =
-      ResidualsOf(observed, healthy, LeftOut(book, healthy, healthy.faults));
-  const Residuals heldout_after_m = ResidualsOf(observed, best, LeftOut(book, best, best.faults));
+      ResidualsOf(observed, healthy, LeftOut(hypotheses, healthy, healthy.faults));
+  const Residuals heldout_after_m =
+      ResidualsOf(observed, best, LeftOut(hypotheses, best, best.faults));
   std::vector<Sums> sums(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];

@@ -13,7 +13,7 @@ namespace palpate::diagnosis {
 /// as built, within tolerances, with the causes that were named, and in recordings left out; and
 /// the moments that figures are drawn from.
 void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
-                 const CauseBook& book, const Fit& as_built, const Selection& selection,
+                 const HypothesisSet& hypotheses, const Fit& as_built, const Selection& selection,
                  DiagnosisResult* result);
 
 /// Share of the squares beyond the noise, as a robot within its tolerances leaves them in
@@ -21,7 +21,7 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
 /// the tolerances fitted again: in what was fitted, or in recordings left out, where it is more. In
 /// what they are fitted to tolerances take up most of what a small cause does; a cause that one
 /// recording alone shows is told there.
-double ExplainedShare(const ObservedExperiment& observed, const CauseBook& book,
+double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
                       const Selection& selection, int cause);
 
 }  // namespace palpate::diagnosis

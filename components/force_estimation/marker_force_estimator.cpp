@@ -13,7 +13,7 @@
 
 #include "components/force_estimation/contact_search.hpp"
 #include "components/force_estimation/fit/force_fitter.hpp"
-#include "components/force_estimation/marker_tare.hpp"
+#include "components/force_estimation/marker_offset_calibration.hpp"
 #include "components/force_estimation/statistics.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -113,7 +113,7 @@ class MarkerForceEstimator::Impl {
   std::vector<ContactSite> sites_;
   std::vector<FitSite> fit_sites_;
   std::vector<double> marker_weight_;
-  MarkerTare tare_;
+  MarkerOffsetCalibration tare_;
   ForceFitter fitter_;
   std::optional<ContactSearch> search_;
   RowTargets targets_;
@@ -312,7 +312,7 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
   const auto count = static_cast<Eigen::Index>(estimate_.contacts.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
   for (Eigen::Index c = 0; c < count; ++c) {
-    const fem::NodeWeights& weights = sites[static_cast<size_t>(c)].patch.weights;
+    const fem::InterpolationWeights& weights = sites[static_cast<size_t>(c)].patch.weights;
     for (size_t k = 0; k < weights.nodes.size(); ++k) {
       for (Eigen::Index i = 0; i < 3; ++i) {
         forces_N(3 * weights.nodes[k] + i, 3 * c + i) += weights.weights[k];

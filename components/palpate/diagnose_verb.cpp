@@ -158,7 +158,7 @@ void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& r
   for (const diagnosis::Rival& rival : result.rivals) {
     if (rival.name.id != id) continue;
     fmt::print("{}: {} (ln BF {:.1f}, likeness to what was named {:.2f})\n", rival.words,
-               rival.why_not, rival.ln_bayes_factor, rival.likeness);
+               rival.why_not, rival.ln_bayes_factor, rival.canonical_correlation);
     found = true;
   }
   if (!found) {

@@ -11,7 +11,7 @@
 namespace palpate::virtual_robot {
 
 CableGeometry::CableGeometry(const Eigen::Vector3d& guide_m,
-                             const std::vector<fem::NodeWeights>& eyelets) {
+                             const std::vector<fem::InterpolationWeights>& eyelets) {
   PALPATE_CHECK(!eyelets.empty());
   for (size_t e = 0; e < eyelets.size(); ++e) {
     Piece piece;

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 
 namespace palpate::virtual_robot {
@@ -16,7 +16,8 @@ namespace palpate::virtual_robot {
 class CableGeometry {
  public:
   /// `eyelets`: at least one.
-  CableGeometry(const Eigen::Vector3d& guide_m, const std::vector<fem::NodeWeights>& eyelets);
+  CableGeometry(const Eigen::Vector3d& guide_m,
+                const std::vector<fem::InterpolationWeights>& eyelets);
 
   int PieceCount() const { return static_cast<int>(pieces_.size()); }
   fem::NodePairs CoupledPairs() const;

@@ -19,7 +19,7 @@ CableSystem::CableSystem(const BenchBody& body, const Effects& effects) {
   }
   int pieces = 0;
   for (size_t c = 0; c < body.cables.size(); ++c) {
-    std::vector<fem::NodeWeights> eyelets;
+    std::vector<fem::InterpolationWeights> eyelets;
     for (const fem::BodyPoint& point : body.cables[c].eyelets) eyelets.push_back(point.weights);
     Cable cable{.geometry = CableGeometry(guide_m[c], eyelets), .sliding = {}, .beyond_m = {}};
     cable.first_piece = pieces;

@@ -19,7 +19,7 @@ Eigen::Matrix3d Tilt(const Eigen::Vector2d& angles_deg) {
       .toRotationMatrix();
 }
 
-void AddPointMass(const fem::NodeWeights& weights, double mass_kg, fem::NodeMatrix* mass) {
+void AddPointMass(const fem::InterpolationWeights& weights, double mass_kg, fem::NodeMatrix* mass) {
   for (size_t a = 0; a < weights.nodes.size(); ++a) {
     for (size_t b = 0; b <= a; ++b) {
       mass->Add(weights.nodes[a], weights.nodes[b],

@@ -21,7 +21,7 @@ namespace palpate::virtual_robot {
 /// A dead load where it acts.
 struct PointLoad {
   std::string name;
-  fem::NodeWeights weights;
+  fem::InterpolationWeights weights;
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };

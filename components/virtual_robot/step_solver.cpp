@@ -57,7 +57,7 @@ StepSolver::StepSolver(const Forces& forces, const fem::FixedDirections& fixed, 
   forces_.mass.BindTo(matrix_);
   forces_.viscosity.BindTo(matrix_);
   forces_.cables.BindTo(matrix_);
-  solver_->KeepRounded();  // each correction is followed by the balance that it leads to
+  solver_->KeepSinglePrecision();  // each correction is followed by the balance that it leads to
   const int pieces = forces_.cables.PieceCount();
   nodal_ = Eigen::VectorXd::Zero(3 * fixed.cols());
   correction_ = Eigen::MatrixXd::Zero(matrix_.Size(), 1);
@@ -151,7 +151,7 @@ Status StepSolver::Factorise(const StepTask& task) {
     matrix_.Reduce(gradients_.col(j), reduced_.col(j));
   }
   columns_ = reduced_;
-  solver_->SolveRounded(columns_);
+  solver_->SolveSingle(columns_);
   compliance_m_N_ = reduced_.transpose() * columns_;
   return Status::Ok();
 }
@@ -176,7 +176,7 @@ Status StepSolver::FactoriseShifted() {
 bool StepSolver::Correct() {
   matrix_.Reduce(nodal_, correction_.col(0));
   const Eigen::VectorXd left_N = correction_.col(0);
-  solver_->SolveRounded(correction_);
+  solver_->SolveSingle(correction_);
   work_in_hand_ = left_N.dot(correction_.col(0));
   if (forces_.cables.PieceCount() == 0) return true;
   forces_.cables.Gradients(&gradients_);

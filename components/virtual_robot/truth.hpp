@@ -9,7 +9,7 @@
 
 #include "components/virtual_robot/bench.hpp"
 #include "components/virtual_robot/virtual_robot.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/geometry/closest_point.hpp"
 
 namespace palpate::virtual_robot {
@@ -30,7 +30,7 @@ class Truth {
  private:
   const Bench& bench_;
   geometry::SurfaceIndex rest_surface_;
-  std::vector<fem::NodeWeights> markers_;
+  std::vector<fem::InterpolationWeights> markers_;
   std::vector<CableReading> readings_;
 };
 

@@ -59,7 +59,8 @@ BallRule MakeBallRule() {
 
 }  // namespace
 
-NodeWeights Combine(const std::vector<NodeWeights>& parts, const std::vector<double>& factors) {
+InterpolationWeights Combine(const std::vector<InterpolationWeights>& parts,
+                             const std::vector<double>& factors) {
   PALPATE_CHECK(parts.size() == factors.size(), parts.size(), factors.size());
   std::map<int, double> sums;
   for (size_t p = 0; p < parts.size(); ++p) {
@@ -67,7 +68,7 @@ NodeWeights Combine(const std::vector<NodeWeights>& parts, const std::vector<dou
       sums[parts[p].nodes[k]] += factors[p] * parts[p].weights[k];
     }
   }
-  NodeWeights combined;
+  InterpolationWeights combined;
   for (const auto& [node, weight] : sums) {
     combined.nodes.push_back(node);
     combined.weights.push_back(weight);
@@ -178,7 +179,7 @@ Eigen::VectorXd PointLocator::ExpandAbout(int cell, const Eigen::Vector3d& xi,
   return shape + gradients.transpose() * step;
 }
 
-NodeWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) const {
+InterpolationWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) const {
   const int holder = HoldingCell(point_m);
   *cell = holder >= 0 ? holder : NearestCentroid(point_m);
   const Eigen::Matrix3Xd nodes_m = CellNodes_m(mesh_, *cell);
@@ -193,7 +194,7 @@ NodeWeights PointLocator::Weights(const Eigen::Vector3d& point_m, int* cell) con
     xi += jacobian_m.inverse() * gap_m;
   }
   const Eigen::VectorXd values = ExpandAbout(*cell, xi, point_m);
-  NodeWeights weights;
+  InterpolationWeights weights;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     weights.nodes.push_back(mesh_.cells(k, *cell));
     weights.weights.push_back(values(k));
@@ -218,7 +219,7 @@ BodyPoint PointLocator::EmbedBall(const Eigen::Vector3d& centre_m, double radius
   static const BallRule rule = MakeBallRule();
   BodyPoint ball = Embed(centre_m);
   if (radius_m == 0.0) return ball;
-  std::vector<NodeWeights> parts;
+  std::vector<InterpolationWeights> parts;
   for (const Eigen::Vector3d& offset : rule.points) {
     int cell = -1;
     parts.push_back(Weights(centre_m + radius_m * offset, &cell));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libs/fem/boundary_surface.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/geometry/closest_point.hpp"
 
@@ -15,7 +15,7 @@ namespace palpate::fem {
 
 /// A point that moves with the body.
 struct BodyPoint {
-  NodeWeights weights;  ///< nodes in rising order; the weights add up to 1
+  InterpolationWeights weights;  ///< nodes in rising order; the weights add up to 1
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< at rest, robot frame; what was asked for
   double distance_m = 0.0;  ///< to the nearest point of the rest surface; 0 inside the mesh
   int cell = -1;            ///< the cell that holds the point or from which it is extrapolated
@@ -54,7 +54,7 @@ class PointLocator {
   Eigen::Vector3d ClosestReferencePoint(int cell, const Eigen::Vector3d& point_m) const;
   Eigen::VectorXd ExpandAbout(int cell, const Eigen::Vector3d& xi,
                               const Eigen::Vector3d& point_m) const;
-  NodeWeights Weights(const Eigen::Vector3d& point_m, int* cell) const;
+  InterpolationWeights Weights(const Eigen::Vector3d& point_m, int* cell) const;
   void BuildGrid();
   Eigen::Array3i GridIndex(const Eigen::Vector3d& point_m) const;
   size_t GridCell(const Eigen::Array3i& index) const;
@@ -71,6 +71,7 @@ class PointLocator {
 };
 
 /// Sum of factor-weighted points as one, nodes in rising order.
-NodeWeights Combine(const std::vector<NodeWeights>& parts, const std::vector<double>& factors);
+InterpolationWeights Combine(const std::vector<InterpolationWeights>& parts,
+                             const std::vector<double>& factors);
 
 }  // namespace palpate::fem

@@ -82,7 +82,7 @@ bool EquilibriumStep::HasTangentFor(const LoadState& loads) const {
 Status EquilibriumStep::ComputeChord(const LoadState& loads, const Eigen::VectorXd& x_m,
                                      const Eigen::VectorXd& multipliers_N) {
   step_ = linearisation_.residual_N();
-  linearisation_.SolveRounded(step_);
+  linearisation_.SolveSingle(step_);
   return SolveMultipliers(loads, x_m, multipliers_N);
 }
 

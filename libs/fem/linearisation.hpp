@@ -58,9 +58,9 @@ class Linearisation {
 
   /// Overwrites each column [Size()] of `columns` with K^-1 column. After a successful Update.
   void Solve(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->Solve(columns); }
-  /// SparseSolver::KeepRounded, and Solve by it for steps that the next residual corrects.
-  void KeepRounded() { solver_->KeepRounded(); }
-  void SolveRounded(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->SolveRounded(columns); }
+  /// SparseSolver::KeepSinglePrecision, and Solve by it for steps that the next residual corrects.
+  void KeepSinglePrecision() { solver_->KeepSinglePrecision(); }
+  void SolveSingle(Eigen::Ref<Eigen::MatrixXd> columns) { solver_->SolveSingle(columns); }
 
  private:
   Status Check() const;

@@ -150,7 +150,7 @@ SurfacePatch MakeSurfacePatch(const PointLocator& locator, const Eigen::Vector3d
   const BoundarySurface& boundary = locator.boundary();
   const bool quadratic = boundary.faces.rows() == 6;
   const geometry::SurfacePoint middle = locator.surface().Closest(point_m);
-  std::vector<NodeWeights> parts;
+  std::vector<InterpolationWeights> parts;
   Eigen::Vector3d area_vector_m2 = Eigen::Vector3d::Zero();
   SurfacePatch patch;
   for (const int face : locator.surface().TrianglesWithin(middle.position_m, radius_m)) {

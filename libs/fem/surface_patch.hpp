@@ -6,14 +6,14 @@
 #include <Eigen/Core>
 
 #include "libs/fem/embedding.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 
 namespace palpate::fem {
 
 /// Where a load or a contact acts: a force F on it gives the node k the force weights[k] * F, and
 /// the mean displacement over it is the weighted sum of the nodes'.
 struct SurfacePatch {
-  NodeWeights weights;  ///< nodes in rising order; the weights add up to 1
+  InterpolationWeights weights;  ///< nodes in rising order; the weights add up to 1
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< where the resultant acts at rest
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, outward, mean over the area
   double area_m2 = 0.0;                                ///< 0 for a point

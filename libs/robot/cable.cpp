@@ -48,7 +48,7 @@ Eigen::Vector3d Cable::Piece::Vector(const Eigen::VectorXd& x_m) const {
   return vector;
 }
 
-Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> eyelets,
+Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::InterpolationWeights> eyelets,
              const Eigen::VectorXd& rest_x_m)
     : pull_point_m_(pull_point_m), eyelets_(std::move(eyelets)) {
   PALPATE_CHECK(!eyelets_.empty());
@@ -59,7 +59,7 @@ Cable::Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> 
 Cable::Piece Cable::MakePiece(size_t eyelet) const {
   Piece piece;
   std::map<int, double> coefficients;
-  const auto add = [&](double sign, const fem::NodeWeights& end) {
+  const auto add = [&](double sign, const fem::InterpolationWeights& end) {
     for (size_t k = 0; k < end.nodes.size(); ++k) {
       coefficients[end.nodes[k]] += sign * end.weights[k];
     }

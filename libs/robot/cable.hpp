@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/scalar_constraint.hpp"
 #include "libs/robot/cable_friction.hpp"
 
@@ -18,15 +18,16 @@ namespace palpate::robot {
 /// push.
 class Cable final : public fem::ScalarConstraint {
  public:
-  /// `eyelets`: at least one, weights as in fem/node_weights.hpp; `rest_x_m` [3n] rest positions.
-  Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::NodeWeights> eyelets,
+  /// `eyelets`: at least one, weights as in fem/interpolation_weights.hpp; `rest_x_m` [3n] rest
+  /// positions.
+  Cable(const Eigen::Vector3d& pull_point_m, std::vector<fem::InterpolationWeights> eyelets,
         const Eigen::VectorXd& rest_x_m);
 
   double rest_length_m() const { return rest_length_m_; }
   const Eigen::Vector3d& pull_point_m() const { return pull_point_m_; }
   /// `rest_x_m` as at the construction.
   void SetPullPoint(const Eigen::Vector3d& pull_point_m, const Eigen::VectorXd& rest_x_m);
-  const std::vector<fem::NodeWeights>& eyelets() const { return eyelets_; }
+  const std::vector<fem::InterpolationWeights>& eyelets() const { return eyelets_; }
   /// The same nodes as before, with other weights: what BindTo found stays.
   void SetEyelet(int eyelet, const std::vector<double>& weights, const Eigen::VectorXd& rest_x_m);
   const CableFriction& friction() const { return friction_; }
@@ -70,7 +71,7 @@ class Cable final : public fem::ScalarConstraint {
   Piece MakePiece(size_t eyelet) const;  ///< that ends there
 
   Eigen::Vector3d pull_point_m_;
-  std::vector<fem::NodeWeights> eyelets_;
+  std::vector<fem::InterpolationWeights> eyelets_;
   std::vector<Piece> pieces_;
   CableFriction friction_;
   double compliance_m_N_ = 0.0;

@@ -13,7 +13,7 @@ void ForceDirection::AddForce(double force_N, Eigen::VectorXd& nodal_force_N) co
   }
 }
 
-Compliance::Compliance(fem::Linearisation& linearisation, std::vector<EffectorRow> effectors)
+Compliance::Compliance(fem::Linearisation& linearisation, std::vector<ObservationRow> effectors)
     : linearisation_(linearisation),
       effectors_(std::move(effectors)),
       nodal_(3 * linearisation.body().NodeCount()),
@@ -21,7 +21,7 @@ Compliance::Compliance(fem::Linearisation& linearisation, std::vector<EffectorRo
   SetForces({});
 }
 
-void Compliance::SetEffectors(std::vector<EffectorRow> effectors) {
+void Compliance::SetEffectors(std::vector<ObservationRow> effectors) {
   effectors_ = std::move(effectors);
   const auto e = static_cast<Eigen::Index>(effectors_.size());
   W_ea_.resize(e, W_ea_.cols());
@@ -59,7 +59,7 @@ void Compliance::Compute(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cabl
   lambda_a_ = lambda_a_N;
   lambda_f_ = lambda_f_N;
   FillColumns(x_m);
-  linearisation_.SolveRounded(columns_);
+  linearisation_.SolveSingle(columns_);
   ObserveColumns();
   ObserveResponse(x_m, cable_rest_length_m);
 }
@@ -71,7 +71,7 @@ void Compliance::ComputeChord(const Eigen::VectorXd& x_m,
   lambda_a_ = lambda_a_N;
   lambda_f_ = lambda_f_N;
   columns_.col(0) = linearisation_.residual_N();
-  linearisation_.SolveRounded(columns_.col(0));
+  linearisation_.SolveSingle(columns_.col(0));
   ObserveResponse(x_m, cable_rest_length_m);
 }
 

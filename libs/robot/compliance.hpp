@@ -6,16 +6,16 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/linearisation.hpp"
-#include "libs/fem/node_weights.hpp"
-#include "libs/robot/effector_row.hpp"
+#include "libs/robot/observation_row.hpp"
 
 namespace palpate::robot {
 
 /// A direction in which an external force may act: one row of the paper's H_f. The force f on it
 /// gives node k the force weights[k] * f * direction.
 struct ForceDirection {
-  fem::NodeWeights weights;
+  fem::InterpolationWeights weights;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, robot frame
 
   void AddForce(double force_N, Eigen::VectorXd& nodal_force_N) const;
@@ -30,11 +30,11 @@ struct ForceDirection {
 /// so dell/dx = -H_a. After the first Compute of a set of force directions nothing is allocated.
 class Compliance {
  public:
-  Compliance(fem::Linearisation& linearisation, std::vector<EffectorRow> effectors);
+  Compliance(fem::Linearisation& linearisation, std::vector<ObservationRow> effectors);
 
   /// Other rows of H_e. The W of the last Compute belong to the old ones until Observe.
-  void SetEffectors(std::vector<EffectorRow> effectors);
-  const std::vector<EffectorRow>& effectors() const { return effectors_; }
+  void SetEffectors(std::vector<ObservationRow> effectors);
+  const std::vector<ObservationRow>& effectors() const { return effectors_; }
 
   /// Sets the rows of H_f. Positions of the directions in `forces` index lambda_f.
   void SetForces(std::vector<ForceDirection> forces);
@@ -77,7 +77,7 @@ class Compliance {
   void ObserveResponse(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
 
   fem::Linearisation& linearisation_;
-  std::vector<EffectorRow> effectors_;
+  std::vector<ObservationRow> effectors_;
   std::vector<ForceDirection> forces_;
   Eigen::MatrixXd directions_;                         ///< [reduced x a + f], H_a' and H_f'
   std::vector<std::vector<Eigen::Index>> cable_rows_;  ///< [a] nonzeros of H_a'

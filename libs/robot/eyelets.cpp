@@ -67,8 +67,8 @@ void GiveEyeletsRoom(double reach_m, RobotBody* body) {
       std::set<int> nodes;
       AddNodesOfCells(body->mesh, box, &nodes);
       AddNodesOfPoints(locator, box, &nodes);
-      const fem::NodeWeights room{{nodes.begin(), nodes.end()},
-                                  std::vector<double>(nodes.size(), 0.0)};
+      const fem::InterpolationWeights room{{nodes.begin(), nodes.end()},
+                                           std::vector<double>(nodes.size(), 0.0)};
       eyelet.weights = fem::Combine({eyelet.weights, room}, {1.0, 1.0});
     }
   }

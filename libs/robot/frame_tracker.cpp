@@ -26,7 +26,7 @@ const fem::FrameOutcome& FrameTracker::Follow(const std::vector<CableCommand>& c
   PALPATE_CHECK(static_cast<int>(cables.size()) == model_.CableCount(), cables.size());
   SetLoads(cables, force_N);
   fem::EquilibriumStep::ImposeMultipliers(state_.loads, &state_.multipliers_N);
-  outcome_ = fem::RunFrame(*this, settings_, budget);
+  outcome_ = fem::SolveNewton(*this, settings_, budget);
   if (outcome_.converged() && model_.CableCount() > 0) {
     // A cable at its largest tension balances the body, yet not with the displacement asked for.
     outcome_.status = fem::CheckLargestMultipliers(

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "libs/fem/equilibrium_step.hpp"
-#include "libs/fem/frame_loop.hpp"
 #include "libs/fem/load_state.hpp"
+#include "libs/fem/newton_loop.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::robot {
 
-/// The model following its cables and given forces from frame to frame, each by RunFrame
-/// (frame_loop.hpp): what a simulation beside the real robot needs. A frame's error is the larger
+/// The model following its cables and given forces from frame to frame, each by SolveNewton
+/// (newton_loop.hpp): what a simulation beside the real robot needs. A frame's error is the larger
 /// of the residual over the size of the forces (ForceScale_N) and the missed cable length over the
 /// cable's rest length. Nothing is allocated after the first frame.
-class FrameTracker final : private fem::FrameProblem {
+class FrameTracker final : private fem::NewtonProblem {
  public:
   /// `model` must outlive the tracker; nobody else may use its linearisation within Follow.
   FrameTracker(RobotModel& model, const fem::FrameSettings& settings);

@@ -18,7 +18,7 @@ using ConstraintList = std::vector<fem::ScalarConstraint*>;
 std::vector<Cable> MakeCables(const RobotBody& body, const Eigen::VectorXd& rest_m) {
   std::vector<Cable> cables;
   for (const BodyCable& cable : body.cables) {
-    std::vector<fem::NodeWeights> eyelets;
+    std::vector<fem::InterpolationWeights> eyelets;
     for (const fem::BodyPoint& point : cable.eyelets) eyelets.push_back(point.weights);
     cables.emplace_back(cable.pull_point_m, std::move(eyelets), rest_m);
     cables.back().SetFriction({.coefficient = cable.friction_coefficient});
@@ -84,7 +84,7 @@ Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d
   const auto index = static_cast<size_t>(cable_index);
   BodyCable moved = body_.cables.at(index);
   fem::BodyPoint& point = moved.eyelets.at(static_cast<size_t>(eyelet));
-  const fem::NodeWeights before = point.weights;
+  const fem::InterpolationWeights before = point.weights;
   robot::MoveEyelet(locator_, body_.scale, eyelet, moved_m, &moved);
   point.weights = fem::Combine({point.weights, before}, {1.0, 0.0});
   if (point.weights.nodes != before.nodes) {

@@ -53,7 +53,7 @@ struct CableState {
 
 /// A dead load on the body: the same in size and direction however the body moves.
 struct DeadLoad {
-  fem::NodeWeights weights;
+  fem::InterpolationWeights weights;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
 };
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "libs/robot/effector_row.hpp"
+#include "libs/robot/observation_row.hpp"
 
 namespace palpate::skin {
 
@@ -20,7 +20,7 @@ enum class MatchState {
 /// paper's delta_e^N and delta_c^N).
 struct FeatureMatch {
   MatchState state = MatchState::kHidden;
-  robot::EffectorRow row;        ///< of the model, in the nodes' positions
+  robot::ObservationRow row;     ///< of the model, in the nodes' positions
   double target_m = 0.0;         ///< what `row` should give
   double sigma_m = 0.0;          ///< of the target, from the depth noise alone; > 0 where matched
   int count = 0;                 ///< cloud points that stand behind it

@@ -21,7 +21,9 @@ class SurfaceFeatures {
   explicit SurfaceFeatures(const robot::RobotBody& body);
 
   int Count() const { return static_cast<int>(points_.size()); }
-  const fem::NodeWeights& point(int feature) const { return points_[static_cast<size_t>(feature)]; }
+  const fem::InterpolationWeights& point(int feature) const {
+    return points_[static_cast<size_t>(feature)];
+  }
   const Eigen::Matrix3Xd& rest_m() const { return rest_m_; }        ///< [3 x features]
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] node numbers
   int FeatureOfTriangle(int triangle) const {
@@ -43,7 +45,7 @@ class SurfaceFeatures {
   void FindParts(const Eigen::Matrix3Xd& nodes_m);
   void ShareOut(const Eigen::Matrix3Xd& nodes_m);
 
-  std::vector<fem::NodeWeights> points_;
+  std::vector<fem::InterpolationWeights> points_;
   Eigen::Matrix3Xd rest_m_;
   Eigen::Matrix3Xi triangles_;
   std::vector<int> feature_of_triangle_;

@@ -50,7 +50,7 @@ DiagnosedRobot::DiagnosedRobot()
 
 void DiagnosedRobot::Simulate() {
   constexpr double kSofter = 0.9;
-  diagnosis::ModelDraft draft = nominal_;
+  diagnosis::ModelHypothesis draft = nominal_;
   for (auto& material : draft.body.materials) material.youngs_modulus_Pa *= kSofter;
   const diagnosis::Simulation run = simulator_.Run(draft, &as_built_);
   if (!run.status.ok()) throw RunError(run.status.message());
@@ -63,7 +63,7 @@ void DiagnosedRobot::Differentiate(const std::vector<bool>& wanted) {
 
 void DiagnosedRobot::DifferentiateOne() {
   std::vector<bool> wanted;
-  for (const diagnosis::Cause* cause : causes_) {
+  for (const diagnosis::FaultModel* cause : causes_) {
     wanted.push_back(cause->name().id == "youngs_modulus");
   }
   Differentiate(wanted);

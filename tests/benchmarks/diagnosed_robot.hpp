@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/causes/fault_model.hpp"
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/inference/fitter.hpp"
 #include "components/diagnosis/model/simulator.hpp"
@@ -39,11 +39,11 @@ class DiagnosedRobot {
 
   robot::RobotBody body_;
   diagnosis::ObservedExperiment observed_;
-  diagnosis::CauseBook book_;
-  diagnosis::CauseList causes_;
+  diagnosis::HypothesisSet book_;
+  diagnosis::FaultModelList causes_;
   diagnosis::Fitter fitter_;
   diagnosis::Simulator simulator_;
-  diagnosis::ModelDraft nominal_;
+  diagnosis::ModelHypothesis nominal_;
   diagnosis::Simulation as_built_;
 };
 

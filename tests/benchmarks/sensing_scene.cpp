@@ -114,7 +114,7 @@ void SensingScene::TakeFrame() {
       update_ == Update::kOneStep ? fem::TimeBudget(0.0) : fem::TimeBudget();
   const force_estimation::ForceFit& fit = fitter_.Fit(frame.targets, frame.cables, &state_, budget);
   qp_steps_ = fit.iterations;
-  if (fit.restorations > 0) throw RunError("the frame needed a static solve");
+  if (fit.continuation_steps > 0) throw RunError("the frame needed a static solve");
   const bool reached = update_ == Update::kConverged
                            ? fit.status.ok()
                            : fit.status.ok() || fit.status.code() == StatusCode::kBudgetReached;

@@ -10,7 +10,7 @@
 
 #include "components/calibration/cloud/cloud_matching.hpp"
 #include "components/calibration/cloud/cloud_size.hpp"
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
@@ -85,16 +85,16 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   setup_.marker_offset_sigma_m = 0.0;
   if (settings_.depth_bias_sigma > 0.0) {
     const double sigma = settings_.depth_bias_sigma;
-    setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma},
-                                        .estimated = settings_.fit_depth_bias,
-                                        .basis = settings_.depth_bias};
+    setup_.depth_bias = DepthBiasPrior{.coefficient = {.sigma = sigma, .plausible = sigma},
+                                       .estimated = settings_.fit_depth_bias,
+                                       .basis = settings_.depth_bias};
   }
   return TakeShapes();
 }
 
 /// Equilibria under what is believed of the inputs.
 Status Search::TakeShapes() {
-  const KeptModel kept(model_);
+  const ModelSnapshot kept(model_);
   shapes_m_.resize(skins_.size());
   for (std::size_t f = 0; f < skins_.size(); ++f) {
     if (settings_.request.stop.stop_requested()) return {StatusCode::kNotConverged, "stopped"};
@@ -239,7 +239,7 @@ CloudCalibration CalibrateFromClouds(robot::RobotModel& model,
   CloudCalibration refused;
   refused.status = CheckClouds(model, frames, settings);
   if (!refused.status.ok()) return refused;
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   CloudCalibration result = Search(model, frames, settings).Run(T_robot_camera_start);
   if (!result.status.ok()) kept.Restore();
   return result;

@@ -160,8 +160,8 @@ std::optional<SkinFoot> SkinInView::FootOf(const Eigen::Vector3d& point_robot_m)
                   .openness = std::min(1.0, (cosine - kGrazing) / (kOpen - kGrazing))};
 }
 
-fem::NodeWeights SkinInView::WeightsOf(const SkinFoot& foot) const {
-  fem::NodeWeights weights;
+fem::InterpolationWeights SkinInView::WeightsOf(const SkinFoot& foot) const {
+  fem::InterpolationWeights weights;
   for (int k = 0; k < 3; ++k) {
     const int vertex = surface_.triangles(k, foot.triangle);
     weights.nodes.push_back(nodes_[static_cast<size_t>(vertex)]);

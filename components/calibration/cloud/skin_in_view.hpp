@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/rgbd/surface_view.hpp"
@@ -43,7 +43,7 @@ class SkinInView {
   /// The nearest place of what is seen, for a point in the robot frame; none where nothing is seen,
   /// or that place itself is hidden behind another part of the skin, or is seen at a grazing angle.
   std::optional<SkinFoot> FootOf(const Eigen::Vector3d& point_robot_m) const;
-  fem::NodeWeights WeightsOf(const SkinFoot& foot) const;
+  fem::InterpolationWeights WeightsOf(const SkinFoot& foot) const;
   /// How far the skin may lie off this triangle, as its neighbours turn away from it, m: the height
   /// of an arc over its longest edge, edge * angle / 8.
   double FacetError_m(int triangle) const { return facet_error_m_[triangle]; }

@@ -9,7 +9,7 @@
 
 #include "components/calibration/joint/load_place.hpp"
 #include "components/calibration/marker_sighting.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::calibration {
@@ -25,7 +25,7 @@ struct SharedError {
 struct SurfaceSighting {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
   double sigma_m = 0.0;                                  ///< along the normal, > 0
-  fem::NodeWeights point;                                ///< on the skin
+  fem::InterpolationWeights point;                       ///< on the skin
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, of the skin there
   std::vector<SharedError> shared = {};                  ///< beside sigma_m, each number once
 };

@@ -40,7 +40,7 @@ class CableLengthsCondition final : public Condition {
 
 class PlaneCondition final : public Condition {
  public:
-  PlaneCondition(int frame, fem::NodeWeights point, const Eigen::Vector3d& plane_point_m,
+  PlaneCondition(int frame, fem::InterpolationWeights point, const Eigen::Vector3d& plane_point_m,
                  const Eigen::Vector3d& normal, double distance_m)
       : Condition(frame, kPerMillimetre * distance_m, std::numeric_limits<double>::infinity()),
         point_(std::move(point)),
@@ -56,7 +56,7 @@ class PlaneCondition final : public Condition {
   }
 
  private:
-  fem::NodeWeights point_;
+  fem::InterpolationWeights point_;
   Eigen::Vector3d plane_point_m_;
   Eigen::Vector3d normal_;
 };
@@ -67,7 +67,7 @@ ConditionPtr CableLengths(int frame, std::vector<double> shares, double lower_m,
   return std::make_unique<CableLengthsCondition>(frame, std::move(shares), lower_m, upper_m);
 }
 
-ConditionPtr StaysBeyondPlane(int frame, fem::NodeWeights point,
+ConditionPtr StaysBeyondPlane(int frame, fem::InterpolationWeights point,
                               const Eigen::Vector3d& plane_point_m, const Eigen::Vector3d& normal,
                               double distance_m) {
   return std::make_unique<PlaneCondition>(frame, std::move(point), plane_point_m, normal,

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
@@ -43,7 +43,7 @@ ConditionPtr CableLengths(int frame, std::vector<double> shares, double lower_m,
 
 /// A point of the body stays at least `distance_m` beyond the plane through `plane_point_m` with
 /// the unit `normal` (robot frame): it does not enter the table. In units of 1 mm.
-ConditionPtr StaysBeyondPlane(int frame, fem::NodeWeights point,
+ConditionPtr StaysBeyondPlane(int frame, fem::InterpolationWeights point,
                               const Eigen::Vector3d& plane_point_m, const Eigen::Vector3d& normal,
                               double distance_m = 0.0);
 

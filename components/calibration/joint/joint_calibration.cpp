@@ -10,9 +10,9 @@
 #include <limits>
 #include <utility>
 
-#include "components/calibration/joint/approach.hpp"
 #include "components/calibration/joint/determination.hpp"
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/lifted_gauss_newton.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 
 namespace palpate::calibration {
 
@@ -46,26 +46,26 @@ void StartWithHeld(Eigen::VectorXd from, JointProblem* problem) {
 
 /// Where the search starts, and what these data do not determine there. `starts_there`: it is the
 /// solution but for what Ipopt makes sure of.
-Status FindStart(JointProblem* problem, const JointSettings& settings, Approach* approach,
-                 bool* starts_there) {
-  if (problem->CanBeApproached()) {
-    *approach = ApproachSolution(problem, settings.solver);
-    if (approach->status.ok()) problem->StartAt(approach->variables);
+Status FindStart(JointProblem* problem, const JointSettings& settings,
+                 LiftedSolution* lifted_gauss_newton, bool* starts_there) {
+  if (problem->CanBeLifted()) {
+    *lifted_gauss_newton = SolveLiftedGaussNewton(problem, settings.solver);
+    if (lifted_gauss_newton->status.ok()) problem->StartAt(lifted_gauss_newton->variables);
   }
   LeastSquaresPoint start;
   if (Status status = problem->Evaluate(problem->Start(), &start); !status.ok()) return status;
   problem->Accept();
   bool held_more = false;
   Status status = HoldUndetermined(start, settings, problem, &held_more);
-  *starts_there = approach->status.ok() && !held_more;
+  *starts_there = lifted_gauss_newton->status.ok() && !held_more;
   if (held_more) StartWithHeld(problem->Start(), problem);
   return status;
 }
 
-Status Solve(JointProblem* problem, const JointSettings& settings, Approach* approach,
-             LeastSquaresSolution* solution) {
+Status Solve(JointProblem* problem, const JointSettings& settings,
+             LiftedSolution* lifted_gauss_newton, LeastSquaresSolution* solution) {
   LeastSquaresSettings solver = settings.solver;
-  Status status = FindStart(problem, settings, approach, &solver.starts_there);
+  Status status = FindStart(problem, settings, lifted_gauss_newton, &solver.starts_there);
   if (!status.ok()) return status;
   for (;;) {
     *solution = SolveLeastSquares(*problem, solver);
@@ -140,13 +140,13 @@ void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& so
 }
 
 /// The way that the search took. An approach ended where Ipopt started.
-void ReportWay(const JointProblem& problem, const Approach& approach,
+void ReportWay(const JointProblem& problem, const LiftedSolution& lifted_gauss_newton,
                const LeastSquaresSolution& solution, JointCalibration* result) {
-  result->iterations = approach.steps + solution.iterations;
-  result->objectives = approach.objectives;
-  result->residual_rms_after_m = approach.residual_rms_after_m;
+  result->iterations = lifted_gauss_newton.steps + solution.iterations;
+  result->objectives = lifted_gauss_newton.objectives;
+  result->residual_rms_after_m = lifted_gauss_newton.residual_rms_after_m;
   const std::vector<double>& accepted_m = problem.residual_rms_after_m();
-  const std::size_t told = approach.steps > 0 ? 1 : 0;
+  const std::size_t told = lifted_gauss_newton.steps > 0 ? 1 : 0;
   const auto since = std::min(accepted_m.size(), solution.objectives.size()) - told;
   for (std::size_t k = since; k > 0; --k) {
     result->objectives.push_back(solution.objectives[solution.objectives.size() - k]);
@@ -192,17 +192,17 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
 
 JointCalibration CalibrateJointly(robot::RobotModel& model, const JointSetup& setup,
                                   const JointSettings& settings) {
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   JointCalibration result;
   JointProblem problem(model, setup);
   LeastSquaresSolution solution;
-  Approach approach;
-  result.status = Solve(&problem, settings, &approach, &solution);
+  LiftedSolution lifted_gauss_newton;
+  result.status = Solve(&problem, settings, &lifted_gauss_newton, &solution);
   if (!result.status.ok()) {
     kept.Restore();
     return result;
   }
-  ReportWay(problem, approach, solution, &result);
+  ReportWay(problem, lifted_gauss_newton, solution, &result);
   Conclude(problem, solution, settings, &result);
   kept.RestoreGravity();
   return result;

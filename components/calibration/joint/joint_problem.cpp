@@ -213,7 +213,8 @@ void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* p
   AddBeliefs(variables, point);
 }
 
-JointProblem::PlaceInFrame JointProblem::PlaceOf(std::size_t frame, const fem::NodeWeights& point,
+JointProblem::PlaceInFrame JointProblem::PlaceOf(std::size_t frame,
+                                                 const fem::InterpolationWeights& point,
                                                  const Eigen::VectorXd& variables) const {
   const SolvedState& solved = shapes_.solved(frame);
   return {point, solved.column(), solved.PlaceOf(point, variables)};
@@ -225,7 +226,7 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
   const auto index = static_cast<size_t>(&frame - setup_.frames.data());
   double squares_m2 = 0.0;
   for (const MarkerSighting& sighting : frame.markers) {
-    const fem::NodeWeights& weights =
+    const fem::InterpolationWeights& weights =
         model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
     const PlaceInFrame seen = PlaceOf(index, weights, variables);
     const Eigen::Vector3d place_m =

@@ -51,12 +51,12 @@ class JointProblem final : public LeastSquaresProblem {
   double Scale(int variable) const;
   double ValueOf(int variable, const Eigen::VectorXd& variables) const;
   geometry::RigidTransform PoseAt(const Eigen::VectorXd& variables) const;
-  /// Whether derivatives say enough of it for ApproachSolution.
-  bool CanBeApproached() const { return setup_.conditions.empty(); }
+  /// Whether derivatives say enough of it for SolveLiftedGaussNewton.
+  bool CanBeLifted() const { return setup_.conditions.empty(); }
   /// Columns of pose (6) and other parts of the view; -1: not fitted.
   int pose_column() const { return pose_column_; }
   int depth_bias_column() const { return depth_bias_column_; }
-  const std::optional<DepthBiasBelief>& depth_bias() const { return setup_.depth_bias; }
+  const std::optional<DepthBiasPrior>& depth_bias() const { return setup_.depth_bias; }
   /// [frames] equilibria of the model in the last point: of a robot of scale 1 (ToModel).
   const std::vector<fem::StaticState>& states() const { return shapes_.states(); }
   BodyShapes& shapes() { return shapes_; }
@@ -93,11 +93,11 @@ class JointProblem final : public LeastSquaresProblem {
                   const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
   /// A point of the body in a frame.
   struct PlaceInFrame {
-    const fem::NodeWeights& point;
+    const fem::InterpolationWeights& point;
     const std::vector<Eigen::Index>& column;  ///< of what it moves with
     SolvedState::Place place;
   };
-  PlaceInFrame PlaceOf(std::size_t frame, const fem::NodeWeights& point,
+  PlaceInFrame PlaceOf(std::size_t frame, const fem::InterpolationWeights& point,
                        const Eigen::VectorXd& variables) const;
   void PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
                        LeastSquaresPoint* point) const;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/joint/models_like.hpp"
 #include "components/calibration/joint/route_unknowns.hpp"
 #include "components/calibration/size_comparison.hpp"
@@ -258,11 +258,11 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   if (request.depth_scale_sigma > 0.0) {
     const double sigma = request.depth_scale_sigma;
     setup->depth_bias =
-        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .basis = {.order = 0}};
+        DepthBiasPrior{.coefficient = {.sigma = sigma, .plausible = sigma}, .basis = {.order = 0}};
   } else if (request.depth_bias_sigma > 0.0) {
     const double sigma = request.depth_bias_sigma;
     setup->depth_bias =
-        DepthBiasBelief{.coefficient = {.sigma = sigma, .plausible = sigma}, .estimated = false};
+        DepthBiasPrior{.coefficient = {.sigma = sigma, .plausible = sigma}, .estimated = false};
   }
   return Status::Ok();
 }
@@ -270,7 +270,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
 JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                                  const geometry::RigidTransform* T_robot_camera,
                                  const JointRequest& request) {
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   JointSetup setup;
   JointCalibration result;
   result.status = MakeJointSetup(model, std::move(frames), T_robot_camera, request, &setup);

@@ -34,7 +34,7 @@ struct JointRequest {
   double cable_eyelet_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
   /// Smooth error of the depth that all of a camera's markers have in common, one sigma as a share
-  /// of z: counts in the standard errors (DepthBiasBelief) where no scale of it is looked for; 0:
+  /// of z: counts in the standard errors (DepthBiasPrior) where no scale of it is looked for; 0:
   /// it has none.
   double depth_bias_sigma = 0.0;
   /// How far a marker may sit from its place in the robot file: looked for where it is not 0; else

@@ -9,7 +9,7 @@
 
 #include "components/calibration/joint/calibration_frame.hpp"
 #include "components/calibration/joint/condition.hpp"
-#include "components/calibration/joint/depth_bias_belief.hpp"
+#include "components/calibration/joint/depth_bias_prior.hpp"
 #include "components/calibration/joint/unknown.hpp"
 #include "libs/fem/load_state.hpp"
 #include "libs/geometry/rigid_transform.hpp"
@@ -28,7 +28,7 @@ struct JointSetup {
   std::vector<std::unique_ptr<robot::RobotModel>> helpers = {};
   geometry::RigidTransform T_robot_camera;  ///< to start from, or known
   bool fit_pose = true;
-  std::optional<DepthBiasBelief> depth_bias;  ///< nothing: the depth is right
+  std::optional<DepthBiasPrior> depth_bias;  ///< nothing: the depth is right
   /// [numbers that SurfaceSighting::shared speaks of] Whether each is the model's own: there again
   /// wherever the model is laid on the robot. They count in the errors of all that is estimated.
   std::vector<bool> shared_errors = {};

@@ -65,7 +65,7 @@ void SolvedState::Extrapolate(const Eigen::VectorXd& variables, fem::StaticState
   state->multipliers_N = (multipliers_N_ + multiplier_rise_N_ * change).cwiseMax(0.0);
 }
 
-SolvedState::Place SolvedState::PlaceOf(const fem::NodeWeights& point,
+SolvedState::Place SolvedState::PlaceOf(const fem::InterpolationWeights& point,
                                         const Eigen::VectorXd& variables) const {
   Place place;
   place.motion_m.setZero(3, motion_m_.cols());

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/load_state.hpp"
-#include "libs/fem/node_weights.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
 namespace palpate::calibration {
@@ -51,7 +51,7 @@ class SolvedState {
 
   /// Variables that the body moves with.
   const std::vector<Eigen::Index>& column() const { return column_; }
-  Place PlaceOf(const fem::NodeWeights& point, const Eigen::VectorXd& variables) const;
+  Place PlaceOf(const fem::InterpolationWeights& point, const Eigen::VectorXd& variables) const;
 
  private:
   Eigen::VectorXd ChangeTo(const Eigen::VectorXd& variables) const;

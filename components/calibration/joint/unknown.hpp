@@ -39,7 +39,7 @@ struct FrameInputs {
   std::vector<robot::CableCommand> cables;
   std::vector<robot::DeadLoad> loads = {};
   /// [loads] what the hold of each on the body changes by per unit of `scale`; none: nothing.
-  std::vector<fem::NodeWeights> hold_per_scale = {};
+  std::vector<fem::InterpolationWeights> hold_per_scale = {};
   Eigen::Vector3d nominal_gravity_m_s2 = Eigen::Vector3d::Zero();  ///< of the frame
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();          ///< as unknowns turn it
   double mass_factor = 1.0;  ///< a mass counts by its weight alone

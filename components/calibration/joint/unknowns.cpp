@@ -255,8 +255,8 @@ void HoldLoadsAt(const std::vector<LoadPlace>& places, const robot::RobotModel& 
   robot->hold_per_scale.clear();
   for (std::size_t k = 0; k < places.size(); ++k) {
     robot->loads.at(k).weights = hold(places[k], robot->scale);
-    fem::NodeWeights change = hold(places[k], robot->scale + kStep);
-    const fem::NodeWeights before = hold(places[k], robot->scale - kStep);
+    fem::InterpolationWeights change = hold(places[k], robot->scale + kStep);
+    const fem::InterpolationWeights before = hold(places[k], robot->scale - kStep);
     for (double& weight : change.weights) weight /= 2.0 * kStep;
     change.nodes.insert(change.nodes.end(), before.nodes.begin(), before.nodes.end());
     for (const double weight : before.weights) change.weights.push_back(-weight / (2.0 * kStep));

@@ -7,7 +7,7 @@
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/live/earlier_calibration.hpp"
 #include "components/calibration/pose/unlabelled_calibration.hpp"
 #include "libs/core/sha256.hpp"
@@ -90,7 +90,7 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* r
 }  // namespace
 
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   LiveResult result;
   LiveJob read = job;
   if (job.before) {

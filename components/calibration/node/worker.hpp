@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "components/calibration/live/live_calibration.hpp"
-#include "libs/core/hand_over.hpp"
+#include "libs/core/bounded_queue.hpp"
 
 namespace palpate::calibration {
 
@@ -40,8 +40,8 @@ class Worker {
   std::function<void()> on_result_;
   std::stop_source stop_;  ///< of the job in work
   bool busy_ = false;      ///< from Start to TakeResult
-  HandOver<LiveJob> jobs_;
-  HandOver<LiveResult> results_;
+  BoundedQueue<LiveJob> jobs_;
+  BoundedQueue<LiveResult> results_;
   std::thread thread_;
 };
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 
 namespace palpate::calibration {
 
@@ -20,7 +20,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// [a] NaN without an equilibrium.
 Eigen::VectorXd Displacements_m(robot::RobotModel& model, const CalibrationFrame& frame,
                                 const std::vector<robot::CableCommand>& cables) {
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   Eigen::VectorXd displacement_m = Eigen::VectorXd::Constant(model.CableCount(), kUnknown);
   model.SetGravity(frame.gravity_m_s2);
   fem::StaticState state = model.RestState();

@@ -12,9 +12,9 @@ namespace {
 /// Way to new tensions that needs more load steps than these is halved instead.
 constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
 
-std::vector<robot::EffectorRow> RowsOf(const robot::RobotModel& model,
-                                       const std::vector<MarkerSighting>& sightings) {
-  std::vector<fem::NodeWeights> points;
+std::vector<robot::ObservationRow> RowsOf(const robot::RobotModel& model,
+                                          const std::vector<MarkerSighting>& sightings) {
+  std::vector<fem::InterpolationWeights> points;
   for (const MarkerSighting& sighting : sightings) {
     points.push_back(model.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights);
   }

@@ -42,7 +42,7 @@ class MarkerFollower {
   const Eigen::VectorXd& tangent_lambda_a_N() const { return tangent_lambda_a_N_; }
   /// Residual over the size of the forces where MoveTo led.
   double balance_error() const { return balance_error_; }
-  int restorations() const { return restorations_; }
+  int continuation_steps() const { return restorations_; }
 
  private:
   Status TryLinearise();
@@ -50,7 +50,7 @@ class MarkerFollower {
   Status FollowEquilibrium(const Eigen::VectorXd& lambda_a_N);
 
   robot::RobotModel& model_;
-  std::vector<robot::EffectorRow> rows_;
+  std::vector<robot::ObservationRow> rows_;
   robot::Compliance compliance_;
   fem::StaticSolver equilibrium_;  ///< for restorations
   Eigen::VectorXd weight_N_;       ///< [3n]

@@ -57,7 +57,7 @@ struct PoseAndInputs {
   int outer_iterations = 0;
   int tangents = 0;  ///< linearisations
   /// Times that the linearised step (6) failed and the equilibrium was followed instead.
-  int restorations = 0;
+  int continuation_steps = 0;
   /// What a further outer iteration is expected to change in sum, N (linear convergence).
   double remaining_change_N = 0.0;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 
 namespace palpate::calibration {
 
@@ -72,7 +72,7 @@ Status Raise(robot::RobotModel& model, const CalibrationFrame& frame, double dri
 Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
                         double drive_offset_sigma_m, Eigen::VectorXd* most_N) {
   constexpr double kLeastShare = 0.05;  // of what a cable alone may pull with
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   *most_N = Eigen::VectorXd::Zero(model.CableCount());
   Status status = Status::Ok();
   for (const CalibrationFrame& frame : frames) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/calibration/pose/drive_misfit.hpp"
 #include "components/calibration/pose/tension_range.hpp"
 #include "libs/core/text.hpp"
@@ -144,7 +144,7 @@ UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
                                           const std::vector<UnlabelledFrame>& frames,
                                           const geometry::RigidTransform* T_rough,
                                           const UnlabelledSettings& settings) {
-  const KeptModel kept(model);
+  const ModelSnapshot kept(model);
   UnlabelledCalibration result;
   FrameAssignment assignment = Assign(model, frames, T_rough, settings);
   result.status = assignment.status;

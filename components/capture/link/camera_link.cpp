@@ -94,7 +94,7 @@ void CameraLink::Open() {
   auto device = AravisCamera::Open(settings_.target, search ? "" : known_address_, &reason);
   if (!device) return connection_.OnFailed(MonotonicNow_ns(), std::move(reason));
   if (!known_id_.empty() && device->id() != known_id_) {
-    reaper_.Take(std::shared_ptr<AravisCamera>(std::move(device)));
+    device_closer_.Take(std::shared_ptr<AravisCamera>(std::move(device)));
     return connection_.OnFailed(MonotonicNow_ns(), "another camera answers at " + known_address_);
   }
   known_address_ = device->address();
@@ -216,7 +216,7 @@ void CameraLink::ProbeCamera() {
 }
 
 void CameraLink::Release() {
-  if (camera_) reaper_.Take(std::exchange(camera_, nullptr));
+  if (camera_) device_closer_.Take(std::exchange(camera_, nullptr));
 }
 
 void CameraLink::Wait() {

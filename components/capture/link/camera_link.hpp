@@ -16,7 +16,7 @@
 #include "components/capture/frame_source.hpp"
 #include "components/capture/genicam/device_setup.hpp"
 #include "components/capture/link/connection.hpp"
-#include "components/capture/link/reaper.hpp"
+#include "components/capture/link/device_closer.hpp"
 #include "components/capture/stream/frame_pool.hpp"
 
 namespace palpate::capture {
@@ -68,7 +68,7 @@ class CameraLink {
   OnFrame on_frame_;
   Connection connection_;
   FramePool pool_;
-  Reaper reaper_;
+  DeviceCloser device_closer_;
   std::shared_ptr<OpenCamera> camera_;
   std::string known_address_;
   std::string known_id_;

@@ -9,19 +9,19 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class BaseComplianceCause final : public Cause {
+class BaseComplianceCause final : public FaultModel {
  public:
   explicit BaseComplianceCause(const Eigen::Vector3d& middle_m)
-      : Cause({"base_compliance", {"base"}}, "compliance of the base",
-              {{.name = "compliance_rad_Nm", .fault = 0.15, .least = 0.0}}),
+      : FaultModel({"base_compliance", {"base"}}, "compliance of the base",
+                   {{.name = "compliance_rad_Nm", .fault = 0.15, .least = 0.0}}),
         middle_m_(middle_m) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->base_compliance_rad_Nm += std::max(0.0, z[0]);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->base_compliance_rad_Nm += std::max(0.0, z[0]);
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     Eigen::Matrix<double, 6, 6> turns = Eigen::Matrix<double, 6, 6>::Zero();
     turns.topLeftCorner<3, 3>().setIdentity();
     return robot::BaseCompliance(turns, middle_m_);
@@ -33,7 +33,7 @@ class BaseComplianceCause final : public Cause {
 
 }  // namespace
 
-void MakeBaseCompliance(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeBaseCompliance(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<BaseComplianceCause>(MiddleOfBase(world.body)));
 }
 

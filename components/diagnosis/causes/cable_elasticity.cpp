@@ -15,30 +15,30 @@ namespace {
 constexpr double kOfMesh_m_N = 5e-5;
 
 /// z is the compliance, m/N.
-class CableElasticity final : public Cause {
+class CableElasticity final : public FaultModel {
  public:
   CableElasticity(const std::string& cable, int index)
-      : Cause({"cable_elasticity", {"cable:" + cable}}, "stretch of cable " + cable,
-              {{.name = "k_N_m",
-                .tolerance = kOfMesh_m_N,
-                .fault = 1e-3,
-                .least = 0.0,
-                .scale = CauseParameter::Scale::kInverse}}),
+      : FaultModel({"cable_elasticity", {"cable:" + cable}}, "stretch of cable " + cable,
+                   {{.name = "k_N_m",
+                     .tolerance = kOfMesh_m_N,
+                     .fault = 1e-3,
+                     .least = 0.0,
+                     .scale = FaultParameter::Scale::kInverse}}),
         index_(index) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->cable_compliance_m_N[index_] += std::max(0.0, z[0]);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->cable_compliance_m_N[index_] += std::max(0.0, z[0]);
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     return robot::CableCompliance(index_);
   }
 
   /// What the mesh gives way by is in what was fitted, and nobody knows how much it is.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
-    return Cause::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
+    return FaultModel::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
   }
 
  private:
@@ -47,7 +47,7 @@ class CableElasticity final : public Cause {
 
 }  // namespace
 
-void MakeCableElasticity(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCableElasticity(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
     if (world.observed.timeline.by_tension[c]) continue;
     causes->push_back(

@@ -42,19 +42,19 @@ Eigen::VectorXd GiveWay(const robot::RobotBody& body) {
 
 /// By how much more, or less, than the mesh has it the body gives way where its cables end: at all
 /// of them alike, which is no fault. Here z is of one sigma.
-class CableEnds final : public Cause {
+class CableEnds final : public FaultModel {
  public:
   explicit CableEnds(Eigen::VectorXd give_way_m_N)
-      : Cause({"cable_ends", {"body"}}, "what the mesh gives way by where cables end",
-              {{.name = "sigmas", .tolerance = 1.0, .fault = 1.0}}),
+      : FaultModel({"cable_ends", {"body"}}, "what the mesh gives way by where cables end",
+                   {{.name = "sigmas", .tolerance = 1.0, .fault = 1.0}}),
         give_way_m_N_(std::move(give_way_m_N)) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->cable_compliance_m_N += z[0] * give_way_m_N_;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->cable_compliance_m_N += z[0] * give_way_m_N_;
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     auto all = std::make_unique<SumOfParameters>();
     for (Eigen::Index c = 0; c < give_way_m_N_.size(); ++c) {
       all->Add(give_way_m_N_[c], robot::CableCompliance(static_cast<int>(c)));
@@ -68,7 +68,7 @@ class CableEnds final : public Cause {
 
 }  // namespace
 
-void MakeCableEnds(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCableEnds(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (world.body.cables.empty()) return;
   causes->push_back(std::make_unique<CableEnds>(GiveWay(world.body)));
 }

@@ -11,15 +11,15 @@ namespace {
 
 /// Capstan friction in the eyelets that a cable runs through (model/sticking.hpp); one with a knot
 /// only has none.
-class CableFrictionCause final : public Cause {
+class CableFrictionCause final : public FaultModel {
  public:
   CableFrictionCause(const std::string& cable, int index)
-      : Cause({"cable_friction", {"cable:" + cable}}, "friction of cable " + cable,
-              {{.name = "mu", .tolerance = 0.02, .fault = 0.3, .least = 0.0}}),
+      : FaultModel({"cable_friction", {"cable:" + cable}}, "friction of cable " + cable,
+                   {{.name = "mu", .tolerance = 0.02, .fault = 0.3, .least = 0.0}}),
         index_(index) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.cables[static_cast<std::size_t>(index_)].friction_coefficient +=
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.cables[static_cast<std::size_t>(index_)].friction_coefficient +=
         std::max(0.0, z[0]);
   }
 
@@ -33,7 +33,7 @@ class CableFrictionCause final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     return robot::CableFrictionCoefficient(index_);
   }
 
@@ -43,7 +43,7 @@ class CableFrictionCause final : public Cause {
 
 }  // namespace
 
-void MakeCableFriction(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCableFriction(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
     if (world.body.cables[c].eyelets.size() < 2) continue;
     causes->push_back(

@@ -7,20 +7,20 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class CableGainCause final : public Cause {
+class CableGainCause final : public FaultModel {
  public:
   CableGainCause(const std::string& cable, int index)
-      : Cause({"cable_gain", {"cable:" + cable}}, "gain of the drive of cable " + cable,
-              {{.name = "g",
-                .tolerance = 0.005,
-                .fault = 0.08,
-                .least = -0.9,
-                .plausible = 0.2}}),  // a drum is not a fifth too large
+      : FaultModel({"cable_gain", {"cable:" + cable}}, "gain of the drive of cable " + cable,
+                   {{.name = "g",
+                     .tolerance = 0.005,
+                     .fault = 0.08,
+                     .least = -0.9,
+                     .plausible = 0.2}}),  // a drum is not a fifth too large
         index_(index) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.gain[index_] += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[index_] += z[0];
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
@@ -35,7 +35,7 @@ class CableGainCause final : public Cause {
 
 }  // namespace
 
-void MakeCableGainCause(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCableGainCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
     causes->push_back(
         std::make_unique<CableGainCause>(world.body.cables[c].name, static_cast<int>(c)));

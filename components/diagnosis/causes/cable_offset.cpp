@@ -7,16 +7,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class CableOffsetCause final : public Cause {
+class CableOffsetCause final : public FaultModel {
  public:
   CableOffsetCause(const std::string& cable, int index)
-      : Cause({"cable_offset", {"cable:" + cable}}, "zero of the drive of cable " + cable,
-              {{.name = "offset_m", .tolerance = 3e-4, .fault = 4e-3}}),
+      : FaultModel({"cable_offset", {"cable:" + cable}}, "zero of the drive of cable " + cable,
+                   {{.name = "offset_m", .tolerance = 3e-4, .fault = 4e-3}}),
         index_(index) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.offset_m[index_] += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.offset_m[index_] += z[0];
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
@@ -32,7 +32,7 @@ class CableOffsetCause final : public Cause {
 
 }  // namespace
 
-void MakeCableOffsetCause(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCableOffsetCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
     if (world.observed.timeline.by_tension[c]) continue;
     causes->push_back(

@@ -13,13 +13,13 @@ namespace {
 
 /// From one recording on the camera stands elsewhere than where it was put, by the same motion in
 /// its own frame: what it measures turns about where the middle of the body is, and moves.
-class CameraMoved final : public Cause {
+class CameraMoved final : public FaultModel {
  public:
   CameraMoved(int from_recording, const std::vector<ObservedRecording>& recordings,
               const Eigen::Vector3d& middle_m)
-      : Cause({"camera_moved", {"camera"}},
-              "camera moved before recording " + NameOf(recordings, from_recording),
-              {Move(), Move(), Move(), Turn(), Turn(), Turn()}),
+      : FaultModel({"camera_moved", {"camera"}},
+                   "camera moved before recording " + NameOf(recordings, from_recording),
+                   {Move(), Move(), Move(), Turn(), Turn(), Turn()}),
         from_recording_(from_recording),
         middle_m_(recordings[static_cast<std::size_t>(from_recording)].T_view_robot() * middle_m) {
     for (const ObservedRecording& one : recordings) {
@@ -28,25 +28,25 @@ class CameraMoved final : public Cause {
     }
   }
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
     for (auto k = static_cast<std::size_t>(from_recording_); k < T_view_robot_.size(); ++k) {
       const Eigen::Isometry3d& T = T_view_robot_[k];
       const Eigen::Isometry3d in_robot_frame = T.inverse() * moved * T;
-      if (moves_markers_[k]) draft->T_seen[k] = in_robot_frame * draft->T_seen[k];
-      draft->T_skin_seen[k] = in_robot_frame * draft->T_skin_seen[k];
+      if (moves_markers_[k]) hypothesis->T_seen[k] = in_robot_frame * hypothesis->T_seen[k];
+      hypothesis->T_skin_seen[k] = in_robot_frame * hypothesis->T_skin_seen[k];
     }
   }
 
-  void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
+  void OnView(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
               Eigen::Matrix3Xd* motion_m) const override {
     const ObservedRecording& recording = at.recording();
     const int from = recording.pose_of >= 0 ? recording.pose_of : at.seen().recording;
     const auto source = static_cast<std::size_t>(from);
     const bool moves = at.target == Target::kSkin || moves_markers_[source];
     if (from < from_recording_ || !moves) return;
-    const Eigen::Isometry3d& T_seen =
-        at.target == Target::kSkin ? at.draft.T_skin_seen[source] : at.draft.T_seen[source];
+    const Eigen::Isometry3d& T_seen = at.target == Target::kSkin ? at.hypothesis.T_skin_seen[source]
+                                                                 : at.hypothesis.T_seen[source];
     const Eigen::Isometry3d T_after =
         T_seen * at.T_measurement_robot().inverse() * SeenMove(z, middle_m_).inverse();
     AddSeenMove(parameter, z, middle_m_, T_after, at, motion_m);
@@ -72,8 +72,8 @@ class CameraMoved final : public Cause {
   static const std::string& NameOf(const std::vector<ObservedRecording>& recordings, int k) {
     return recordings[static_cast<std::size_t>(k)].name;
   }
-  static CauseParameter Move() { return {.name = "translation_m", .fault = 0.01}; }
-  static CauseParameter Turn() { return {.name = "rotation_rad", .fault = 0.04}; }
+  static FaultParameter Move() { return {.name = "translation_m", .fault = 0.01}; }
+  static FaultParameter Turn() { return {.name = "rotation_rad", .fault = 0.04}; }
 
   int from_recording_;
   Eigen::Vector3d middle_m_;  ///< of the body, measurement frame of that recording
@@ -83,7 +83,7 @@ class CameraMoved final : public Cause {
 
 }  // namespace
 
-void MakeCameraMoved(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeCameraMoved(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
   const std::vector<ObservedRecording>& recordings = world.observed.recordings;
   for (std::size_t k = 1; k < recordings.size(); ++k) {

@@ -15,7 +15,7 @@ namespace {
 
 struct Entry {
   const char* id;
-  void (*make)(const CauseWorld&, std::vector<CausePtr>*);
+  void (*make)(const CauseWorld&, std::vector<FaultModelPtr>*);
 };
 
 constexpr Entry kCatalogue[] = {
@@ -75,12 +75,13 @@ std::vector<std::string> CatalogueIds() {
   return ids;
 }
 
-std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without) {
+std::vector<FaultModelPtr> MakeCauses(const CauseWorld& world,
+                                      const std::vector<std::string>& without) {
   const std::vector<std::string> ids = CatalogueIds();
   for (const std::string& id : without) {
     if (!IndexOf(id, ids)) throw InputError(Unknown("cause", id, ids));
   }
-  std::vector<CausePtr> causes;
+  std::vector<FaultModelPtr> causes;
   for (const Entry& entry : kCatalogue) {
     if (!IndexOf(entry.id, without)) entry.make(world, &causes);
   }

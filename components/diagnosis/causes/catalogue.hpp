@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/causes/fault_model.hpp"
 
 namespace palpate::diagnosis {
 
@@ -26,7 +26,8 @@ struct CauseWorld {
 /// `cable_ends`, `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never
 /// faults.
 /// `without`: ids that are left out. Throws InputError for one that is not of the catalogue.
-std::vector<CausePtr> MakeCauses(const CauseWorld& world, const std::vector<std::string>& without);
+std::vector<FaultModelPtr> MakeCauses(const CauseWorld& world,
+                                      const std::vector<std::string>& without);
 
 /// Ids of the catalogue that are looked for.
 std::vector<std::string> KnownCauses();

@@ -10,19 +10,19 @@ namespace palpate::diagnosis {
 namespace {
 
 /// Also what its gravity is larger by: weight is all that shows of both.
-class Density final : public Cause {
+class Density final : public FaultModel {
  public:
   Density()
-      : Cause({"density", {"body"}}, "density of the body",
-              {{.name = "factor",
-                .nominal = 1.0,
-                .tolerance = 0.01,
-                .fault = 0.15,
-                .scale = CauseParameter::Scale::kFactor,
-                .plausible = 0.5}}) {}  // silicones differ by less
+      : FaultModel({"density", {"body"}}, "density of the body",
+                   {{.name = "factor",
+                     .nominal = 1.0,
+                     .tolerance = 0.01,
+                     .fault = 0.15,
+                     .scale = FaultParameter::Scale::kFactor,
+                     .plausible = 0.5}}) {}  // silicones differ by less
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.node_mass_kg *= std::exp(z[0]);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.node_mass_kg *= std::exp(z[0]);
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -33,14 +33,14 @@ class Density final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     return robot::MassFactor();
   }
 };
 
 }  // namespace
 
-void MakeDensity(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+void MakeDensity(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<Density>());
 }
 

@@ -16,18 +16,18 @@ constexpr double kSigmaOfConstant = 0.002;
 constexpr geometry::DepthBiasBasis kBasis{.order = 4, .span = 0.4};
 
 /// Depth that is off by a smooth share over the picture, as every depth camera's is: no fault.
-class DepthBias final : public Cause {
+class DepthBias final : public FaultModel {
  public:
   explicit DepthBias(const geometry::DepthBiasBasis& basis)
-      : Cause({"depth_bias", {"camera"}}, "smooth error of the depth", Coefficients(basis)),
+      : FaultModel({"depth_bias", {"camera"}}, "smooth error of the depth", Coefficients(basis)),
         basis_(basis) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.bias_basis = basis_;
-    draft->camera.bias = z;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.bias_basis = basis_;
+    hypothesis->camera.bias = z;
   }
 
-  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index k = 0; k < motion_m->cols(); ++k) {
       motion_m->col(k) += at.sight.camera->ByBias(at.sight.point(k), basis_, parameter);
@@ -35,8 +35,8 @@ class DepthBias final : public Cause {
   }
 
  private:
-  static std::vector<CauseParameter> Coefficients(const geometry::DepthBiasBasis& basis) {
-    std::vector<CauseParameter> coefficients;
+  static std::vector<FaultParameter> Coefficients(const geometry::DepthBiasBasis& basis) {
+    std::vector<FaultParameter> coefficients;
     for (const std::string& name : NamesOf(basis)) {
       const double sigma = coefficients.empty() ? kSigmaOfConstant : kSigma;
       coefficients.push_back({.name = name, .tolerance = sigma, .fault = sigma});
@@ -49,7 +49,7 @@ class DepthBias final : public Cause {
 
 }  // namespace
 
-void MakeDepthBias(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeDepthBias(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (!world.observed.HasSkin()) return;
   causes->push_back(std::make_unique<DepthBias>(kBasis));
 }

@@ -8,17 +8,17 @@ namespace palpate::diagnosis {
 namespace {
 
 /// A depth camera that was calibrated at another distance, or another temperature.
-class DepthScale final : public Cause {
+class DepthScale final : public FaultModel {
  public:
   DepthScale()
-      : Cause({"depth_scale", {"camera"}}, "depth scale of the camera",
-              {{.name = "s", .tolerance = 0.002, .fault = 0.02, .least = -0.9}}) {}
+      : FaultModel({"depth_scale", {"camera"}}, "depth scale of the camera",
+                   {{.name = "s", .tolerance = 0.002, .fault = 0.02, .least = -0.9}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.depth_scale += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.depth_scale += z[0];
   }
 
-  void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
       motion_m->col(m) += at.sight.camera->ByDepthScale(at.sight.point(m));
@@ -28,7 +28,7 @@ class DepthScale final : public Cause {
 
 }  // namespace
 
-void MakeDepthScale(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeDepthScale(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (HasDepthCamera(world.observed)) causes->push_back(std::make_unique<DepthScale>());
 }
 

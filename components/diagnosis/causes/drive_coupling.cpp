@@ -7,19 +7,19 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class DriveCouplingCause final : public Cause {
+class DriveCouplingCause final : public FaultModel {
  public:
   DriveCouplingCause(const robot::BodyCable& driven, int driven_index, const robot::BodyCable& by,
                      int by_index)
-      : Cause({"drive_coupling", {"cable:" + driven.name, "cable:" + by.name}},
-              "cable " + driven.name + " moving along with cable " + by.name,
-              {{.name = "coupling", .fault = 0.1}}),
+      : FaultModel({"drive_coupling", {"cable:" + driven.name, "cable:" + by.name}},
+                   "cable " + driven.name + " moving along with cable " + by.name,
+                   {{.name = "coupling", .fault = 0.1}}),
         driven_(driven_index),
         by_(by_index) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.mixing(driven_, by_) += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.mixing(driven_, by_) += z[0];
   }
 
  private:
@@ -29,7 +29,7 @@ class DriveCouplingCause final : public Cause {
 
 }  // namespace
 
-void MakeDriveCoupling(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeDriveCoupling(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const std::vector<robot::BodyCable>& cables = world.body.cables;
   for (std::size_t driven = 0; driven < cables.size(); ++driven) {
     for (std::size_t by = 0; by < cables.size(); ++by) {

@@ -18,27 +18,27 @@ struct Eye {
 };
 
 /// Where recordings were measured from, as far as it is not known: no fault of the robot's.
-class Extrinsics final : public Cause {
+class Extrinsics final : public FaultModel {
  public:
   /// `of`: the eyes that stand where one camera, or tracker, does.
   Extrinsics(std::vector<Eye> of, const Eigen::Vector3d& middle_m, double sigma_m, double sigma_rad)
-      : Cause({"extrinsics", {"camera"}}, "pose of the camera",
-              {Known("translation_m", sigma_m), Known("translation_m", sigma_m),
-               Known("translation_m", sigma_m), Known("rotation_rad", sigma_rad),
-               Known("rotation_rad", sigma_rad), Known("rotation_rad", sigma_rad)}),
+      : FaultModel({"extrinsics", {"camera"}}, "pose of the camera",
+                   {Known("translation_m", sigma_m), Known("translation_m", sigma_m),
+                    Known("translation_m", sigma_m), Known("rotation_rad", sigma_rad),
+                    Known("rotation_rad", sigma_rad), Known("rotation_rad", sigma_rad)}),
         eyes_(std::move(of)),
         middle_m_(middle_m) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     const Eigen::Isometry3d move = SeenMove(z, middle_m_);
     for (const Eye& eye : eyes_) {
-      auto& of_target = eye.target == Target::kSkin ? draft->T_skin_seen : draft->T_seen;
+      auto& of_target = eye.target == Target::kSkin ? hypothesis->T_skin_seen : hypothesis->T_seen;
       Eigen::Isometry3d& T_seen = of_target[static_cast<std::size_t>(eye.recording)];
       T_seen = move * T_seen;
     }
   }
 
-  void OnView(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
+  void OnView(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
               Eigen::Matrix3Xd* motion_m) const override {
     const int pose_of = at.recording().pose_of;
     const int from = pose_of >= 0 ? pose_of : at.seen().recording;
@@ -47,7 +47,7 @@ class Extrinsics final : public Cause {
   }
 
  private:
-  static CauseParameter Known(const std::string& name, double sigma) {
+  static FaultParameter Known(const std::string& name, double sigma) {
     return {.name = name, .tolerance = sigma, .fault = sigma};
   }
 
@@ -87,7 +87,7 @@ std::vector<View> Views(const CauseWorld& world) {
 
 }  // namespace
 
-void MakeExtrinsics(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeExtrinsics(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
   const std::vector<View> views = Views(world);
   std::vector<bool> taken(views.size(), false);

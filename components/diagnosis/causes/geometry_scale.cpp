@@ -11,29 +11,29 @@ namespace {
 
 /// The body is larger about the middle of its base; the points that cables are pulled from stay on
 /// the ground, and the drives are zeroed on it as it is.
-class GeometryScale final : public Cause {
+class GeometryScale final : public FaultModel {
  public:
   explicit GeometryScale(const Eigen::Vector3d& middle_m)
-      : Cause({"geometry_scale", {"body"}}, "size of the body",
-              {{.name = "factor",
-                .nominal = 1.0,
-                .tolerance = 0.005,
-                .fault = 0.03,
-                .scale = CauseParameter::Scale::kFactor,
-                .plausible = 0.1}}),  // shrinkage is some per cent
+      : FaultModel({"geometry_scale", {"body"}}, "size of the body",
+                   {{.name = "factor",
+                     .nominal = 1.0,
+                     .tolerance = 0.005,
+                     .fault = 0.03,
+                     .scale = FaultParameter::Scale::kFactor,
+                     .plausible = 0.1}}),  // shrinkage is some per cent
         middle_m_(middle_m) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     const double factor = std::exp(z[0]);
-    Eigen::Matrix3Xd& nodes_m = draft->body.mesh.nodes_m;
+    Eigen::Matrix3Xd& nodes_m = hypothesis->body.mesh.nodes_m;
     const Eigen::Matrix3Xd larger_m = (factor - 1.0) * (nodes_m.colwise() - middle_m_);
     nodes_m += larger_m;
-    draft->assembled_m += larger_m.reshaped();
-    draft->body.node_mass_kg *= factor * factor * factor;
+    hypothesis->assembled_m += larger_m.reshaped();
+    hypothesis->body.node_mass_kg *= factor * factor * factor;
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     return robot::GeometryScale(middle_m_, robot::CableZero::kOfChangedShape,
                                 robot::MassRule::kDensityKept);
   }
@@ -44,7 +44,7 @@ class GeometryScale final : public Cause {
 
 }  // namespace
 
-void MakeGeometryScale(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeGeometryScale(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<GeometryScale>(MiddleOfBase(world.body)));
 }
 

@@ -22,15 +22,15 @@ Eigen::Matrix3d Askew(const Eigen::Vector2d& theta_deg) {
       .toRotationMatrix();
 }
 
-class GravityDirection final : public Cause {
+class GravityDirection final : public FaultModel {
  public:
   GravityDirection()
-      : Cause({"gravity_direction", {"base"}}, "direction of gravity",
-              {{.name = "theta_x_deg", .tolerance = 0.3, .fault = 4.0},
-               {.name = "theta_y_deg", .tolerance = 0.3, .fault = 4.0}}) {}
+      : FaultModel({"gravity_direction", {"base"}}, "direction of gravity",
+                   {{.name = "theta_x_deg", .tolerance = 0.3, .fault = 4.0},
+                    {.name = "theta_y_deg", .tolerance = 0.3, .fault = 4.0}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->R_askew = draft->R_askew * Askew(z.head<2>());
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->R_askew = hypothesis->R_askew * Askew(z.head<2>());
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -41,9 +41,9 @@ class GravityDirection final : public Cause {
 
   /// Weights that hang on the body turn along.
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     const Eigen::Matrix3d& R_tilt = at.recording().base_rotation;
-    const Eigen::Matrix3d R = R_tilt * at.draft.R_askew;
+    const Eigen::Matrix3d R = R_tilt * at.hypothesis.R_askew;
     // Ry Rx: the turn about y comes before the one about x.
     const Eigen::Vector3d axis =
         Askew({-z[0], 0.0}) * Eigen::Vector3d(Eigen::Vector3d::Unit(parameter));
@@ -52,17 +52,18 @@ class GravityDirection final : public Cause {
       return -kDegree * axis.cross(R.transpose() * v_world);
     };
     auto sum = std::make_unique<SumOfParameters>();
-    sum->Add(1.0, robot::GravityChange(turned(at.draft.body.gravity_m_s2)));
-    const Eigen::Vector3d down = at.draft.body.gravity_m_s2.normalized();
+    sum->Add(1.0, robot::GravityChange(turned(at.hypothesis.body.gravity_m_s2)));
+    const Eigen::Vector3d down = at.hypothesis.body.gravity_m_s2.normalized();
     for (const experiment::KnownLoad& load : at.seen().loads) {
       const Eigen::Vector3d world_N = R_tilt * load.force_N;
       if (world_N.normalized().dot(down) < kHangs) continue;
       const fem::SurfacePatch patch =
-          fem::MakeSurfacePatch(*at.draft.places, load.position_m, load.patch_radius_m);
+          fem::MakeSurfacePatch(*at.hypothesis.places, load.position_m, load.patch_radius_m);
       sum->Add(1.0, PointForce(patch.weights, turned(world_N)));
     }
-    for (const CarriedMass& mass : at.draft.masses) {
-      sum->Add(1.0, PointForce(mass.weights, mass.mass_kg * turned(at.draft.body.gravity_m_s2)));
+    for (const CarriedMass& mass : at.hypothesis.masses) {
+      sum->Add(1.0,
+               PointForce(mass.weights, mass.mass_kg * turned(at.hypothesis.body.gravity_m_s2)));
     }
     return sum;
   }
@@ -70,7 +71,7 @@ class GravityDirection final : public Cause {
 
 }  // namespace
 
-void MakeGravityDirection(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeGravityDirection(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (world.body.gravity_m_s2.isZero()) return;
   causes->push_back(std::make_unique<GravityDirection>());
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/diagnosis/causes/candidate_obstacles.hpp"
 #include "components/diagnosis/causes/makers.hpp"
-#include "components/diagnosis/causes/walls_to_look_at.hpp"
 
 namespace palpate::diagnosis {
 
@@ -20,26 +20,26 @@ constexpr double kSkin_m = 3e-4;
 
 /// z: whether the wall is there (1; 0: not; nothing between is believed in), how much farther from
 /// the body than where it is looked for, and two turns about the middle of where it is met there.
-class HiddenObstacle final : public Cause {
+class HiddenObstacle final : public FaultModel {
  public:
-  HiddenObstacle(const WallToLookAt& at, std::shared_ptr<const WallSurface> surface)
-      : Cause({"hidden_obstacle", {"body"}}, "an obstacle in the body's way",
-              {{.name = "there", .fault = 1e-3, .fault_at = 1.0, .least = 0.0, .most = 1.0},
-               {.name = "farther_m",
-                .fault = at.shift_sigma_m,
-                .least = -at.gap_m,
-                .most = at.most_shift_m,
-                .qualifies = true},
-               {.name = "tilt_1_rad",
-                .fault = kTiltSigma_rad,
-                .least = -kMostTilt_rad,
-                .most = kMostTilt_rad,
-                .qualifies = true},
-               {.name = "tilt_2_rad",
-                .fault = kTiltSigma_rad,
-                .least = -kMostTilt_rad,
-                .most = kMostTilt_rad,
-                .qualifies = true}}),
+  HiddenObstacle(const CandidateObstacle& at, std::shared_ptr<const ObstacleSurface> surface)
+      : FaultModel({"hidden_obstacle", {"body"}}, "an obstacle in the body's way",
+                   {{.name = "there", .fault = 1e-3, .fault_at = 1.0, .least = 0.0, .most = 1.0},
+                    {.name = "farther_m",
+                     .fault = at.shift_sigma_m,
+                     .least = -at.gap_m,
+                     .most = at.most_shift_m,
+                     .qualifies = true},
+                    {.name = "tilt_1_rad",
+                     .fault = kTiltSigma_rad,
+                     .least = -kMostTilt_rad,
+                     .most = kMostTilt_rad,
+                     .qualifies = true},
+                    {.name = "tilt_2_rad",
+                     .fault = kTiltSigma_rad,
+                     .least = -kMostTilt_rad,
+                     .most = kMostTilt_rad,
+                     .qualifies = true}}),
         at_(at),
         surface_(std::move(surface)) {
     const Eigen::Vector3d n = at_.normal;
@@ -49,37 +49,37 @@ class HiddenObstacle final : public Cause {
 
   std::optional<int> Start() const override { return at_.way; }
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    if (IsThere(z)) draft->wall = WallAt(z);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    if (IsThere(z)) hypothesis->obstacle = ObstacleAt(z);
   }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
-                             const CauseMoment& at) const override {
-    if (parameter == 0 || !IsThere(z) || !at.shape.AtWall()) return nullptr;
-    const Wall wall = WallAt(z);
+                             const FaultContext& at) const override {
+    if (parameter == 0 || !IsThere(z) || !at.shape.AtObstacle()) return nullptr;
+    const Obstacle obstacle = ObstacleAt(z);
     const Eigen::Vector3d turn = NormalChange(parameter, z);
-    return WallMove(wall, at.shape.wall_force_N, turn, OffsetChange(parameter, turn));
+    return ObstacleMotion(obstacle, at.shape.obstacle_force_N, turn, OffsetChange(parameter, turn));
   }
 
   /// Where it is there: what it presses with. Where it is not: what pushes the nodes back that are
   /// beyond it, the deeper the more, until on average they are not.
-  std::optional<Push> PushOf(const Eigen::VectorXd& z, const CauseMoment& at) const override {
+  std::optional<Push> PushOf(const Eigen::VectorXd& z, const FaultContext& at) const override {
     const Eigen::VectorXd& x_m = at.shape.state.x_m;
-    const Wall wall = WallAt(z);
+    const Obstacle obstacle = ObstacleAt(z);
     Push push{.force_N = {},
               .times = Eigen::VectorXd::Zero(z.size()),
               .give_way_m = Eigen::VectorXd::Zero(z.size())};
     if (IsThere(z)) {
-      if (!at.shape.AtWall()) return std::nullopt;
-      push.force_N = NodalForces_N(wall, at.shape.wall_force_N, x_m.size());
+      if (!at.shape.AtObstacle()) return std::nullopt;
+      push.force_N = NodalForces_N(obstacle, at.shape.obstacle_force_N, x_m.size());
       push.times[0] = 1.0;
       return push;
     }
-    const Beyond beyond = LookBeyond(wall, x_m);
+    const Beyond beyond = LookBeyond(obstacle, x_m);
     if (beyond.share.empty()) return std::nullopt;
     push.force_N = Eigen::VectorXd::Zero(x_m.size());
     for (const auto& [node, share] : beyond.share) {
-      push.force_N.segment<3>(3 * node) = share * wall.normal;
+      push.force_N.segment<3>(3 * node) = share * obstacle.normal;
     }
     push.give_way_m[0] = beyond.depth_m;
     for (int p = 1; p < std::ssize(parameters()); ++p) {
@@ -126,7 +126,7 @@ class HiddenObstacle final : public Cause {
     return at_.normal + tangents_ * z.tail<2>();
   }
 
-  Wall WallAt(const Eigen::VectorXd& z) const {
+  Obstacle ObstacleAt(const Eigen::VectorXd& z) const {
     const Eigen::Vector3d normal = Along(z).normalized();
     return {surface_, normal, normal.dot(at_.middle_m) - z[1]};
   }
@@ -146,24 +146,24 @@ class HiddenObstacle final : public Cause {
 
   Eigen::Vector4d GapAndNormal(const Eigen::VectorXd& z,
                                const Eigen::VectorXd& undeformed_m) const {
-    const Wall wall = WallAt(z);
+    const Obstacle obstacle = ObstacleAt(z);
     Eigen::Vector4d value;
-    value << WallClearance_m(wall, undeformed_m), wall.normal;
+    value << ObstacleClearance_m(obstacle, undeformed_m), obstacle.normal;
     return value;
   }
 
-  WallToLookAt at_;
-  std::shared_ptr<const WallSurface> surface_;
+  CandidateObstacle at_;
+  std::shared_ptr<const ObstacleSurface> surface_;
   Eigen::Matrix<double, 3, 2> tangents_;
 };
 
 }  // namespace
 
-void MakeHiddenObstacle(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeHiddenObstacle(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (world.as_built == nullptr) return;
-  const auto surface = std::make_shared<const WallSurface>(SurfaceForWalls(world.body));
+  const auto surface = std::make_shared<const ObstacleSurface>(SurfaceForObstacles(world.body));
   const Eigen::VectorXd undeformed_m = world.body.mesh.nodes_m.reshaped();
-  for (const WallToLookAt& at : WallsToLookAt(surface, undeformed_m, *world.as_built)) {
+  for (const CandidateObstacle& at : CandidateObstacles(surface, undeformed_m, *world.as_built)) {
     causes->push_back(std::make_unique<HiddenObstacle>(at, surface));
   }
 }

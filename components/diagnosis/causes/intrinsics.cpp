@@ -11,19 +11,20 @@ namespace {
 
 /// The camera's focal length and image centre are not those of its data sheet. Where nobody says
 /// how many pixels that focal length is, its centre cannot be told in pixels, and is left out.
-class Intrinsics final : public Cause {
+class Intrinsics final : public FaultModel {
  public:
   explicit Intrinsics(bool with_centre)
-      : Cause({"intrinsics", {"camera"}}, "intrinsics of the camera", Parameters(with_centre)) {}
+      : FaultModel({"intrinsics", {"camera"}}, "intrinsics of the camera",
+                   Parameters(with_centre)) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.focal += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.focal += z[0];
     if (z.size() == 1) return;
-    draft->camera.cx_px += z[1];
-    draft->camera.cy_px += z[2];
+    hypothesis->camera.cx_px += z[1];
+    hypothesis->camera.cy_px += z[2];
   }
 
-  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
       const CameraView& camera = *at.sight.camera;
@@ -33,8 +34,8 @@ class Intrinsics final : public Cause {
   }
 
  private:
-  static std::vector<CauseParameter> Parameters(bool with_centre) {
-    std::vector<CauseParameter> parameters = {
+  static std::vector<FaultParameter> Parameters(bool with_centre) {
+    std::vector<FaultParameter> parameters = {
         {.name = "focal", .tolerance = 0.002, .fault = 0.02, .least = -0.9}};
     if (!with_centre) return parameters;
     for (const char* name : {"cx_px", "cy_px"}) {
@@ -46,7 +47,7 @@ class Intrinsics final : public Cause {
 
 }  // namespace
 
-void MakeIntrinsics(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeIntrinsics(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (!HasDepthCamera(world.observed)) return;
   const auto& recordings = world.observed.recordings;
   const bool with_centre =

@@ -17,23 +17,23 @@ namespace {
 /// late by the sum, and the squares tell by how much their turns are rounded off: these, other than
 /// delay and time constant, are nearly linear in what is seen, and the second is often all but
 /// unknown.
-class Lag final : public Cause {
+class Lag final : public FaultModel {
  public:
   Lag()
-      : Cause({"lag", {"body"}}, "lag of the drives",
-              {{.name = "late_s", .tolerance = 0.01, .fault = 0.2, .least = 0.0},
-               {.name = "rounded",
-                .nominal = 0.5,
-                .fault = 0.4,
-                .least = -0.5,
-                .most = 0.5,
-                .qualifies = true}}) {}
+      : FaultModel({"lag", {"body"}}, "lag of the drives",
+                   {{.name = "late_s", .tolerance = 0.01, .fault = 0.2, .least = 0.0},
+                    {.name = "rounded",
+                     .nominal = 0.5,
+                     .fault = 0.4,
+                     .least = -0.5,
+                     .most = 0.5,
+                     .qualifies = true}}) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     const double late_s = std::max(0.0, z[0]);
-    draft->drives.tau_s += late_s * Share(z[1]);
-    draft->drives.delay_s += late_s * (1.0 - Share(z[1]));
+    hypothesis->drives.tau_s += late_s * Share(z[1]);
+    hypothesis->drives.delay_s += late_s * (1.0 - Share(z[1]));
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
@@ -53,7 +53,7 @@ class Lag final : public Cause {
   FittedParameter Part(const std::string& name, const Eigen::VectorXd& z,
                        const Eigen::MatrixXd& covariance, const PartOf& part_of) const {
     constexpr double kFarthest = 10.0;  // sigma
-    const CauseParameter& rounded = parameters()[1];
+    const FaultParameter& rounded = parameters()[1];
     const TwoParameters both{z, covariance, rounded.least, rounded.most};
     const double most_s = z[0] + kFarthest * std::sqrt(covariance(0, 0));
     const auto late_at = [&](double value_s, double z_rounded) {
@@ -67,7 +67,7 @@ class Lag final : public Cause {
 
 }  // namespace
 
-void MakeLag(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeLag(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (world.body.cables.empty()) return;
   causes->push_back(std::make_unique<Lag>());
 }

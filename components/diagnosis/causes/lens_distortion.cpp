@@ -8,17 +8,17 @@ namespace palpate::diagnosis {
 namespace {
 
 /// The lens bends more, or less, than its data sheet says.
-class LensDistortion final : public Cause {
+class LensDistortion final : public FaultModel {
  public:
   LensDistortion()
-      : Cause({"lens_distortion", {"camera"}}, "distortion of the camera's lens",
-              {{.name = "k1", .fault = 0.1}}) {}
+      : FaultModel({"lens_distortion", {"camera"}}, "distortion of the camera's lens",
+                   {{.name = "k1", .fault = 0.1}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.k1 += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.k1 += z[0];
   }
 
-  void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
       motion_m->col(m) += at.sight.camera->ByDistortion(at.sight.point(m));
@@ -28,7 +28,7 @@ class LensDistortion final : public Cause {
 
 }  // namespace
 
-void MakeLensDistortion(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeLensDistortion(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (HasDepthCamera(world.observed)) causes->push_back(std::make_unique<LensDistortion>());
 }
 

@@ -14,11 +14,11 @@ namespace palpate::diagnosis {
 namespace {
 
 /// A marker sits elsewhere on the body than its file says; it moves along with what it sits on.
-class MarkerMisplacement final : public Cause {
+class MarkerMisplacement final : public FaultModel {
  public:
   MarkerMisplacement(const robot::BodyMarker& marker, int index, const fem::PointLocator& locator)
-      : Cause({"marker_misplacement", {"marker:" + marker.name}}, "place of marker " + marker.name,
-              {Component(), Component(), Component()}),
+      : FaultModel({"marker_misplacement", {"marker:" + marker.name}},
+                   "place of marker " + marker.name, {Component(), Component(), Component()}),
         index_(index) {
     for (int axis = 0; axis < 3; ++axis) {
       along_.push_back(robot::EyeletWeightsAlong(locator, marker.point.rest_m, 0.0,
@@ -26,8 +26,8 @@ class MarkerMisplacement final : public Cause {
     }
   }
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->marker_offset_m.col(index_) += z;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->marker_offset_m.col(index_) += z;
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -36,12 +36,12 @@ class MarkerMisplacement final : public Cause {
     return true;
   }
 
-  void OnView(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnView(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
               Eigen::Matrix3Xd* motion_m) const override {
     if (at.target != Target::kMarkers) return;
     const auto recording = static_cast<std::size_t>(at.seen().recording);
     motion_m->col(index_) +=
-        at.draft.T_seen[recording].linear() *
+        at.hypothesis.T_seen[recording].linear() *
         along_[static_cast<std::size_t>(parameter)].Position(at.shape.state.x_m);
   }
 
@@ -51,7 +51,7 @@ class MarkerMisplacement final : public Cause {
   }
 
  private:
-  static CauseParameter Component() {
+  static FaultParameter Component() {
     constexpr double kTolerance_m = 1e-3;  // of its length
     return {.name = "d_m",
             .tolerance = kTolerance_m / std::sqrt(3.0),
@@ -60,12 +60,12 @@ class MarkerMisplacement final : public Cause {
   }
 
   Eigen::Index index_;
-  std::vector<fem::NodeWeights> along_;  ///< [axes] derivative of its weights, 1/m
+  std::vector<fem::InterpolationWeights> along_;  ///< [axes] derivative of its weights, 1/m
 };
 
 }  // namespace
 
-void MakeMarkerMisplacement(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeMarkerMisplacement(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const bool only_skin =
       world.observed.HasSkin() &&
       std::all_of(world.observed.samples.begin(), world.observed.samples.end(),

@@ -18,20 +18,20 @@ namespace {
 /// softening ends tell z[0] all the same; of 1 / r they would only tell what it is if m were known,
 /// and about every m another share of that. What it does at a moment is a force: that of the
 /// softened cells, as far as they are. What the energies then answer is left out.
-class Mullins final : public Cause {
+class Mullins final : public FaultModel {
  public:
   explicit Mullins(double m_J_m3)
-      : Cause({"mullins", {"body"}}, "softening of the body where it was strained before",
-              {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
-               {.name = "m",
-                .nominal = m_J_m3,
-                .fault = 0.6,
-                .scale = CauseParameter::Scale::kFactor,
-                .qualifies = true}}) {}
+      : FaultModel({"mullins", {"body"}}, "softening of the body where it was strained before",
+                   {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
+                    {.name = "m",
+                     .nominal = m_J_m3,
+                     .fault = 0.6,
+                     .scale = FaultParameter::Scale::kFactor,
+                     .qualifies = true}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     if (z[0] > 0.0) {
-      draft->mullins =
+      hypothesis->mullins =
           MullinsSoftening{std::min(1.0, z[0] / Reach(z[1])), parameters()[1].ValueOf(z[1])};
     }
   }
@@ -40,11 +40,12 @@ class Mullins final : public Cause {
   bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.02; }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     if (parameter == 1 && z[0] == 0.0) return nullptr;
     const double m_J_m3 = parameters()[1].ValueOf(z[1]);
-    const Eigen::Array<double, Eigen::Dynamic, Memory::kLooks> below =
-        at.simulation.below_largest_J_m3.middleCols<Memory::kLooks>(Memory::kLooks * at.sample)
+    const Eigen::Array<double, Eigen::Dynamic, HistoryOperator::kLooks> below =
+        at.simulation.below_largest_J_m3
+            .middleCols<HistoryOperator::kLooks>(HistoryOperator::kLooks * at.sample)
             .cast<double>()
             .array() /
         m_J_m3;
@@ -61,7 +62,7 @@ class Mullins final : public Cause {
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
-    std::vector<FittedParameter> report = Cause::Report(z, covariance, undeformed_m);
+    std::vector<FittedParameter> report = FaultModel::Report(z, covariance, undeformed_m);
     constexpr double kLeast = 1e-6;  // of 1 / r
     const TwoParameters both{z, covariance, parameters()[1].least, parameters()[1].most};
     const auto inverse_below = [&](double probability) {
@@ -85,7 +86,7 @@ class Mullins final : public Cause {
   }
 
   /// F_int of the cells, each so weighted; weights above -1.
-  static Eigen::VectorXd ForceOf(const Eigen::VectorXd& weight, const CauseMoment& at) {
+  static Eigen::VectorXd ForceOf(const Eigen::VectorXd& weight, const FaultContext& at) {
     fem::ElasticBody& body = at.model.elastic_body();
     const Eigen::VectorXd& x_m = at.shape.state.x_m;
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(weight.size());
@@ -104,7 +105,7 @@ class Mullins final : public Cause {
 
 }  // namespace
 
-void MakeMullins(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+void MakeMullins(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
   for (const double m_J_m3 : {30.0, 100.0, 300.0, 1000.0, 3000.0}) {
     causes->push_back(std::make_unique<Mullins>(m_J_m3));
   }

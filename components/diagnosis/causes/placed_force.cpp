@@ -10,7 +10,7 @@
 
 namespace palpate::diagnosis {
 
-CauseParameter PlaceParameter(const std::string& name, double near_m) {
+FaultParameter PlaceParameter(const std::string& name, double near_m) {
   return {.name = name, .nominal = near_m, .fault = kPlaceSigma_m, .qualifies = true};
 }
 

@@ -18,7 +18,7 @@ namespace palpate::diagnosis {
 inline constexpr double kPlaceSigma_m = 0.012;
 
 /// A coordinate of such a place, near `near_m`.
-CauseParameter PlaceParameter(const std::string& name, double near_m);
+FaultParameter PlaceParameter(const std::string& name, double near_m);
 
 struct PlacesToLookAt {
   std::vector<Eigen::Vector3d> point_m;  ///< of the undeformed body
@@ -31,7 +31,7 @@ PlacesToLookAt LookAt(const CauseWorld& world);
 
 /// Adds a cause of this kind, made of a point and the locator, for each place to look at.
 template <typename PlacedCause>
-void AddAtPlaces(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void AddAtPlaces(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const PlacesToLookAt places = LookAt(world);
   for (const Eigen::Vector3d& point_m : places.point_m) {
     causes->push_back(std::make_unique<PlacedCause>(point_m, places.locator));

@@ -54,10 +54,10 @@ SoftShapes SoftestShapes(const robot::RobotBody& body) {
 
 /// What bent a body for good bent it by its compliance, so that it is in its softest shapes that it
 /// stays bent the most. What it was built with may be any of them.
-std::vector<CauseParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
+std::vector<FaultParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
   constexpr double kTolerance_m = 1e-4;
   constexpr double kSoftest_m = 3e-3;
-  std::vector<CauseParameter> parts;
+  std::vector<FaultParameter> parts;
   for (const double softness : compliance) {
     const double fault_m = std::hypot(kTolerance_m, kSoftest_m * softness);
     parts.push_back(
@@ -67,19 +67,19 @@ std::vector<CauseParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
 }
 
 /// The body was bent for good after the drives were zeroed, in a mixture of its softest shapes.
-class PlasticSet final : public Cause {
+class PlasticSet final : public FaultModel {
  public:
   explicit PlasticSet(SoftShapes soft)
-      : Cause({"plastic_set", {"body"}}, "bent rest shape of the body",
-              PartsOfShapes(soft.compliance)),
+      : FaultModel({"plastic_set", {"body"}}, "bent rest shape of the body",
+                   PartsOfShapes(soft.compliance)),
         shapes_(std::move(soft.nodal)) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.mesh.nodes_m += (shapes_ * z).reshaped(3, draft->body.mesh.NodeCount());
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.mesh.nodes_m += (shapes_ * z).reshaped(3, hypothesis->body.mesh.NodeCount());
   }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& /*at*/) const override {
+                             const FaultContext& /*at*/) const override {
     return robot::RestShapeMode(shapes_.col(parameter), robot::CableZero::kKept,
                                 robot::MassRule::kNodalKept);
   }
@@ -100,7 +100,7 @@ class PlasticSet final : public Cause {
 
 }  // namespace
 
-void MakePlasticSet(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakePlasticSet(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   SoftShapes soft = SoftestShapes(world.body);
   if (soft.nodal.size() == 0) return;
   causes->push_back(std::make_unique<PlasticSet>(std::move(soft)));

@@ -11,20 +11,20 @@ namespace palpate::diagnosis {
 namespace {
 
 /// nu of the whole body, Young's modulus as it is.
-class PoissonsRatioCause final : public Cause {
+class PoissonsRatioCause final : public FaultModel {
  public:
   explicit PoissonsRatioCause(double nominal)
-      : Cause({"poissons_ratio", {"body"}}, "Poisson's ratio of the body",
-              {{.name = "nu",
-                .nominal = nominal,
-                .tolerance = 0.005,
-                .fault = 0.04,
-                .least = -nominal,
-                .most = robot::kLargestPoissonsRatio - nominal}}) {}
+      : FaultModel({"poissons_ratio", {"body"}}, "Poisson's ratio of the body",
+                   {{.name = "nu",
+                     .nominal = nominal,
+                     .tolerance = 0.005,
+                     .fault = 0.04,
+                     .least = -nominal,
+                     .most = robot::kLargestPoissonsRatio - nominal}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    const CauseParameter& nu = parameters().front();
-    for (fem::Material& material : draft->body.materials) {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    const FaultParameter& nu = parameters().front();
+    for (fem::Material& material : hypothesis->body.materials) {
       material.poissons_ratio += std::clamp(z[0], nu.least, nu.most);
     }
   }
@@ -36,7 +36,7 @@ class PoissonsRatioCause final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     auto sum = std::make_unique<SumOfParameters>();
     for (std::size_t k = 0; k < at.model.elastic_body().materials().size(); ++k) {
       sum->Add(1.0, robot::PoissonsRatio(static_cast<int>(k)));
@@ -47,7 +47,7 @@ class PoissonsRatioCause final : public Cause {
 
 }  // namespace
 
-void MakePoissonsRatio(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakePoissonsRatio(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<PoissonsRatioCause>(world.body.nominal_poissons_ratio));
 }
 

@@ -9,19 +9,20 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class RegionalStiffness final : public Cause {
+class RegionalStiffness final : public FaultModel {
  public:
   RegionalStiffness(const std::string& region, int material)
-      : Cause({"regional_stiffness", {"region:" + region}}, "stiffness of region " + region,
-              {{.name = "factor",
-                .nominal = 1.0,
-                .tolerance = 0.03,
-                .fault = 0.4,
-                .scale = CauseParameter::Scale::kFactor}}),
+      : FaultModel({"regional_stiffness", {"region:" + region}}, "stiffness of region " + region,
+                   {{.name = "factor",
+                     .nominal = 1.0,
+                     .tolerance = 0.03,
+                     .fault = 0.4,
+                     .scale = FaultParameter::Scale::kFactor}}),
         material_(material) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa *= std::exp(z[0]);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa *=
+        std::exp(z[0]);
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -33,7 +34,7 @@ class RegionalStiffness final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     const auto& materials = at.model.elastic_body().materials();
     return Scaled(materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa,
                   robot::YoungsModulus(material_));
@@ -45,7 +46,7 @@ class RegionalStiffness final : public Cause {
 
 }  // namespace
 
-void MakeRegionalStiffness(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeRegionalStiffness(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const std::vector<std::string>& regions = world.body.region_names;
   for (std::size_t k = 0; k < regions.size(); ++k) {
     causes->push_back(std::make_unique<RegionalStiffness>(regions[k], static_cast<int>(k) + 1));

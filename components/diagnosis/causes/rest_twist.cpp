@@ -14,32 +14,32 @@ namespace {
 constexpr double kFault_rad = 0.1;  ///< of the far end
 
 /// The body was cast twisted about the way from the middle of its base to its own.
-class RestTwist final : public Cause {
+class RestTwist final : public FaultModel {
  public:
   RestTwist(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& axis, double length_m)
-      : Cause({"rest_twist", {"body"}}, "twist of the undeformed body",
-              {{.name = "rate_rad_m", .fault = kFault_rad / length_m}}),
+      : FaultModel({"rest_twist", {"body"}}, "twist of the undeformed body",
+                   {{.name = "rate_rad_m", .fault = kFault_rad / length_m}}),
         middle_m_(middle_m),
         axis_(axis) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    Eigen::Matrix3Xd& nodes_m = draft->body.mesh.nodes_m;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    Eigen::Matrix3Xd& nodes_m = hypothesis->body.mesh.nodes_m;
     for (Eigen::Index node = 0; node < nodes_m.cols(); ++node) {
-      if (draft->body.fixed.col(node).all()) continue;
+      if (hypothesis->body.fixed.col(node).all()) continue;
       const Eigen::Vector3d arm_m = nodes_m.col(node) - middle_m_;
       const Eigen::AngleAxisd turn(z[0] * arm_m.dot(axis_), axis_);
       const Eigen::Vector3d motion_m = turn * arm_m - arm_m;
       nodes_m.col(node) += motion_m;
-      draft->assembled_m.segment<3>(3 * node) += motion_m;
+      hypothesis->assembled_m.segment<3>(3 * node) += motion_m;
     }
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
-    const Eigen::Matrix3Xd& nodes_m = at.draft.body.mesh.nodes_m;
+                             const FaultContext& at) const override {
+    const Eigen::Matrix3Xd& nodes_m = at.hypothesis.body.mesh.nodes_m;
     Eigen::VectorXd mode_m = Eigen::VectorXd::Zero(nodes_m.size());
     for (Eigen::Index node = 0; node < nodes_m.cols(); ++node) {
-      if (at.draft.body.fixed.col(node).all()) continue;
+      if (at.hypothesis.body.fixed.col(node).all()) continue;
       const Eigen::Vector3d arm_m = nodes_m.col(node) - middle_m_;
       mode_m.segment<3>(3 * node) = arm_m.dot(axis_) * axis_.cross(arm_m);
     }
@@ -54,7 +54,7 @@ class RestTwist final : public Cause {
 
 }  // namespace
 
-void MakeRestTwist(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeRestTwist(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const Eigen::Vector3d middle_m = MiddleOfBase(world.body);
   const Eigen::Vector3d along_m = world.body.mesh.nodes_m.rowwise().mean() - middle_m;
   if (along_m.norm() == 0.0) return;

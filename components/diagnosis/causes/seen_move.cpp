@@ -34,7 +34,7 @@ Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
 }  // namespace
 
 void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const Eigen::Isometry3d& T_after, const CauseMoment& at,
+                 const Eigen::Isometry3d& T_after, const FaultContext& at,
                  Eigen::Matrix3Xd* motion_m) {
   const Eigen::Isometry3d T_moved_measurement = (at.T_measurement_robot() * T_after).inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/causes/fault_model.hpp"
 
 namespace palpate::diagnosis {
 
@@ -16,7 +16,7 @@ Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& midd
 /// Adds what a little more of one of these six than `z` does to where the target is seen.
 /// `T_after`: what the move that `z` makes is followed by.
 void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const Eigen::Isometry3d& T_after, const CauseMoment& at,
+                 const Eigen::Isometry3d& T_after, const FaultContext& at,
                  Eigen::Matrix3Xd* motion_m);
 
 }  // namespace palpate::diagnosis

@@ -15,17 +15,17 @@ constexpr double kSigma_px = 0.05;
 /// Okutomi, Precise sub-pixel estimation on area-based matching, ICCV 2001): no fault. Half a metre
 /// away it is some tenths of a millimetre, and goes up and down as the body moves by some
 /// millimetres.
-class StereoRipple final : public Cause {
+class StereoRipple final : public FaultModel {
  public:
   StereoRipple()
-      : Cause({"stereo_ripple", {"camera"}}, "sub-pixel error of the depth",
-              {Wave("cosine_px"), Wave("sine_px")}) {}
+      : FaultModel({"stereo_ripple", {"camera"}}, "sub-pixel error of the depth",
+                   {Wave("cosine_px"), Wave("sine_px")}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.ripple_px += z;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.ripple_px += z;
   }
 
-  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     if (at.target != Target::kSkin) return;
     for (Eigen::Index f = 0; f < motion_m->cols(); ++f) {
@@ -37,14 +37,14 @@ class StereoRipple final : public Cause {
   }
 
  private:
-  static CauseParameter Wave(const std::string& name) {
+  static FaultParameter Wave(const std::string& name) {
     return {.name = name, .tolerance = kSigma_px, .fault = kSigma_px};
   }
 };
 
 }  // namespace
 
-void MakeStereoRipple(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeStereoRipple(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const auto& recordings = world.observed.recordings;
   const bool stereo = std::any_of(recordings.begin(), recordings.end(),
                                   [](const auto& one) { return one.stereo_px_m > 0.0; });

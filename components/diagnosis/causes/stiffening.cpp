@@ -24,16 +24,16 @@ std::vector<fem::Material> AsYeoh(std::vector<fem::Material> materials, double c
 
 /// The material stiffens with strain as Yeoh's with C20 = C2_over_C1 C10 does. With the cause a
 /// material of another kind becomes Yeoh's of the same modulus, which the derivative leaves out.
-class Stiffening final : public Cause {
+class Stiffening final : public FaultModel {
  public:
   explicit Stiffening(const robot::RobotBody& body)
-      : Cause({"stiffening", {"body"}}, "stiffening of the material with strain",
-              {{.name = "C2_over_C1", .fault = 1.5, .least = 0.0}}),
+      : FaultModel({"stiffening", {"body"}}, "stiffening of the material with strain",
+                   {{.name = "C2_over_C1", .fault = 1.5, .least = 0.0}}),
         without_(body.mesh, AsYeoh(body.materials, 0.0), body.material_of_cell),
         with_(body.mesh, AsYeoh(body.materials, 1.0), body.material_of_cell) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->body.materials = AsYeoh(draft->body.materials, std::max(0.0, z[0]));
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.materials = AsYeoh(hypothesis->body.materials, std::max(0.0, z[0]));
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -46,7 +46,7 @@ class Stiffening final : public Cause {
 
   /// The forces are linear in C20.
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     const Eigen::VectorXd& x_m = at.shape.state.x_m;
     Eigen::VectorXd without_N = Eigen::VectorXd::Zero(x_m.size());
     Eigen::VectorXd with_N = Eigen::VectorXd::Zero(x_m.size());
@@ -73,7 +73,7 @@ class Stiffening final : public Cause {
 }  // namespace
 
 /// Nearly incompressible tet10 averages its dilatation, which Yeoh's material does not do here.
-void MakeStiffening(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeStiffening(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   for (const fem::Material& material : world.body.materials) {
     if (material.volumetric != fem::Volumetric::kPointwise) return;
   }

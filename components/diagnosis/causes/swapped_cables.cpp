@@ -10,19 +10,20 @@ namespace palpate::diagnosis {
 namespace {
 
 /// z = 1: each of two drives pulls the other's cable; 0: its own. Nothing between is believed in.
-class SwappedCables final : public Cause {
+class SwappedCables final : public FaultModel {
  public:
   SwappedCables(const CauseWorld& world, int a, int b)
-      : Cause({"swapped_cables", {"cable:" + NameOf(world, a), "cable:" + NameOf(world, b)}},
-              "cables " + NameOf(world, a) + " and " + NameOf(world, b) + " swapped",
-              {{.name = "swapped", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
+      : FaultModel(
+            {"swapped_cables", {"cable:" + NameOf(world, a), "cable:" + NameOf(world, b)}},
+            "cables " + NameOf(world, a) + " and " + NameOf(world, b) + " swapped",
+            {{.name = "swapped", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
         a_(a),
         b_(b) {}
 
   bool OnDrives() const override { return true; }
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    Eigen::MatrixXd& mixing = draft->drives.mixing;
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    Eigen::MatrixXd& mixing = hypothesis->drives.mixing;
     const Eigen::RowVectorXd row_a = mixing.row(a_);
     const Eigen::RowVectorXd row_b = mixing.row(b_);
     mixing.row(a_) += z[0] * (row_b - row_a);
@@ -57,7 +58,7 @@ class SwappedCables final : public Cause {
 
 }  // namespace
 
-void MakeSwappedCables(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeSwappedCables(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   const auto cables = static_cast<int>(world.body.cables.size());
   for (int a = 0; a < cables; ++a) {
     for (int b = a + 1; b < cables; ++b) {

@@ -9,22 +9,22 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class Temperature final : public Cause {
+class Temperature final : public FaultModel {
  public:
   Temperature()
-      : Cause({"temperature", {"body"}}, "modulus that changes with time (temperature)",
-              {{.name = "relative_E_change_at_end", .fault = 0.15, .least = -0.9}}) {}
+      : FaultModel({"temperature", {"body"}}, "modulus that changes with time (temperature)",
+                   {{.name = "relative_E_change_at_end", .fault = 0.15, .least = -0.9}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->modulus_change_at_end += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->modulus_change_at_end += z[0];
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     const Timeline& timeline = at.observed.timeline;
     const double begin_s = timeline.begin_s.front();
     const double share = (at.seen().t_s - begin_s) / (timeline.end_s.back() - begin_s);
-    const double now = 1.0 + at.draft.modulus_change_at_end * share;
+    const double now = 1.0 + at.hypothesis.modulus_change_at_end * share;
     auto sum = std::make_unique<SumOfParameters>();
     const auto& materials = at.model.elastic_body().materials();
     for (std::size_t k = 0; k < materials.size(); ++k) {
@@ -37,7 +37,7 @@ class Temperature final : public Cause {
 
 }  // namespace
 
-void MakeTemperature(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+void MakeTemperature(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<Temperature>());
 }
 

@@ -9,22 +9,23 @@ namespace {
 
 /// Depth drifts while the camera gets warm, with a time constant near one that it is looked for at.
 /// Nobody knows when the camera was switched on: it counts from the first stamp.
-class WarmUpDrift final : public Cause {
+class WarmUpDrift final : public FaultModel {
  public:
   explicit WarmUpDrift(double tau_s)
-      : Cause({"warm_up_drift", {"camera"}}, "depth drift of the camera",
-              {{.name = "amplitude_m", .fault = 5e-3},
-               {.name = "tau_s",
-                .nominal = tau_s,
-                .fault = 0.6,
-                .scale = CauseParameter::Scale::kFactor,
-                .qualifies = true}}) {}
+      : FaultModel({"warm_up_drift", {"camera"}}, "depth drift of the camera",
+                   {{.name = "amplitude_m", .fault = 5e-3},
+                    {.name = "tau_s",
+                     .nominal = tau_s,
+                     .fault = 0.6,
+                     .scale = FaultParameter::Scale::kFactor,
+                     .qualifies = true}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->camera.drifts.push_back({.amplitude_m = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.drifts.push_back(
+        {.amplitude_m = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
   }
 
-  void OnMeasurement(int parameter, const Eigen::VectorXd& z, const CauseMoment& at,
+  void OnMeasurement(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     const double tau_s = parameters()[1].ValueOf(z[1]);
     const double depth_m = parameter == 0 ? DriftShare(at.observed, at.seen(), tau_s)
@@ -37,7 +38,7 @@ class WarmUpDrift final : public Cause {
 
 }  // namespace
 
-void MakeWarmUpDrift(const CauseWorld& world, std::vector<CausePtr>* causes) {
+void MakeWarmUpDrift(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
   if (!HasDepthCamera(world.observed)) return;
   for (const double tau_s : {20.0, 60.0, 200.0, 600.0}) {
     causes->push_back(std::make_unique<WarmUpDrift>(tau_s));

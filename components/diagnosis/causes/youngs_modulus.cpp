@@ -9,18 +9,18 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class YoungsModulusCause final : public Cause {
+class YoungsModulusCause final : public FaultModel {
  public:
   YoungsModulusCause()
-      : Cause({"youngs_modulus", {"body"}}, "Young's modulus of the body",
-              {{.name = "factor",
-                .nominal = 1.0,
-                .tolerance = 0.03,
-                .fault = 0.5,
-                .scale = CauseParameter::Scale::kFactor}}) {}
+      : FaultModel({"youngs_modulus", {"body"}}, "Young's modulus of the body",
+                   {{.name = "factor",
+                     .nominal = 1.0,
+                     .tolerance = 0.03,
+                     .fault = 0.5,
+                     .scale = FaultParameter::Scale::kFactor}}) {}
 
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    for (fem::Material& material : draft->body.materials) {
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    for (fem::Material& material : hypothesis->body.materials) {
       material.youngs_modulus_Pa *= std::exp(z[0]);
     }
   }
@@ -35,7 +35,7 @@ class YoungsModulusCause final : public Cause {
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     auto sum = std::make_unique<SumOfParameters>();
     const auto& materials = at.model.elastic_body().materials();
     for (std::size_t k = 0; k < materials.size(); ++k) {
@@ -47,7 +47,7 @@ class YoungsModulusCause final : public Cause {
 
 }  // namespace
 
-void MakeYoungsModulus(const CauseWorld& /*world*/, std::vector<CausePtr>* causes) {
+void MakeYoungsModulus(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
   causes->push_back(std::make_unique<YoungsModulusCause>());
 }
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 
 namespace palpate::diagnosis {
 
@@ -19,8 +19,8 @@ struct Picture {
 /// of how it moves along the skin a cloud tells nothing. Point and normal are held where the cloud
 /// was matched with a shape of the body; the measured coordinate is linear about there.
 struct SkinSighting {
-  int count = 0;           ///< pictures that show it; 0: none does, and all else says nothing
-  fem::NodeWeights point;  ///< of the body, in the middle of its cloud points
+  int count = 0;  ///< pictures that show it; 0: none does, and all else says nothing
+  fem::InterpolationWeights point;  ///< of the body, in the middle of its cloud points
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< of that point, undeformed, robot frame
   /// Mean over its cloud points, outward, camera frame; shorter than 1 where the skin bends.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

@@ -8,23 +8,23 @@
 
 namespace palpate::diagnosis {
 
-Posterior Infer(const Information& data, const Belief& belief) {
+Posterior Infer(const Information& data, const GaussianPrior& prior) {
   std::vector<Eigen::Index> free;
-  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
-    if (belief.sigma[p] > 0.0) free.push_back(p);
+  for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
+    if (prior.sigma[p] > 0.0) free.push_back(p);
   }
   std::vector<Eigen::Index> fixed_away;
-  for (Eigen::Index p = 0; p < belief.mean.size(); ++p) {
-    if (belief.mean[p] != 0.0) fixed_away.push_back(p);
+  for (Eigen::Index p = 0; p < prior.mean.size(); ++p) {
+    if (prior.mean[p] != 0.0) fixed_away.push_back(p);
   }
   double c = data.c;
   Eigen::VectorXd b = data.b;
   for (const Eigen::Index p : fixed_away) {
     const double before = b[p];
-    b -= belief.mean[p] * data.H.col(p);
-    c -= belief.mean[p] * (before + b[p]);
+    b -= prior.mean[p] * data.H.col(p);
+    c -= prior.mean[p] * (before + b[p]);
   }
-  const Eigen::VectorXd sigma = belief.sigma(free);
+  const Eigen::VectorXd sigma = prior.sigma(free);
   Eigen::MatrixXd A = sigma.asDiagonal() * data.H(free, free) * sigma.asDiagonal();
   A.diagonal().array() += 1.0;
   const Eigen::VectorXd g = sigma.cwiseProduct(b(free));
@@ -34,12 +34,12 @@ Posterior Infer(const Information& data, const Belief& belief) {
   posterior.misfit = c - g.dot(steps);
   posterior.ln_evidence =
       -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
-  posterior.mean = belief.mean;
+  posterior.mean = prior.mean;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     posterior.mean[free[k]] += sigma[i] * steps[i];
   }
-  posterior.covariance = Eigen::MatrixXd::Zero(belief.sigma.size(), belief.sigma.size());
+  posterior.covariance = Eigen::MatrixXd::Zero(prior.sigma.size(), prior.sigma.size());
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
   posterior.covariance(free, free) = sigma.asDiagonal() * inverse * sigma.asDiagonal();
   return posterior;

@@ -10,11 +10,11 @@
 namespace palpate::diagnosis {
 
 /// A normal belief about each parameter before the data: sigma 0 holds it at its mean.
-struct Belief {
+struct GaussianPrior {
   Eigen::VectorXd mean;
   Eigen::VectorXd sigma;
 
-  explicit Belief(Eigen::Index parameters)
+  explicit GaussianPrior(Eigen::Index parameters)
       : mean(Eigen::VectorXd::Zero(parameters)), sigma(Eigen::VectorXd::Zero(parameters)) {}
 };
 
@@ -28,6 +28,6 @@ struct Posterior {
 
 /// Normal beliefs, linear data: exact. With D = diag(sigma), A = I + D H D,
 ///   ln p = -(c - g' A^-1 g + ln det A) / 2, g = D (b - H mean), all about the mean.
-Posterior Infer(const Information& data, const Belief& belief);
+Posterior Infer(const Information& data, const GaussianPrior& prior);
 
 }  // namespace palpate::diagnosis

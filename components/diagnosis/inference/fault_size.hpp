@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "components/diagnosis/inference/cause_book.hpp"
+#include "components/diagnosis/inference/hypothesis_set.hpp"
 
 namespace palpate::diagnosis {
 
@@ -13,6 +13,6 @@ namespace palpate::diagnosis {
 /// tolerances that a healthy robot has, as likely nothing at all, or so large that it is rather
 /// another cause in disguise.
 /// Empty: it may be one.
-std::string WhyNoFault(const CauseBook& book, const Posterior& posterior, int cause);
+std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int cause);
 
 }  // namespace palpate::diagnosis

@@ -19,16 +19,17 @@ Status FewerData() {
 }  // namespace
 
 Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
-               const CauseBook& book, const NoiseModel& noise, int threads, TimeLimit limit)
+               const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
+               TimeLimit limit)
     : observed_(observed),
-      book_(book),
-      causes_(book.All()),
+      hypotheses_(hypotheses),
+      causes_(hypotheses.All()),
       noise_(noise),
       nominal_(DraftOf(body, observed)),
       simulator_(observed, threads),
       limit_(limit),
       marker_rest_m_(3, std::ssize(body.markers)),
-      healthy_(book.BeliefWith({})) {
+      healthy_(hypotheses.PriorWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     marker_rest_m_.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
   }
@@ -38,17 +39,17 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
 /// where there are no others.
 void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
                            Fit* fit) const {
-  const ModelDraft draft = DraftWith(nominal_, causes_, fit->z);
+  const ModelHypothesis hypothesis = DraftWith(nominal_, causes_, fit->z);
   Simulation& simulation = fit->simulation;
-  simulator_.Differentiate(draft, causes_, fit->z, wanted, nominal_, &simulation);
+  simulator_.Differentiate(hypothesis, causes_, fit->z, wanted, nominal_, &simulation);
   if (others == nullptr) {
     simulator_.DifferentiateByRuns(nominal_, causes_, fit->z, &simulation);
   }
   for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
-    for (int k = 0; k < book_.size(); ++k) {
+    for (int k = 0; k < hypotheses_.size(); ++k) {
       if (wanted[static_cast<std::size_t>(k)]) continue;
-      simulation.samples[s].jacobian_m.middleCols(book_.first(k), book_.count(k)) =
-          others->samples[s].jacobian_m.middleCols(book_.first(k), book_.count(k));
+      simulation.samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k)) =
+          others->samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k));
     }
   }
   fit->model = Linearise(observed_, simulation, fit->z, marker_rest_m_, noise_);
@@ -56,12 +57,12 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
 }
 
 Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const {
-  return book_.InferWithin(about.model.All(), faults);
+  return hypotheses_.InferWithin(about.model.All(), faults);
 }
 
 Fit Fitter::AsBuilt(const Simulation* simulated) const {
   Fit fit;
-  fit.z = Eigen::VectorXd::Zero(book_.parameter_count());
+  fit.z = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
   fit.simulation = simulated != nullptr ? *simulated : simulator_.Run(nominal_);
   fit.status = fit.simulation.status;
   return InAllDetail(std::move(fit));
@@ -71,7 +72,7 @@ Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   if (fit.complete || fit.simulation.samples.empty()) return fit;
   const Eigen::Index data = fit.model.y.size();
   std::vector<bool> wanted(causes_.size(), true);
-  for (int k = 0; k < book_.size() && near != nullptr; ++k) {
+  for (int k = 0; k < hypotheses_.size() && near != nullptr; ++k) {
     wanted[static_cast<std::size_t>(k)] = !IsKnownByRuns(k, *near);
   }
   Differentiate(wanted, near != nullptr ? &near->simulation : nullptr, &fit);
@@ -177,19 +178,20 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     data.H.diagonal() += hold;
     data.b += hold.cwiseProduct(about.z);
   }
-  const Posterior all = book_.InferWithin(data, faults);
+  const Posterior all = hypotheses_.InferWithin(data, faults);
   std::vector<Eigen::Index> at_zero;
-  for (int k = 0; k < book_.size(); ++k) {
+  for (int k = 0; k < hypotheses_.size(); ++k) {
     if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
-    for (Eigen::Index p = 0; p < book_.count(k); ++p) {
-      const Eigen::Index column = book_.first(k) + p;
-      const bool one_sided = book_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
+    for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
+      const Eigen::Index column = hypotheses_.first(k) + p;
+      const bool one_sided =
+          hypotheses_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
       const bool little = all.mean[column] < kLittle * healthy_.sigma[column];
       if (one_sided && little) at_zero.push_back(column);
     }
   }
-  Eigen::VectorXd z = book_.InferWithin(data, faults, at_zero).mean;
-  for (const auto column : book_.Idle(faults)) z[column] = 0.0;
+  Eigen::VectorXd z = hypotheses_.InferWithin(data, faults, at_zero).mean;
+  for (const auto column : hypotheses_.Idle(faults)) z[column] = 0.0;
   return z;
 }
 
@@ -197,10 +199,11 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
 /// are halved towards there.
 Eigen::VectorXd Fitter::WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const {
   Eigen::VectorXd z = start.z;
-  const Belief belief = book_.BeliefWith(faults);
+  const GaussianPrior prior = hypotheses_.PriorWith(faults);
   for (const int k : faults) {
     if (std::find(start.faults.begin(), start.faults.end(), k) != start.faults.end()) continue;
-    z.segment(book_.first(k), book_.count(k)) = belief.mean.segment(book_.first(k), book_.count(k));
+    z.segment(hypotheses_.first(k), hypotheses_.count(k)) =
+        prior.mean.segment(hypotheses_.first(k), hypotheses_.count(k));
   }
   return z;
 }
@@ -208,35 +211,36 @@ Eigen::VectorXd Fitter::WhereFaultsBegin(const std::vector<int>& faults, const F
 bool Fitter::IsNear(const Fit& fit) const {
   constexpr double kOfFault = 0.5;  // of what it is known to
   constexpr double kOfTolerance = 1.5;
-  const Belief belief = book_.BeliefWith(fit.faults);
+  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
   const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     const double known = std::sqrt(fit.posterior.covariance(p, p));
-    const bool fault = belief.sigma[p] != healthy_.sigma[p];
-    const double reach = fault ? kOfFault * known : kOfTolerance * belief.sigma[p];
+    const bool fault = prior.sigma[p] != healthy_.sigma[p];
+    const double reach = fault ? kOfFault * known : kOfTolerance * prior.sigma[p];
     if (std::abs(step[p]) > reach) return false;
   }
   return true;
 }
 
 bool Fitter::IsKnownByRuns(int k, const Fit& fit) const {
-  return fit.complete && book_.cause(k).NeedsRuns(fit.z.segment(book_.first(k), book_.count(k)));
+  return fit.complete &&
+         hypotheses_.cause(k).NeedsRuns(fit.z.segment(hypotheses_.first(k), hypotheses_.count(k)));
 }
 
 double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
   const Information data = fit.model.All();
-  const Belief belief = book_.BeliefWith(fit.faults);
+  const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
   double misfit = data.c + z.dot(data.H * z - 2.0 * data.b);
   for (Eigen::Index p = 0; p < z.size(); ++p) {
-    if (belief.sigma[p] == 0.0) continue;
-    misfit += std::pow((z[p] - belief.mean[p]) / belief.sigma[p], 2);
+    if (prior.sigma[p] == 0.0) continue;
+    misfit += std::pow((z[p] - prior.mean[p]) / prior.sigma[p], 2);
   }
   return misfit;
 }
 
 bool Fitter::HasKinks(const std::vector<int>& faults) const {
   return std::any_of(faults.begin(), faults.end(),
-                     [&](int k) { return book_.cause(k).Start().has_value(); });
+                     [&](int k) { return hypotheses_.cause(k).Start().has_value(); });
 }
 
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {

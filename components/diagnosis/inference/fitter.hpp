@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/diagnosis/inference/cause_book.hpp"
+#include "components/diagnosis/inference/hypothesis_set.hpp"
 #include "components/diagnosis/inference/linear_model.hpp"
 #include "components/diagnosis/inference/time_limit.hpp"
 #include "components/diagnosis/model/simulator.hpp"
@@ -16,7 +16,7 @@ namespace palpate::diagnosis {
 /// A robot with some faults, fitted to an experiment.
 struct Fit {
   Status status;
-  std::vector<int> faults;  ///< numbers in the CauseBook
+  std::vector<int> faults;  ///< numbers in the HypothesisSet
   Eigen::VectorXd z;        ///< [all parameters] where `simulation` and `model` are
   Simulation simulation;
   LinearModel model;
@@ -34,8 +34,9 @@ class Fitter {
  public:
   /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at, but
   /// for that of a healthy robot.
-  Fitter(const ObservedExperiment& observed, const robot::RobotBody& body, const CauseBook& book,
-         const NoiseModel& noise, int threads, TimeLimit limit = {});
+  Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
+         const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
+         TimeLimit limit = {});
 
   /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
   /// and what a healthy robot makes of it.
@@ -62,7 +63,7 @@ class Fitter {
   /// The same without what causes do there.
   Fit Resimulated(Fit fit) const;
   /// The robot as a fit has it.
-  ModelDraft DraftAt(const Fit& fit) const { return DraftWith(nominal_, causes_, fit.z); }
+  ModelHypothesis DraftAt(const Fit& fit) const { return DraftWith(nominal_, causes_, fit.z); }
   /// [samples] where it is while pictures are taken.
   std::vector<ShapesInTime> Shapes(const Fit& fit) const {
     return simulator_.Shapes(DraftAt(fit), fit.simulation);
@@ -70,7 +71,7 @@ class Fitter {
   /// What a linear model says of faults, without another simulation.
   Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
 
-  const CauseBook& book() const { return book_; }
+  const HypothesisSet& hypotheses() const { return hypotheses_; }
   const NoiseModel& noise() const { return noise_; }
   bool IsOutOfTime() const { return limit_.IsOver(); }
   /// [3 x markers] of the undeformed body, robot frame.
@@ -98,14 +99,14 @@ class Fitter {
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;
-  const CauseBook& book_;
-  CauseList causes_;  ///< all of the book
+  const HypothesisSet& hypotheses_;
+  FaultModelList causes_;  ///< all of the book
   NoiseModel noise_;
-  ModelDraft nominal_;
+  ModelHypothesis nominal_;
   Simulator simulator_;
   TimeLimit limit_;
   Eigen::Matrix3Xd marker_rest_m_;
-  Belief healthy_;
+  GaussianPrior healthy_;
 };
 
 }  // namespace palpate::diagnosis

@@ -26,11 +26,11 @@ std::vector<FurtherCause> FurtherCauses(const Fitter& fitter, const Fit& fit) {
   return further;
 }
 
-Eigen::MatrixXd CovarianceBeside(const CauseBook& book, const Fit& fit, int cause,
+Eigen::MatrixXd CovarianceBeside(const HypothesisSet& hypotheses, const Fit& fit, int cause,
                                  const std::vector<FurtherCause>& further,
                                  const Eigen::MatrixXd& without) {
-  const Eigen::Index first = book.first(cause);
-  const Eigen::Index count = book.count(cause);
+  const Eigen::Index first = hypotheses.first(cause);
+  const Eigen::Index count = hypotheses.count(cause);
   Eigen::MatrixXd sum = without;
   double weights = 1.0;
   for (const FurtherCause& other : further) {

@@ -24,7 +24,7 @@ std::vector<FurtherCause> FurtherCauses(const Fitter& fitter, const Fit& fit);
 /// Covariance [parameters of `cause`] about its mean in `fit`, over robots without a further cause,
 /// where it is `without`, and with each of `further`: what one of these would make of the
 /// parameters, their interval has to hold.
-Eigen::MatrixXd CovarianceBeside(const CauseBook& book, const Fit& fit, int cause,
+Eigen::MatrixXd CovarianceBeside(const HypothesisSet& hypotheses, const Fit& fit, int cause,
                                  const std::vector<FurtherCause>& further,
                                  const Eigen::MatrixXd& without);
 

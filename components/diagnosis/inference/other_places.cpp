@@ -24,22 +24,22 @@ std::vector<int> Moved(std::vector<int> faults, int from, int to) {
 }
 
 std::vector<Elsewhere> LookElsewhere(const Fitter& fitter, const Fit& fit, int cause) {
-  const CauseBook& book = fitter.book();
+  const HypothesisSet& hypotheses = fitter.hypotheses();
   std::vector<Elsewhere> places;
-  for (int k = 0; k < book.size(); ++k) {
-    if (k == cause || !(book.cause(k).name() == book.cause(cause).name())) continue;
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    if (k == cause || !(hypotheses.cause(k).name() == hypotheses.cause(cause).name())) continue;
     places.push_back({k, fitter.Guess(fit, Moved(fit.faults, cause, k))});
   }
   return places;
 }
 
 /// z of the one's parameters [parameters], counted from where the other's count.
-Eigen::VectorXd CountedFrom(const Cause& other, const Cause& one, Eigen::VectorXd z) {
+Eigen::VectorXd CountedFrom(const FaultModel& other, const FaultModel& one, Eigen::VectorXd z) {
   for (std::size_t p = 0; p < one.parameters().size(); ++p) {
-    const CauseParameter& from = one.parameters()[p];
-    const CauseParameter& to = other.parameters()[p];
+    const FaultParameter& from = one.parameters()[p];
+    const FaultParameter& to = other.parameters()[p];
     if (from.nominal == to.nominal) continue;
-    z[static_cast<Eigen::Index>(p)] += from.scale == CauseParameter::Scale::kFactor
+    z[static_cast<Eigen::Index>(p)] += from.scale == FaultParameter::Scale::kFactor
                                            ? std::log(from.nominal / to.nominal)
                                            : from.nominal - to.nominal;
   }
@@ -50,8 +50,8 @@ Eigen::VectorXd CountedFrom(const Cause& other, const Cause& one, Eigen::VectorX
 
 Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* cause) {
   constexpr int kMostMoves = 2;
-  constexpr double kClearly = 2.0;                                  // of ln evidence
-  if (fitter.book().cause(*cause).Start().has_value()) return fit;  // all were tried
+  constexpr double kClearly = 2.0;                                        // of ln evidence
+  if (fitter.hypotheses().cause(*cause).Start().has_value()) return fit;  // all were tried
   for (int move = 0; move < kMostMoves && fit.status.ok() && !fitter.IsOutOfTime(); ++move) {
     const std::vector<Elsewhere> places = LookElsewhere(fitter, fit, *cause);
     const auto best =
@@ -69,22 +69,23 @@ Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* cause) {
 }
 
 Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int cause) {
-  const CauseBook& book = fitter.book();
-  const Eigen::Index first = book.first(cause);
-  const Eigen::Index count = book.count(cause);
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const Eigen::Index first = hypotheses.first(cause);
+  const Eigen::Index count = hypotheses.count(cause);
   Eigen::MatrixXd sum = fit.posterior.covariance.block(first, first, count, count);
-  if (book.cause(cause).Start().has_value()) return sum;
+  if (hypotheses.cause(cause).Start().has_value()) return sum;
   const Eigen::VectorXd mean = fit.posterior.mean.segment(first, count);
   double weights = 1.0;
   for (const auto& [k, posterior] : LookElsewhere(fitter, fit, cause)) {
     // No more than the fit's own: what promised more did not keep it.
     const double weight =
         std::exp(std::min(0.0, posterior.ln_evidence - fit.posterior.ln_evidence));
-    const Eigen::VectorXd off = CountedFrom(book.cause(cause), book.cause(k),
-                                            posterior.mean.segment(book.first(k), count)) -
+    const Eigen::VectorXd off = CountedFrom(hypotheses.cause(cause), hypotheses.cause(k),
+                                            posterior.mean.segment(hypotheses.first(k), count)) -
                                 mean;
-    sum += weight * (posterior.covariance.block(book.first(k), book.first(k), count, count) +
-                     off * off.transpose());
+    sum += weight *
+           (posterior.covariance.block(hypotheses.first(k), hypotheses.first(k), count, count) +
+            off * off.transpose());
     weights += weight;
   }
   return sum / weights;

@@ -15,18 +15,18 @@ constexpr double kBelieved_N = 0.05;
 /// Forces are the first three parameters of their cause, along the world's axes; then the place.
 constexpr Eigen::Index kComponents = 3;
 
-std::vector<int> ForcesOf(const CauseBook& book) {
+std::vector<int> ForcesOf(const HypothesisSet& hypotheses) {
   std::vector<int> forces;
-  for (int k = 0; k < book.size(); ++k) {
-    if (book.cause(k).name().id == "permanent_force") forces.push_back(k);
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    if (hypotheses.cause(k).name().id == "permanent_force") forces.push_back(k);
   }
   return forces;
 }
 
-Eigen::Matrix3Xd PlacesOf(const CauseBook& book, const std::vector<int>& forces) {
+Eigen::Matrix3Xd PlacesOf(const HypothesisSet& hypotheses, const std::vector<int>& forces) {
   Eigen::Matrix3Xd place_m(3, std::ssize(forces));
   for (Eigen::Index k = 0; k < place_m.cols(); ++k) {
-    const auto& parameters = book.cause(forces[static_cast<std::size_t>(k)]).parameters();
+    const auto& parameters = hypotheses.cause(forces[static_cast<std::size_t>(k)]).parameters();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       place_m(axis, k) = parameters[static_cast<std::size_t>(kComponents + axis)].nominal;
     }
@@ -72,14 +72,14 @@ std::size_t WorstRecording(const Known& known) {
 
 /// [3 x forces] world frame: the most probable, where the recording's noise and what is not known
 /// of the parameters may have done it as well.
-Eigen::Matrix3Xd ForcesFor(const CauseBook& book, const Known& known,
+Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
                            const std::vector<int>& forces, std::size_t recording) {
   const Rows rows = RowsOf(known.model, recording);
   const auto J = known.model.J.middleRows(rows.first, rows.count);
   Eigen::MatrixXd effect(rows.count, kComponents * std::ssize(forces));
   for (std::size_t k = 0; k < forces.size(); ++k) {
     effect.middleCols<kComponents>(kComponents * static_cast<Eigen::Index>(k)) =
-        J.middleCols<kComponents>(book.first(forces[k]));
+        J.middleCols<kComponents>(hypotheses.first(forces[k]));
   }
   Eigen::MatrixXd S = J * known.covariance * J.transpose();
   S.diagonal().array() += 1.0;
@@ -93,20 +93,20 @@ Eigen::Matrix3Xd ForcesFor(const CauseBook& book, const Known& known,
 
 }  // namespace
 
-ResidualForces FindResidualForces(const ObservedExperiment& observed, const CauseBook& book,
-                                  const Selection& selection) {
-  const Belief healthy = book.BeliefWith({});
+ResidualForces FindResidualForces(const ObservedExperiment& observed,
+                                  const HypothesisSet& hypotheses, const Selection& selection) {
+  const GaussianPrior healthy = hypotheses.PriorWith({});
   const Eigen::MatrixXd tolerances = healthy.sigma.array().square().matrix().asDiagonal();
   const Known before{selection.healthy.model, healthy.mean, tolerances};
   const Posterior& posterior = selection.best.posterior;
   const Known after{selection.best.model, posterior.mean, posterior.covariance};
-  const std::size_t recording = WorstRecording(selection.guard.passed ? before : after);
-  const std::vector<int> forces = ForcesOf(book);
+  const std::size_t recording = WorstRecording(selection.goodness_of_fit.passed ? before : after);
+  const std::vector<int> forces = ForcesOf(hypotheses);
   const Eigen::Matrix3d R_robot_world = observed.recordings[recording].base_rotation.transpose();
   return {.recording = observed.recordings[recording].name,
-          .place_m = PlacesOf(book, forces),
-          .before_N = R_robot_world * ForcesFor(book, before, forces, recording),
-          .after_N = R_robot_world * ForcesFor(book, after, forces, recording)};
+          .place_m = PlacesOf(hypotheses, forces),
+          .before_N = R_robot_world * ForcesFor(hypotheses, before, forces, recording),
+          .after_N = R_robot_world * ForcesFor(hypotheses, after, forces, recording)};
 }
 
 }  // namespace palpate::diagnosis

@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 /// what one force does is no pair of large ones, and what tolerances may do is not asked of forces.
 /// Of the recording that the robot file gets most wrong, or the extended model where something is
 /// unexplained. Without columns where the catalogue was without forces.
-ResidualForces FindResidualForces(const ObservedExperiment& observed, const CauseBook& book,
-                                  const Selection& selection);
+ResidualForces FindResidualForces(const ObservedExperiment& observed,
+                                  const HypothesisSet& hypotheses, const Selection& selection);
 
 }  // namespace palpate::diagnosis

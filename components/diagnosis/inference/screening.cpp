@@ -23,12 +23,12 @@ double LogMeanExp(const std::vector<double>& values) {
 }
 
 /// Which of one name to simulate; `of_name`: the most probable first.
-std::vector<int> StartsOf(const CauseBook& book, const std::vector<Candidate>& of_name) {
+std::vector<int> StartsOf(const HypothesisSet& hypotheses, const std::vector<Candidate>& of_name) {
   constexpr std::size_t kMost = 3;
   std::vector<int> starts;
   for (const Candidate& one : of_name) {
     const bool there = std::any_of(starts.begin(), starts.end(), [&](int k) {
-      return book.cause(k).Start() == book.cause(one.cause).Start();
+      return hypotheses.cause(k).Start() == hypotheses.cause(one.cause).Start();
     });
     if (!there && starts.size() < kMost) starts.push_back(one.cause);
   }
@@ -44,13 +44,13 @@ std::vector<int> With(std::vector<int> faults, int cause) {
 
 std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
                               const std::vector<int>& faults) {
-  const CauseBook& book = fitter.book();
+  const HypothesisSet& hypotheses = fitter.hypotheses();
   std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
-  for (int k = 0; k < book.size(); ++k) {
-    const CauseName& name = book.cause(k).name();
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    const CauseName& name = hypotheses.cause(k).name();
     const bool named = std::any_of(faults.begin(), faults.end(),
-                                   [&](int f) { return book.cause(f).name() == name; });
-    if (named || !book.CanBeFault(k)) continue;
+                                   [&](int f) { return hypotheses.cause(f).name() == name; });
+    if (named || !hypotheses.CanBeFault(k)) continue;
     const double ln_bayes_factor =
         fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
     by_name[{name.id, name.where}].push_back(
@@ -65,7 +65,7 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
     for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
     Candidate best = of_name.front();
     best.ln_bayes_factor = LogMeanExp(values);
-    best.starts = StartsOf(book, of_name);
+    best.starts = StartsOf(hypotheses, of_name);
     candidates.push_back(std::move(best));
   }
   SortByEvidence(&candidates);
@@ -77,21 +77,22 @@ void SortByEvidence(std::vector<Candidate>* candidates) {
             [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
 }
 
-double Likeness(const CauseBook& book, const LinearModel& model, int a, int b) {
-  const Belief belief = book.BeliefWith({});
+double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
+                            int b) {
+  const GaussianPrior prior = hypotheses.PriorWith({});
   std::vector<Eigen::Index> free;
-  for (Eigen::Index p = 0; p < belief.sigma.size(); ++p) {
-    const bool own = (p >= book.first(a) && p < book.first(a) + book.count(a)) ||
-                     (p >= book.first(b) && p < book.first(b) + book.count(b));
-    if (belief.sigma[p] > 0.0 && !own) free.push_back(p);
+  for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
+    const bool own = (p >= hypotheses.first(a) && p < hypotheses.first(a) + hypotheses.count(a)) ||
+                     (p >= hypotheses.first(b) && p < hypotheses.first(b) + hypotheses.count(b));
+    if (prior.sigma[p] > 0.0 && !own) free.push_back(p);
   }
-  const Eigen::VectorXd sigma = belief.sigma(free);
+  const Eigen::VectorXd sigma = prior.sigma(free);
   const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
   Eigen::MatrixXd A = clutter.transpose() * clutter;
   A.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::MatrixXd> factor(A);
   const auto basis = [&](int k) -> Eigen::MatrixXd {
-    Eigen::MatrixXd effect = model.J.middleCols(book.first(k), book.count(k));
+    Eigen::MatrixXd effect = model.J.middleCols(hypotheses.first(k), hypotheses.count(k));
     effect -= clutter * factor.solve(clutter.transpose() * effect);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(effect);
     if (qr.rank() == 0) return {};

@@ -15,7 +15,8 @@ struct Candidate {
   int cause = -1;  ///< the best of those that have its name (places, relaxation times)
   double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
   double ln_guessed = 0.0;       ///< the same of that one alone, before it was simulated
-  double likeness = 0.0;     ///< canonical correlation of its effect with that of the first named
+  double canonical_correlation =
+      0.0;                   ///< canonical correlation of its effect with that of the first named
   bool refined = false;      ///< simulated anew where it fits best
   std::string why_not = {};  ///< empty: named
   bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
@@ -34,6 +35,7 @@ void SortByEvidence(std::vector<Candidate>* candidates);
 
 /// The largest canonical correlation between what two causes do, what building tolerances can make
 /// up for taken out; in [0, 1].
-double Likeness(const CauseBook& book, const LinearModel& model, int a, int b);
+double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
+                            int b);
 
 }  // namespace palpate::diagnosis

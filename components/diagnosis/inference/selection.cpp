@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "components/diagnosis/inference/backward_check.hpp"
+#include "components/diagnosis/inference/backward_elimination.hpp"
 
 namespace palpate::diagnosis {
 
@@ -21,25 +21,25 @@ bool IsAlike(const Fitter& fitter, const Selection& selection, const Candidate& 
     std::vector<int> others = faults;
     std::replace(others.begin(), others.end(), named, rival.cause);
     return fitter.Guess(selection.best, others).ln_evidence >
-           selection.best.posterior.ln_evidence - AlikeWithin(fitter.book(), named, rival);
+           selection.best.posterior.ln_evidence - AlikeWithin(fitter.hypotheses(), named, rival);
   });
 }
 
 /// How alike the most probable candidates are to each other.
-void CompareCandidates(const CauseBook& book, Selection* selection) {
+void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   constexpr std::size_t kMost = 8;
   for (const Candidate& candidate : selection->candidates) {
     if (selection->compared.size() < kMost) selection->compared.push_back(candidate.cause);
   }
   const auto count = std::ssize(selection->compared);
-  selection->likeness = Eigen::MatrixXd::Identity(count, count);
+  selection->canonical_correlation = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index a = 0; a < count; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
-      const double alike =
-          Likeness(book, selection->healthy.model, selection->compared[static_cast<std::size_t>(a)],
-                   selection->compared[static_cast<std::size_t>(b)]);
-      selection->likeness(a, b) = alike;
-      selection->likeness(b, a) = alike;
+      const double alike = CanonicalCorrelation(hypotheses, selection->healthy.model,
+                                                selection->compared[static_cast<std::size_t>(a)],
+                                                selection->compared[static_cast<std::size_t>(b)]);
+      selection->canonical_correlation(a, b) = alike;
+      selection->canonical_correlation(b, a) = alike;
     }
   }
 }
@@ -62,18 +62,18 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   for (int number = 0; number < most; ++number) {
     if (number > 0 && fitter.IsOutOfTime()) break;
     report(2 + number, steps, number == 0 ? "looking for a cause" : "looking for a further cause");
-    NextCause next(observed, fitter, selection.best, likely);
+    ForwardSelectionStep next(observed, fitter, selection.best, likely);
     const bool found = next.Look();
     if (number == 0) selection.candidates = next.candidates();
     if (!found) break;
     selection.named.push_back(next.choice());
     for (Candidate& alike : next.Alike()) selection.alike.push_back(alike);
-    if (fitter.book().cause(next.choice().cause).BeginsAnew()) {
+    if (fitter.hypotheses().cause(next.choice().cause).BeginsAnew()) {
       selection.best = next.fit();
       break;
     }
     selection.best = seen_again(next.fit());
-    if (number > 0) CheckBackward(fitter, kClearEvidence, &selection);
+    if (number > 0) EliminateBackward(fitter, kClearEvidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
   selection.complete = !fitter.IsOutOfTime();  // else fits may have ended early, too
@@ -82,8 +82,9 @@ Selection SelectCauses(const ObservedExperiment& observed, const Fitter& fitter,
   report(steps - 1, steps, "looking at what is left");
   if (look_again && !selection.named.empty())
     selection.healthy = fitter.SeenAnew(std::move(selection.healthy));
-  selection.guard = Guard(observed, fitter.marker_rest_m(), fitter.book(), selection.best);
-  CompareCandidates(fitter.book(), &selection);
+  selection.goodness_of_fit =
+      TestGoodnessOfFit(observed, fitter.marker_rest_m(), fitter.hypotheses(), selection.best);
+  CompareCandidates(fitter.hypotheses(), &selection);
   return selection;
 }
 

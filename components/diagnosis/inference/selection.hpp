@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "components/diagnosis/inference/fitter.hpp"
-#include "components/diagnosis/inference/guard.hpp"
-#include "components/diagnosis/inference/next_cause.hpp"
+#include "components/diagnosis/inference/forward_selection_step.hpp"
+#include "components/diagnosis/inference/goodness_of_fit.hpp"
 #include "components/diagnosis/inference/screening.hpp"
 
 namespace palpate::diagnosis {
@@ -23,9 +23,10 @@ struct Selection {
   std::vector<Candidate> candidates;  ///< for the first place, the most probable first
   std::vector<Candidate> alike;       ///< that fit as well as what was named
   bool complete = true;               ///< else the fitter's time was over before the search was
-  GuardResult guard;                  ///< of `best`
+  GoodnessOfFit goodness_of_fit;      ///< of `best`
   std::vector<int> compared;          ///< the causes of the most probable candidates
-  Eigen::MatrixXd likeness;           ///< [compared x compared] as Candidate::likeness, in [0, 1]
+  Eigen::MatrixXd
+      canonical_correlation;  ///< [compared x compared] as Candidate::likeness, in [0, 1]
 };
 
 /// "3 of 12: screening"; parts are alike long as far as that is known.

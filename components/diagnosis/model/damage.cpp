@@ -21,27 +21,28 @@ Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
   return volume_m3;
 }
 
-Eigen::MatrixXf BelowLargest_J_m3(const Memory& memory, const Simulation& simulation) {
-  Eigen::MatrixXf root(simulation.at_rest.energy_J_m3.size(), memory.ColumnCount());
+Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulation& simulation) {
+  Eigen::MatrixXf root(simulation.at_rest.energy_J_m3.size(), history.ColumnCount());
   for (Eigen::Index column = 0; column < root.cols(); ++column) {
     root.col(column) = MemorableOf(simulation, column).energy_J_m3.cwiseMax(0.0F).cwiseSqrt();
   }
-  const Memory::Course course = memory.Follow(root);
+  const HistoryOperator::Course course = history.Follow(root);
   return course.largest.cwiseAbs2() - course.now.cwiseAbs2();
 }
 
-void Soften(const MullinsSoftening& mullins, const Memory& memory, const Simulation& simulation,
-            std::vector<Hereditary>* past) {
-  const Eigen::MatrixXf below_J_m3 = BelowLargest_J_m3(memory, simulation);
+void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
+            const Simulation& simulation, std::vector<HistoryVariables>* past) {
+  const Eigen::MatrixXf below_J_m3 = BelowLargest_J_m3(history, simulation);
   past->resize(simulation.samples.size());
   for (std::size_t s = 0; s < past->size(); ++s) {
     Eigen::VectorXd& factor = (*past)[s].cell_factor;
     if (factor.size() == 0) factor.setOnes(below_J_m3.rows());
     const Eigen::VectorXf& density_J_m3 = simulation.samples[s].in_the_middle.energy_J_m3;
     for (Eigen::Index cell = 0; cell < factor.size(); ++cell) {
-      const Eigen::Array<double, Memory::kLooks, 1> below =
+      const Eigen::Array<double, HistoryOperator::kLooks, 1> below =
           below_J_m3.row(cell)
-              .segment<Memory::kLooks>(Memory::kLooks * static_cast<Eigen::Index>(s))
+              .segment<HistoryOperator::kLooks>(HistoryOperator::kLooks *
+                                                static_cast<Eigen::Index>(s))
               .transpose()
               .cast<double>()
               .array() /

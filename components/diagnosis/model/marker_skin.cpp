@@ -23,11 +23,11 @@ Eigen::Vector3d AreaNormal(const Eigen::Vector3i& corners, const Eigen::VectorXd
 
 }  // namespace
 
-MarkerSkin::MarkerSkin(const ModelDraft& draft) {
-  const geometry::SurfaceIndex& surface = draft.places->surface();
-  const Eigen::Matrix3Xi triangles = draft.places->boundary().CornerTriangles();
-  const Eigen::VectorXd rest_m = draft.places->mesh().nodes_m.reshaped();
-  for (const robot::BodyMarker& marker : draft.body.markers) {
+MarkerSkin::MarkerSkin(const ModelHypothesis& hypothesis) {
+  const geometry::SurfaceIndex& surface = hypothesis.places->surface();
+  const Eigen::Matrix3Xi triangles = hypothesis.places->boundary().CornerTriangles();
+  const Eigen::VectorXd rest_m = hypothesis.places->mesh().nodes_m.reshaped();
+  for (const robot::BodyMarker& marker : hypothesis.body.markers) {
     const geometry::SurfacePoint nearest = surface.Closest(marker.point.rest_m);
     const Eigen::Vector3d outward =
         AreaNormal(triangles.col(nearest.triangle), rest_m).normalized();

@@ -6,14 +6,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/model_hypothesis.hpp"
 
 namespace palpate::diagnosis {
 
 /// The body's skin about each marker.
 class MarkerSkin {
  public:
-  explicit MarkerSkin(const ModelDraft& draft);
+  explicit MarkerSkin(const ModelHypothesis& hypothesis);
 
   /// Mean over that skin with the nodes at `x_m` [3n]; unit, outward, robot frame.
   Eigen::Vector3d Normal(std::size_t marker, const Eigen::VectorXd& x_m) const;

@@ -24,8 +24,8 @@ bool SeesMarkers(const ObservedExperiment& observed) {
 
 }  // namespace
 
-std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDraft& nominal,
-                                          const CauseList& causes, const Eigen::VectorXd& z,
+std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelHypothesis& nominal,
+                                          const FaultModelList& causes, const Eigen::VectorXd& z,
                                           const std::vector<bool>& wanted,
                                           const DriveSettings& drives) {
   constexpr double kStep = 1e-4;  // of the parameter's fault sigma
@@ -33,7 +33,7 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
   std::vector<Eigen::MatrixXd> changes;
   Eigen::Index column = 0;
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    for (const CauseParameter& parameter : causes[k]->parameters()) {
+    for (const FaultParameter& parameter : causes[k]->parameters()) {
       changes.emplace_back();
       const double forward = kStep * parameter.fault;
       // Beyond what can be, nothing changes any more.
@@ -48,7 +48,7 @@ std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelDr
 }
 
 std::vector<SampleDifferentiator::WantedParameter> SampleDifferentiator::Wanted(
-    const CauseList& causes, const Eigen::VectorXd& z, const std::vector<bool>& wanted) {
+    const FaultModelList& causes, const Eigen::VectorXd& z, const std::vector<bool>& wanted) {
   std::vector<WantedParameter> parameters;
   Eigen::Index column = 0;
   for (std::size_t k = 0; k < causes.size(); ++k) {
@@ -61,22 +61,22 @@ std::vector<SampleDifferentiator::WantedParameter> SampleDifferentiator::Wanted(
   return parameters;
 }
 
-SampleDifferentiator::SampleDifferentiator(const ModelDraft& draft, const CauseList& causes,
-                                           const Eigen::VectorXd& z,
+SampleDifferentiator::SampleDifferentiator(const ModelHypothesis& hypothesis,
+                                           const FaultModelList& causes, const Eigen::VectorXd& z,
                                            const std::vector<bool>& wanted,
                                            const std::vector<Eigen::MatrixXd>& drive_change,
                                            const ObservedExperiment& observed, SampleSolver* solver)
-    : draft_(draft),
+    : hypothesis_(hypothesis),
       parameters_(Wanted(causes, z, wanted)),
       parameter_count_(z.size()),
       drive_change_(drive_change),
       solver_(*solver),
       markers_seen_(SeesMarkers(observed)),
       marker_rows_(robot::RowsOfPoints(solver->markers())),
-      of_rows_(solver->model(), std::vector<robot::EffectorRow>()),
+      of_rows_(solver->model(), std::vector<robot::ObservationRow>()),
       of_body_(solver->model()) {}
 
-void SampleDifferentiator::Collect(const CauseMoment& at) {
+void SampleDifferentiator::Collect(const FaultContext& at) {
   acting_.clear();
   column_of_.clear();
   for (const WantedParameter& one : parameters_) {
@@ -96,7 +96,7 @@ void SampleDifferentiator::Collect(const CauseMoment& at) {
 }
 
 /// What stands in the body's way, in the robot frame, after all else.
-Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* jacobian_m) {
+Status SampleDifferentiator::AddPushes(const FaultContext& at, Eigen::MatrixXd* jacobian_m) {
   std::vector<Push> pushes;
   std::vector<Eigen::Index> first_of;
   std::vector<robot::ParameterPtr> forces;
@@ -110,10 +110,10 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
   }
   if (pushes.empty()) return Status::Ok();
   fem::StaticState let_go = at.shape.state;
-  if (draft_.wall) let_go.multipliers_N.tail<1>().setZero();
+  if (hypothesis_.obstacle) let_go.multipliers_N.tail<1>().setZero();
   const Status known =
       of_body_.Compute(at.shape.commands, let_go, forces,
-                       draft_.wall ? robot::Factor::kRenew : robot::Factor::kPresent);
+                       hypothesis_.obstacle ? robot::Factor::kRenew : robot::Factor::kPresent);
   if (!known.ok()) return known;
   Eigen::VectorXd nodal_m;
   for (std::size_t k = 0; k < pushes.size(); ++k) {
@@ -131,7 +131,7 @@ Status SampleDifferentiator::AddPushes(const CauseMoment& at, Eigen::MatrixXd* j
   return Status::Ok();
 }
 
-Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
+Eigen::MatrixXd SampleDifferentiator::At(const FaultContext& at) {
   Eigen::MatrixXd jacobian_m =
       Eigen::MatrixXd::Zero(at.observed.CoordinateCount(), parameter_count_);
   Collect(at);
@@ -153,7 +153,7 @@ Eigen::MatrixXd SampleDifferentiator::At(const CauseMoment& at) {
 
 /// Rows of what is measured at this moment: markers where they are on the body, the skin as its
 /// camera measures it.
-void SampleDifferentiator::Observe(const CauseMoment& at) {
+void SampleDifferentiator::Observe(const FaultContext& at) {
   rows_.clear();
   coordinate_of_.clear();
   if (markers_seen_) rows_ = marker_rows_;
@@ -166,7 +166,7 @@ void SampleDifferentiator::Observe(const CauseMoment& at) {
     if (skin[f].count == 0) continue;
     const auto feature = static_cast<Eigen::Index>(f);
     const Eigen::Matrix3d R_camera_robot =
-        (*at.recording().T_camera_robot * draft_.T_skin_seen[recording]).linear();
+        (*at.recording().T_camera_robot * hypothesis_.T_skin_seen[recording]).linear();
     rows_.push_back(robot::RowOfPoint(
         skin[f].point, R_camera_robot.transpose() *
                            sight.camera->Slope(sight.point(feature)).transpose() * skin[f].normal));
@@ -177,9 +177,9 @@ void SampleDifferentiator::Observe(const CauseMoment& at) {
 
 /// From how the markers move on the body to how what is measured of them does. What the body's
 /// skin turns by is left out where it is measured askew.
-void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const {
+void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const {
   const auto markers = std::ssize(solver_.markers());
-  CauseMoment at = of;
+  FaultContext at = of;
   at.target = Target::kMarkers;
   at.sight = solver_.SightOf(at.seen(), at.shape.state.x_m);
   std::vector<Eigen::Matrix3d> slopes;  // [markers]
@@ -187,7 +187,7 @@ void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobi
     if (at.sight.camera) slopes.push_back(at.sight.camera->Slope(point));
   }
   const auto recording = static_cast<std::size_t>(at.seen().recording);
-  const Eigen::Matrix3d R_seen = draft_.T_seen[recording].linear();
+  const Eigen::Matrix3d R_seen = hypothesis_.T_seen[recording].linear();
   const Eigen::Matrix3d R_measurement =
       at.observed.recordings[recording].T_measurement_robot.linear();
   Eigen::Matrix3Xd seen_m(3, markers);
@@ -205,8 +205,8 @@ void SampleDifferentiator::ShowTo(const CauseMoment& of, Eigen::MatrixXd* jacobi
 }
 
 /// Adds what causes do to how the skin is seen where it is; how it moves with the body is there.
-void SampleDifferentiator::ShowSkinTo(const CauseMoment& of, Eigen::MatrixXd* jacobian_m) const {
-  CauseMoment at = of;
+void SampleDifferentiator::ShowSkinTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const {
+  FaultContext at = of;
   at.target = Target::kSkin;
   at.sight = solver_.SightOfSkin(at.seen(), at.shape.state.x_m);
   if (!at.sight.camera) return;

@@ -15,7 +15,7 @@ namespace {
 std::vector<bool> WhatHolds(const HeldShape& shape) {
   constexpr double kNothing_N = 1e-6;
   const auto cables = std::ssize(shape.commands);
-  std::vector<bool> holds{shape.AtWall()};
+  std::vector<bool> holds{shape.AtObstacle()};
   for (const double tension_N : shape.state.multipliers_N.head(cables)) {
     holds.push_back(tension_N > kNothing_N);
   }
@@ -36,8 +36,8 @@ bool TurnsRound(const std::vector<SamplePart>& parts, const Eigen::VectorXd& fri
 /// One sample of a motion.
 class SampleInParts {
  public:
-  SampleInParts(const Sample& sample, const std::vector<SamplePart>& parts, const Hereditary& past,
-                SampleSolver* solver)
+  SampleInParts(const Sample& sample, const std::vector<SamplePart>& parts,
+                const HistoryVariables& past, SampleSolver* solver)
       : sample_(sample), parts_(parts), past_(past), solver_(*solver) {}
 
   /// All parts, one from another.
@@ -207,21 +207,21 @@ class SampleInParts {
 
   const Sample& sample_;
   const std::vector<SamplePart>& parts_;
-  const Hereditary& past_;
+  const HistoryVariables& past_;
   SampleSolver& solver_;
 };
 
 /// Whether no shape is so near a wall that the body may touch it elsewhere in the sample.
-bool IsClearOfWalls(const SampleSolver& solver, const SimulatedSample& simulated) {
-  return !solver.IsNearWall(simulated.middle.state) &&
+bool IsClearOfObstacles(const SampleSolver& solver, const SimulatedSample& simulated) {
+  return !solver.IsNearObstacle(simulated.middle.state) &&
          std::none_of(simulated.beside.begin(), simulated.beside.end(),
-                      [&](const HeldShape& one) { return solver.IsNearWall(one.state); });
+                      [&](const HeldShape& one) { return solver.IsNearObstacle(one.state); });
 }
 
 }  // namespace
 
 void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const Hereditary& past, Detail detail, SampleSolver* solver,
+                  const HistoryVariables& past, Detail detail, SampleSolver* solver,
                   SimulatedSample* simulated) {
   SampleInParts motion(sample, parts, past, solver);
   const bool is_known = simulated->status.ok() && simulated->parts == parts.size();
@@ -231,7 +231,7 @@ void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
   }
   const bool may_keep =
       is_known && detail == Detail::kParts && simulated->bend_is_own && !simulated->turns_round &&
-      !TurnsRound(parts, solver->FrictionOfEyelets()) && IsClearOfWalls(*solver, *simulated);
+      !TurnsRound(parts, solver->FrictionOfEyelets()) && IsClearOfObstacles(*solver, *simulated);
   if (!may_keep || !motion.SolveShapes(simulated)) motion.SolveAll(simulated);
 }
 

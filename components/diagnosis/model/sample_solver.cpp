@@ -23,17 +23,17 @@ constexpr double kSettled_rad = 1e-8;
 /// By which a wall may stand in the undeformed body: what file and mesh may be off.
 constexpr double kDeepest_m = 1e-3;
 
-std::vector<fem::NodeWeights> MarkerPoints(const ModelDraft& draft) {
-  std::vector<fem::NodeWeights> points;
-  for (std::size_t m = 0; m < draft.body.markers.size(); ++m) {
-    const fem::BodyPoint& point = draft.body.markers[m].point;
-    const Eigen::Vector3d offset_m = draft.marker_offset_m.col(static_cast<Eigen::Index>(m));
+std::vector<fem::InterpolationWeights> MarkerPoints(const ModelHypothesis& hypothesis) {
+  std::vector<fem::InterpolationWeights> points;
+  for (std::size_t m = 0; m < hypothesis.body.markers.size(); ++m) {
+    const fem::BodyPoint& point = hypothesis.body.markers[m].point;
+    const Eigen::Vector3d offset_m = hypothesis.marker_offset_m.col(static_cast<Eigen::Index>(m));
     if (offset_m.isZero()) {
       points.push_back(point.weights);
       continue;
     }
-    const fem::NodeWeights along =
-        robot::EyeletWeightsAlong(*draft.places, point.rest_m, 0.0, offset_m.normalized());
+    const fem::InterpolationWeights along =
+        robot::EyeletWeightsAlong(*hypothesis.places, point.rest_m, 0.0, offset_m.normalized());
     points.push_back(fem::Combine({point.weights, along}, {1.0, offset_m.norm()}));
   }
   return points;
@@ -48,31 +48,34 @@ fem::StaticSettings Settings() {
           .smallest_load_step = 0.02};
 }
 
-std::vector<fem::ScalarConstraint*> AsConstraints(KeptStress* kept, WallContact* wall) {
-  if (wall == nullptr) return {kept};
-  return {kept, wall};
+std::vector<fem::ScalarConstraint*> AsConstraints(KeptStress* kept, ObstacleContact* obstacle) {
+  if (obstacle == nullptr) return {kept};
+  return {kept, obstacle};
 }
 
 }  // namespace
 
-SampleSolver::SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed)
-    : draft_(draft),
+SampleSolver::SampleSolver(const ModelHypothesis& hypothesis, const ObservedExperiment& observed)
+    : hypothesis_(hypothesis),
       observed_(observed),
-      points_(draft.body.mesh, draft.body.material_of_cell),
-      kept_(draft.body.mesh),
-      wall_(draft.wall ? std::make_unique<WallContact>(*draft.wall) : nullptr),
-      model_(draft.body, Settings(), {}, AsConstraints(&kept_, wall_.get())),
-      eyelets_(RubbingEyelets(draft.body)),
-      at_wall_(wall_ ? std::make_unique<WallBalance>(wall_->wall(), &model_) : nullptr),
+      points_(hypothesis.body.mesh, hypothesis.body.material_of_cell),
+      kept_(hypothesis.body.mesh),
+      obstacle_(hypothesis.obstacle ? std::make_unique<ObstacleContact>(*hypothesis.obstacle)
+                                    : nullptr),
+      model_(hypothesis.body, Settings(), {}, AsConstraints(&kept_, obstacle_.get())),
+      eyelets_(RubbingEyelets(hypothesis.body)),
+      at_obstacle_(obstacle_ ? std::make_unique<ObstacleBalance>(obstacle_->obstacle(), &model_)
+                             : nullptr),
       sensitivity_(model_),
-      markers_(MarkerPoints(draft)),
-      skin_(draft),
-      cell_volume_m3_(CellVolumes_m3(draft.body.mesh)),
+      markers_(MarkerPoints(hypothesis)),
+      skin_(hypothesis),
+      cell_volume_m3_(CellVolumes_m3(hypothesis.body.mesh)),
       zero_shift_m_(model_.CableCount()),
-      base_middle_m_(MiddleOfBase(draft.body)) {
+      base_middle_m_(MiddleOfBase(hypothesis.body)) {
   for (int c = 0; c < model_.CableCount(); ++c) {
-    zero_shift_m_[c] = model_.cable(c).rest_length_m() - model_.cable(c).Value(draft.assembled_m);
-    model_.SetCableCompliance(c, draft.cable_compliance_m_N[c]);
+    zero_shift_m_[c] =
+        model_.cable(c).rest_length_m() - model_.cable(c).Value(hypothesis.assembled_m);
+    model_.SetCableCompliance(c, hypothesis.cable_compliance_m_N[c]);
   }
 }
 
@@ -93,49 +96,50 @@ std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& t
 std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
   const auto& recording = observed_.recordings[static_cast<std::size_t>(sample.recording)];
   const Eigen::Matrix3d& R_tilt = recording.base_rotation;
-  const Eigen::Vector3d believed = (R_tilt.transpose() * draft_.body.gravity_m_s2).normalized();
+  const Eigen::Vector3d believed =
+      (R_tilt.transpose() * hypothesis_.body.gravity_m_s2).normalized();
   std::vector<robot::DeadLoad> loads;
   for (const experiment::KnownLoad& load : sample.loads) {
     const bool hangs = load.force_N.normalized().dot(believed) > kHangs;
     const Eigen::Vector3d force_N =
-        hangs ? Eigen::Vector3d((R_tilt * draft_.R_askew).transpose() * R_tilt * load.force_N)
+        hangs ? Eigen::Vector3d((R_tilt * hypothesis_.R_askew).transpose() * R_tilt * load.force_N)
               : load.force_N;
     loads.push_back(
-        {fem::MakeSurfacePatch(*draft_.places, load.position_m, load.patch_radius_m).weights,
+        {fem::MakeSurfacePatch(*hypothesis_.places, load.position_m, load.patch_radius_m).weights,
          force_N});
   }
-  const Eigen::Vector3d gravity_m_s2 = GravityIn(draft_, recording);
-  for (const CarriedMass& mass : draft_.masses) {
+  const Eigen::Vector3d gravity_m_s2 = GravityIn(hypothesis_, recording);
+  for (const CarriedMass& mass : hypothesis_.masses) {
     loads.push_back({mass.weights, mass.mass_kg * gravity_m_s2});
   }
-  for (const WorldForce& force : draft_.forces) {
+  for (const WorldForce& force : hypothesis_.forces) {
     loads.push_back({force.weights, R_tilt.transpose() * force.force_N});
   }
   return loads;
 }
 
-void SampleSolver::Prepare(const Sample& sample, const Hereditary& past) {
+void SampleSolver::Prepare(const Sample& sample, const HistoryVariables& past) {
   const Timeline& timeline = observed_.timeline;
   const double begin_s = timeline.begin_s.front();
   const double share = (sample.t_s - begin_s) / (timeline.end_s.back() - begin_s);
-  const double factor = (1.0 + draft_.modulus_change_at_end * share) * (1.0 + past.scale);
-  for (std::size_t k = 0; k < draft_.body.materials.size(); ++k) {
+  const double factor = (1.0 + hypothesis_.modulus_change_at_end * share) * (1.0 + past.scale);
+  for (std::size_t k = 0; k < hypothesis_.body.materials.size(); ++k) {
     model_.SetYoungsModulus(static_cast<int>(k),
-                            factor * draft_.body.materials[k].youngs_modulus_Pa);
+                            factor * hypothesis_.body.materials[k].youngs_modulus_Pa);
   }
-  if (draft_.mullins) {
+  if (hypothesis_.mullins) {
     model_.elastic_body().SetCellFactors(past.cell_factor.size() > 0
                                              ? past.cell_factor
                                              : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
   kept_.Set(points_, past.stress_Pa);
   model_.SetGravity(
-      GravityIn(draft_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
+      GravityIn(hypothesis_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
 }
 
 void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
   std::vector<robot::CableFriction> friction;  // [cables]
-  for (const robot::BodyCable& cable : draft_.body.cables) {
+  for (const robot::BodyCable& cable : hypothesis_.body.cables) {
     friction.push_back({cable.friction_coefficient, {}});
     if (sliding.size() > 0) friction.back().sliding.resize(cable.eyelets.size());
   }
@@ -155,8 +159,9 @@ EyeletSlides SampleSolver::SlidesAboutShape(const HeldShape& shape) {
 }
 
 Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {
-  if (at_wall_) return at_wall_->Solve(shape->commands, loads, &shape->state, &shape->wall_force_N);
-  shape->wall_force_N.resize(0);
+  if (at_obstacle_)
+    return at_obstacle_->Solve(shape->commands, loads, &shape->state, &shape->obstacle_force_N);
+  shape->obstacle_force_N.resize(0);
   return model_.static_solver().Solve(loads, &shape->state).status;
 }
 
@@ -165,9 +170,9 @@ fem::LoadState SampleSolver::LoadsOf(const Sample& sample,
                                      const std::vector<robot::CableCommand>& commands) const {
   fem::LoadState loads = model_.Loads(commands, LoadsAt(sample));
   loads.commands[static_cast<std::size_t>(model_.CableCount())] = kept_.Command();
-  if (wall_) {
+  if (obstacle_) {
     loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
-                             .value = WallContact::kThere_N};
+                             .value = ObstacleContact::kThere_N};
   }
   return loads;
 }
@@ -187,7 +192,7 @@ void SampleSolver::HoldBase(fem::LoadState* loads) const {
 /// there yet.
 Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState& state,
                               bool* moved) {
-  if (draft_.base_compliance_rad_Nm == 0.0) return Status::Ok();
+  if (hypothesis_.base_compliance_rad_Nm == 0.0) return Status::Ok();
   fem::Linearisation& linearisation = model_.linearisation();
   const Status known =
       linearisation.UpdateResidual(state.x_m, state.multipliers_N, loads.external_force_N);
@@ -199,7 +204,7 @@ Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticStat
     moment_Nm += (state.x_m.segment<3>(3 * node) - base_middle_m_).cross(force_N);
   }
   constexpr double kShare = 0.7;  // stiff bodies on soft bases swing otherwise
-  const Eigen::Vector3d step_rad = draft_.base_compliance_rad_Nm * moment_Nm - base_turn_rad_;
+  const Eigen::Vector3d step_rad = hypothesis_.base_compliance_rad_Nm * moment_Nm - base_turn_rad_;
   base_turn_rad_ += kShare * step_rad;
   if (step_rad.norm() > kSettled_rad) *moved = true;
   return Status::Ok();
@@ -219,22 +224,24 @@ Status SampleSolver::GiveWay(fem::LoadState loads, HeldShape* shape) {
 
 /// [shapes of the mesh's error] so much of each is added to what is seen.
 Eigen::VectorXd SampleSolver::MeshErrorAt(const Eigen::VectorXd& x_m) const {
-  return draft_.mesh_error_share *
-         draft_.mesh_error->BendIn(x_m - draft_.body.mesh.nodes_m.reshaped());
+  return hypothesis_.mesh_error_share *
+         hypothesis_.mesh_error->BendIn(x_m - hypothesis_.body.mesh.nodes_m.reshaped());
 }
 
 Eigen::VectorXd SampleSolver::OnFinerMesh(const Eigen::VectorXd& x_m) const {
-  if (draft_.mesh_error_share == 0.0) return x_m;
-  return x_m + draft_.mesh_error->of_nodes * MeshErrorAt(x_m);
+  if (hypothesis_.mesh_error_share == 0.0) return x_m;
+  return x_m + hypothesis_.mesh_error->of_nodes * MeshErrorAt(x_m);
 }
 
 Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const {
   const auto recording = static_cast<std::size_t>(sample.recording);
   const Eigen::Isometry3d T_measurement_robot =
-      observed_.recordings[recording].T_measurement_robot * draft_.T_seen[recording];
-  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kMarkers)};
+      observed_.recordings[recording].T_measurement_robot * hypothesis_.T_seen[recording];
+  Sight sight{.points = {},
+              .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kMarkers)};
   Eigen::VectorXd farther_m = Eigen::VectorXd::Zero(3 * std::ssize(markers_));
-  if (draft_.mesh_error_share != 0.0) farther_m = draft_.mesh_error->of_markers * MeshErrorAt(x_m);
+  if (hypothesis_.mesh_error_share != 0.0)
+    farther_m = hypothesis_.mesh_error->of_markers * MeshErrorAt(x_m);
   for (std::size_t m = 0; m < markers_.size(); ++m) {
     const Eigen::Vector3d at_m =
         markers_[m].Position(x_m) + farther_m.segment<3>(3 * static_cast<Eigen::Index>(m));
@@ -247,10 +254,10 @@ Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) co
 Sight SampleSolver::SightOfSkin(const Sample& sample, const Eigen::VectorXd& solved_x_m) const {
   const Eigen::VectorXd x_m = OnFinerMesh(solved_x_m);
   const auto recording = static_cast<std::size_t>(sample.recording);
-  Sight sight{.points = {}, .camera = ViewOf(draft_.camera, observed_, sample, Target::kSkin)};
+  Sight sight{.points = {}, .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kSkin)};
   if (!sight.camera) return sight;
   const Eigen::Isometry3d T_camera_robot =
-      *observed_.recordings[recording].T_camera_robot * draft_.T_skin_seen[recording];
+      *observed_.recordings[recording].T_camera_robot * hypothesis_.T_skin_seen[recording];
   for (const SkinSighting& feature : sample.skin) {
     SeenPoint& point = sight.points.emplace_back();
     if (feature.count == 0) continue;
@@ -271,17 +278,18 @@ void SampleSolver::See(const Sample& sample, SimulatedSample* solved) const {
     if (sample.skin[f].count == 0) continue;
     solved->seen_m[3 * solved->markers + feature] =
         sample.skin[f].normal.dot(skin.Measured(feature)) +
-        sample.skin[f].normal.norm() * draft_.skin_offset_m[feature] +
-        sample.skin[f].ripple_m_px.dot(draft_.camera.ripple_px);
+        sample.skin[f].normal.norm() * hypothesis_.skin_offset_m[feature] +
+        sample.skin[f].ripple_m_px.dot(hypothesis_.camera.ripple_px);
   }
 }
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
-                         const Hereditary& past, SimulatedSample* solved) {
+                         const HistoryVariables& past, SimulatedSample* solved) {
   solved->markers = std::ssize(markers_);
   solved->seen_m = Eigen::VectorXd::Constant(observed_.CoordinateCount(),
                                              std::numeric_limits<double>::quiet_NaN());
-  if (wall_ && WallClearance_m(wall_->wall(), draft_.assembled_m) < -kDeepest_m) {
+  if (obstacle_ &&
+      ObstacleClearance_m(obstacle_->obstacle(), hypothesis_.assembled_m) < -kDeepest_m) {
     solved->status = {StatusCode::kInvalidInput, "the wall stands in the undeformed body"};
     return;
   }
@@ -296,12 +304,13 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   if (solved->status.ok()) See(sample, solved);
 }
 
-bool SampleSolver::IsNearWall(const fem::StaticState& state) const {
+bool SampleSolver::IsNearObstacle(const fem::StaticState& state) const {
   constexpr double kNear_m = 1e-3;
-  return wall_ && WallClearance_m(wall_->wall(), state.x_m) < kNear_m;
+  return obstacle_ && ObstacleClearance_m(obstacle_->obstacle(), state.x_m) < kNear_m;
 }
 
-Memorable SampleSolver::WhatIsMemorable(const Hereditary& past, const SimulatedSample& solved) {
+Memorable SampleSolver::WhatIsMemorable(const HistoryVariables& past,
+                                        const SimulatedSample& solved) {
   const Eigen::VectorXd& x_m = solved.middle.state.x_m;
   if (!solved.status.ok()) {
     return {PointStresses::Zero(6, points_.PointCount()),

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "components/diagnosis/model/marker_skin.hpp"
-#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/model_hypothesis.hpp"
+#include "components/diagnosis/model/obstacle_balance.hpp"
 #include "components/diagnosis/model/sight.hpp"
 #include "components/diagnosis/model/simulation.hpp"
-#include "components/diagnosis/model/wall_balance.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
@@ -23,12 +23,12 @@ namespace palpate::diagnosis {
 class SampleSolver {
  public:
   /// Both must outlive it.
-  SampleSolver(const ModelDraft& draft, const ObservedExperiment& observed);
+  SampleSolver(const ModelHypothesis& hypothesis, const ObservedExperiment& observed);
 
   robot::RobotModel& model() { return model_; }
   const fem::PointStress& points() const { return points_; }
   /// [markers] points of the body that the markers sit at, offsets included.
-  const std::vector<fem::NodeWeights>& markers() const { return markers_; }
+  const std::vector<fem::InterpolationWeights>& markers() const { return markers_; }
 
   /// [3n] where the nodes would be on the finer mesh of which the draft has the error, of a body
   /// with its nodes at `x_m` [3n].
@@ -41,21 +41,21 @@ class SampleSolver {
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
   /// sample with `taken_in` [cables], a compliant base at what it gives way by.
-  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const Hereditary& past,
+  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const HistoryVariables& past,
              SimulatedSample* solved);
   /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
-  bool IsNearWall(const fem::StaticState& state) const;
+  bool IsNearObstacle(const fem::StaticState& state) const;
   /// What a body will remember of where it is in the middle of `solved`; nothing (0) of one that
   /// failed.
-  Memorable WhatIsMemorable(const Hereditary& past, const SimulatedSample& solved);
+  Memorable WhatIsMemorable(const HistoryVariables& past, const SimulatedSample& solved);
   /// The same at rest with every command at zero and nothing on the body.
   Memorable Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
-  void Prepare(const Sample& sample, const Hereditary& past);
+  void Prepare(const Sample& sample, const HistoryVariables& past);
   /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the drives.
   void SetSliding(const Eigen::VectorXd& sliding);
   /// [RubbingEyelets] friction coefficients.
-  Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, draft_.body); }
+  Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, hypothesis_.body); }
   /// About `shape`, which was solved last.
   EyeletSlides SlidesAboutShape(const HeldShape& shape);
 
@@ -71,16 +71,16 @@ class SampleSolver {
   void See(const Sample& sample, SimulatedSample* solved) const;
   Eigen::VectorXd MeshErrorAt(const Eigen::VectorXd& x_m) const;
 
-  const ModelDraft& draft_;
+  const ModelHypothesis& hypothesis_;
   const ObservedExperiment& observed_;
   fem::PointStress points_;
-  KeptStress kept_;                    ///< the first constraint after the cables
-  std::unique_ptr<WallContact> wall_;  ///< the draft's, or none: the last
+  KeptStress kept_;                            ///< the first constraint after the cables
+  std::unique_ptr<ObstacleContact> obstacle_;  ///< the draft's, or none: the last
   robot::RobotModel model_;
   std::vector<RubbingEyelet> eyelets_;
-  std::unique_ptr<WallBalance> at_wall_;  ///< with the wall
+  std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the wall
   robot::SensitivitySolver sensitivity_;
-  std::vector<fem::NodeWeights> markers_;
+  std::vector<fem::InterpolationWeights> markers_;
   MarkerSkin skin_;
   Eigen::VectorXd cell_volume_m3_;
   Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at

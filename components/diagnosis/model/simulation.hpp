@@ -21,16 +21,16 @@ struct HeldShape {
   std::size_t part = 0;  ///< of its parts, in which it is
   fem::StaticState state;
   std::vector<robot::CableCommand> commands;
-  /// [nodes of WallSurface] with which the draft's wall presses on the body; empty: nowhere.
-  Eigen::VectorXd wall_force_N;
+  /// [nodes of ObstacleSurface] with which the draft's wall presses on the body; empty: nowhere.
+  Eigen::VectorXd obstacle_force_N;
   Eigen::VectorXd seen_m;  ///< [coordinates] as SimulatedSample::seen_m
 
-  bool AtWall() const { return wall_force_N.size() > 0; }
+  bool AtObstacle() const { return obstacle_force_N.size() > 0; }
 };
 
 /// What the past leaves for a sample: the body answers 1 + scale times as stiff, keeps stresses,
 /// and its cells are softened.
-struct Hereditary {
+struct HistoryVariables {
   double scale = 0.0;
   PointStresses stress_Pa;      ///< or empty: none
   Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
@@ -77,7 +77,7 @@ struct Simulation {
   std::vector<SimulatedSample> samples;
   Memorable at_rest;                   ///< with every command at zero, as between recordings
   Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (damage.hpp)
-  std::vector<Hereditary> past;        ///< [samples] with which they are in balance
+  std::vector<HistoryVariables> past;  ///< [samples] with which they are in balance
 };
 
 /// What a column of Memory stands for.

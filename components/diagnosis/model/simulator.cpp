@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "components/diagnosis/model/damage.hpp"
-#include "components/diagnosis/model/past.hpp"
+#include "components/diagnosis/model/history_update.hpp"
 #include "components/diagnosis/model/sample_differentiator.hpp"
 #include "components/diagnosis/model/sample_in_parts.hpp"
 
@@ -51,22 +51,24 @@ void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
 
 }  // namespace
 
-Eigen::Index ParameterCount(const CauseList& causes) {
-  return std::accumulate(
-      causes.begin(), causes.end(), Eigen::Index{0},
-      [](Eigen::Index sum, const Cause* cause) { return sum + std::ssize(cause->parameters()); });
+Eigen::Index ParameterCount(const FaultModelList& causes) {
+  return std::accumulate(causes.begin(), causes.end(), Eigen::Index{0},
+                         [](Eigen::Index sum, const FaultModel* cause) {
+                           return sum + std::ssize(cause->parameters());
+                         });
 }
 
-ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const Eigen::VectorXd& z) {
-  ModelDraft draft = nominal;
+ModelHypothesis DraftWith(const ModelHypothesis& nominal, const FaultModelList& causes,
+                          const Eigen::VectorXd& z) {
+  ModelHypothesis hypothesis = nominal;
   Eigen::Index first = 0;
-  for (const Cause* cause : causes) {
+  for (const FaultModel* cause : causes) {
     const auto count = std::ssize(cause->parameters());
     const Eigen::VectorXd own = z.segment(first, count);
-    if (!own.isZero()) cause->Apply(own, &draft);
+    if (!own.isZero()) cause->Apply(own, &hypothesis);
     first += count;
   }
-  return draft;
+  return hypothesis;
 }
 
 Simulator::Simulator(const ObservedExperiment& observed, int threads)
@@ -74,18 +76,18 @@ Simulator::Simulator(const ObservedExperiment& observed, int threads)
       threads_(threads),
       drives_(observed),
       sticking_(drives_),
-      memory_(observed) {}
+      history_(observed) {}
 
-std::vector<std::vector<SamplePart>> Simulator::PartsOf(const ModelDraft& draft,
+std::vector<std::vector<SamplePart>> Simulator::PartsOf(const ModelHypothesis& hypothesis,
                                                         const Simulation& simulated) const {
-  std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(draft.drives);
-  sticking_.Follow(draft, simulated.samples, &parts);
+  std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(hypothesis.drives);
+  sticking_.Follow(hypothesis, simulated.samples, &parts);
   return parts;
 }
 
 /// Brings samples that are `to_do` to balance, and where it is not known, what rests. False: one
 /// failed, and of such as begin from a robot that was not far from there the others were left.
-bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
+bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail detail,
                       const std::vector<std::vector<SamplePart>>& parts,
                       const std::vector<bool>& is_to_do, Solvers* solvers,
                       Simulation* simulation) const {
@@ -94,7 +96,7 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     std::unique_ptr<SampleSolver>& kept =
         (*solvers)[static_cast<std::size_t>(&share - shares.data())];
-    if (!kept) kept = std::make_unique<SampleSolver>(draft, observed_);
+    if (!kept) kept = std::make_unique<SampleSolver>(hypothesis, observed_);
     SampleSolver& solver = *kept;
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
       simulation->at_rest = solver.Rest();
@@ -104,7 +106,7 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
       SimulatedSample& sample = simulation->samples[s];
       if (sample.middle.state.x_m.size() == 0 && before != nullptr) {
         sample.middle.state = before->state;
-        sample.middle.wall_force_N = before->wall_force_N;
+        sample.middle.obstacle_force_N = before->obstacle_force_N;
       }
       if (failed && is_near) {
         sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
@@ -124,35 +126,37 @@ bool Simulator::Sweep(const ModelDraft& draft, bool is_near, Detail detail,
   return !failed;
 }
 
-Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Detail detail) const {
+Simulation Simulator::Run(const ModelHypothesis& hypothesis, const Simulation* start,
+                          Detail detail) const {
   constexpr int kMostSweeps = 8;  // through what the samples remember of each other
   Simulation simulation;
   std::vector<bool> is_to_do(observed_.samples.size(), true);
   if (start != nullptr) simulation = *start;
   simulation.samples.resize(observed_.samples.size());
   simulation.past.resize(observed_.samples.size());
-  for (Hereditary& past : simulation.past) {
-    if (draft.creep.empty()) past = {0.0, {}, std::move(past.cell_factor)};
-    if (!draft.mullins) past.cell_factor.resize(0);
+  for (HistoryVariables& past : simulation.past) {
+    if (hypothesis.creep.empty()) past = {0.0, {}, std::move(past.cell_factor)};
+    if (!hypothesis.mullins) past.cell_factor.resize(0);
   }
-  if (start != nullptr && Remembers(draft))
-    UpdatePast(draft, memory_, simulation, &simulation.past);
-  std::vector<std::vector<SamplePart>> parts = PartsOf(draft, simulation);
+  if (start != nullptr && Remembers(hypothesis))
+    UpdateHistory(hypothesis, history_, simulation, &simulation.past);
+  std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, simulation);
   simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
   Solvers solvers(static_cast<std::size_t>(threads_));
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     const bool known =
-        Sweep(draft, start != nullptr, detail, parts, is_to_do, &solvers, &simulation);
+        Sweep(hypothesis, start != nullptr, detail, parts, is_to_do, &solvers, &simulation);
     if (detail == Detail::kAllParts) detail = Detail::kParts;
     if (!known || sweep + 1 == kMostSweeps) break;
-    is_to_do = sticking_.Follow(draft, simulation.samples, &parts);
-    if (Remembers(draft)) {
-      const std::vector<bool> is_other = UpdatePast(draft, memory_, simulation, &simulation.past);
+    is_to_do = sticking_.Follow(hypothesis, simulation.samples, &parts);
+    if (Remembers(hypothesis)) {
+      const std::vector<bool> is_other =
+          UpdateHistory(hypothesis, history_, simulation, &simulation.past);
       for (std::size_t s = 0; s < is_to_do.size(); ++s) is_to_do[s] = is_to_do[s] || is_other[s];
     }
     if (std::none_of(is_to_do.begin(), is_to_do.end(), [](bool one) { return one; })) break;
   }
-  simulation.below_largest_J_m3 = BelowLargest_J_m3(memory_, simulation);
+  simulation.below_largest_J_m3 = BelowLargest_J_m3(history_, simulation);
   simulation.status = Status::Ok();
   for (const SimulatedSample& sample : simulation.samples) {
     if (simulation.status.ok() && !sample.status.ok()) simulation.status = sample.status;
@@ -160,16 +164,16 @@ Simulation Simulator::Run(const ModelDraft& draft, const Simulation* start, Deta
   return simulation;
 }
 
-std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
+std::vector<ShapesInTime> Simulator::Shapes(const ModelHypothesis& hypothesis,
                                             const Simulation& simulation) const {
-  const std::vector<std::vector<SamplePart>> parts = PartsOf(draft, simulation);
+  const std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, simulation);
   std::vector<bool> wanted;
   for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
     wanted.push_back(!observed_.samples[s].pictures.empty() && simulation.samples[s].status.ok());
   }
   std::vector<ShapesInTime> shapes(observed_.samples.size());
   OnThreads(Shares(observed_, wanted, threads_), [&](const std::vector<std::size_t>& share) {
-    SampleSolver solver(draft, observed_);
+    SampleSolver solver(hypothesis, observed_);
     for (const std::size_t s : share) {
       SimulatedSample solved;
       solved.middle = simulation.samples[s].middle;
@@ -188,29 +192,30 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelDraft& draft,
   return shapes;
 }
 
-void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
+void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& causes,
                               const Eigen::VectorXd& z, const std::vector<bool>& wanted,
-                              const ModelDraft& nominal, Simulation* simulation) const {
+                              const ModelHypothesis& nominal, Simulation* simulation) const {
   const std::vector<Eigen::MatrixXd> drive_change =
-      DriveChanges(drives_, nominal, causes, z, wanted, draft.drives);
-  const std::vector<std::vector<SamplePart>> parts = PartsOf(draft, *simulation);
+      DriveChanges(drives_, nominal, causes, z, wanted, hypothesis.drives);
+  const std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, *simulation);
   const auto shares =
       Shares(observed_, std::vector<bool>(observed_.samples.size(), true), threads_);
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
-    SampleSolver solver(draft, observed_);
-    SampleDifferentiator differentiator(draft, causes, z, wanted, drive_change, observed_, &solver);
+    SampleSolver solver(hypothesis, observed_);
+    SampleDifferentiator differentiator(hypothesis, causes, z, wanted, drive_change, observed_,
+                                        &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
       solver.Prepare(observed_.samples[s], simulation->past[s]);
       const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
-        const CauseMoment at{.observed = observed_,
-                             .draft = draft,
-                             .simulation = *simulation,
-                             .memory = memory_,
-                             .sample = static_cast<int>(s),
-                             .shape = shape,
-                             .model = solver.model(),
-                             .points = solver.points()};
+        const FaultContext at{.observed = observed_,
+                              .hypothesis = hypothesis,
+                              .simulation = *simulation,
+                              .history = history_,
+                              .sample = static_cast<int>(s),
+                              .shape = shape,
+                              .model = solver.model(),
+                              .points = solver.points()};
         solver.SetSliding(parts[s][shape.part].sliding);
         return shape.share * differentiator.At(at);
       };
@@ -221,7 +226,7 @@ void Simulator::Differentiate(const ModelDraft& draft, const CauseList& causes,
   });
 }
 
-void Simulator::DifferentiateByRuns(const ModelDraft& nominal, const CauseList& causes,
+void Simulator::DifferentiateByRuns(const ModelHypothesis& nominal, const FaultModelList& causes,
                                     const Eigen::VectorXd& z, Simulation* simulation) const {
   constexpr double kStep = 0.1;  // of the parameter's fault sigma: pasts are settled to 1e-4
   Eigen::Index first = 0;

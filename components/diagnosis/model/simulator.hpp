@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "components/diagnosis/causes/cause.hpp"
+#include "components/diagnosis/causes/fault_model.hpp"
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/model/drive_train.hpp"
-#include "components/diagnosis/model/memory.hpp"
-#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/history_operator.hpp"
+#include "components/diagnosis/model/model_hypothesis.hpp"
 #include "components/diagnosis/model/sample_in_parts.hpp"
 #include "components/diagnosis/model/sample_solver.hpp"
 #include "components/diagnosis/model/shapes_in_time.hpp"
@@ -30,35 +30,36 @@ class Simulator {
   /// Equilibria of all samples. A sample that fails has a status that says so and no markers (NaN).
   /// Begins from those of `start` where there is one, of the same mesh, and ends then where a first
   /// one fails.
-  Simulation Run(const ModelDraft& draft, const Simulation* start = nullptr,
+  Simulation Run(const ModelHypothesis& hypothesis, const Simulation* start = nullptr,
                  Detail detail = Detail::kParts) const;
 
   /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
   /// `z` [parameters of all]; `draft` is what these made. Of causes that are not `wanted` [causes]
   /// the columns are 0.
-  void Differentiate(const ModelDraft& draft, const CauseList& causes, const Eigen::VectorXd& z,
-                     const std::vector<bool>& wanted, const ModelDraft& nominal,
-                     Simulation* simulation) const;
+  void Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& causes,
+                     const Eigen::VectorXd& z, const std::vector<bool>& wanted,
+                     const ModelHypothesis& nominal, Simulation* simulation) const;
 
   /// Puts differences of simulations in the place of the columns of causes of which Differentiate
   /// leaves out what matters (Cause::NeedsRuns); one that cannot be simulated there keeps them.
-  void DifferentiateByRuns(const ModelDraft& nominal, const CauseList& causes,
+  void DifferentiateByRuns(const ModelHypothesis& nominal, const FaultModelList& causes,
                            const Eigen::VectorXd& z, Simulation* simulation) const;
 
   /// [samples] all shapes of those with pictures, one for each part of a motion; `simulation` is of
   /// this draft. Empty where it failed, or there are no pictures.
-  std::vector<ShapesInTime> Shapes(const ModelDraft& draft, const Simulation& simulation) const;
+  std::vector<ShapesInTime> Shapes(const ModelHypothesis& hypothesis,
+                                   const Simulation& simulation) const;
 
-  const Memory& memory() const { return memory_; }
+  const HistoryOperator& history() const { return history_; }
 
  private:
   /// [threads] of one draft, each made where it is first needed.
   using Solvers = std::vector<std::unique_ptr<SampleSolver>>;
 
   /// [samples] parts of those, as they slide in a robot of which `simulated` is known.
-  std::vector<std::vector<SamplePart>> PartsOf(const ModelDraft& draft,
+  std::vector<std::vector<SamplePart>> PartsOf(const ModelHypothesis& hypothesis,
                                                const Simulation& simulated) const;
-  bool Sweep(const ModelDraft& draft, bool is_near, Detail detail,
+  bool Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail detail,
              const std::vector<std::vector<SamplePart>>& parts, const std::vector<bool>& is_to_do,
              Solvers* solvers, Simulation* simulation) const;
 
@@ -66,13 +67,14 @@ class Simulator {
   int threads_;
   DriveTrain drives_;
   Sticking sticking_;
-  Memory memory_;
+  HistoryOperator history_;
 };
 
 /// Parameters of all causes together.
-Eigen::Index ParameterCount(const CauseList& causes);
+Eigen::Index ParameterCount(const FaultModelList& causes);
 
 /// What causes make of the robot file's draft.
-ModelDraft DraftWith(const ModelDraft& nominal, const CauseList& causes, const Eigen::VectorXd& z);
+ModelHypothesis DraftWith(const ModelHypothesis& nominal, const FaultModelList& causes,
+                          const Eigen::VectorXd& z);
 
 }  // namespace palpate::diagnosis

@@ -54,11 +54,11 @@ Eigen::VectorXd StickOrSlide(const Eigen::VectorXd& before, const Eigen::VectorX
 }
 
 /// [eyelets x times]
-Eigen::MatrixXd Sticking::ThroughTime(const ModelDraft& draft,
+Eigen::MatrixXd Sticking::ThroughTime(const ModelHypothesis& hypothesis,
                                       const std::vector<SimulatedSample>& samples) const {
-  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(draft.body);
-  const Eigen::VectorXd coefficient = FrictionAt(eyelets, draft.body);
-  const Eigen::MatrixXd path = drives_.Path(draft.drives);
+  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(hypothesis.body);
+  const Eigen::VectorXd coefficient = FrictionAt(eyelets, hypothesis.body);
+  const Eigen::MatrixXd path = drives_.Path(hypothesis.drives);
   const std::vector<const EyeletSlides*> nearest = NearestSlides(drives_.t_s(), samples);
   Eigen::MatrixXd sliding = Eigen::MatrixXd::Zero(coefficient.size(), path.cols());
   for (Eigen::Index k = 1; k < path.cols(); ++k) {
@@ -73,18 +73,18 @@ Eigen::MatrixXd Sticking::ThroughTime(const ModelDraft& draft,
   return sliding;
 }
 
-std::vector<bool> Sticking::Follow(const ModelDraft& draft,
+std::vector<bool> Sticking::Follow(const ModelHypothesis& hypothesis,
                                    const std::vector<SimulatedSample>& samples,
                                    std::vector<std::vector<SamplePart>>* parts) const {
   constexpr double kLittle = 1e-3;
   std::vector<bool> is_other(parts->size(), false);
-  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(draft.body);
+  const std::vector<RubbingEyelet> eyelets = RubbingEyelets(hypothesis.body);
   if (eyelets.empty() || samples.empty()) return is_other;
-  const Eigen::VectorXd coefficient = FrictionAt(eyelets, draft.body);
+  const Eigen::VectorXd coefficient = FrictionAt(eyelets, hypothesis.body);
   const bool known = std::any_of(samples.begin(), samples.end(),
                                  [](const SimulatedSample& one) { return !one.slides.empty(); });
-  const Eigen::MatrixXd in_time = known ? ThroughTime(draft, samples) : Eigen::MatrixXd();
-  const Eigen::MatrixXi way = known ? Eigen::MatrixXi() : drives_.Sliding(draft.drives);
+  const Eigen::MatrixXd in_time = known ? ThroughTime(hypothesis, samples) : Eigen::MatrixXd();
+  const Eigen::MatrixXi way = known ? Eigen::MatrixXi() : drives_.Sliding(hypothesis.drives);
   for (std::size_t s = 0; s < parts->size(); ++s) {
     for (SamplePart& part : (*parts)[s]) {
       Eigen::VectorXd now = Eigen::VectorXd::Zero(std::ssize(eyelets));

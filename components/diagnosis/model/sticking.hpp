@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/diagnosis/model/drive_train.hpp"
-#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/model_hypothesis.hpp"
 #include "components/diagnosis/model/simulation.hpp"
 
 namespace palpate::diagnosis {
@@ -30,11 +30,12 @@ class Sticking {
   /// is known from `samples` that were simulated, at each time from the nearest that tells it;
   /// where none does, cables slide everywhere as their drives last went. [samples] whether what a
   /// part has of friction (CableFriction::Signed) is another than it was by more than 1e-3.
-  std::vector<bool> Follow(const ModelDraft& draft, const std::vector<SimulatedSample>& samples,
+  std::vector<bool> Follow(const ModelHypothesis& hypothesis,
+                           const std::vector<SimulatedSample>& samples,
                            std::vector<std::vector<SamplePart>>* parts) const;
 
  private:
-  Eigen::MatrixXd ThroughTime(const ModelDraft& draft,
+  Eigen::MatrixXd ThroughTime(const ModelHypothesis& hypothesis,
                               const std::vector<SimulatedSample>& samples) const;
 
   const DriveTrain& drives_;

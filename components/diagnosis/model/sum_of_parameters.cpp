@@ -28,7 +28,7 @@ class CommandChangeParameter final : public robot::Parameter {
 
 class PointForceParameter final : public robot::Parameter {
  public:
-  PointForceParameter(fem::NodeWeights weights, const Eigen::Vector3d& force_N)
+  PointForceParameter(fem::InterpolationWeights weights, const Eigen::Vector3d& force_N)
       : weights_(std::move(weights)), force_N_(force_N) {}
 
   void Describe(const robot::EquilibriumPoint& /*at*/,
@@ -37,7 +37,7 @@ class PointForceParameter final : public robot::Parameter {
   }
 
  private:
-  fem::NodeWeights weights_;
+  fem::InterpolationWeights weights_;
   Eigen::Vector3d force_N_;
 };
 
@@ -63,7 +63,7 @@ robot::ParameterPtr CommandChange(Eigen::VectorXd change) {
   return std::make_unique<CommandChangeParameter>(std::move(change));
 }
 
-robot::ParameterPtr PointForce(fem::NodeWeights weights, const Eigen::Vector3d& force_N) {
+robot::ParameterPtr PointForce(fem::InterpolationWeights weights, const Eigen::Vector3d& force_N) {
   return std::make_unique<PointForceParameter>(std::move(weights), force_N);
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
 
 namespace palpate::diagnosis {
@@ -33,6 +33,6 @@ robot::ParameterPtr Scaled(double factor, robot::ParameterPtr parameter);
 robot::ParameterPtr CommandChange(Eigen::VectorXd change);
 
 /// Dead loads on points of the body.
-robot::ParameterPtr PointForce(fem::NodeWeights weights, const Eigen::Vector3d& force_N);
+robot::ParameterPtr PointForce(fem::InterpolationWeights weights, const Eigen::Vector3d& force_N);
 
 }  // namespace palpate::diagnosis

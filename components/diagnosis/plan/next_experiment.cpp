@@ -22,7 +22,7 @@ constexpr std::size_t kMostRivals = 6;
 Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int> faults,
                         int cause) {
   Hypothesis hypothesis;
-  hypothesis.name = fitter.book().cause(cause).name();
+  hypothesis.name = fitter.hypotheses().cause(cause).name();
   hypothesis.posterior = fitter.Guess(about, faults);
   hypothesis.faults = std::move(faults);
   return hypothesis;
@@ -75,12 +75,13 @@ std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
 }
 
 /// Causes that any hypothesis believes in.
-std::vector<int> ColumnsOf(const CauseBook& book, const Question& question) {
+std::vector<int> ColumnsOf(const HypothesisSet& hypotheses, const Question& question) {
   std::set<int> columns;
   const auto add = [&](const Hypothesis& hypothesis) {
-    const Belief belief = book.BeliefWith(hypothesis.faults);
-    for (int k = 0; k < book.size(); ++k) {
-      if (!belief.sigma.segment(book.first(k), book.count(k)).isZero(0.0)) columns.insert(k);
+    const GaussianPrior prior = hypotheses.PriorWith(hypothesis.faults);
+    for (int k = 0; k < hypotheses.size(); ++k) {
+      if (!prior.sigma.segment(hypotheses.first(k), hypotheses.count(k)).isZero(0.0))
+        columns.insert(k);
     }
   };
   add(question.best);
@@ -124,7 +125,7 @@ Question QuestionOf(const Fitter& fitter, const Selection& selection) {
     }
     return question;
   }
-  if (!selection.guard.passed) return question;
+  if (!selection.goodness_of_fit.passed) return question;
   const std::vector<Candidate> some = WithSomeEvidence(selection);
   if (some.empty()) return question;
   question.best = {.name = {"no_fault", {"body"}}, .faults = {}, .posterior = best.posterior};
@@ -144,13 +145,14 @@ std::vector<RankedProposal> RankProposals(const experiment::Experiment& experime
   if (question.rivals.empty()) return {};
   const std::vector<Proposal> proposals = BenchProposals(body, observed);
   if (proposals.empty()) return {};
-  const CauseBook& book = fitter.book();
+  const HypothesisSet& hypotheses = fitter.hypotheses();
   const ObservedExperiment planned = ObserveProposals(experiment, observed, body, proposals);
-  const LinearModel model = PredictProposals(planned, body, book, selection.best,
-                                             ColumnsOf(book, question), fitter.noise(), threads);
+  const LinearModel model =
+      PredictProposals(planned, body, hypotheses, selection.best, ColumnsOf(hypotheses, question),
+                       fitter.noise(), threads);
   const std::vector<int>& in_question =
       question.best.faults.empty() ? question.rivals.front().faults : question.best.faults;
-  const std::vector<Eigen::Index> parameters = book.ParametersOf({in_question.front()});
+  const std::vector<Eigen::Index> parameters = hypotheses.ParametersOf({in_question.front()});
   std::vector<RankedProposal> ranked;
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < planned.recordings.size(); ++r) {

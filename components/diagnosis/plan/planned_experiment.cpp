@@ -155,22 +155,22 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
 }
 
 LinearModel PredictProposals(const ObservedExperiment& planned, const robot::RobotBody& body,
-                             const CauseBook& book, const Fit& fit, const std::vector<int>& of,
-                             const NoiseModel& noise, int threads) {
-  const CauseList causes = book.All();
+                             const HypothesisSet& hypotheses, const Fit& fit,
+                             const std::vector<int>& of, const NoiseModel& noise, int threads) {
+  const FaultModelList causes = hypotheses.All();
   std::vector<bool> wanted(causes.size(), false);
   for (const int k : of) wanted[static_cast<std::size_t>(k)] = true;
-  const ModelDraft nominal = DraftOf(body, planned);
-  ModelDraft draft = DraftWith(nominal, causes, fit.z);
+  const ModelHypothesis nominal = DraftOf(body, planned);
+  ModelHypothesis hypothesis = DraftWith(nominal, causes, fit.z);
   for (std::size_t k = 0; k < planned.recordings.size(); ++k) {
     const int pose_of = planned.recordings[k].pose_of;
     if (pose_of < 0) continue;
-    draft.T_seen[k] = draft.T_seen[static_cast<std::size_t>(pose_of)];
-    draft.T_skin_seen[k] = draft.T_skin_seen[static_cast<std::size_t>(pose_of)];
+    hypothesis.T_seen[k] = hypothesis.T_seen[static_cast<std::size_t>(pose_of)];
+    hypothesis.T_skin_seen[k] = hypothesis.T_skin_seen[static_cast<std::size_t>(pose_of)];
   }
   const Simulator simulator(planned, threads);
-  Simulation simulation = simulator.Run(draft);
-  simulator.Differentiate(draft, causes, fit.z, wanted, nominal, &simulation);
+  Simulation simulation = simulator.Run(hypothesis);
+  simulator.Differentiate(hypothesis, causes, fit.z, wanted, nominal, &simulation);
   LeaveOutWhatFailed(planned, &simulation);
   Eigen::Matrix3Xd rest_m(3, std::ssize(body.markers));
   for (std::size_t m = 0; m < body.markers.size(); ++m) {

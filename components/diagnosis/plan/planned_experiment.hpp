@@ -26,7 +26,7 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
 /// causes `of`, the others 0. Recordings have the indices of `planned`; one that the robot did
 /// not get through has no rows.
 LinearModel PredictProposals(const ObservedExperiment& planned, const robot::RobotBody& body,
-                             const CauseBook& book, const Fit& fit, const std::vector<int>& of,
-                             const NoiseModel& noise, int threads);
+                             const HypothesisSet& hypotheses, const Fit& fit,
+                             const std::vector<int>& of, const NoiseModel& noise, int threads);
 
 }  // namespace palpate::diagnosis

@@ -79,8 +79,8 @@ std::string RivalTable(const DiagnosisResult& result) {
   for (std::size_t i = 0; i < shown; ++i) {
     const Rival& rival = result.rivals[i];
     table.rows.push_back({WordsFor(rival.name, result), ProbabilityText(rival.probability),
-                          DecimalText(rival.ln_bayes_factor, 1), DecimalText(rival.likeness, 2),
-                          rival.why_not});
+                          DecimalText(rival.ln_bayes_factor, 1),
+                          DecimalText(rival.canonical_correlation, 2), rival.why_not});
   }
   std::string note =
       "ln BF: against the healthy robot. Likeness: correlation of its effect with that of the "

@@ -44,7 +44,7 @@ Json ToJson(const Rival& rival) {
   json["probability"] = Number(rival.probability);
   json["words"] = rival.words;
   json["ln_bayes_factor"] = Number(rival.ln_bayes_factor);
-  json["likeness"] = Number(rival.likeness);
+  json["likeness"] = Number(rival.canonical_correlation);
   json["why_not"] = rival.why_not;
   return json;
 }

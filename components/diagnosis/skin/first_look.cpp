@@ -38,14 +38,14 @@ std::string WhyOfNoUse(const ObservedExperiment& observed, const SkinMatcher& ma
 
 }  // namespace
 
-std::string LookAtPictures(const ModelDraft& draft, int threads, SkinSource* pictures,
+std::string LookAtPictures(const ModelHypothesis& hypothesis, int threads, SkinSource* pictures,
                            SkinMatcher* matcher, ObservedExperiment* observed) {
   observed->feature_rest_m = matcher->rest_m();
   TellCameras(pictures, observed);
   const Simulator simulator(*observed, threads);
-  const std::vector<ShapesInTime> shapes = simulator.Shapes(draft, simulator.Run(draft));
+  const std::vector<ShapesInTime> shapes = simulator.Shapes(hypothesis, simulator.Run(hypothesis));
   matcher->Look(*observed, shapes, pictures);
-  matcher->Match(draft, shapes, observed);
+  matcher->Match(hypothesis, shapes, observed);
   return WhyOfNoUse(*observed, *matcher);
 }
 

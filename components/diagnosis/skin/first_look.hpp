@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 /// Looks at all pictures and matches them, about where `draft` stands. Tells `observed` what is
 /// known of the cameras, too. Why that tells nothing; empty: it does.
-std::string LookAtPictures(const ModelDraft& draft, int threads, SkinSource* pictures,
+std::string LookAtPictures(const ModelHypothesis& hypothesis, int threads, SkinSource* pictures,
                            SkinMatcher* matcher, ObservedExperiment* observed);
 
 }  // namespace palpate::diagnosis

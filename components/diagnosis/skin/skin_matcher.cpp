@@ -55,7 +55,7 @@ double HeightOf(const skin::FeatureMatch& match, const Eigen::VectorXd& measured
 }
 
 /// The point of the body that a row is about: nodes count as they face the way that it looks.
-void AddPoint(const robot::EffectorRow& row, const Eigen::Vector3d& normal, double share,
+void AddPoint(const robot::ObservationRow& row, const Eigen::Vector3d& normal, double share,
               std::map<int, double>* weights) {
   const double squared = normal.squaredNorm();
   for (std::size_t k = 0; k < row.nodes.size(); ++k) {
@@ -63,8 +63,8 @@ void AddPoint(const robot::EffectorRow& row, const Eigen::Vector3d& normal, doub
   }
 }
 
-fem::NodeWeights PointOf(const std::map<int, double>& weights) {
-  fem::NodeWeights point;
+fem::InterpolationWeights PointOf(const std::map<int, double>& weights) {
+  fem::InterpolationWeights point;
   for (const auto& [node, weight] : weights) {
     point.nodes.push_back(node);
     point.weights.push_back(weight);
@@ -104,7 +104,7 @@ void SkinMatcher::Look(const ObservedExperiment& observed, const std::vector<Sha
   }
 }
 
-void SkinMatcher::Match(const ModelDraft& draft, const std::vector<ShapesInTime>& shapes,
+void SkinMatcher::Match(const ModelHypothesis& hypothesis, const std::vector<ShapesInTime>& shapes,
                         ObservedExperiment* observed) {
   matched_ = 0;
   outliers_ = 0;
@@ -112,7 +112,7 @@ void SkinMatcher::Match(const ModelDraft& draft, const std::vector<ShapesInTime>
   nominal_ = measured_;
   for (std::size_t s = 0; s < observed->samples.size(); ++s) {
     observed->samples[s].skin.assign(static_cast<std::size_t>(features_.Count()), {});
-    if (!shapes[s].empty()) MatchSample(draft, shapes[s], s, observed);
+    if (!shapes[s].empty()) MatchSample(hypothesis, shapes[s], s, observed);
   }
   TellSigmas(observed);
 }
@@ -137,16 +137,16 @@ void SkinMatcher::TellSigmas(ObservedExperiment* observed) const {
   }
 }
 
-void SkinMatcher::MatchSample(const ModelDraft& draft, const ShapesInTime& shapes, std::size_t s,
-                              ObservedExperiment* observed) {
+void SkinMatcher::MatchSample(const ModelHypothesis& hypothesis, const ShapesInTime& shapes,
+                              std::size_t s, ObservedExperiment* observed) {
   Sample& sample = observed->samples[s];
   const auto r = static_cast<std::size_t>(sample.recording);
-  CameraErrors errors = draft.camera;
+  CameraErrors errors = hypothesis.camera;
   errors.incidence_bias_m = 0.0;
   const auto camera = ViewOf(errors, *observed, sample, Target::kSkin);
   if (!camera) return;
   const Eigen::Isometry3d T_camera_robot =
-      *observed->recordings[r].T_camera_robot * draft.T_skin_seen[r];
+      *observed->recordings[r].T_camera_robot * hypothesis.T_skin_seen[r];
   std::vector<Eigen::VectorXd> measured_m;  // [shapes] [3n]
   for (const Eigen::Matrix3Xf& nodes_m : shapes.nodes_m) {
     measured_m.push_back(AsMeasured(*camera, T_camera_robot, nodes_m));

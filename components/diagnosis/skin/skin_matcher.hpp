@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/diagnosis/data/observed_experiment.hpp"
-#include "components/diagnosis/model/model_draft.hpp"
+#include "components/diagnosis/model/model_hypothesis.hpp"
 #include "components/diagnosis/model/shapes_in_time.hpp"
 #include "components/diagnosis/skin/seen_cloud.hpp"
 #include "components/diagnosis/skin/skin_source.hpp"
@@ -31,7 +31,7 @@ class SkinMatcher {
   const SkinClouds& clouds() const { return clouds_; }
 
   /// Fills Sample::skin of all samples, matched about `shapes` [samples] of `draft`.
-  void Match(const ModelDraft& draft, const std::vector<ShapesInTime>& shapes,
+  void Match(const ModelHypothesis& hypothesis, const std::vector<ShapesInTime>& shapes,
              ObservedExperiment* observed);
   /// Of the last Match: features in view whose clouds lie on the skin, and beyond it.
   int matched() const { return matched_; }
@@ -53,12 +53,12 @@ class SkinMatcher {
   struct FeatureInPicture {
     double height_m;  ///< mean of its cloud points over the skin as it is expected
     double sigma_m;
-    robot::EffectorRow row;                                 ///< of that skin
+    robot::ObservationRow row;                              ///< of that skin
     Eigen::Vector3d normal;                                 ///< camera frame
     Eigen::Vector2d ripple_m_px = Eigen::Vector2d::Zero();  ///< SkinSighting::ripple_m_px
   };
 
-  void MatchSample(const ModelDraft& draft, const ShapesInTime& shapes, std::size_t s,
+  void MatchSample(const ModelHypothesis& hypothesis, const ShapesInTime& shapes, std::size_t s,
                    ObservedExperiment* observed);
   void LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, SeenCloud* seen,
               std::vector<std::vector<FeatureInPicture>>* in_pictures);

@@ -40,7 +40,7 @@ struct Point {
 
 /// Points that may lie on the held skin; every so many-th, so that no more than kMostPoints are
 /// left.
-std::vector<Point> Candidates(const HeldSkin& skin, const rgbd::SensedCloud& cloud,
+std::vector<Point> Candidates(const FixedSurfaceRegion& skin, const rgbd::SensedCloud& cloud,
                               const Eigen::Isometry3d& T_robot_camera) {
   std::vector<Point> candidates;
   for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
@@ -56,7 +56,7 @@ std::vector<Point> Candidates(const HeldSkin& skin, const rgbd::SensedCloud& clo
 }
 
 /// The body that moved by `motion`, matched to the points: distances are those left.
-std::vector<Row> Match(const HeldSkin& skin, const std::vector<Point>& points,
+std::vector<Row> Match(const FixedSurfaceRegion& skin, const std::vector<Point>& points,
                        const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
                        const Motion& motion) {
   const Eigen::Vector3d optical_axis = T_robot_camera.linear().col(2);
@@ -107,7 +107,7 @@ Eigen::Matrix<double, 6, 6> UnknownMotion() {
   return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-MotionSighting SeeMotion(const HeldSkin& skin, const rgbd::SensedCloud& cloud,
+MotionSighting SeeMotion(const FixedSurfaceRegion& skin, const rgbd::SensedCloud& cloud,
                          const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m) {
   MotionSighting seen;
   if (skin.IsEmpty()) return seen;

@@ -6,12 +6,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "components/force_estimation/drift/held_skin.hpp"
+#include "components/force_estimation/drift/fixed_surface_region.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
 
 namespace palpate::force_estimation {
 
-/// A small rigid motion: turn (rad), then shift of HeldSkin::Middle_m (m), robot frame.
+/// A small rigid motion: turn (rad), then shift of FixedSurfaceRegion::Middle_m (m), robot frame.
 using Motion = Eigen::Matrix<double, 6, 1>;
 
 /// What one frame says of how the held skin seems to have moved.
@@ -29,7 +29,7 @@ Eigen::Matrix<double, 6, 6> UnknownMotion();
 /// The motion that carries the skin, as the model has it (`x_m` [3n]; empty: at rest), onto the
 /// cloud (camera frame): point-to-plane, errors of a point along the normal being those of its
 /// depth and 0.3 mm of the skin, robust (Huber), on at most 500 points.
-MotionSighting SeeMotion(const HeldSkin& skin, const rgbd::SensedCloud& cloud,
+MotionSighting SeeMotion(const FixedSurfaceRegion& skin, const rgbd::SensedCloud& cloud,
                          const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m);
 
 }  // namespace palpate::force_estimation

@@ -71,7 +71,7 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
   for (Eigen::Index k = 0; k < forces_N.cols(); ++k) {
     matrix.Reduce(forces_N.col(k), responses_.col(k));
   }
-  model_.linearisation().SolveRounded(responses_);
+  model_.linearisation().SolveSingle(responses_);
   work_ += kColumnsWork;
   row_motions_m->resize(static_cast<Eigen::Index>(rows().size()), forces_N.cols());
   for (Eigen::Index k = 0; k < forces_N.cols(); ++k) {

@@ -23,8 +23,8 @@ constexpr double kTangentErrorWeight = 1e-3;
 /// A restoration that needs more load steps than these is halved instead.
 constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
 
-std::vector<robot::EffectorRow> MarkerRows(const robot::RobotModel& model) {
-  std::vector<fem::NodeWeights> points;
+std::vector<robot::ObservationRow> MarkerRows(const robot::RobotModel& model) {
+  std::vector<fem::InterpolationWeights> points;
   for (const robot::BodyMarker& marker : model.body().markers) {
     points.push_back(marker.point.weights);
   }
@@ -68,10 +68,10 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
 
 void ForceFitter::KeepFactor(bool keep) {
   keep_factor_ = keep;
-  if (keep) model_.linearisation().KeepRounded();
+  if (keep) model_.linearisation().KeepSinglePrecision();
 }
 
-void ForceFitter::SetRows(std::vector<robot::EffectorRow> rows) {
+void ForceFitter::SetRows(std::vector<robot::ObservationRow> rows) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   compliance_.SetEffectors(std::move(rows));
   effector_motion_.resize(count);
@@ -105,11 +105,11 @@ const ForceFit& ForceFitter::Fit(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables, ModelState* state,
                                  const fem::TimeBudget& budget) {
   frame_ = {.targets = &targets, .cables = &cables, .budget = &budget, .state = state};
-  fit_.iterations = fit_.chord_steps = fit_.restorations = 0;
+  fit_.iterations = fit_.chord_steps = fit_.continuation_steps = 0;
   UpdateWeight();
   directions_.AskForEverything(sites_);
   start_ = *state;
-  fit_.status = FitWithRestorations();
+  fit_.status = FitWithContinuation();
   if (fit_.status.ok()) fit_.status = Conclude();
   if (Diverged(fit_.status)) *state = start_;
   evaluated_ = *state;
@@ -122,16 +122,16 @@ const ForceFit& ForceFitter::Fit(const RowTargets& targets,
 /// Newton's steps, as cheap as they may be. Where they diverge, exact ones from where they began:
 /// steps with another state's factor may lead where no tangent leads back. Where these diverge,
 /// too, one step along equilibria, from which they try again.
-Status ForceFitter::FitWithRestorations() {
+Status ForceFitter::FitWithContinuation() {
   Status status = RunLoop(/*careful=*/false);
   if (Diverged(status) && fit_.chord_steps > 0) {
     *frame_.state = start_;
     status = RunLoop(/*careful=*/true);
   }
   if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
-  while (Diverged(status) && fit_.restorations < most_restorations_) {
+  while (Diverged(status) && fit_.continuation_steps < most_continuation_steps_) {
     *frame_.state = start_;
-    ++fit_.restorations;
+    ++fit_.continuation_steps;
     if (Status restored = Restore(); !restored.ok()) return restored;
     start_ = *frame_.state;
     status = RunLoop(/*careful=*/true);
@@ -140,8 +140,9 @@ Status ForceFitter::FitWithRestorations() {
 }
 
 Status ForceFitter::RunLoop(bool careful) {
-  const bool keep_factor = keep_factor_ && !careful && wasted_work_ < kFactorWork + kColumnsWork;
-  const fem::FrameOutcome outcome = fem::RunFrame(
+  const bool keep_factor =
+      keep_factor_ && !careful && factor_age_cost_ < kFactorWork + kColumnsWork;
+  const fem::FrameOutcome outcome = fem::SolveNewton(
       *this,
       {.relative_tolerance = config_.frame_tolerance,
        .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations),
@@ -151,7 +152,7 @@ Status ForceFitter::RunLoop(bool careful) {
   fit_.iterations += outcome.exact_steps;
   fit_.chord_steps += outcome.chord_steps;
   // Beyond the one that every frame needs; once they would have paid a factor, a new one is made.
-  if (outcome.exact_steps == 0) wasted_work_ += std::max(0, outcome.chord_steps - 1);
+  if (outcome.exact_steps == 0) factor_age_cost_ += std::max(0, outcome.chord_steps - 1);
   fit_.error = outcome.error;
   frame_.state->balanced = outcome.converged();
   return outcome.status;
@@ -167,7 +168,7 @@ Status ForceFitter::PrepareExactStep() {
 }
 
 /// With the factor of an earlier frame: what it was told of the state is new, W is not.
-Status ForceFitter::PrepareKeptStep() {
+Status ForceFitter::PrepareFrozenFactorStep() {
   secants_.BeginFit();
   if (!factor_known_) return {};
   const ModelState& state = *frame_.state;
@@ -290,7 +291,7 @@ Status ForceFitter::StepToEquilibrium(double fraction) {
 Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   UpdateExternalForce(state.lambda_f_N);
   factor_known_ = false;
-  wasted_work_ = 0.0;
+  factor_age_cost_ = 0.0;
   secants_.Forget();
   Status status =
       model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_, allow_shift);

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "components/force_estimation/config.hpp"
-#include "components/force_estimation/fit/cable_elimination.hpp"
-#include "components/force_estimation/fit/fitted_directions.hpp"
-#include "components/force_estimation/fit/secant_memory.hpp"
+#include "components/force_estimation/fit/actuator_condensation.hpp"
+#include "components/force_estimation/fit/anderson_accelerator.hpp"
+#include "components/force_estimation/fit/observable_subspace.hpp"
 #include "libs/core/status.hpp"
-#include "libs/fem/frame_loop.hpp"
+#include "libs/fem/newton_loop.hpp"
 #include "libs/fem/static_solver.hpp"
 #include "libs/robot/compliance.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -36,11 +36,11 @@ struct ModelState {
 };
 
 struct ForceFit {
-  Status status;         ///< kBudgetReached: sound, nearer, but not converged
-  int iterations = 0;    ///< linearisations
-  int chord_steps = 0;   ///< steps without one
-  int restorations = 0;  ///< static solves for which Newton's steps were given up
-  double error = 0.0;    ///< relative, compared with Config::frame_tolerance
+  Status status;               ///< kBudgetReached: sound, nearer, but not converged
+  int iterations = 0;          ///< linearisations
+  int chord_steps = 0;         ///< steps without one
+  int continuation_steps = 0;  ///< static solves for which Newton's steps were given up
+  double error = 0.0;          ///< relative, compared with Config::frame_tolerance
   double chi_squared = 0.0;
   Eigen::VectorXd residual_m;                ///< [rows] target - model, 0 where not seen
   Eigen::MatrixXd covariance_N2;             ///< [3k x 3k] from weights and priors
@@ -56,22 +56,22 @@ inline constexpr double kColumnsWork = 2.0;  ///< of some twenty right-hand side
 /// Forces at given sites that bring what is observed of the model to its targets in the
 /// least-squares sense, in equilibrium: the paper's QP (11)-(14), relinearised until nothing
 /// changes. Each step moves forces, tensions and configuration at once (Gauss-Newton), in the loop
-/// of fem/frame_loop.hpp; where that diverges, the model follows the forces in equilibrium for one
+/// of fem/newton_loop.hpp; where that diverges, the model follows the forces in equilibrium for one
 /// step before the loop goes on. A fit's error is the largest of the residual over the size of the
 /// forces, the cable length missed over the cable's rest length, and the change of the forces that
 /// the next step would make, over the largest contact force or 1 N; and a thousandth of the error
 /// of the state at which the tangent was taken, which the optimum and its intervals depend on.
-class ForceFitter final : private fem::FrameProblem {
+class ForceFitter final : private fem::NewtonProblem {
  public:
   /// With x, y and z of the robot's markers as rows.
   ForceFitter(robot::RobotModel& model, const Config& config);
 
   /// Other rows; to be called before Fit.
-  void SetRows(std::vector<robot::EffectorRow> rows);
-  const std::vector<robot::EffectorRow>& rows() const { return compliance_.effectors(); }
+  void SetRows(std::vector<robot::ObservationRow> rows);
+  const std::vector<robot::ObservationRow>& rows() const { return compliance_.effectors(); }
 
   /// The last linearisation's factor serves for the next fits as long as they converge with it
-  /// (frame_loop.hpp): for large bodies, of which it is most of the cost.
+  /// (newton_loop.hpp): for large bodies, of which it is most of the cost.
   void KeepFactor(bool keep);
 
   void SetSites(const std::vector<FitSite>& sites);
@@ -98,7 +98,7 @@ class ForceFitter final : private fem::FrameProblem {
   /// In place of Config::frame_tolerance, for the fits from now on.
   void SetTolerance(double relative) { config_.frame_tolerance = relative; }
   /// Static solves that a fit may try where Newton's steps diverge; at first 8.
-  void LimitRestorations(int most) { most_restorations_ = most; }
+  void LimitContinuationSteps(int most) { most_continuation_steps_ = most; }
   /// Whether fits tell modulus_sensitivity_N, which costs a substitution each; at first they do.
   void TellModulusSensitivity(bool tell) { tell_modulus_sensitivity_ = tell; }
   /// A factor at `state`, where a fit ended, for the fits that begin there. Where there is none,
@@ -156,7 +156,7 @@ class ForceFitter final : private fem::FrameProblem {
 
   Status PrepareExactStep() override;
   Status PrepareChordStep() override { return Status::Ok(); }  // Try has solved for it
-  Status PrepareKeptStep() override;
+  Status PrepareFrozenFactorStep() override;
   double StartError() const override { return start_error_; }
   Status Try(double length, bool last) override;
   double TrialError() const override { return trial_error_; }
@@ -165,7 +165,7 @@ class ForceFitter final : private fem::FrameProblem {
   void Accelerate();
 
   Status RunLoop(bool careful);
-  Status FitWithRestorations();
+  Status FitWithContinuation();
   Status Restore();
   Status StepToEquilibrium(double fraction);
   Status Linearise(const ModelState& state, bool allow_shift);
@@ -189,19 +189,19 @@ class ForceFitter final : private fem::FrameProblem {
   Config config_;
   robot::Compliance compliance_;
   fem::StaticSolver equilibrium_;  ///< for restorations
-  CableElimination elimination_;
+  ActuatorCondensation elimination_;
   std::vector<FitSite> sites_;
-  FittedDirections directions_;
+  ObservableSubspace directions_;
   fem::QpMatrix prior_information_;
   bool keep_factor_ = false;
   bool tell_modulus_sensitivity_ = true;
-  int most_restorations_ = 8;
+  int most_continuation_steps_ = 8;
   double most_push_N_ = 0.0;
   double longest_step_N_ = 0.0;  ///< 0: no limit
   double work_ = 0.0;
   bool counts_work_ = false;
   /// Steps that a new factor would have spared, since the last one was made.
-  double wasted_work_ = 0.0;
+  double factor_age_cost_ = 0.0;
   bool factor_known_ = false;     ///< the linearisation has a factor that may be kept
   bool columns_current_ = false;  ///< the compliance has the columns of the present sites
   double start_error_ = 0.0;
@@ -209,7 +209,7 @@ class ForceFitter final : private fem::FrameProblem {
   ForceFit fit_;
   Frame frame_;
   ModelState start_, trial_, last_good_;
-  SecantMemory secants_;  ///< with the present factor
+  AndersonAccelerator secants_;  ///< with the present factor
   FitVariables from_, step_, correction_;
   ModelState evaluated_;  ///< where linearisation and compliance have the residual of
   double trial_error_ = 0.0;

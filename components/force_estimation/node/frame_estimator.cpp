@@ -67,8 +67,8 @@ class FromMarkers : public FrameEstimator {
   Eigen::Vector3d middle_m_;            ///< of the markers, at rest
   Eigen::VectorXd x_m_;                 ///< [3n] of the last frame
   ModelGapReport last_gap_;
-  GapWatch gap_watch_;
-  DriftWatch drift_{"what carries the markers"};
+  ModelResidualMonitor gap_watch_;
+  ExtrinsicsDriftMonitor drift_{"what carries the markers"};
 };
 
 /// As `palpate estimate` does with recorded images: contacts that are given come before those that
@@ -129,9 +129,9 @@ class FromShape : public FrameEstimator {
   ShapeForceEstimator estimator_;
   FeatureGapMeter gap_;
   ModelGapReport last_gap_;
-  GapWatch gap_watch_;
-  HeldSkin held_skin_;
-  DriftWatch drift_;
+  ModelResidualMonitor gap_watch_;
+  FixedSurfaceRegion held_skin_;
+  ExtrinsicsDriftMonitor drift_;
   double watched_s_ = -kBetweenWatches_s;
 };
 

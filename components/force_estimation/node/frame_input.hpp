@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "components/force_estimation/drift/drift_watch.hpp"
-#include "components/force_estimation/drift/gap_watch.hpp"
+#include "components/force_estimation/drift/extrinsics_drift_monitor.hpp"
 #include "components/force_estimation/drift/model_gap.hpp"
+#include "components/force_estimation/drift/model_residual_monitor.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "components/force_estimation/node/frame_estimator.hpp"
 #include "components/force_estimation/node/frame_input.hpp"
-#include "libs/core/hand_over.hpp"
+#include "libs/core/bounded_queue.hpp"
 
 namespace palpate::force_estimation {
 
@@ -35,8 +35,8 @@ class Worker {
   FrameEstimatorMaker maker_;
   std::function<void()> on_result_;
   std::unique_ptr<FrameEstimator> estimator_;
-  HandOver<FrameInput> frames_;
-  HandOver<FrameResult> results_;
+  BoundedQueue<FrameInput> frames_;
+  BoundedQueue<FrameResult> results_;
   std::thread thread_;
 };
 

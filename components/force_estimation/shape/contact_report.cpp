@@ -20,13 +20,13 @@ constexpr double kQuietShare = 0.5;
 constexpr double kBeyondDoubt = 2.0;
 /// Of the prior's variance: with more left the tangential force counts as not observed.
 constexpr double kToldShare = 0.5;
-Eigen::Matrix3d CovarianceOf(const ShapeFit& fit, std::size_t site) {
+Eigen::Matrix3d CovarianceOf(const ShapeFitter& fit, std::size_t site) {
   const auto row = static_cast<Eigen::Index>(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
 /// With the place, where that is not known.
-Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
+Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
   const ShapeSite& followed = fit.sites()[site];
   if (followed.hidden) return CovarianceOf(fit, site) + followed.place_force_covariance_N2;
   if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
@@ -35,7 +35,7 @@ Eigen::Matrix3d WholeCovariance(const ShapeFit& fit, std::size_t site) {
 
 /// The part of a force's covariance that comes from the depth noise, and so differs from frame to
 /// frame: of the estimator A = C G' S^-1, A N A'.
-Eigen::Matrix3d RandomCovariance(const ShapeFit& fit, std::size_t site) {
+Eigen::Matrix3d RandomCovariance(const ShapeFitter& fit, std::size_t site) {
   const auto row = static_cast<Eigen::Index>(3 * site);
   const Eigen::MatrixXd estimator = fit.fitter().fit().covariance_N2.middleRows<3>(row) *
                                     fit.fitter().Response().transpose() *
@@ -66,31 +66,33 @@ double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covarianc
 }
 
 ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma,
-                             int search_places)
-    : config_(config), force_relative_sigma_(force_relative_sigma), search_places_(search_places) {}
+                             int candidate_locations)
+    : config_(config),
+      force_relative_sigma_(force_relative_sigma),
+      search_places_(candidate_locations) {}
 
 /// Asked at its place: without a force there would be no place to be unsure of. That of a contact
 /// that nobody sees is the best of many.
-double ContactReport::StrengthOf(const ShapeFit& fit, std::size_t site) const {
+double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
   const bool hidden = fit.sites()[site].hidden;
   const double chance =
       hidden ? config_.hidden_significance / search_places_ : config_.significance;
   return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
 }
 
-void ContactReport::Judge(double t_s, bool begins, ShapeFit* fit) const {
+void ContactReport::Judge(double t_s, bool begins, ShapeFitter* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
     const double strength = StrengthOf(*fit, s);
-    const auto evidence = strength > kBeyondDoubt ? SiteBook::Evidence::kBeyondDoubt
-                          : strength > 1.0        ? SiteBook::Evidence::kSignificant
-                                                  : SiteBook::Evidence::kNone;
+    const auto evidence = strength > kBeyondDoubt ? ContactTracks::Evidence::kBeyondDoubt
+                          : strength > 1.0        ? ContactTracks::Evidence::kSignificant
+                                                  : ContactTracks::Evidence::kNone;
     fit->book().Judge(s, evidence, strength < kQuietShare, begins);
     fit->book().filter(s).Update(t_s, fit->ForceAt(s),
                                  kTemporalCorrelation * RandomCovariance(*fit, s));
   }
 }
 
-std::vector<ContactForce> ContactReport::Contacts(const ShapeFit& fit) const {
+std::vector<ContactForce> ContactReport::Contacts(const ShapeFitter& fit) const {
   const int freedom = DegreesOfFreedom(fit);
   const double inflation =
       freedom > 0 ? std::max(1.0, fit.fitter().fit().chi_squared / freedom) : 1.0;
@@ -102,7 +104,7 @@ std::vector<ContactForce> ContactReport::Contacts(const ShapeFit& fit) const {
   return contacts;
 }
 
-Status ContactReport::StatusOf(const ShapeFit& fit, std::size_t site) const {
+Status ContactReport::StatusOf(const ShapeFitter& fit, std::size_t site) const {
   if (fit.sites()[site].hidden) return {StatusCode::kHidden, {}};
   const Eigen::Matrix<double, 3, 2> tangents = Tangents(fit.NormalAt(site));
   const Eigen::Matrix2d left = tangents.transpose() * CovarianceOf(fit, site) * tangents;
@@ -114,7 +116,7 @@ Status ContactReport::StatusOf(const ShapeFit& fit, std::size_t site) const {
 
 /// The force averaged over frames; of its covariance the random part falls with that, what is
 /// constant (bias, model, place) stays.
-ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
+ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
                                       double inflation) const {
   const ShapeSite& followed = fit.sites()[site];
   const bool located = !followed.hidden && site < fit.located().size();
@@ -139,7 +141,7 @@ ContactForce ContactReport::ContactAt(const ShapeFit& fit, std::size_t site,
   return contact;
 }
 
-int DegreesOfFreedom(const ShapeFit& fit) {
+int DegreesOfFreedom(const ShapeFitter& fit) {
   return fit.targets().Count() - static_cast<int>(3 * fit.sites().size());
 }
 

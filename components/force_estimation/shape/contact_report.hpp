@@ -7,7 +7,7 @@
 
 #include "components/force_estimation/force_estimate.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
-#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/shape/shape_fitter.hpp"
 
 namespace palpate::force_estimation {
 
@@ -21,20 +21,20 @@ double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covarianc
 /// What a fit says about its contacts: which act, with what force, how surely.
 class ContactReport {
  public:
-  /// `force_relative_sigma`: error that all forces share. `search_places`: that a hidden contact
-  /// may have been found at.
-  ContactReport(const ShapeConfig& config, double force_relative_sigma, int search_places);
+  /// `force_relative_sigma`: error that all forces share. `candidate_locations`: that a hidden
+  /// contact may have been found at.
+  ContactReport(const ShapeConfig& config, double force_relative_sigma, int candidate_locations);
 
   /// Counts the frames in which each contact's force shows, and averages the forces. `begins`:
   /// there was no frame before in which a contact could have come.
-  void Judge(double t_s, bool begins, ShapeFit* fit) const;
+  void Judge(double t_s, bool begins, ShapeFitter* fit) const;
   /// The contacts that act, and are not quiet just now.
-  std::vector<ContactForce> Contacts(const ShapeFit& fit) const;
+  std::vector<ContactForce> Contacts(const ShapeFitter& fit) const;
 
  private:
-  double StrengthOf(const ShapeFit& fit, std::size_t site) const;
-  Status StatusOf(const ShapeFit& fit, std::size_t site) const;
-  ContactForce ContactAt(const ShapeFit& fit, std::size_t site, double inflation) const;
+  double StrengthOf(const ShapeFitter& fit, std::size_t site) const;
+  Status StatusOf(const ShapeFitter& fit, std::size_t site) const;
+  ContactForce ContactAt(const ShapeFitter& fit, std::size_t site, double inflation) const;
 
   ShapeConfig config_;
   double force_relative_sigma_;
@@ -42,6 +42,6 @@ class ContactReport {
 };
 
 /// Rows of the fit less the force components that were fitted.
-int DegreesOfFreedom(const ShapeFit& fit);
+int DegreesOfFreedom(const ShapeFitter& fit);
 
 }  // namespace palpate::force_estimation

@@ -45,7 +45,7 @@ PlacePrior PriorOf(const ShapeSite& site) {
 
 /// The model errs by a share of the motion that changes little from a feature to the next: one
 /// column for each axis along which it may change.
-Eigen::MatrixXd ModelErrors_m(const ShapeFit& fit, const Eigen::VectorXd& motion_m) {
+Eigen::MatrixXd ModelErrors_m(const ShapeFitter& fit, const Eigen::VectorXd& motion_m) {
   const auto& features = fit.targets().features();
   Eigen::MatrixXd along(motion_m.size(), 3);
   for (Eigen::Index r = 0; r < along.rows(); ++r) {
@@ -61,7 +61,8 @@ Eigen::MatrixXd ModelErrors_m(const ShapeFit& fit, const Eigen::VectorXd& motion
 
 }  // namespace
 
-HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit)
+HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config,
+                               ShapeFitter& fit)
     : config_(config),
       model_(model),
       fit_(fit),
@@ -158,7 +159,7 @@ Status HiddenContacts::MoveTo(const std::vector<HiddenContact>& found, const Sha
   const std::vector<std::size_t> hidden = HiddenSites();
   bool moved = false;
   bool far = false;
-  ShapeFit::Attempt before;
+  ShapeFitter::Attempt before;
   fit_.KeepIn(&before);
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     const Eigen::Vector3d was_m = fit_.sites()[hidden[k]].centre.rest_m;
@@ -222,7 +223,7 @@ Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
     std::fill(row_of_feature_.begin(), row_of_feature_.end(), -1);
     linearisations_ = fit_.linearisations();
   }
-  std::vector<robot::EffectorRow> rows;
+  std::vector<robot::ObservationRow> rows;
   std::vector<int> features;
   for (std::size_t r = 0; r < fit_.targets().features().size(); ++r) {
     const int feature = fit_.targets().features()[r];
@@ -279,7 +280,7 @@ Unexplained HiddenContacts::OfHidden() const {
 /// The fit with these hidden contacts, where it is better than the one before.
 bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
                          const DepthBias& bias, Status* status) {
-  ShapeFit::Attempt before;
+  ShapeFitter::Attempt before;
   fit_.KeepIn(&before);
   fit_.ReplaceHidden(contacts);
   average_.Forget();
@@ -299,7 +300,7 @@ bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const Shape
 
 /// In a frame in which those that are tried have been fitted.
 Status HiddenContacts::Decide(const ShapeFrame& frame, const DepthBias& bias) {
-  const ShapeFit::Attempt before = std::move(*before_);
+  const ShapeFitter::Attempt before = std::move(*before_);
   before_.reset();
   if (fit_.fitter().fit().chi_squared < kBetter * before.chi_squared) return Status::Ok();
   fit_.GoBack(before);

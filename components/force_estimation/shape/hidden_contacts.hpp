@@ -8,7 +8,7 @@
 
 #include "components/force_estimation/shape/hidden_search.hpp"
 #include "components/force_estimation/shape/shape_average.hpp"
-#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/shape/shape_fitter.hpp"
 
 namespace palpate::force_estimation {
 
@@ -19,7 +19,7 @@ namespace palpate::force_estimation {
 class HiddenContacts {
  public:
   /// All must outlive this.
-  HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFit& fit);
+  HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFitter& fit);
 
   /// Patches that the search tries.
   int CandidateCount() const { return search_.CandidateCount(); }
@@ -60,7 +60,7 @@ class HiddenContacts {
 
   ShapeConfig config_;
   robot::RobotModel& model_;
-  ShapeFit& fit_;
+  ShapeFitter& fit_;
   HiddenSearch search_;
   int frames_since_search_ = 0;
   int pause_;  ///< between searches, frames
@@ -70,10 +70,10 @@ class HiddenContacts {
   bool are_new_ = false;            ///< the hidden sites: nothing was known before
   bool left_over_ = false;          ///< by the last frame: what needs new responses
   int linearisations_ = -1;         ///< that the responses belong to
-  RowResponses responses_;
+  ObservationJacobian responses_;
   std::vector<int> row_of_feature_;  ///< [features] of responses_; -1: none
   /// What there was before the hidden contacts that are still being tried.
-  std::optional<ShapeFit::Attempt> before_;
+  std::optional<ShapeFitter::Attempt> before_;
 };
 
 }  // namespace palpate::force_estimation

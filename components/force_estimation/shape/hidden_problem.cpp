@@ -20,7 +20,7 @@ constexpr int kFrictionRounds = 2;
 
 }  // namespace
 
-HiddenProblem::HiddenProblem(const SearchPlaces& places, const RowResponses& responses,
+HiddenProblem::HiddenProblem(const CandidateLocations& places, const ObservationJacobian& responses,
                              std::vector<int> row, const Eigen::VectorXd& scale_1_m,
                              const Eigen::VectorXd& residual_m)
     : places_(&places),

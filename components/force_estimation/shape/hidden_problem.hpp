@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/force_estimation/shape/row_responses.hpp"
-#include "components/force_estimation/shape/search_places.hpp"
+#include "components/force_estimation/shape/candidate_locations.hpp"
+#include "components/force_estimation/shape/observation_jacobian.hpp"
 
 namespace palpate::force_estimation {
 
@@ -36,8 +36,9 @@ class HiddenProblem {
  public:
   /// `residual_m` [m] of the rows `row` of `responses`, and 1 / sigma of each. Places and responses
   /// must outlive the problem and its copies.
-  HiddenProblem(const SearchPlaces& places, const RowResponses& responses, std::vector<int> row,
-                const Eigen::VectorXd& scale_1_m, const Eigen::VectorXd& residual_m);
+  HiddenProblem(const CandidateLocations& places, const ObservationJacobian& responses,
+                std::vector<int> row, const Eigen::VectorXd& scale_1_m,
+                const Eigen::VectorXd& residual_m);
 
   const Eigen::VectorXd& residual() const { return residual_; }
 
@@ -57,8 +58,8 @@ class HiddenProblem {
   PlaceEquations EquationsAt(int place) const { return EquationsAt(std::vector{place}).front(); }
 
  private:
-  const SearchPlaces* places_;
-  const RowResponses* responses_;
+  const CandidateLocations* places_;
+  const ObservationJacobian* responses_;
   std::vector<int> row_;
   Eigen::MatrixXd whitening_;  ///< [m x m] from metres
   Eigen::VectorXd residual_;

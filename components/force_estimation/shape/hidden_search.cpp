@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "components/force_estimation/shape/candidate_locations.hpp"
+#include "components/force_estimation/shape/contact_location_posterior.hpp"
 #include "components/force_estimation/shape/false_alarm.hpp"
 #include "components/force_estimation/shape/hidden_problem.hpp"
-#include "components/force_estimation/shape/place_posterior.hpp"
-#include "components/force_estimation/shape/search_places.hpp"
 #include "libs/core/check.hpp"
 
 namespace palpate::force_estimation {
@@ -43,7 +43,7 @@ struct Tests {
 };
 
 /// `pushes_m`: what unit forces along the candidates' inward normals do to all rows.
-Tests MakeTests(const HiddenProblem& problem, const SearchPlaces& places,
+Tests MakeTests(const HiddenProblem& problem, const CandidateLocations& places,
                 const Eigen::MatrixXd& pushes_m, const std::vector<bool>& usable) {
   const Eigen::MatrixXd along = problem.Whitened(pushes_m);
   const Eigen::RowVectorXd size = along.colwise().norm();
@@ -96,21 +96,22 @@ struct HiddenSearch::Parts {
       : places(robot_model, std::max(config.contact_radius_m, kSmallestPatch_m)) {}
 
   HiddenProblem ProblemOf(const Unexplained& data, const Eigen::VectorXd& weight);
-  void PushAt(const RowResponses& responses);
+  void PushAt(const ObservationJacobian& responses);
   std::vector<bool> Usable(const std::vector<Eigen::Vector3d>& taken, double taken_radius_m) const;
   bool Stands(const HiddenProblem& problem, const std::vector<bool>& usable, double significance);
-  HiddenProblem Without(const HiddenProblem& problem, const PlacePosterior& contact) const;
-  std::vector<PlacePosterior> FindPair(const HiddenProblem& problem,
-                                       const std::vector<bool>& usable, int known) const;
+  HiddenProblem Without(const HiddenProblem& problem,
+                        const ContactLocationPosterior& contact) const;
+  std::vector<ContactLocationPosterior> FindPair(const HiddenProblem& problem,
+                                                 const std::vector<bool>& usable, int known) const;
   PlaceFit FitAt(const HiddenProblem& problem, int place) const;
-  void Report(const Unexplained& data, const std::vector<PlacePosterior>& contacts);
+  void Report(const Unexplained& data, const std::vector<ContactLocationPosterior>& contacts);
 
-  SearchPlaces places;
+  CandidateLocations places;
   FalseAlarm false_alarm;
   Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape that was last looked at
   Eigen::MatrixXd pushes_m;  ///< [rows x candidates] of unit forces along the inward normals
-  const RowResponses* pushed = nullptr;  ///< whose rows these are,
-  int pushed_version = 0;                ///< and as they were then
+  const ObservationJacobian* pushed = nullptr;  ///< whose rows these are,
+  int pushed_version = 0;                       ///< and as they were then
   std::vector<HiddenContact> found;
 };
 
@@ -131,7 +132,7 @@ HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
 }
 
 /// The candidates serve every search about one shape.
-void HiddenSearch::Parts::PushAt(const RowResponses& responses) {
+void HiddenSearch::Parts::PushAt(const ObservationJacobian& responses) {
   if (pushed == &responses && pushed_version == responses.version()) return;
   pushed = &responses;
   pushed_version = responses.version();
@@ -165,7 +166,7 @@ bool HiddenSearch::Parts::Stands(const HiddenProblem& problem, const std::vector
 /// The problem when there is `contact` too, of any size, with friction, and perhaps a little
 /// beside.
 HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
-                                           const PlacePosterior& contact) const {
+                                           const ContactLocationPosterior& contact) const {
   const Eigen::Vector3d normal = normals.col(contact.place);
   const auto push_at = [&](const HiddenProblem& any, int place) -> Eigen::VectorXd {
     return -any.Place(place) * normals.col(place);
@@ -196,15 +197,15 @@ PlaceFit HiddenSearch::Parts::FitAt(const HiddenProblem& problem, int place) con
 }
 
 /// Starts from the best pair of candidates, and places each in turn while the other is free.
-std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
-                                                          const std::vector<bool>& usable,
-                                                          int known) const {
+std::vector<ContactLocationPosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
+                                                                    const std::vector<bool>& usable,
+                                                                    int known) const {
   const auto [first, second] = BestPair(MakeTests(problem, places, pushes_m, usable));
   if (first < 0) return {};
-  std::vector<PlacePosterior> pair(2);
+  std::vector<ContactLocationPosterior> pair(2);
   pair[0].place = places.PlaceOfCandidate(first);
   pair[1].place = places.PlaceOfCandidate(second);
-  for (PlacePosterior& contact : pair) contact.fit = FitAt(problem, contact.place);
+  for (ContactLocationPosterior& contact : pair) contact.fit = FitAt(problem, contact.place);
   for (int round = 0; round < kPairRounds; ++round) {
     for (size_t k = 0; k < 2; ++k) {
       pair[k] = Locate(Without(problem, pair[1 - k]), places, normals, usable,
@@ -217,10 +218,10 @@ std::vector<PlacePosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& p
 
 /// Gains count with the weights that were given, the other contacts' forces refitted.
 void HiddenSearch::Parts::Report(const Unexplained& data,
-                                 const std::vector<PlacePosterior>& contacts) {
+                                 const std::vector<ContactLocationPosterior>& contacts) {
   const HiddenProblem given = ProblemOf(data, data.weight);
   for (size_t k = 0; k < contacts.size(); ++k) {
-    const PlacePosterior& contact = contacts[k];
+    const ContactLocationPosterior& contact = contacts[k];
     HiddenProblem rest = given;
     for (size_t j = 0; j < contacts.size(); ++j) {
       const int other = contacts[j].place;
@@ -279,12 +280,13 @@ const std::vector<HiddenContact>& HiddenSearch::Find(const Unexplained& data, in
   if (!parts.Stands(parts.ProblemOf(data, data.weight), usable, significance)) return parts.found;
   const auto known = static_cast<int>(data.known.cols());
   const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
-  const PlacePosterior single = Locate(problem, parts.places, parts.normals, usable,
-                                       {.friction = kFriction, .unknowns = known + kUnknowns});
+  const ContactLocationPosterior single =
+      Locate(problem, parts.places, parts.normals, usable,
+             {.friction = kFriction, .unknowns = known + kUnknowns});
   if (single.place < 0) return parts.found;
-  std::vector<PlacePosterior> contacts = {single};
+  std::vector<ContactLocationPosterior> contacts = {single};
   if (most == 2 && parts.Stands(parts.Without(problem, single), usable, significance)) {
-    const std::vector<PlacePosterior> pair = parts.FindPair(problem, usable, known);
+    const std::vector<ContactLocationPosterior> pair = parts.FindPair(problem, usable, known);
     if (!pair.empty()) contacts = pair;
   }
   parts.Report(data, contacts);
@@ -302,7 +304,7 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
   const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
   const auto known = static_cast<int>(data.known.cols());
   const int unknowns = known + static_cast<int>(before.size()) * kUnknowns;
-  std::vector<PlacePosterior> contacts(before.size());
+  std::vector<ContactLocationPosterior> contacts(before.size());
   for (size_t k = 0; k < contacts.size(); ++k) {
     contacts[k].place = parts.places.Nearest(before[k].mean_m);
     contacts[k].fit = parts.FitAt(problem, contacts[k].place);

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "components/force_estimation/shape/place_posterior.hpp"
-#include "components/force_estimation/shape/row_responses.hpp"
+#include "components/force_estimation/shape/contact_location_posterior.hpp"
+#include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/skin/surface_features.hpp"
@@ -28,8 +28,8 @@ struct Unexplained {
   Eigen::VectorXd left_m = {};
   /// [m x q] Errors that the rows may have together, each to a standard normal factor.
   Eigen::MatrixXd errors_m = {};
-  const RowResponses* responses = nullptr;  ///< about the shape that was last looked at
-  std::vector<int> row = {};                ///< [m] which of the rows of `responses` each is
+  const ObservationJacobian* responses = nullptr;  ///< about the shape that was last looked at
+  std::vector<int> row = {};                       ///< [m] which of the rows of `responses` each is
 };
 
 /// Where the residual says that something pushes.
@@ -53,7 +53,8 @@ struct HiddenContact {
 ///
 /// Whether there is one: the best of all candidates against the chance that noise does as well
 /// (false_alarm.hpp). Where it is: the posterior over all places
-/// (place_posterior.hpp), with known forces refitted along. All to first order about the state.
+/// (contact_location_posterior.hpp), with known forces refitted along. All to first order about the
+/// state.
 class HiddenSearch {
  public:
   /// `model` must outlive the search. Of `config` contact_radius_m counts (1 mm at least). Throws

@@ -14,7 +14,7 @@ constexpr double kProbe_m = 1.5e-3;
 /// Contacts that nobody sees stay where the search has them, which knows all places.
 constexpr double kHeld_m = 1e-5;
 
-void AddForce(const fem::NodeWeights& weights, const Eigen::Vector3d& force_N,
+void AddForce(const fem::InterpolationWeights& weights, const Eigen::Vector3d& force_N,
               Eigen::Ref<Eigen::VectorXd> nodal_force_N) {
   for (size_t k = 0; k < weights.nodes.size(); ++k) {
     nodal_force_N.segment<3>(3 * weights.nodes[k]) += weights.weights[k] * force_N;

@@ -12,7 +12,7 @@
 #include "components/force_estimation/shape/contact_report.hpp"
 #include "components/force_estimation/shape/depth_bias.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
-#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/shape/shape_fitter.hpp"
 #include "components/force_estimation/statistics.hpp"
 #include "libs/core/check.hpp"
 
@@ -103,12 +103,12 @@ class ShapeForceEstimator::Impl {
   robot::RobotModel& model_;
   ShapeConfig shape_;
   DepthBias bias_;
-  ShapeFit fit_;
+  ShapeFitter fit_;
   HiddenContacts hidden_;
   ContactReport report_;
   fem::StaticState free_state_;
-  ShapeFit::Attempt before_;  ///< the frame
-  std::uint32_t epoch_ = 0;   ///< of the last frame
+  ShapeFitter::Attempt before_;  ///< the frame
+  std::uint32_t epoch_ = 0;      ///< of the last frame
   double last_t_s_ = kUnknown;
   double period_s_ = std::numeric_limits<double>::infinity();  ///< between the last two frames
   int frames_to_begin_ = kFramesToBegin;                       ///< left
@@ -229,7 +229,7 @@ Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
 Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status) {
   if (status.ok()) status = FindInRounds(frame);
   if (status.ok() && fit_.Misfit() < kGoodMisfit) return status;
-  ShapeFit::Attempt with_seen;
+  ShapeFitter::Attempt with_seen;
   const double misfit = status.ok() ? fit_.Misfit() : std::numeric_limits<double>::infinity();
   fit_.KeepIn(&with_seen);
   fit_.GoBackWithoutContacts(before_);
@@ -245,7 +245,7 @@ Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status
 /// Until the misfit falls no more. Where it is good before and after, noise says which is better,
 /// and the later round has seen the contacts about the shape that was found.
 Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
-  ShapeFit::Attempt best;
+  ShapeFitter::Attempt best;
   for (int round = 0; round < kRoundsToBegin; ++round) {
     const double misfit = fit_.Misfit();
     fit_.KeepIn(&best);
@@ -263,7 +263,7 @@ Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
 Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
   Status status = Status::Ok();
   if (fit_.SeeAgain(frame)) status = fit_.MatchAndFitFromFar(frame, bias_);
-  if (status.ok() && fit_.TurnOverPulls()) status = fit_.MatchAndFitFromFar(frame, bias_);
+  if (status.ok() && fit_.FlipAdhesiveContacts()) status = fit_.MatchAndFitFromFar(frame, bias_);
   if (status.ok()) status = hidden_.Find(frame, bias_);
   if (status.ok()) status = fit_.Locate(frame, bias_);
   return status;

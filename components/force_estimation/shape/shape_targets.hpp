@@ -32,7 +32,7 @@ class ShapeTargets {
   bool Reweight(const Eigen::VectorXd& residual_m);
 
   int Count() const { return targets_.rows; }
-  const std::vector<robot::EffectorRow>& rows() const { return rows_; }
+  const std::vector<robot::ObservationRow>& rows() const { return rows_; }
   const RowTargets& targets() const { return targets_; }
   const std::vector<int>& features() const { return features_; }  ///< [rows] feature of each
   const Eigen::VectorXd& sigma_m() const { return sigma_m_; }     ///< [rows] before robust weights
@@ -42,7 +42,7 @@ class ShapeTargets {
  private:
   ShapeConfig config_;
   double contact_weight_;
-  std::vector<robot::EffectorRow> rows_;
+  std::vector<robot::ObservationRow> rows_;
   std::vector<int> features_;
   RowTargets targets_;
   Eigen::VectorXd sigma_m_;

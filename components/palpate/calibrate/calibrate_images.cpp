@@ -8,7 +8,7 @@
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "components/palpate/calibrate/calibrate_ways.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_moments.hpp"
@@ -45,7 +45,7 @@ Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
 std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageMoment>& moments,
                                     const Eigen::Isometry3d& T_robot_camera,
                                     robot::RobotModel* model) {
-  const calibration::KeptModel kept(*model);
+  const calibration::ModelSnapshot kept(*model);
   std::vector<ExpectedNodes> shapes;
   for (const ImageMoment& moment : moments) {
     model->SetGravity(moment.frame.gravity_m_s2);
@@ -127,7 +127,7 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   clouds.request = {.drive_offset_sigma_m = options.drive_offset_sigma_m,
                     .drive_gains = options.drive_gains,
                     .moduli = materials};
-  const calibration::KeptModel kept(*model);
+  const calibration::ModelSnapshot kept(*model);
   // A rough pose misplaces the predicted surface; the robot's colour, where it is told, does not.
   const bool by_color = !perception.robot_color_rgb.empty();
   const Pass rough = Run(moments, perception,

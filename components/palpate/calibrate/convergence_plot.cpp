@@ -10,8 +10,8 @@
 #include <string>
 
 #include "components/calibration/joint/joint_request.hpp"
-#include "components/calibration/joint/kept_model.hpp"
-#include "components/calibration/pose/algorithm1.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
+#include "components/calibration/pose/alternating_pose_calibration.hpp"
 #include "components/view/plot/time_plot.hpp"
 #include "libs/core/error.hpp"
 
@@ -54,7 +54,7 @@ void PlotConvergence(const std::vector<CalibrationFrame>& frames, robot::RobotMo
   }
   CalibrationFrame frame = *chosen;
   frame.cables.assign(frame.cables.size(), {});
-  const calibration::KeptModel kept(*model);
+  const calibration::ModelSnapshot kept(*model);
   model->SetGravity(frame.gravity_m_s2);
   const calibration::PoseAndInputs paper = calibration::RunAlgorithm1(*model, frame.markers);
   const calibration::JointCalibration joint = calibration::CalibrateFrames(

@@ -55,9 +55,9 @@ void EstimateRun::Say(const std::string& note) {
   fmt::print(stderr, "palpate estimate: {}\n", note);
 }
 
-ShapeWay& EstimateRun::Shape() {
+ShapePipeline& EstimateRun::Shape() {
   if (!shape_) {
-    const ShapeWay::Inputs inputs{
+    const ShapePipeline::Inputs inputs{
         .experiment = experiment_,
         .model = &model_,
         .cable_input = ParseCableInput(options_.cable_input),
@@ -67,7 +67,8 @@ ShapeWay& EstimateRun::Shape() {
       if (site.direction.isZero(0.0)) continue;
       Say("the direction of contact '" + site.name + "' counts for markers only");
     }
-    shape_ = std::make_unique<ShapeWay>(inputs, MakeShapeSenses(settings_, &model_, calibration_));
+    shape_ =
+        std::make_unique<ShapePipeline>(inputs, MakeShapeSenses(settings_, &model_, calibration_));
   }
   return *shape_;
 }
@@ -97,8 +98,8 @@ void EstimateRun::Estimate(const PlannedRecording& planned) {
   if (planned.from == EstimateFrom::kShape) {
     Shape().Estimate(recording, take);
   } else {
-    MarkerWay(settings_.forces, ParseCableInput(options_.cable_input), experiment_, &model_,
-              robot::RelativeModulusError(calibration_))
+    MarkerPipeline(settings_.forces, ParseCableInput(options_.cable_input), experiment_, &model_,
+                   robot::RelativeModulusError(calibration_))
         .Estimate(recording, take);
   }
   nlohmann::ordered_json json = summary.ToJson();

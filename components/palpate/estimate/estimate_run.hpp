@@ -13,8 +13,8 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/estimate/force_summary.hpp"
 #include "components/palpate/estimate/forces_table.hpp"
-#include "components/palpate/estimate/marker_way.hpp"
-#include "components/palpate/estimate/shape_way.hpp"
+#include "components/palpate/estimate/marker_pipeline.hpp"
+#include "components/palpate/estimate/shape_pipeline.hpp"
 
 namespace palpate::command {
 
@@ -35,15 +35,15 @@ class EstimateRun {
   int Finish();
 
  private:
-  ShapeWay& Shape();
+  ShapePipeline& Shape();
   void Say(const std::string& note);
 
   const EstimateOptions& options_;
   const EstimateSettings& settings_;
   const experiment::Experiment& experiment_;
   robot::RobotModel& model_;
-  robot::CalibrationFile calibration_;  ///< empty where none is given
-  std::unique_ptr<ShapeWay> shape_;     ///< from the first need on
+  robot::CalibrationFile calibration_;    ///< empty where none is given
+  std::unique_ptr<ShapePipeline> shape_;  ///< from the first need on
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   int with_result_ = 0;

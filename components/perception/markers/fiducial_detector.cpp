@@ -9,7 +9,7 @@
 #include <string>
 
 #include "components/perception/markers/color_spots.hpp"
-#include "components/perception/markers/spot_judge.hpp"
+#include "components/perception/markers/fiducial_classifier.hpp"
 #include "components/perception/registered_frame.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -59,7 +59,7 @@ struct FiducialDetector::Parts {
   FiducialConfig config;
   ColorSpots spots;
   std::optional<Registration> registration;
-  std::optional<SpotJudge> judge;
+  std::optional<FiducialClassifier> judge;
   RegisteredFrame registered;
   FiducialFrame found;
 };

@@ -10,7 +10,7 @@
 
 #include "components/perception/model/background_planes.hpp"
 #include "components/perception/model/cloud_builder.hpp"
-#include "components/perception/model/pixel_judge.hpp"
+#include "components/perception/model/pixel_classifier.hpp"
 #include "components/perception/model/prediction_view.hpp"
 #include "components/perception/noise_law.hpp"
 #include "components/perception/registered_frame.hpp"
@@ -73,7 +73,7 @@ struct ModelSegmenter::Parts {
   PredictionView prediction;
   BackgroundPlanes background;
   BackgroundPlanes::Tolerance tolerance;
-  PixelJudge judge;
+  PixelClassifier judge;
   PixelRegion region;
   EvidenceFilter filter;
   Patches patches;

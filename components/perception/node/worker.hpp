@@ -12,7 +12,7 @@
 #include "components/perception/node/frame_pairing.hpp"
 #include "components/perception/node/frame_perception.hpp"
 #include "components/perception/node/prediction_history.hpp"
-#include "libs/core/hand_over.hpp"
+#include "libs/core/bounded_queue.hpp"
 
 namespace palpate::perception {
 
@@ -52,8 +52,8 @@ class Worker {
   FramePerceptionMaker maker_;
   std::function<void()> on_result_;
   std::unique_ptr<FramePerception> perception_;
-  HandOver<PerceptionJob> jobs_{1};
-  HandOver<PerceptionResult> results_{1};
+  BoundedQueue<PerceptionJob> jobs_{1};
+  BoundedQueue<PerceptionResult> results_{1};
   bool busy_ = false;  ///< between Start() and TakeResult()
   std::thread thread_;
 };

@@ -16,8 +16,8 @@ FactorStore::FactorStore(const FrontTree& tree, int size)
   values_ = AlignedBuffer(end + dense::kTile * dense::kTile);
 }
 
-void FactorStore::MakeRoomForRounded() {
-  if (!has_room_for_rounded()) rounded_ = AlignedBufferOf<float>(values_.size());
+void FactorStore::MakeRoomForSingle() {
+  if (!has_room_for_single()) rounded_ = AlignedBufferOf<float>(values_.size());
 }
 
 }  // namespace palpate::fem::internal

@@ -18,13 +18,13 @@ class FactorStore {
   FactorStore(const FrontTree& tree, int size);
 
   /// Room for the same numbers in single precision, too.
-  void MakeRoomForRounded();
-  bool has_room_for_rounded() const { return rounded_.size() > 0; }
+  void MakeRoomForSingle();
+  bool has_room_for_single() const { return rounded_.size() > 0; }
 
   dense::FactorPanel Panel(int front) {
     return {values_.data() + offset_[static_cast<size_t>(front)], PivotsOf(front), BelowOf(front)};
   }
-  dense::RoundedPanel Rounded(int front) {
+  dense::SinglePrecisionPanel Rounded(int front) {
     return {rounded_.data() + offset_[static_cast<size_t>(front)], PivotsOf(front), BelowOf(front)};
   }
   /// [size] Reciprocals of the factor's diagonal.

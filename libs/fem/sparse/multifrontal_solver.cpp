@@ -58,7 +58,7 @@ class MultifrontalSolver final : public SparseSolver {
       for (const int f : schedule_.together) FactorFrontTogether(f, values.data(), thread);
     });
     has_factor_ = positive_.load(std::memory_order_relaxed);
-    has_rounded_ = has_factor_ && factor_.has_room_for_rounded();
+    has_single_ = has_factor_ && factor_.has_room_for_single();
     if (has_factor_) return Status::Ok();
     const bool finite =
         std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -72,16 +72,16 @@ class MultifrontalSolver final : public SparseSolver {
     substitution_.Solve(columns, false);
   }
 
-  void KeepRounded() override {
-    if (factor_.has_room_for_rounded()) return;
-    factor_.MakeRoomForRounded();
-    has_rounded_ = false;
+  void KeepSinglePrecision() override {
+    if (factor_.has_room_for_single()) return;
+    factor_.MakeRoomForSingle();
+    has_single_ = false;
   }
 
-  void SolveRounded(Eigen::Ref<Eigen::MatrixXd> columns) override {
+  void SolveSingle(Eigen::Ref<Eigen::MatrixXd> columns) override {
     PALPATE_CHECK(has_factor_);
     PALPATE_CHECK(columns.rows() == size_, columns.rows(), size_);
-    substitution_.Solve(columns, has_rounded_);
+    substitution_.Solve(columns, has_single_);
   }
 
   std::string Name() const override {
@@ -146,7 +146,7 @@ class MultifrontalSolver final : public SparseSolver {
   internal::AlignedBuffer updates_;
   std::atomic<bool> positive_{false};
   bool has_factor_ = false;
-  bool has_rounded_ = false;
+  bool has_single_ = false;
 };
 
 /// Columns of the panel: what the matrix and the children have in them.
@@ -209,8 +209,8 @@ void MultifrontalSolver::FactorFront(int f, const double* values, internal::Alig
 
 void MultifrontalSolver::Store(int f, const Panel& panel, int tile_begin, int tile_end) {
   kernels_.store(panel, factor_.Panel(f), tile_begin, tile_end);
-  if (factor_.has_room_for_rounded()) {
-    kernels_.store_rounded(panel, factor_.Rounded(f), tile_begin, tile_end);
+  if (factor_.has_room_for_single()) {
+    kernels_.store_single(panel, factor_.Rounded(f), tile_begin, tile_end);
   }
 }
 

@@ -46,11 +46,11 @@ class SparseSolver {
 
   /// From the next factorisation on the factor is kept in single precision, too, where the solver
   /// can: half as much again to store, and to hold.
-  virtual void KeepRounded() {}
+  virtual void KeepSinglePrecision() {}
   /// Solve by the rounded factor where there is one: with a relative error of some 1e-7 times the
   /// condition, for steps that the next residual corrects. Reads half the memory, which is what the
   /// time of few columns goes with.
-  virtual void SolveRounded(Eigen::Ref<Eigen::MatrixXd> columns) { Solve(columns); }
+  virtual void SolveSingle(Eigen::Ref<Eigen::MatrixXd> columns) { Solve(columns); }
 
   virtual std::string Name() const = 0;
   /// Nonzeros of the factor and the bytes it holds.

@@ -55,7 +55,7 @@ void CableTerms::FillTurnForces(Eigen::Ref<Eigen::MatrixXd> columns) {
 /// The row over free nodes of a function of the path's points, from its derivative [3 x points].
 void CableTerms::FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow* row) const {
   row->entries.clear();
-  const std::vector<fem::NodeWeights>& eyelets = point_.model().cable(cable).eyelets();
+  const std::vector<fem::InterpolationWeights>& eyelets = point_.model().cable(cable).eyelets();
   for (size_t e = 0; e < eyelets.size(); ++e) {
     for (size_t k = 0; k < eyelets[e].nodes.size(); ++k) {
       const int free_node = point_.model().linearisation().matrix().FreeIndex(eyelets[e].nodes[k]);

@@ -100,7 +100,7 @@ const Eigen::MatrixXd& EquilibriumPoint::forces_per_mu_m2() const {
 
 void EquilibriumPoint::PathMotion(int cable, const Eigen::VectorXd& nodal_m,
                                   Eigen::Matrix3Xd* motion_m) const {
-  const std::vector<fem::NodeWeights>& eyelets = model_.cable(cable).eyelets();
+  const std::vector<fem::InterpolationWeights>& eyelets = model_.cable(cable).eyelets();
   motion_m->resize(3, static_cast<Eigen::Index>(eyelets.size()) + 1);
   motion_m->col(0).setZero();
   for (size_t e = 0; e < eyelets.size(); ++e) {
@@ -120,7 +120,7 @@ void EquilibriumPoint::MovePath(int cable, const Eigen::Matrix3Xd& motion_m,
 void EquilibriumPoint::PullPath(int cable, double tension_N, const Eigen::Matrix3Xd& force,
                                 ParameterColumn* column) const {
   if (tension_N == 0.0) return;
-  const std::vector<fem::NodeWeights>& eyelets = model_.cable(cable).eyelets();
+  const std::vector<fem::InterpolationWeights>& eyelets = model_.cable(cable).eyelets();
   for (size_t e = 0; e < eyelets.size(); ++e) {
     column->AddForce(eyelets[e], tension_N * force.col(static_cast<Eigen::Index>(e) + 1));
   }

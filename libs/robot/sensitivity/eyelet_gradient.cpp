@@ -95,8 +95,9 @@ Expansion WithinCell(const fem::TetMesh& mesh, const fem::BodyPoint& point) {
 /// Derivative of PointLocator::Embed(point_m).weights along `direction`: with xi where the shape
 /// functions N (gradients G, J = X G') are expanded and s = J^-1 (p - X N),
 ///   w = N + G' s,  dw = dG' s + G' J^-1 (dp - dJ s).
-fem::NodeWeights PointWeightsAlong(const fem::PointLocator& locator, const Eigen::Vector3d& point_m,
-                                   const Eigen::Vector3d& direction) {
+fem::InterpolationWeights PointWeightsAlong(const fem::PointLocator& locator,
+                                            const Eigen::Vector3d& point_m,
+                                            const Eigen::Vector3d& direction) {
   const fem::TetMesh& mesh = locator.mesh();
   const fem::BodyPoint point = locator.Embed(point_m);
   Eigen::Matrix3Xd X(3, mesh.cells.rows());
@@ -115,7 +116,7 @@ fem::NodeWeights PointWeightsAlong(const fem::PointLocator& locator, const Eigen
   const Eigen::VectorXd along =
       G_along.transpose() * s +
       G.transpose() * (inverse * (direction - X * (G_along.transpose() * s)));
-  fem::NodeWeights weights;
+  fem::InterpolationWeights weights;
   for (Eigen::Index a = 0; a < X.cols(); ++a) {
     weights.nodes.push_back(mesh.cells(a, point.cell));
     weights.weights.push_back(along[a]);
@@ -125,14 +126,14 @@ fem::NodeWeights PointWeightsAlong(const fem::PointLocator& locator, const Eigen
 
 }  // namespace
 
-fem::NodeWeights EyeletWeightsAlong(const fem::PointLocator& locator,
-                                    const Eigen::Vector3d& centre_m, double radius_m,
-                                    const Eigen::Vector3d& direction) {
+fem::InterpolationWeights EyeletWeightsAlong(const fem::PointLocator& locator,
+                                             const Eigen::Vector3d& centre_m, double radius_m,
+                                             const Eigen::Vector3d& direction) {
   if (radius_m == 0.0) {
     return fem::Combine({PointWeightsAlong(locator, centre_m, direction)}, {1.0});
   }
   // The rule of PointLocator::EmbedBall: the centre and the corners of an icosahedron.
-  std::vector<fem::NodeWeights> parts{PointWeightsAlong(locator, centre_m, direction)};
+  std::vector<fem::InterpolationWeights> parts{PointWeightsAlong(locator, centre_m, direction)};
   std::vector<double> factors{4.0 / 25.0};
   const double unit_m = radius_m * std::sqrt(5.0 / 7.0) / std::hypot(1.0, std::numbers::phi);
   for (int axis = 0; axis < 3; ++axis) {

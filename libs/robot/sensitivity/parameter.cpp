@@ -21,7 +21,8 @@ Eigen::VectorXd& ParameterColumn::distributed_force_N() {
   return distributed_force_;
 }
 
-void ParameterColumn::AddForce(const fem::NodeWeights& point, const Eigen::Vector3d& force_N) {
+void ParameterColumn::AddForce(const fem::InterpolationWeights& point,
+                               const Eigen::Vector3d& force_N) {
   for (size_t k = 0; k < point.nodes.size(); ++k) {
     point_forces_.emplace_back(point.nodes[k], point.weights[k] * force_N);
   }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 
 namespace palpate::robot {
 
@@ -25,7 +25,7 @@ class ParameterColumn {
   /// not used. What loads the body as a whole [3n]; 0 at first.
   Eigen::VectorXd& distributed_force_N();
   /// Adds a force on a point of the body.
-  void AddForce(const fem::NodeWeights& point, const Eigen::Vector3d& force_N);
+  void AddForce(const fem::InterpolationWeights& point, const Eigen::Vector3d& force_N);
   /// dx/dp of the held directions [3n]; 0 at first. Entries of free directions stay 0.
   Eigen::VectorXd& held_motion_m();
   /// Adds `factor` times everything that another one changes.

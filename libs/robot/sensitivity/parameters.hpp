@@ -75,7 +75,7 @@ ParameterPtr PullPointMove(int cable, const Eigen::Vector3d& direction,
                            CableZero zero = CableZero::kOfChangedShape);
 /// Distance, m, by which an eyelet (0: next to the drive) moves through the undeformed body along
 /// `direction`. `weights_along`: the derivative of its weights (eyelet_gradient.hpp).
-ParameterPtr EyeletMove(int cable, int eyelet, fem::NodeWeights weights_along,
+ParameterPtr EyeletMove(int cable, int eyelet, fem::InterpolationWeights weights_along,
                         CableZero zero = CableZero::kOfChangedShape);
 
 /// Angle, rad, by which the base turns about `axis` (unit) through `pivot_m`: the held nodes are
@@ -104,7 +104,7 @@ ParameterPtr RestShapeMode(Eigen::VectorXd mode_m, CableZero zero, MassRule mass
 ParameterPtr GeometryScale(const Eigen::Vector3d& centre_m, CableZero zero, MassRule mass);
 
 /// Dead load, N, along `direction` (unit) on a point or patch of the body.
-ParameterPtr ExternalForce(fem::NodeWeights weights, const Eigen::Vector3d& direction);
+ParameterPtr ExternalForce(fem::InterpolationWeights weights, const Eigen::Vector3d& direction);
 /// Factor on dead nodal forces [3n].
 ParameterPtr NodalForce(Eigen::VectorXd force_N);
 

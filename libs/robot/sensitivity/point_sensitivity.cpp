@@ -7,15 +7,16 @@
 
 namespace palpate::robot {
 
-PointSensitivity::PointSensitivity(RobotModel& model, std::vector<EffectorRow> rows)
+PointSensitivity::PointSensitivity(RobotModel& model, std::vector<ObservationRow> rows)
     : model_(model), point_(model), cables_(point_), nodal_(model.elastic_body().rest_m().size()) {
   SetRows(std::move(rows));
 }
 
-PointSensitivity::PointSensitivity(RobotModel& model, const std::vector<fem::NodeWeights>& points)
+PointSensitivity::PointSensitivity(RobotModel& model,
+                                   const std::vector<fem::InterpolationWeights>& points)
     : PointSensitivity(model, RowsOfPoints(points)) {}
 
-void PointSensitivity::SetRows(std::vector<EffectorRow> rows) {
+void PointSensitivity::SetRows(std::vector<ObservationRow> rows) {
   observed_ = std::move(rows);
   rows_ = model_.CableCount() + std::ssize(observed_);
 }
@@ -65,7 +66,7 @@ void PointSensitivity::FillRows() {
   columns_.leftCols(count).setZero();
   Eigen::Index row = 0;
   for (const NodalRow& length : cables_.lengths()) length.AddTo(columns_.col(row++));
-  for (const EffectorRow& observed : observed_) {
+  for (const ObservationRow& observed : observed_) {
     for (size_t k = 0; k < observed.nodes.size(); ++k) {
       const int free_node = matrix.FreeIndex(observed.nodes[k]);
       if (free_node >= 0) columns_.col(row).segment<3>(3 * free_node) += observed.coefficients[k];

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libs/core/status.hpp"
-#include "libs/fem/node_weights.hpp"
-#include "libs/robot/effector_row.hpp"
+#include "libs/fem/interpolation_weights.hpp"
+#include "libs/robot/observation_row.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/cable_terms.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
@@ -28,12 +28,12 @@ namespace palpate::robot {
 class PointSensitivity {
  public:
   /// `model` must outlive it and keep its mesh.
-  PointSensitivity(RobotModel& model, std::vector<EffectorRow> rows);
+  PointSensitivity(RobotModel& model, std::vector<ObservationRow> rows);
   /// Of x, y and z of each point.
-  PointSensitivity(RobotModel& model, const std::vector<fem::NodeWeights>& points);
+  PointSensitivity(RobotModel& model, const std::vector<fem::InterpolationWeights>& points);
 
   /// What is observed from the next Compute on.
-  void SetRows(std::vector<EffectorRow> rows);
+  void SetRows(std::vector<ObservationRow> rows);
 
   /// As SensitivitySolver::Compute, with the same refusals.
   Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
@@ -59,7 +59,7 @@ class PointSensitivity {
   void Clear();
 
   RobotModel& model_;
-  std::vector<EffectorRow> observed_;
+  std::vector<ObservationRow> observed_;
   EquilibriumPoint point_;
   CableTerms cables_;
   Eigen::Index rows_ = 0;          ///< lengths of all cables, then what is observed

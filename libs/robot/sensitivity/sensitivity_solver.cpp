@@ -117,7 +117,7 @@ Status SensitivitySolver::EliminateTautCables() {
   return cables_.HoldLengths(per_tension, commanded_length_m_, &length_m_, &tension_N_);
 }
 
-void SensitivitySolver::PointMotions(std::span<const fem::NodeWeights> points,
+void SensitivitySolver::PointMotions(std::span<const fem::InterpolationWeights> points,
                                      Eigen::MatrixXd* motions_m) const {
   const Eigen::Index taut = cables_.TautCount();
   motions_m->setZero(static_cast<Eigen::Index>(3 * points.size()), ParameterCount());
@@ -144,7 +144,7 @@ void SensitivitySolver::PointMotions(std::span<const fem::NodeWeights> points,
   }
 }
 
-Eigen::Matrix3Xd SensitivitySolver::PointMotion(const fem::NodeWeights& point) const {
+Eigen::Matrix3Xd SensitivitySolver::PointMotion(const fem::InterpolationWeights& point) const {
   Eigen::MatrixXd motion_m;
   PointMotions({&point, 1}, &motion_m);
   return motion_m;

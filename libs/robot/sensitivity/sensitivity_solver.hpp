@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libs/core/status.hpp"
-#include "libs/fem/node_weights.hpp"
+#include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/cable_terms.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
@@ -47,9 +47,10 @@ class SensitivitySolver {
   int ParameterCount() const { return static_cast<int>(columns_of_.size()); }
 
   /// [3 x p] motion of a point of the body, m per unit of each parameter.
-  Eigen::Matrix3Xd PointMotion(const fem::NodeWeights& point) const;
+  Eigen::Matrix3Xd PointMotion(const fem::InterpolationWeights& point) const;
   /// [3 points x p] of many points, into memory that is kept.
-  void PointMotions(std::span<const fem::NodeWeights> points, Eigen::MatrixXd* motions_m) const;
+  void PointMotions(std::span<const fem::InterpolationWeights> points,
+                    Eigen::MatrixXd* motions_m) const;
   /// [3n] motion of all nodes with one parameter.
   void NodalMotion(int parameter, Eigen::VectorXd* motion_m) const;
   /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "components/calibration/pose/algorithm1.hpp"
+#include "components/calibration/pose/alternating_pose_calibration.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/robot/robot_body.hpp"

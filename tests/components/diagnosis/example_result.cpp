@@ -283,7 +283,7 @@ DiagnosisResult IndistinguishableExample() {
   result.indistinguishable_from = {result.rivals[0].name};
   result.causes[0].probability = 0.56;
   result.rivals[0].probability = 0.43;
-  result.rivals[0].likeness = 0.98;
+  result.rivals[0].canonical_correlation = 0.98;
   result.rivals[0].why_not = "fits alike (ln BF 1.1 less)";
   return result;
 }

@@ -9,7 +9,7 @@ namespace {
 using CableElasticity = HiddenCauses;
 
 TEST_F(CableElasticity, IsKnownNoBetterThanWhatTheMeshGivesWayBy) {
-  const Cause& stretch = book_.cause(Number("cable_elasticity", "cable:up"));
+  const FaultModel& stretch = hypotheses_.cause(Number("cable_elasticity", "cable:up"));
   const double mesh_m_N = stretch.parameters()[0].tolerance;
   const Eigen::VectorXd z = Eigen::VectorXd::Constant(1, 1.0 / 3000.0);
   const auto report = stretch.Report(z, Eigen::MatrixXd::Zero(1, 1), {});

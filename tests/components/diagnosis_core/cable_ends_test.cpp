@@ -19,26 +19,26 @@ constexpr double kLessThanTheMesh = -1.5;
 class CableEnds : public HiddenCauses {
  protected:
   CableEnds() : HiddenCauses(SmallRobot(), SmallExperimentOfEachCable(SmallRobot())) {
-    without_ = std::move(book_);
-    book_ = CauseBook(MakeCauses({.body = body_, .observed = observed_}, {}), {});
+    without_ = std::move(hypotheses_);
+    hypotheses_ = HypothesisSet(MakeCauses({.body = body_, .observed = observed_}, {}), {});
   }
 
   /// By how many sigmas the gain that is told lies off the hidden one.
-  double Off(const CauseBook& book) const {
-    const Fitter fitter(observed_, body_, book, {}, 1);
+  double Off(const HypothesisSet& hypotheses) const {
+    const Fitter fitter(observed_, body_, hypotheses, {}, 1);
     int gain = 0;
-    while (book.cause(gain).name() != CauseName{"cable_gain", {"cable:up"}}) ++gain;
+    while (hypotheses.cause(gain).name() != CauseName{"cable_gain", {"cable:up"}}) ++gain;
     const Fit fit = fitter.Complete(fitter.Refine({gain}, fitter.AsBuilt()));
-    const Eigen::Index at = book.first(gain);
+    const Eigen::Index at = hypotheses.first(gain);
     return (fit.posterior.mean[at] - kGainBesideEnds) / std::sqrt(fit.posterior.covariance(at, at));
   }
 
-  CauseBook without_{{}, {}};
+  HypothesisSet without_{{}, {}};
 };
 
 TEST_F(CableEnds, AreNoFault) {
   Measure({{"cable_ends", "body", kLessThanTheMesh}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Selection selection =
       SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   EXPECT_TRUE(selection.named.empty()) << "seed " << kSeed;
@@ -48,7 +48,7 @@ TEST_F(CableEnds, AreNoFault) {
 
 TEST_F(CableEnds, LeaveAGainWhereItIs) {
   Measure({{"cable_gain", "cable:up", kGainBesideEnds}, {"cable_ends", "body", kLessThanTheMesh}});
-  EXPECT_LT(std::abs(Off(book_)), 2.0) << "seed " << kSeed;
+  EXPECT_LT(std::abs(Off(hypotheses_)), 2.0) << "seed " << kSeed;
   EXPECT_GT(std::abs(Off(without_)), 3.0) << "else the test shows nothing";
 }
 

@@ -37,13 +37,13 @@ class CameraRecovery : public testing::Test {
     cameras["a_ramp"] = cameras["b_hold"] = cameras["c_tilt"];
     observed_ =
         Observe(SeenByACamera(body_), body_, {.most_samples = 24, .depth_cameras = cameras});
-    book_.emplace(MakeCauses({body_, observed_}, {}), std::map<std::string, double>{});
+    hypotheses_.emplace(MakeCauses({body_, observed_}, {}), std::map<std::string, double>{});
   }
 
   /// The first cause of this name; of those that begin with a recording, with this one.
   int Find(const std::string& id, const std::string& recording = "") const {
-    for (int k = 0; k < book_->size(); ++k) {
-      const Cause& cause = book_->cause(k);
+    for (int k = 0; k < hypotheses_->size(); ++k) {
+      const FaultModel& cause = hypotheses_->cause(k);
       if (cause.name().id == id && cause.words().ends_with(recording)) return k;
     }
     ADD_FAILURE() << id;
@@ -52,7 +52,7 @@ class CameraRecovery : public testing::Test {
 
   /// What the markers would be measured at; everything else as it is.
   Selection Diagnose(int cause, const Eigen::VectorXd& z) {
-    const CauseList one{&book_->cause(cause)};
+    const FaultModelList one{&hypotheses_->cause(cause)};
     const Simulation truth =
         Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), one, z));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
@@ -67,7 +67,7 @@ class CameraRecovery : public testing::Test {
         }
       }
     }
-    const Fitter fitter(observed_, body_, *book_, NoiseModel{}, 1);
+    const Fitter fitter(observed_, body_, *hypotheses_, NoiseModel{}, 1);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 4, [](int, int, const auto&) {});
   }
 
@@ -77,24 +77,25 @@ class CameraRecovery : public testing::Test {
     const Selection selection = Diagnose(cause, z);
     ASSERT_EQ(selection.named.size(), 1U) << "seed " << kCameraSeed;
     EXPECT_EQ(selection.named[0].cause, cause)
-        << book_->cause(selection.named[0].cause).words() << ", seed " << kCameraSeed;
+        << hypotheses_->cause(selection.named[0].cause).words() << ", seed " << kCameraSeed;
     for (Eigen::Index p = 0; p < z.size(); ++p) {
-      const Eigen::Index column = book_->first(cause) + p;
+      const Eigen::Index column = hypotheses_->first(cause) + p;
       const double sigma = std::sqrt(selection.best.posterior.covariance(column, column));
       EXPECT_NEAR(selection.best.posterior.mean[column], z[p], 4.0 * sigma) << p;
-      EXPECT_LT(sigma, 0.5 * book_->cause(cause).parameters()[static_cast<std::size_t>(p)].fault);
+      EXPECT_LT(sigma,
+                0.5 * hypotheses_->cause(cause).parameters()[static_cast<std::size_t>(p)].fault);
     }
   }
 
   robot::RobotBody body_ = SmallRobot();
   ObservedExperiment observed_;
-  std::optional<CauseBook> book_;
+  std::optional<HypothesisSet> hypotheses_;
 };
 
 TEST_F(CameraRecovery, AHealthyCameraIsAcquitted) {
   const Selection selection = Diagnose(Find("depth_scale"), Eigen::VectorXd::Constant(1, 0.0015));
   EXPECT_TRUE(selection.named.empty())
-      << book_->cause(selection.named.front().cause).words() << ", seed " << kCameraSeed;
+      << hypotheses_->cause(selection.named.front().cause).words() << ", seed " << kCameraSeed;
 }
 
 TEST_F(CameraRecovery, DepthScaleIsNamed) {
@@ -114,7 +115,7 @@ TEST_F(CameraRecovery, ACameraThatMovedIsNamedWithTheRecordingFromWhichOn) {
 TEST_F(CameraRecovery, TheCentreOfAnUnknownCameraIsNotToldInPixels) {
   observed_ = Observe(SeenByACamera(body_), body_, {.most_samples = 24});
   const auto causes = MakeCauses({body_, observed_}, {});
-  const auto found = std::find_if(causes.begin(), causes.end(), [](const CausePtr& cause) {
+  const auto found = std::find_if(causes.begin(), causes.end(), [](const FaultModelPtr& cause) {
     return cause->name().id == "intrinsics";
   });
   ASSERT_NE(found, causes.end());
@@ -126,7 +127,7 @@ TEST_F(CameraRecovery, OfARobotThatNoCameraSawNoCameraIsBlamed) {
   experiment::Experiment experiment = SmallExperiment(body_);
   experiment.recordings.resize(2);
   observed_ = Observe(experiment, body_, {.most_samples = 24});
-  for (const CausePtr& cause : MakeCauses({body_, observed_}, {})) {
+  for (const FaultModelPtr& cause : MakeCauses({body_, observed_}, {})) {
     EXPECT_NE(cause->name().where.front(), "camera") << cause->words();
   }
 }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tests/components/diagnosis_core/cause_derivatives.hpp"
+#include "tests/components/diagnosis_core/fault_derivatives.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -20,30 +20,32 @@ experiment::Experiment WithATension(experiment::Experiment experiment) {
 }
 
 /// Another cause, which says by a share too much what it does to the body.
-class SaysTooMuch final : public Cause {
+class SaysTooMuch final : public FaultModel {
  public:
-  SaysTooMuch(const Cause& right, double share)
-      : Cause(right.name(), right.words(), right.parameters()), right_(right), share_(share) {}
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override { right_.Apply(z, draft); }
+  SaysTooMuch(const FaultModel& right, double share)
+      : FaultModel(right.name(), right.words(), right.parameters()), right_(right), share_(share) {}
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    right_.Apply(z, hypothesis);
+  }
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
-                             const CauseMoment& at) const override {
+                             const FaultContext& at) const override {
     robot::ParameterPtr said = right_.OnBody(parameter, z, at);
     return said == nullptr ? nullptr : Scaled(1.0 + share_, std::move(said));
   }
 
  private:
-  const Cause& right_;
+  const FaultModel& right_;
   double share_;
 };
 
-class CauseDerivativesOfTet10AndTension : public CauseDerivatives {
+class CauseDerivativesOfTet10AndTension : public FaultDerivatives {
  protected:
   CauseDerivativesOfTet10AndTension()
-      : CauseDerivatives(SmallRobot(fem::ElementType::kTet10),
+      : FaultDerivatives(SmallRobot(fem::ElementType::kTet10),
                          WithATension(SmallExperiment(SmallRobot(fem::ElementType::kTet10)))) {}
 };
 
-TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
+TEST_F(FaultDerivatives, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
   ExpectDerivativesAsBuilt();
 }
 
@@ -52,44 +54,45 @@ TEST_F(CauseDerivativesOfTet10AndTension, AreThoseOfApplyWhereTheRobotIsAsItsFil
 }
 
 /// Proof that these tests can fail.
-TEST_F(CauseDerivatives, AreCaughtWhereTheySayALittleTooMuch) {
+TEST_F(FaultDerivatives, AreCaughtWhereTheySayALittleTooMuch) {
   constexpr double kTooMuch = 0.01;
   constexpr double kTolerance = 2e-3;
   for (const std::string id : {"youngs_modulus", "regional_stiffness", "density", "geometry_scale",
                                "rest_twist", "payload", "permanent_force", "plastic_set"}) {
-    const auto right = std::find_if(causes_.begin(), causes_.end(),
-                                    [&](const CausePtr& cause) { return cause->name().id == id; });
+    const auto right =
+        std::find_if(causes_.begin(), causes_.end(),
+                     [&](const FaultModelPtr& cause) { return cause->name().id == id; });
     ASSERT_NE(right, causes_.end()) << id;
     const SaysTooMuch wrong(**right, kTooMuch);
-    const CauseList one{&wrong};
+    const FaultModelList one{&wrong};
     const Eigen::VectorXd z = Eigen::VectorXd::Zero(std::ssize(wrong.parameters()));
-    const CauseParameter& first = wrong.parameters().front();
+    const FaultParameter& first = wrong.parameters().front();
     const Mismatch worst = Compare(first.fault * Analytic(one, z).col(0),
                                    first.fault * Difference(one, z, 0, first), 1e-3);
     EXPECT_GT(worst.relative, kTolerance) << id;
   }
 }
 
-TEST_F(CauseDerivatives, AreOfEveryCauseOfTheCatalogue) {
+TEST_F(FaultDerivatives, AreOfEveryCauseOfTheCatalogue) {
   for (const std::string& id : KnownCauses()) {
-    EXPECT_TRUE(std::any_of(causes_.begin(), causes_.end(), [&](const CausePtr& cause) {
+    EXPECT_TRUE(std::any_of(causes_.begin(), causes_.end(), [&](const FaultModelPtr& cause) {
       return cause->name().id == id;
     })) << id;
   }
 }
 
 /// What energies answer is left out there: up to twice the softening.
-TEST_F(CauseDerivatives, AreThoseOfApplyWhereABodySoftensTooLittleForRuns) {
+TEST_F(FaultDerivatives, AreThoseOfApplyWhereABodySoftensTooLittleForRuns) {
   const Eigen::Vector2d z(0.015, 0.7);
   constexpr double kAnswer = 0.05;
-  for (const CausePtr& cause : causes_) {
+  for (const FaultModelPtr& cause : causes_) {
     if (cause->name().id != "mullins") continue;
     ASSERT_FALSE(cause->NeedsRuns(z));
     ExpectDerivative(*cause, z, kAnswer, LeastShare("mullins"));
   }
 }
 
-TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
+TEST_F(FaultDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   constexpr double kShare = 0.31;  // of the fault sigma; no kink of the drives' play lies there
   constexpr double kTolerance = 2e-3;
   /// What the base turns by when its moment changes is left out: of the order of what the
@@ -97,7 +100,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   constexpr double kToleranceOfBase = 1e-2;
   /// Differences over a step, of runs whose pasts are settled so far: of what it does as a whole.
   constexpr double kToleranceOfRuns = 0.08;
-  for (const CausePtr& cause : causes_) {
+  for (const FaultModelPtr& cause : causes_) {
     const std::string& id = cause->name().id;
     Eigen::VectorXd z(std::ssize(cause->parameters()));
     for (Eigen::Index p = 0; p < z.size(); ++p) {
@@ -112,7 +115,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
   }
 }
 
-TEST_F(CauseDerivatives, AreThoseOfApplyWhereEndsOfCablesGiveWayLessThanTheMesh) {
+TEST_F(FaultDerivatives, AreThoseOfApplyWhereEndsOfCablesGiveWayLessThanTheMesh) {
   constexpr double kTolerance = 2e-3;
   const auto ends = std::find_if(causes_.begin(), causes_.end(),
                                  [](const auto& one) { return one->name().id == "cable_ends"; });
@@ -120,13 +123,13 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereEndsOfCablesGiveWayLessThanTheMesh)
   ExpectDerivative(**ends, Eigen::VectorXd::Constant(1, -1.5), kTolerance);
 }
 
-TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
-  CauseList all;
-  for (const CausePtr& cause : causes_) {
+TEST_F(FaultDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
+  FaultModelList all;
+  for (const FaultModelPtr& cause : causes_) {
     const std::string& id = cause->name().id;
     if (id != "stiffening" && id != "hidden_obstacle") all.push_back(cause.get());
   }
-  const auto parameter_of = [&](const Cause& cause, Eigen::Index p) {
+  const auto parameter_of = [&](const FaultModel& cause, Eigen::Index p) {
     return cause.parameters()[static_cast<std::size_t>(p)];
   };
   // Causes that bend the undeformed body are differentiated as if alone, and a drive's play and lag
@@ -134,7 +137,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
   constexpr double kTolerance = 0.03;
   Eigen::VectorXd z(ParameterCount(all));
   Eigen::Index first = 0;
-  for (const Cause* cause : all) {
+  for (const FaultModel* cause : all) {
     for (Eigen::Index p = 0; p < std::ssize(cause->parameters()); ++p) {
       // What creep's past adds to the others' derivatives is left out: of the order of g.
       const bool creeps = cause->name().id == "viscoelastic_creep";
@@ -143,9 +146,9 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
   }
   const Eigen::MatrixXd analytic = Analytic(all, z);
   first = 0;
-  for (const Cause* cause : all) {
+  for (const FaultModel* cause : all) {
     for (Eigen::Index p = 0; p < std::ssize(cause->parameters()); ++p, ++first) {
-      const CauseParameter parameter = parameter_of(*cause, p);
+      const FaultParameter parameter = parameter_of(*cause, p);
       ExpectAlike(parameter.fault * analytic.col(first),
                   parameter.fault * Difference(all, z, first, parameter), kTolerance,
                   cause->words() + ", " + parameter.name, LeastShare(cause->name().id));
@@ -153,7 +156,7 @@ TEST_F(CauseDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
   }
 }
 
-TEST_F(CauseDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
+TEST_F(FaultDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
   // Five fault sigmas: what a camera makes of a motion then is 5 to 10 % off. The bias of surfaces
   // seen askew stays 0: by what the body's skin turns is left out.
   constexpr double kSigmas = 5.0;
@@ -162,24 +165,24 @@ TEST_F(CauseDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
                                                "warm_up_drift"};
   const std::vector<std::string> behind = {"density", "extrinsics", "camera_moved",
                                            "marker_misplacement", "depth_incidence_bias"};
-  const auto is_one_of = [](const Cause& cause, const std::vector<std::string>& ids) {
+  const auto is_one_of = [](const FaultModel& cause, const std::vector<std::string>& ids) {
     return std::find(ids.begin(), ids.end(), cause.name().id) != ids.end();
   };
-  CauseList both;
+  FaultModelList both;
   std::vector<double> z;
-  for (const CausePtr& cause : causes_) {
+  for (const FaultModelPtr& cause : causes_) {
     const bool errs = is_one_of(*cause, with_error);
     if (!errs && !is_one_of(*cause, behind)) continue;
     both.push_back(cause.get());
-    for (const CauseParameter& parameter : cause->parameters()) {
+    for (const FaultParameter& parameter : cause->parameters()) {
       z.push_back(errs && parameter.name != "tau_s" ? kSigmas * parameter.fault : 0.0);
     }
   }
   const Eigen::VectorXd at = Eigen::Map<Eigen::VectorXd>(z.data(), std::ssize(z));
   const Eigen::MatrixXd analytic = Analytic(both, at);
   Eigen::Index column = 0;
-  for (const Cause* cause : both) {
-    for (const CauseParameter& parameter : cause->parameters()) {
+  for (const FaultModel* cause : both) {
+    for (const FaultParameter& parameter : cause->parameters()) {
       ExpectAlike(parameter.fault * analytic.col(column),
                   parameter.fault * Difference(both, at, column, parameter), kTolerance,
                   cause->words() + ", " + parameter.name);
@@ -188,9 +191,9 @@ TEST_F(CauseDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
   }
 }
 
-TEST_F(CauseDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
-  CauseList two;
-  for (const CausePtr& cause : causes_) {
+TEST_F(FaultDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
+  FaultModelList two;
+  for (const FaultModelPtr& cause : causes_) {
     const std::string& id = cause->name().id;
     if (id == "youngs_modulus" || id == "stiffening") two.push_back(cause.get());
   }
@@ -198,25 +201,25 @@ TEST_F(CauseDerivatives, OfStiffeningAreThoseOfABodyOfAnotherModulus) {
   const Eigen::VectorXd z = Eigen::Vector2d(0.4, 0.5);
   const Eigen::MatrixXd analytic = Analytic(two, z);
   for (Eigen::Index p = 0; p < 2; ++p) {
-    const Cause& cause = *two[static_cast<std::size_t>(p)];
+    const FaultModel& cause = *two[static_cast<std::size_t>(p)];
     ExpectAlike(analytic.col(p), Difference(two, z, p, cause.parameters()[0]), 2e-3, cause.words());
   }
 }
 
-TEST_F(CauseDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
+TEST_F(FaultDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
   // The middle alone is 12 % off for the modulus in the ramp, and 26 % in the tilted recording.
   constexpr double kTolerance = 0.04;
   const ObservedExperiment means = Observe(SmallExperiment(body_), body_, {.most_samples = 14});
   const Simulator simulator(means, 1);
-  for (const CausePtr& cause : causes_) {
+  for (const FaultModelPtr& cause : causes_) {
     const CauseName& name = cause->name();
     if (name.id != "youngs_modulus" && name.id != "cable_gain" && name.id != "density") continue;
-    const CauseList one{cause.get()};
+    const FaultModelList one{cause.get()};
     const auto markers_m = [&](double z, bool differentiate) {
-      const ModelDraft draft = DraftWith(nominal_, one, Eigen::VectorXd::Constant(1, z));
-      Simulation run = simulator.Run(draft, nullptr);
+      const ModelHypothesis hypothesis = DraftWith(nominal_, one, Eigen::VectorXd::Constant(1, z));
+      Simulation run = simulator.Run(hypothesis, nullptr);
       if (differentiate) {
-        simulator.Differentiate(draft, one, Eigen::VectorXd::Constant(1, z), {true}, nominal_,
+        simulator.Differentiate(hypothesis, one, Eigen::VectorXd::Constant(1, z), {true}, nominal_,
                                 &run);
       }
       Eigen::VectorXd all(each_ * std::ssize(run.samples));
@@ -235,19 +238,20 @@ TEST_F(CauseDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
   }
 }
 
-TEST_F(CauseDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
+TEST_F(FaultDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
   // A cable that gives way keeps where it was; the others must follow their drives all the same.
-  const auto find = [&](const std::string& id, const std::string& where) -> const Cause* {
-    for (const CausePtr& cause : causes_) {
+  const auto find = [&](const std::string& id, const std::string& where) -> const FaultModel* {
+    for (const FaultModelPtr& cause : causes_) {
       if (cause->name().id == id && cause->name().where.front() == where) return cause.get();
     }
     return nullptr;
   };
-  const CauseList causes{find("cable_elasticity", "cable:up"), find("cable_offset", "cable:aside")};
+  const FaultModelList causes{find("cable_elasticity", "cable:up"),
+                              find("cable_offset", "cable:aside")};
   ASSERT_NE(causes[0], nullptr);
   ASSERT_NE(causes[1], nullptr);
-  const ModelDraft before = DraftWith(nominal_, causes, Eigen::Vector2d(1e-3, -5e-4));
-  const ModelDraft after = DraftWith(nominal_, causes, Eigen::Vector2d(2e-3, 1e-3));
+  const ModelHypothesis before = DraftWith(nominal_, causes, Eigen::Vector2d(1e-3, -5e-4));
+  const ModelHypothesis after = DraftWith(nominal_, causes, Eigen::Vector2d(2e-3, 1e-3));
   const Simulation start = simulator_.Run(before);
   const Simulation cold = simulator_.Run(after);
   const Simulation warm = simulator_.Run(after, &start);

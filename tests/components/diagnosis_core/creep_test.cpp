@@ -33,13 +33,13 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
   const LoadedBeam beam;
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
   const Simulator simulator(observed, 1);
-  ModelDraft draft = DraftOf(beam.body, observed);
-  const Simulation elastic = simulator.Run(draft);
+  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  const Simulation elastic = simulator.Run(hypothesis);
   ASSERT_TRUE(elastic.status.ok()) << elastic.status.message();
   for (const double g : {0.03, 0.3}) {
     constexpr double kTau_s = 10.0;
-    draft.creep = {{.g = g, .tau_s = kTau_s}};
-    const Simulation creeping = simulator.Run(draft);
+    hypothesis.creep = {{.g = g, .tau_s = kTau_s}};
+    const Simulation creeping = simulator.Run(hypothesis);
     ASSERT_TRUE(creeping.status.ok()) << creeping.status.message();
     int loaded = 0;
     for (std::size_t s = 0; s < observed.samples.size(); ++s) {
@@ -94,9 +94,9 @@ TEST(Creep, OfABodyThatWasHeldBentIsALittleOfThatBend) {
                           {kLetGo_s, tip_m, Eigen::Vector3d::Zero(), 0.0, {}}};
   beam.experiment.recordings = {beam.recording};
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
-  ModelDraft draft = DraftOf(beam.body, observed);
-  draft.creep = {{.g = kG, .tau_s = kTau_s}};
-  const Simulation creeping = Simulator(observed, 1).Run(draft);
+  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  hypothesis.creep = {{.g = kG, .tau_s = kTau_s}};
+  const Simulation creeping = Simulator(observed, 1).Run(hypothesis);
   ASSERT_TRUE(creeping.status.ok()) << creeping.status.message();
   const double rest_m = beam.body.markers[0].point.rest_m.y();
   double held_m = 0.0;
@@ -121,13 +121,13 @@ TEST(Creep, LeavesTheInstantaneousModulusAtOnce) {
   const LoadedBeam beam;
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
   const Simulator simulator(observed, 1);
-  ModelDraft draft = DraftOf(beam.body, observed);
-  const Simulation elastic = simulator.Run(draft);
+  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  const Simulation elastic = simulator.Run(hypothesis);
   constexpr double kG = 0.2;
-  draft.creep = {{.g = kG, .tau_s = 1e5}};
-  const Simulation stiff = simulator.Run(draft);
-  draft.creep = {{.g = kG, .tau_s = 1e-3}};
-  const Simulation crept = simulator.Run(draft);
+  hypothesis.creep = {{.g = kG, .tau_s = 1e5}};
+  const Simulation stiff = simulator.Run(hypothesis);
+  hypothesis.creep = {{.g = kG, .tau_s = 1e-3}};
+  const Simulation crept = simulator.Run(hypothesis);
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (observed.samples[s].t_s < 10.0) continue;
     const Eigen::Matrix3Xd& long_m = elastic.samples[s].markers_m();

@@ -51,11 +51,11 @@ Simulation SimulatedUpAndDown() {
 
 TEST(Damage, IsTheMeanOfWhatTheCourseOfASampleAsksFor) {
   const ObservedExperiment observed = UpAndDown();
-  const Memory memory(observed);
+  const HistoryOperator history(observed);
   const Simulation simulation = SimulatedUpAndDown();
   const MullinsSoftening mullins{.inverse_r = 0.4, .m_J_m3 = 9.0};
-  std::vector<Hereditary> past;
-  for (int step = 0; step < 100; ++step) Soften(mullins, memory, simulation, &past);
+  std::vector<HistoryVariables> past;
+  for (int step = 0; step < 100; ++step) Soften(mullins, history, simulation, &past);
   ASSERT_EQ(past.size(), 2U);
   EXPECT_NEAR(past[0].cell_factor[0], 1.0, 1e-6) << "on the way up nothing was larger before";
   double softened = 0.0;

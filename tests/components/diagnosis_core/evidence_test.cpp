@@ -39,27 +39,27 @@ struct Problem {
   Eigen::VectorXd y;
 };
 
-/// Beliefs that differ by orders of magnitude, one of them held.
-Belief SomeBelief() {
-  Belief belief(5);
-  belief.sigma << 0.3, 2.0, 0.0, 50.0, 1e-3;
-  belief.mean << 0.0, 1.5, -0.7, 0.0, 0.02;
-  return belief;
+/// GaussianPriors that differ by orders of magnitude, one of them held.
+GaussianPrior SomePrior() {
+  GaussianPrior prior(5);
+  prior.sigma << 0.3, 2.0, 0.0, 50.0, 1e-3;
+  prior.mean << 0.0, 1.5, -0.7, 0.0, 0.02;
+  return prior;
 }
 
 /// What normal beliefs and data say, from the covariance of the data: no Woodbury.
-Posterior Dense(const Problem& problem, const Belief& belief) {
-  const Eigen::MatrixXd S = belief.sigma.array().square().matrix().asDiagonal();
+Posterior Dense(const Problem& problem, const GaussianPrior& prior) {
+  const Eigen::MatrixXd S = prior.sigma.array().square().matrix().asDiagonal();
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +
                                      problem.J * S * problem.J.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-  const Eigen::VectorXd off = problem.y - problem.J * belief.mean;
+  const Eigen::VectorXd off = problem.y - problem.J * prior.mean;
   Posterior posterior;
   posterior.misfit = off.dot(factor.solve(off));
   posterior.ln_evidence =
       -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
   const Eigen::MatrixXd gain = S * problem.J.transpose();
-  posterior.mean = belief.mean + gain * factor.solve(off);
+  posterior.mean = prior.mean + gain * factor.solve(off);
   posterior.covariance = S - gain * factor.solve(Eigen::MatrixXd(gain.transpose()));
   return posterior;
 }
@@ -77,33 +77,33 @@ TEST(Infer, IsWhatTheCovarianceOfTheDataSays) {
   for (unsigned seed = kEvidenceSeed; seed < kEvidenceSeed + 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Problem problem(seed);
-    ExpectAlike(Infer(problem.Of(0, 14), SomeBelief()), Dense(problem, SomeBelief()));
+    ExpectAlike(Infer(problem.Of(0, 14), SomePrior()), Dense(problem, SomePrior()));
   }
 }
 
 TEST(Infer, HoldsWhatIsBelievedForSure) {
   const Problem problem(kEvidenceSeed);
-  Belief belief = SomeBelief();
-  const Posterior posterior = Infer(problem.Of(0, 14), belief);
+  GaussianPrior prior = SomePrior();
+  const Posterior posterior = Infer(problem.Of(0, 14), prior);
   EXPECT_EQ(posterior.mean[2], -0.7);
   EXPECT_TRUE(posterior.covariance.row(2).isZero(0.0));
   // All held: the data as they are.
-  belief.sigma.setZero();
-  const Posterior held = Infer(problem.Of(0, 14), belief);
-  EXPECT_NEAR(held.misfit, (problem.y - problem.J * belief.mean).squaredNorm(), 1e-9);
-  EXPECT_EQ(held.mean, belief.mean);
+  prior.sigma.setZero();
+  const Posterior held = Infer(problem.Of(0, 14), prior);
+  EXPECT_NEAR(held.misfit, (problem.y - problem.J * prior.mean).squaredNorm(), 1e-9);
+  EXPECT_EQ(held.mean, prior.mean);
 }
 
 TEST(Infer, ABeliefAboutAnotherMeanIsOneAboutShiftedData) {
   Problem problem(kEvidenceSeed);
-  const Belief belief = SomeBelief();
-  Belief about_zero = belief;
+  const GaussianPrior prior = SomePrior();
+  GaussianPrior about_zero = prior;
   about_zero.mean.setZero();
-  const Posterior moved = Infer(problem.Of(0, 14), belief);
-  problem.y -= problem.J * belief.mean;
+  const Posterior moved = Infer(problem.Of(0, 14), prior);
+  problem.y -= problem.J * prior.mean;
   const Posterior shifted = Infer(problem.Of(0, 14), about_zero);
   EXPECT_NEAR(moved.ln_evidence, shifted.ln_evidence, 1e-9 * std::abs(moved.ln_evidence));
-  EXPECT_TRUE(moved.mean.isApprox(shifted.mean + belief.mean, 1e-9));
+  EXPECT_TRUE(moved.mean.isApprox(shifted.mean + prior.mean, 1e-9));
 }
 
 TEST(Information, AddsUpOverIndependentData) {
@@ -111,7 +111,7 @@ TEST(Information, AddsUpOverIndependentData) {
   Information sum = problem.Of(0, 5);
   sum.Add(problem.Of(5, 9));
   EXPECT_EQ(sum.rows, 14);
-  ExpectAlike(Infer(sum, SomeBelief()), Dense(problem, SomeBelief()));
+  ExpectAlike(Infer(sum, SomePrior()), Dense(problem, SomePrior()));
 }
 
 }  // namespace

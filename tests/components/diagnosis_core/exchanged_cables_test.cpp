@@ -33,15 +33,15 @@ class ExchangedCables : public HiddenCauses {
     return FindExchangedCables(body_, observed_, 1, nullptr).exchanged;
   }
 
-  std::vector<CausePtr> exchanges_;
+  std::vector<FaultModelPtr> exchanges_;
 };
 
 TEST_F(ExchangedCables, AreFoundWhicheverTheyAre) {
   ASSERT_EQ(exchanges_.size(), 3u);
-  for (const CausePtr& exchange : exchanges_) {
-    ModelDraft draft = DraftOf(body_, observed_);
-    exchange->Apply(Eigen::VectorXd::Ones(1), &draft);
-    const Simulation truth = Simulator(observed_, 1).Run(draft);
+  for (const FaultModelPtr& exchange : exchanges_) {
+    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       observed_.samples[s].position_m = truth.samples[s].markers_m();
     }

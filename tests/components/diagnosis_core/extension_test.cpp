@@ -43,8 +43,8 @@ class Extension : public testing::Test {
     return Observe(experiment, body, {});
   }
 
-  Eigen::VectorXd SeenOf(const ModelDraft& draft) const {
-    const Simulation simulation = Simulator(observed_, 1).Run(draft);
+  Eigen::VectorXd SeenOf(const ModelHypothesis& hypothesis) const {
+    const Simulation simulation = Simulator(observed_, 1).Run(hypothesis);
     EXPECT_TRUE(simulation.status.ok()) << simulation.status.message();
     std::vector<double> all;
     for (const SimulatedSample& sample : simulation.samples) {
@@ -59,10 +59,10 @@ class Extension : public testing::Test {
 };
 
 /// As large as a fault is.
-Eigen::VectorXd FaultOf(const Cause& cause) {
+Eigen::VectorXd FaultOf(const FaultModel& cause) {
   Eigen::VectorXd z(std::ssize(cause.parameters()));
   for (Eigen::Index p = 0; p < z.size(); ++p) {
-    const CauseParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
+    const FaultParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
     z[p] = parameter.fault_at > 0.0 ? parameter.fault_at : 0.5 * parameter.fault;
   }
   return z;
@@ -76,15 +76,15 @@ TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
   const CauseWorld world{.body = body_,
                          .observed = observed_,
                          .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
-  for (const CausePtr& cause : MakeCauses(world, {})) {
+  for (const FaultModelPtr& cause : MakeCauses(world, {})) {
     robot::RobotDescription robot = robot_;
     std::vector<robot::CalibratedDrive> drives;
     const Eigen::VectorXd z = FaultOf(*cause);
     if (!cause->Extend(z, &robot, &drives) || !drives.empty()) continue;
     if (!extended.insert(cause->name().id).second) continue;  // one of its places
-    ModelDraft draft = DraftOf(body_, observed_);
-    cause->Apply(z, &draft);
-    const Eigen::VectorXd caused_m = SeenOf(draft);
+    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    cause->Apply(z, &hypothesis);
+    const Eigen::VectorXd caused_m = SeenOf(hypothesis);
     const double effect_m = (caused_m - healthy_m).cwiseAbs().maxCoeff();
     EXPECT_GT(effect_m, 1e-5) << cause->words();
     const robot::RobotBody body = robot::BuildRobotBody(robot);

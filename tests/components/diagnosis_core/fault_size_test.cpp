@@ -14,15 +14,15 @@ namespace {
 
 /// Why a gain of this size, tolerance 0.005, at most 0.2 of which is believed, is no fault.
 std::string WhyNot(double gain) {
-  std::vector<CausePtr> causes;
+  std::vector<FaultModelPtr> causes;
   causes.push_back(std::make_unique<ToyCause>(
-      "gain", std::vector<CauseParameter>{
+      "gain", std::vector<FaultParameter>{
                   {.name = "g", .tolerance = 0.005, .fault = 0.08, .plausible = 0.2}}));
-  const CauseBook book(std::move(causes), {});
+  const HypothesisSet hypotheses(std::move(causes), {});
   Posterior posterior;
   posterior.mean = Eigen::VectorXd::Constant(1, gain);
   posterior.covariance = Eigen::MatrixXd::Constant(1, 1, 1e-6);
-  return WhyNoFault(book, posterior, 0);
+  return WhyNoFault(hypotheses, posterior, 0);
 }
 
 TEST(FaultSize, IsBeyondThreeTolerancesOnEitherSide) {
@@ -40,16 +40,16 @@ TEST(FaultSize, IsNotMoreThanARobotCanHave) {
 
 /// A place that is off by so much, 1 mm being the tolerance of its length.
 std::string WhyNotOff(const Eigen::Vector3d& off_m) {
-  const CauseParameter along{
+  const FaultParameter along{
       .name = "d_m", .tolerance = 1e-3 / std::sqrt(3.0), .fault = 5e-3, .component = true};
-  std::vector<CausePtr> causes;
+  std::vector<FaultModelPtr> causes;
   causes.push_back(
-      std::make_unique<ToyCause>("place", std::vector<CauseParameter>{along, along, along}));
-  const CauseBook book(std::move(causes), {});
+      std::make_unique<ToyCause>("place", std::vector<FaultParameter>{along, along, along}));
+  const HypothesisSet hypotheses(std::move(causes), {});
   Posterior posterior;
   posterior.mean = off_m;
   posterior.covariance = 1e-8 * Eigen::Matrix3d::Identity();
-  return WhyNoFault(book, posterior, 0);
+  return WhyNoFault(hypotheses, posterior, 0);
 }
 
 TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
@@ -64,17 +64,17 @@ TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
 /// Of what a healthy robot has nothing of: two sizes known to these sigmas, correlated, and where
 /// it acts.
 std::string WhyNotBoth(double a, double b, double correlation) {
-  std::vector<CausePtr> causes;
+  std::vector<FaultModelPtr> causes;
   causes.push_back(std::make_unique<ToyCause>(
-      "both", std::vector<CauseParameter>{{.name = "a", .fault = 1.0},
+      "both", std::vector<FaultParameter>{{.name = "a", .fault = 1.0},
                                           {.name = "b", .fault = 1.0},
                                           {.name = "x", .fault = 1.0, .qualifies = true}}));
-  const CauseBook book(std::move(causes), {});
+  const HypothesisSet hypotheses(std::move(causes), {});
   Posterior posterior;
   posterior.mean = Eigen::Vector3d(a, b, 0.0);
   posterior.covariance = Eigen::Matrix3d::Identity();
   posterior.covariance(0, 1) = posterior.covariance(1, 0) = correlation;
-  return WhyNoFault(book, posterior, 0);
+  return WhyNoFault(hypotheses, posterior, 0);
 }
 
 TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
@@ -88,17 +88,17 @@ TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
 /// these sigmas.
 std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sigma_s,
                        double correlation) {
-  std::vector<CausePtr> causes;
+  std::vector<FaultModelPtr> causes;
   causes.push_back(std::make_unique<ToyCause>(
-      "late", std::vector<CauseParameter>{
+      "late", std::vector<FaultParameter>{
                   {.name = "delay_s", .tolerance = 0.01, .fault = 0.15, .least = 0.0},
                   {.name = "tau_s", .fault = 0.15, .least = 0.0}}));
-  const CauseBook book(std::move(causes), {});
+  const HypothesisSet hypotheses(std::move(causes), {});
   Posterior posterior;
   posterior.mean = late_s;
   posterior.covariance = sigma_s.cwiseAbs2().asDiagonal();
   posterior.covariance(0, 1) = posterior.covariance(1, 0) = correlation * sigma_s[0] * sigma_s[1];
-  return WhyNoFault(book, posterior, 0);
+  return WhyNoFault(hypotheses, posterior, 0);
 }
 
 TEST(FaultSize, OfWhatIsKnownTogetherCountsTogether) {

@@ -50,14 +50,14 @@ class FitterOfHealthyRobots : public HiddenCauses {
   /// The same of the robot that a fit takes for the most probable.
   double LeftBy(const Fit& fit) const {
     Eigen::VectorXd z = fit.posterior.mean;
-    for (int k = 0; k < book_.size(); ++k) {
-      for (Eigen::Index p = 0; p < book_.count(k); ++p) {
-        const double least = book_.cause(k).parameters()[static_cast<std::size_t>(p)].least;
-        z[book_.first(k) + p] = std::max(least, z[book_.first(k) + p]);
+    for (int k = 0; k < hypotheses_.size(); ++k) {
+      for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
+        const double least = hypotheses_.cause(k).parameters()[static_cast<std::size_t>(p)].least;
+        z[hypotheses_.first(k) + p] = std::max(least, z[hypotheses_.first(k) + p]);
       }
     }
-    const ModelDraft draft = DraftWith(DraftOf(body_, observed_), book_.All(), z);
-    return LeftBy(Simulator(observed_, 1).Run(draft));
+    const ModelHypothesis hypothesis = DraftWith(DraftOf(body_, observed_), hypotheses_.All(), z);
+    return LeftBy(Simulator(observed_, 1).Run(hypothesis));
   }
 };
 
@@ -65,7 +65,7 @@ TEST_F(FitterOfHealthyRobots, GoOnUntilTheDataFitAsPromised) {
   // Two tolerances, with which the cable pulls at rest.
   Measure({{"cable_offset", "cable:aside", 6e-4}});
   // The data are of the very mesh.
-  const Fitter fitter(observed_, body_, book_, {.relative_error = 1e-6}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-6}, 1);
   const Fit as_built = fitter.AsBuilt();
   const Fit fit = fitter.Complete(as_built);
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
@@ -77,7 +77,7 @@ TEST_F(FitterOfHealthyRobots, GoOnUntilTheDataFitAsPromised) {
 TEST_F(FitterOfHealthyRobots, SimulatePlayThatIsBeyondItsTolerance) {
   constexpr double kPlay_m = 2e-3;  // twenty tolerances
   Measure({{"backlash", "cable:aside", kPlay_m}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = fitter.Complete(fitter.AsBuilt());
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   EXPECT_NEAR(fit.z[ColumnOf("backlash", "cable:aside")], kPlay_m, 3e-4) << "seed " << kSeed;
@@ -85,7 +85,7 @@ TEST_F(FitterOfHealthyRobots, SimulatePlayThatIsBeyondItsTolerance) {
 
 TEST_F(FitterOfHealthyRobots, KeepPlayWithinItsToleranceLinear) {
   Measure({{"backlash", "cable:aside", 1e-4}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = fitter.Complete(fitter.AsBuilt());
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   const Eigen::Index play = ColumnOf("backlash", "cable:aside");

@@ -22,24 +22,25 @@ class FurtherCausesOfAGain : public HiddenCauses {
     return fitter.Complete(fitter.Refine({Gain()}, fitter.AsBuilt()));
   }
   Eigen::MatrixXd Own(const Fit& fit) const {
-    return fit.posterior.covariance.block(book_.first(Gain()), book_.first(Gain()), 1, 1);
+    return fit.posterior.covariance.block(hypotheses_.first(Gain()), hypotheses_.first(Gain()), 1,
+                                          1);
   }
   static double Sigma(const Eigen::MatrixXd& covariance) { return std::sqrt(covariance(0, 0)); }
 };
 
 TEST_F(FurtherCausesOfAGain, AreOfNoWeightWhereItExplainsAll) {
   Measure({{"cable_gain", "cable:up", kGain}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = WithGain(fitter);
   ASSERT_TRUE(fit.status.ok());
   const Eigen::MatrixXd all =
-      CovarianceBeside(book_, fit, Gain(), FurtherCauses(fitter, fit), Own(fit));
+      CovarianceBeside(hypotheses_, fit, Gain(), FurtherCauses(fitter, fit), Own(fit));
   EXPECT_NEAR(Sigma(all) / Sigma(Own(fit)), 1.0, 0.1) << "seed " << kSeed;
 }
 
 TEST_F(FurtherCausesOfAGain, OneThatIsNotClearWidensWhatIsKnownOfIt) {
   Measure({{"cable_gain", "cable:up", kGain}, {"cable_offset", "cable:up", kOffset_m}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = WithGain(fitter);
   ASSERT_TRUE(fit.status.ok());
   const std::vector<FurtherCause> further = FurtherCauses(fitter, fit);
@@ -47,21 +48,21 @@ TEST_F(FurtherCausesOfAGain, OneThatIsNotClearWidensWhatIsKnownOfIt) {
   const auto found = std::find_if(further.begin(), further.end(),
                                   [&](const FurtherCause& one) { return one.cause == offset; });
   ASSERT_NE(found, further.end()) << "seed " << kSeed;
-  EXPECT_NEAR(found->posterior.mean[book_.first(offset)], kOffset_m, 0.3 * kOffset_m);
-  const Eigen::MatrixXd all = CovarianceBeside(book_, fit, Gain(), further, Own(fit));
+  EXPECT_NEAR(found->posterior.mean[hypotheses_.first(offset)], kOffset_m, 0.3 * kOffset_m);
+  const Eigen::MatrixXd all = CovarianceBeside(hypotheses_, fit, Gain(), further, Own(fit));
   EXPECT_GT(Sigma(all), 1.5 * Sigma(Own(fit))) << "seed " << kSeed;
 }
 
 TEST_F(FurtherCausesOfAGain, CountAsOftenAsTheyAreProbable) {
   Fit fit;
-  fit.posterior.mean = Eigen::VectorXd::Constant(book_.parameter_count(), 1.0);
+  fit.posterior.mean = Eigen::VectorXd::Constant(hypotheses_.parameter_count(), 1.0);
   FurtherCause other{.cause = Number("density", "body"), .weight = 0.5, .posterior = {}};
-  other.posterior.mean = Eigen::VectorXd::Constant(book_.parameter_count(), 4.0);
+  other.posterior.mean = Eigen::VectorXd::Constant(hypotheses_.parameter_count(), 4.0);
   other.posterior.covariance =
-      2.0 * Eigen::MatrixXd::Identity(book_.parameter_count(), book_.parameter_count());
+      2.0 * Eigen::MatrixXd::Identity(hypotheses_.parameter_count(), hypotheses_.parameter_count());
   const Eigen::MatrixXd own = Eigen::MatrixXd::Identity(1, 1);
-  EXPECT_EQ(CovarianceBeside(book_, fit, Gain(), {}, own), own);
-  const double both = CovarianceBeside(book_, fit, Gain(), {other}, own)(0, 0);
+  EXPECT_EQ(CovarianceBeside(hypotheses_, fit, Gain(), {}, own), own);
+  const double both = CovarianceBeside(hypotheses_, fit, Gain(), {other}, own)(0, 0);
   EXPECT_DOUBLE_EQ(both, (1.0 + 0.5 * (2.0 + 3.0 * 3.0)) / 1.5);
 }
 

@@ -32,33 +32,33 @@ class HiddenCauses : public testing::Test {
   HiddenCauses(robot::RobotBody body, const experiment::Experiment& experiment)
       : body_(std::move(body)),
         observed_(Observe(experiment, body_, {.most_samples = 40})),
-        book_(Causes(), {}) {
+        hypotheses_(Causes(), {}) {
     observed_.sigma_m.setConstant(kSigma_m);
   }
 
-  std::vector<CausePtr> Causes(const std::vector<std::string>& without = {}) const {
-    std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, without);
-    std::erase_if(causes, [](const CausePtr& one) { return one->name().id == "cable_ends"; });
+  std::vector<FaultModelPtr> Causes(const std::vector<std::string>& without = {}) const {
+    std::vector<FaultModelPtr> causes = MakeCauses({.body = body_, .observed = observed_}, without);
+    std::erase_if(causes, [](const FaultModelPtr& one) { return one->name().id == "cable_ends"; });
     return causes;
   }
 
   int Number(const std::string& id, const std::string& where) const {
-    for (int k = 0; k < book_.size(); ++k) {
-      if (book_.cause(k).name() == CauseName{id, {where}}) return k;
+    for (int k = 0; k < hypotheses_.size(); ++k) {
+      if (hypotheses_.cause(k).name() == CauseName{id, {where}}) return k;
     }
     ADD_FAILURE() << "no " << id << " of " << where;
     return -1;
   }
   /// Of the cause's first parameter.
   Eigen::Index ColumnOf(const std::string& id, const std::string& where) const {
-    return book_.first(Number(id, where));
+    return hypotheses_.first(Number(id, where));
   }
 
   void Measure(const std::vector<Hidden>& hidden) {
-    Eigen::VectorXd z = Eigen::VectorXd::Zero(book_.parameter_count());
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
     for (const Hidden& one : hidden) z[ColumnOf(one.id, one.where) + one.parameter] = one.z;
     const Simulation truth =
-        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), book_.All(), z));
+        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), hypotheses_.All(), z));
     ASSERT_TRUE(truth.status.ok());
     std::mt19937 random(kSeed);
     std::normal_distribution<double> normal;
@@ -76,7 +76,7 @@ class HiddenCauses : public testing::Test {
   static constexpr unsigned kSeed = 3;
   robot::RobotBody body_;
   ObservedExperiment observed_;
-  CauseBook book_;
+  HypothesisSet hypotheses_;
 };
 
 }  // namespace palpate::diagnosis

@@ -24,14 +24,14 @@ namespace {
 /// The beam is bent sideways and up; a wall stands beside it at its tip.
 class HiddenObstacle : public testing::Test {
  protected:
-  Simulation Run(const std::optional<Wall>& wall, const Simulation* start = nullptr) const {
-    ModelDraft draft = nominal_;
-    draft.wall = wall;
-    return simulator_.Run(draft, start);
+  Simulation Run(const std::optional<Obstacle>& obstacle, const Simulation* start = nullptr) const {
+    ModelHypothesis hypothesis = nominal_;
+    hypothesis.obstacle = obstacle;
+    return simulator_.Run(hypothesis, start);
   }
 
   /// A wall that ends `share` of how far the body goes along `way`.
-  Wall WallAcross(const Eigen::Vector3d& way, double share) const {
+  Obstacle ObstacleAcross(const Eigen::Vector3d& way, double share) const {
     const Eigen::Vector3d normal = -way.normalized();
     const double undeformed_m = NearestAlong(*surface_, normal, nominal_.assembled_m);
     double reached_m = undeformed_m;
@@ -44,28 +44,29 @@ class HiddenObstacle : public testing::Test {
   robot::RobotBody body_ = SmallRobot();
   experiment::Experiment experiment_ = SmallExperiment(body_);
   ObservedExperiment observed_ = Observe(experiment_, body_, {.most_samples = 14});
-  ModelDraft nominal_ = DraftOf(body_, observed_);
+  ModelHypothesis nominal_ = DraftOf(body_, observed_);
   Simulator simulator_{observed_, 1};
   Simulation as_built_ = simulator_.Run(nominal_);
-  std::shared_ptr<const WallSurface> surface_ =
-      std::make_shared<const WallSurface>(SurfaceForWalls(body_));
+  std::shared_ptr<const ObstacleSurface> surface_ =
+      std::make_shared<const ObstacleSurface>(SurfaceForObstacles(body_));
 };
 
 TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouched) {
   constexpr double kDeepest_m = 1e-5;
   constexpr double kExact_m = 2e-9;
-  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.4);
-  const Simulation run = Run(wall, &as_built_);
+  const Obstacle obstacle = ObstacleAcross({0.1, -0.3, 1.0}, 0.4);
+  const Simulation run = Run(obstacle, &as_built_);
   ASSERT_TRUE(run.status.ok()) << run.status.message();
   int touching = 0;
   for (std::size_t s = 0; s < run.samples.size(); ++s) {
     const Eigen::VectorXd& x_m = run.samples[s].middle.state.x_m;
-    EXPECT_GT(WallClearance_m(wall, x_m), -kDeepest_m) << "sample " << s;
-    const Eigen::VectorXd& force_N = run.samples[s].middle.wall_force_N;
-    touching += run.samples[s].middle.AtWall();
-    EXPECT_TRUE(run.samples[s].middle.AtWall() || WallClearance_m(wall, x_m) > -kExact_m);
+    EXPECT_GT(ObstacleClearance_m(obstacle, x_m), -kDeepest_m) << "sample " << s;
+    const Eigen::VectorXd& force_N = run.samples[s].middle.obstacle_force_N;
+    touching += run.samples[s].middle.AtObstacle();
+    EXPECT_TRUE(run.samples[s].middle.AtObstacle() ||
+                ObstacleClearance_m(obstacle, x_m) > -kExact_m);
     for (Eigen::Index k = 0; k < force_N.size(); ++k) {
-      const double depth_m = wall.Depth_m(surface_->nodes[static_cast<std::size_t>(k)], x_m);
+      const double depth_m = obstacle.Depth_m(surface_->nodes[static_cast<std::size_t>(k)], x_m);
       EXPECT_GE(force_N[k], 0.0);
       EXPECT_NEAR(std::max(0.0, depth_m), force_N[k] / surface_->stiffness_N_m, kExact_m);
     }
@@ -75,26 +76,27 @@ TEST_F(HiddenObstacle, PressesOnlyWhereItIsTouched) {
 }
 
 TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
-  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.4);
-  ModelDraft draft = nominal_;
-  draft.wall = wall;
-  SampleSolver solver(draft, observed_);
+  const Obstacle obstacle = ObstacleAcross({0.1, -0.3, 1.0}, 0.4);
+  ModelHypothesis hypothesis = nominal_;
+  hypothesis.obstacle = obstacle;
+  SampleSolver solver(hypothesis, observed_);
   const DriveTrain train(observed_);
-  const Eigen::MatrixXd taken_in = train.At(draft.drives);
+  const Eigen::MatrixXd taken_in = train.At(hypothesis.drives);
   const auto most = std::max_element(as_built_.samples.begin(), as_built_.samples.end(),
                                      [&](const auto& a, const auto& b) {
-                                       return WallClearance_m(wall, a.middle.state.x_m) >
-                                              WallClearance_m(wall, b.middle.state.x_m);
+                                       return ObstacleClearance_m(obstacle, a.middle.state.x_m) >
+                                              ObstacleClearance_m(obstacle, b.middle.state.x_m);
                                      });
   const auto s = most - as_built_.samples.begin();
   SimulatedSample solved;
   solver.Solve(observed_.samples[static_cast<std::size_t>(s)], taken_in.col(s), {}, &solved);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message();
-  ASSERT_TRUE(solved.middle.AtWall());
+  ASSERT_TRUE(solved.middle.AtObstacle());
   // Weight, loads, cables, wall and base: what the base gives is minus all else.
   const Eigen::VectorXd& x_m = solved.middle.state.x_m;
-  const Eigen::VectorXd wall_N = NodalForces_N(wall, solved.middle.wall_force_N, x_m.size());
-  Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + wall_N;
+  const Eigen::VectorXd obstacle_N =
+      NodalForces_N(obstacle, solved.middle.obstacle_force_N, x_m.size());
+  Eigen::VectorXd nodal_N = solved.middle.state.loads.external_force_N + obstacle_N;
   robot::RobotModel& model = solver.model();
   for (int c = 0; c < model.CableCount(); ++c) {
     model.cable(c).AddGradient(x_m, -solved.middle.state.multipliers_N[c], nodal_N);
@@ -114,17 +116,17 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
     if (body_.fixed.col(node).all()) continue;
     EXPECT_LT(left_N.segment<3>(3 * node).norm(), 1e-7) << "node " << node;
   }
-  EXPECT_GT(wall_N.reshaped(3, x_m.size() / 3).rowwise().sum().norm(), 1e-3);
+  EXPECT_GT(obstacle_N.reshaped(3, x_m.size() / 3).rowwise().sum().norm(), 1e-3);
 }
 
 TEST_F(HiddenObstacle, FarAwayChangesNothing) {
   constexpr double kSettled_m = 2e-9;
-  const Simulation with = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), -1.0});
+  const Simulation with = Run(Obstacle{surface_, Eigen::Vector3d::UnitZ(), -1.0});
   for (std::size_t s = 0; s < with.samples.size(); ++s) {
     const auto differ_m = [&](const auto& a, const auto& b) {
       return (a - b).cwiseAbs().maxCoeff();
     };
-    EXPECT_FALSE(with.samples[s].middle.AtWall());
+    EXPECT_FALSE(with.samples[s].middle.AtObstacle());
     EXPECT_LT(differ_m(with.samples[s].middle.state.x_m, as_built_.samples[s].middle.state.x_m),
               kSettled_m);
     EXPECT_LT(differ_m(with.samples[s].markers_m(), as_built_.samples[s].markers_m()), kSettled_m);
@@ -132,12 +134,12 @@ TEST_F(HiddenObstacle, FarAwayChangesNothing) {
 }
 
 TEST_F(HiddenObstacle, IsMetWhereverASimulationStarts) {
-  const Wall wall = WallAcross({0.1, -0.3, 1.0}, 0.3);
-  const Wall before = WallAcross({0.2, -0.2, 1.0}, 0.5);
-  const Simulation cold = Run(wall);
-  const Simulation from_free = Run(wall, &as_built_);
+  const Obstacle obstacle = ObstacleAcross({0.1, -0.3, 1.0}, 0.3);
+  const Obstacle before = ObstacleAcross({0.2, -0.2, 1.0}, 0.5);
+  const Simulation cold = Run(obstacle);
+  const Simulation from_free = Run(obstacle, &as_built_);
   const Simulation beside = Run(before, &as_built_);
-  const Simulation from_beside = Run(wall, &beside);
+  const Simulation from_beside = Run(obstacle, &beside);
   ASSERT_TRUE(cold.status.ok() && from_free.status.ok() && from_beside.status.ok());
   const Simulation free_again = Run(std::nullopt, &from_beside);
   constexpr double kSame_m = 1e-6;  // how a sample bends is kept where the wall is far
@@ -172,13 +174,13 @@ class HiddenObstacleIsFound : public HiddenObstacle {
     observed_.sigma_m.setConstant(kNoise_m);
   }
 
-  CauseBook Book() const {
+  HypothesisSet Book() const {
     return {MakeCauses({.body = body_, .observed = observed_, .as_built = &as_built_}, {}), {}};
   }
 
   /// Data and model are of one mesh.
-  Selection Select(const CauseBook& book) const {
-    const Fitter fitter(observed_, body_, book, {.relative_error = 1e-4}, 1);
+  Selection Select(const HypothesisSet& hypotheses) const {
+    const Fitter fitter(observed_, body_, hypotheses, {.relative_error = 1e-4}, 1);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(&as_built_), 1,
                         [](int, int, const std::string&) {});
   }
@@ -187,20 +189,20 @@ class HiddenObstacleIsFound : public HiddenObstacle {
 TEST_F(HiddenObstacleIsFound, ByWhatAWholeWallDoesToFirstOrder) {
   // Where it is met somewhere else once the body leans on it the first order is far off.
   constexpr double kTypically = 0.4;
-  const CauseBook book = Book();
+  const HypothesisSet hypotheses = Book();
   std::vector<double> off_before;
   std::vector<double> off_after;
-  for (int k = 0; k < book.size(); ++k) {
-    const Cause& cause = book.cause(k);
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    const FaultModel& cause = hypotheses.cause(k);
     if (cause.name().id != "hidden_obstacle") continue;
-    const CauseList one{&cause};
+    const FaultModelList one{&cause};
     Simulation healthy = as_built_;
     simulator_.Differentiate(nominal_, one, Eigen::Vector4d::Zero(), {true}, nominal_, &healthy);
     const Eigen::Vector4d there = Eigen::Vector4d::UnitX();
-    const ModelDraft draft = DraftWith(nominal_, one, there);
-    Simulation met = simulator_.Run(draft, &as_built_);
+    const ModelHypothesis hypothesis = DraftWith(nominal_, one, there);
+    Simulation met = simulator_.Run(hypothesis, &as_built_);
     ASSERT_TRUE(met.status.ok()) << met.status.message();
-    simulator_.Differentiate(draft, one, there, {true}, nominal_, &met);
+    simulator_.Differentiate(hypothesis, one, there, {true}, nominal_, &met);
     double effect = 0.0, before = 0.0, after = 0.0;
     for (std::size_t s = 0; s < met.samples.size(); ++s) {
       const Eigen::VectorXd moved_m =
@@ -225,38 +227,38 @@ TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
   constexpr double kSigmas = 3.0;
   constexpr double k95 = 1.959964;
   constexpr double kMostTurn_rad = 0.35;  // a corner that touches tells little of turns about it
-  const Wall wall = WallAcross({0.15, -0.4, 1.0}, 0.6);
-  Measure(Run(wall, &as_built_));
-  const CauseBook book = Book();
-  const Selection selection = Select(book);
+  const Obstacle obstacle = ObstacleAcross({0.15, -0.4, 1.0}, 0.6);
+  Measure(Run(obstacle, &as_built_));
+  const HypothesisSet hypotheses = Book();
+  const Selection selection = Select(hypotheses);
   ASSERT_EQ(selection.named.size(), 1U);
   const int k = selection.named[0].cause;
-  ASSERT_EQ(book.cause(k).name().id, "hidden_obstacle");
-  EXPECT_TRUE(selection.guard.passed) << selection.guard.worst;
+  ASSERT_EQ(hypotheses.cause(k).name().id, "hidden_obstacle");
+  EXPECT_TRUE(selection.goodness_of_fit.passed) << selection.goodness_of_fit.worst;
   const Posterior& posterior = selection.best.posterior;
-  const Eigen::Index first = book.first(k);
-  const std::vector<FittedParameter> report =
-      book.cause(k).Report(posterior.mean.segment<4>(first),
-                           posterior.covariance.block<4, 4>(first, first), nominal_.assembled_m);
+  const Eigen::Index first = hypotheses.first(k);
+  const std::vector<FittedParameter> report = hypotheses.cause(k).Report(
+      posterior.mean.segment<4>(first), posterior.covariance.block<4, 4>(first, first),
+      nominal_.assembled_m);
   const auto expect_near = [&](const FittedParameter& fitted, const std::string& name,
                                double truth) {
     EXPECT_EQ(fitted.name, name);
     const double sigma = (fitted.ci95_high - fitted.value) / k95;
     EXPECT_NEAR(fitted.value, truth, kSigmas * sigma) << name;
   };
-  expect_near(report[0], "gap_m", WallClearance_m(wall, nominal_.assembled_m));
-  expect_near(report[1], "nx", wall.normal.x());
-  expect_near(report[2], "ny", wall.normal.y());
-  expect_near(report[3], "nz", wall.normal.z());
+  expect_near(report[0], "gap_m", ObstacleClearance_m(obstacle, nominal_.assembled_m));
+  expect_near(report[1], "nx", obstacle.normal.x());
+  expect_near(report[2], "ny", obstacle.normal.y());
+  expect_near(report[3], "nz", obstacle.normal.z());
   const Eigen::Vector3d found{report[1].value, report[2].value, report[3].value};
-  EXPECT_GT(found.dot(wall.normal), std::cos(kMostTurn_rad));
+  EXPECT_GT(found.dot(obstacle.normal), std::cos(kMostTurn_rad));
 }
 
 TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
-  const CauseBook book = Book();
+  const HypothesisSet hypotheses = Book();
   int k = 0;
-  while (book.cause(k).name().id != "hidden_obstacle") ++k;
-  const Cause& obstacle = book.cause(k);
+  while (hypotheses.cause(k).name().id != "hidden_obstacle") ++k;
+  const FaultModel& obstacle = hypotheses.cause(k);
   for (const double deep_m : {5e-5, 5e-3}) {  // the deeper in a body that is larger than its file's
     const Eigen::Vector4d z(1.0, obstacle.parameters()[1].least - deep_m, 0.0, 0.0);
     const auto report =
@@ -271,10 +273,10 @@ TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
 }
 
 TEST_F(HiddenObstacleIsFound, AsFarAsItIsFromABodyOfAnotherSize) {
-  const CauseBook book = Book();
+  const HypothesisSet hypotheses = Book();
   int k = 0;
-  while (book.cause(k).name().id != "hidden_obstacle") ++k;
-  const Cause& obstacle = book.cause(k);
+  while (hypotheses.cause(k).name().id != "hidden_obstacle") ++k;
+  const FaultModel& obstacle = hypotheses.cause(k);
   const Eigen::Vector4d z(1.0, 0.0, 0.0, 0.0);
   const Eigen::Matrix4d sure = 1e-12 * Eigen::Matrix4d::Identity();
   const auto gap_m = [&](const Eigen::VectorXd& undeformed_m) {
@@ -289,49 +291,49 @@ TEST_F(HiddenObstacleIsFound, AsFarAsItIsFromABodyOfAnotherSize) {
 }
 
 /// A wall through the body, however far it is moved.
-class WallThroughTheBody final : public Cause {
+class ObstacleThroughTheBody final : public FaultModel {
  public:
-  explicit WallThroughTheBody(std::shared_ptr<const WallSurface> surface)
-      : Cause({"hidden_obstacle", {"body"}}, "a wall through the body",
-              {{.name = "gap_m", .fault = 1.0, .fault_at = 1.0}}),
+  explicit ObstacleThroughTheBody(std::shared_ptr<const ObstacleSurface> surface)
+      : FaultModel({"hidden_obstacle", {"body"}}, "a wall through the body",
+                   {{.name = "gap_m", .fault = 1.0, .fault_at = 1.0}}),
         surface_(std::move(surface)) {}
 
-  void Apply(const Eigen::VectorXd& /*z*/, ModelDraft* draft) const override {
-    draft->wall = Wall{surface_, Eigen::Vector3d::UnitZ(), 1.0};
+  void Apply(const Eigen::VectorXd& /*z*/, ModelHypothesis* hypothesis) const override {
+    hypothesis->obstacle = Obstacle{surface_, Eigen::Vector3d::UnitZ(), 1.0};
   }
   /// As if it explained what is measured.
-  void OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const CauseMoment& at,
+  void OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
               Eigen::Matrix3Xd* seen_m) const override {
     *seen_m = at.seen().position_m - at.simulated().markers_m();
   }
 
  private:
-  std::shared_ptr<const WallSurface> surface_;
+  std::shared_ptr<const ObstacleSurface> surface_;
 };
 
 TEST_F(HiddenObstacleIsFound, NowhereThatTheBodyCannotBe) {
-  const Wall wall = WallAcross({0.15, -0.4, 1.0}, 0.6);
-  Measure(Run(wall, &as_built_));
-  std::vector<CausePtr> causes;
-  causes.push_back(std::make_unique<WallThroughTheBody>(surface_));
-  const CauseBook book(std::move(causes), {});
-  const Fitter fitter(observed_, body_, book, {.relative_error = 1e-4}, 1);
+  const Obstacle obstacle = ObstacleAcross({0.15, -0.4, 1.0}, 0.6);
+  Measure(Run(obstacle, &as_built_));
+  std::vector<FaultModelPtr> causes;
+  causes.push_back(std::make_unique<ObstacleThroughTheBody>(surface_));
+  const HypothesisSet hypotheses(std::move(causes), {});
+  const Fitter fitter(observed_, body_, hypotheses, {.relative_error = 1e-4}, 1);
   const Fit as_built = fitter.AsBuilt(&as_built_);
   ASSERT_GT(fitter.Guess(as_built, {0}).ln_evidence, as_built.posterior.ln_evidence + 10.0);
   const Fit fit = fitter.Complete(fitter.Refine({0}, as_built));
   EXPECT_FALSE(fit.status.ok());
-  const Simulation none = Run(Wall{surface_, Eigen::Vector3d::UnitZ(), 1.0}, &as_built_);
+  const Simulation none = Run(Obstacle{surface_, Eigen::Vector3d::UnitZ(), 1.0}, &as_built_);
   EXPECT_FALSE(none.status.ok());
   for (const SimulatedSample& sample : none.samples) {
     EXPECT_TRUE(!sample.status.ok() && sample.markers_m().array().isNaN().all());
   }
-  EXPECT_TRUE(Select(book).named.empty());
+  EXPECT_TRUE(Select(hypotheses).named.empty());
 }
 
 TEST_F(HiddenObstacleIsFound, InNoHealthyRobot) {
   Measure(as_built_);
-  const CauseBook book = Book();
-  EXPECT_TRUE(Select(book).named.empty());
+  const HypothesisSet hypotheses = Book();
+  EXPECT_TRUE(Select(hypotheses).named.empty());
 }
 
 }  // namespace

@@ -13,16 +13,16 @@ namespace {
 
 class Lag : public HiddenCauses {
  protected:
-  const Cause& lag() const { return book_.cause(Number("lag", "body")); }
+  const FaultModel& lag() const { return hypotheses_.cause(Number("lag", "body")); }
 
   /// What a fit to a robot that is late by 0.12 s says of it.
   std::vector<FittedParameter> FoundOf(double rounded) {
     Measure({{"lag", "body", 0.12, 0}, {"lag", "body", rounded, 1}});
-    const Fitter fitter(observed_, body_, book_, {.relative_error = 1e-6}, 1);
+    const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-6}, 1);
     const int number = Number("lag", "body");
     const Fit fit = fitter.Complete(fitter.Refine({number}, fitter.AsBuilt()));
     EXPECT_TRUE(fit.status.ok()) << fit.status.message();
-    const Eigen::Index first = book_.first(number);
+    const Eigen::Index first = hypotheses_.first(number);
     return lag().Report(fit.posterior.mean.segment<2>(first),
                         fit.posterior.covariance.block<2, 2>(first, first), {});
   }
@@ -41,16 +41,16 @@ void ExpectInside(const FittedParameter& found, double hidden) {
 
 TEST_F(Lag, IsADelayAndATimeConstant) {
   const Eigen::Vector2d z(0.1, 0.3);
-  ModelDraft draft = DraftOf(body_, observed_);
-  lag().Apply(z, &draft);
-  EXPECT_NEAR(draft.drives.delay_s + draft.drives.tau_s, 0.1, 1e-12);
-  EXPECT_NEAR(draft.drives.tau_s * draft.drives.tau_s, 0.8 * 0.1 * 0.1, 1e-12);
+  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  lag().Apply(z, &hypothesis);
+  EXPECT_NEAR(hypothesis.drives.delay_s + hypothesis.drives.tau_s, 0.1, 1e-12);
+  EXPECT_NEAR(hypothesis.drives.tau_s * hypothesis.drives.tau_s, 0.8 * 0.1 * 0.1, 1e-12);
   const auto report = lag().Report(z, 1e-12 * Eigen::Matrix2d::Identity(), {});
   ASSERT_EQ(report.size(), 2U);
   EXPECT_EQ(report[0].name, "delay_s");
   EXPECT_EQ(report[1].name, "tau_s");
-  EXPECT_NEAR(report[0].value, draft.drives.delay_s, 1e-12);
-  EXPECT_NEAR(report[1].value, draft.drives.tau_s, 1e-12);
+  EXPECT_NEAR(report[0].value, hypothesis.drives.delay_s, 1e-12);
+  EXPECT_NEAR(report[1].value, hypothesis.drives.tau_s, 1e-12);
   for (const FittedParameter& part : report) {
     EXPECT_NEAR(part.ci95_low, part.value, 1e-5);
     EXPECT_NEAR(part.ci95_high, part.value, 1e-5);
@@ -70,9 +70,9 @@ TEST_F(Lag, HasIntervalsOfAsMuchAsIsBelieved) {
   for (int k = 0; k < kDraws; ++k) {
     const double first = normal(random);
     const double second = normal(random);
-    ModelDraft draft = DraftOf(body_, observed_);
-    lag().Apply(z + root * Eigen::Vector2d(first, second), &draft);
-    const double part_s[] = {draft.drives.delay_s, draft.drives.tau_s};
+    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    lag().Apply(z + root * Eigen::Vector2d(first, second), &hypothesis);
+    const double part_s[] = {hypothesis.drives.delay_s, hypothesis.drives.tau_s};
     for (std::size_t p = 0; p < 2; ++p) {
       below[static_cast<Eigen::Index>(p)] += part_s[p] < report[p].ci95_low;
       above[static_cast<Eigen::Index>(p)] += part_s[p] > report[p].ci95_high;
@@ -89,9 +89,9 @@ TEST_F(Lag, HasIntervalsOfAsMuchAsIsBelieved) {
 
 TEST_F(Lag, HasADerivativeWhereAllOfItIsATimeConstant) {
   const auto change_at = [&](double rounded) {
-    const CauseList one{&lag()};
+    const FaultModelList one{&lag()};
     const Eigen::VectorXd z = Eigen::Vector2d(0.12, rounded);
-    const ModelDraft nominal = DraftOf(body_, observed_);
+    const ModelHypothesis nominal = DraftOf(body_, observed_);
     return DriveChanges(DriveTrain(observed_), nominal, one, z, {true},
                         DraftWith(nominal, one, z).drives)[1];
   };

@@ -20,7 +20,7 @@ TEST(MemorableEnds, OfAPullAreWhatTheHoldAfterItHas) {
   ASSERT_TRUE(observed.samples[0].begins_piece && observed.samples[0].ends_piece);
   ASSERT_TRUE(observed.samples[1].still);
   const Simulator simulator(observed, 1);
-  ModelDraft draft = DraftOf(body, observed);
+  ModelHypothesis hypothesis = DraftOf(body, observed);
   const auto expect_held = [&](const Simulation& simulation, const char* what) {
     ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
     const Memorable& end = simulation.samples[0].at_ends[1];
@@ -30,10 +30,10 @@ TEST(MemorableEnds, OfAPullAreWhatTheHoldAfterItHas) {
     EXPECT_LT((end.elastic_Pa - held.elastic_Pa).norm(), 0.02F * held.elastic_Pa.norm()) << what;
     EXPECT_LT((end.energy_J_m3 - held.energy_J_m3).norm(), 0.1F * held.energy_J_m3.norm()) << what;
   };
-  const Simulation as_built = simulator.Run(draft);
+  const Simulation as_built = simulator.Run(hypothesis);
   expect_held(as_built, "from nothing");
-  for (auto& material : draft.body.materials) material.youngs_modulus_Pa *= 1.05;
-  expect_held(simulator.Run(draft, &as_built), "moved along");
+  for (auto& material : hypothesis.body.materials) material.youngs_modulus_Pa *= 1.05;
+  expect_held(simulator.Run(hypothesis, &as_built), "moved along");
 }
 
 }  // namespace

@@ -16,25 +16,26 @@ constexpr double kLnM = -0.4;  // about where m is looked for
 const Eigen::Vector2d kZ(kSoftening, kLnM);
 
 TEST_F(Mullins, SoftensSoMuchAsItIsSaidToWhereMIsLookedFor) {
-  const Cause& mullins = book_.cause(Number("mullins", "body"));
-  ModelDraft draft = DraftOf(body_, observed_);
-  mullins.Apply(kZ, &draft);
-  ASSERT_TRUE(draft.mullins);
+  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
+  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  mullins.Apply(kZ, &hypothesis);
+  ASSERT_TRUE(hypothesis.mullins);
   const double looked_for_J_m3 = mullins.parameters()[1].nominal;
-  EXPECT_NEAR(draft.mullins->inverse_r * std::erf(looked_for_J_m3 / draft.mullins->m_J_m3),
-              kSoftening, 1e-12);
+  EXPECT_NEAR(
+      hypothesis.mullins->inverse_r * std::erf(looked_for_J_m3 / hypothesis.mullins->m_J_m3),
+      kSoftening, 1e-12);
   const auto report = mullins.Report(kZ, 1e-12 * Eigen::Matrix2d::Identity(), {});
   ASSERT_EQ(report.size(), 2U);
   EXPECT_EQ(report[0].name, "r");
-  EXPECT_NEAR(report[0].value * draft.mullins->inverse_r, 1.0, 1e-12);
+  EXPECT_NEAR(report[0].value * hypothesis.mullins->inverse_r, 1.0, 1e-12);
   EXPECT_NEAR(report[0].ci95_low, report[0].value, 1e-4);
   EXPECT_NEAR(report[0].ci95_high, report[0].value, 1e-4);
   EXPECT_EQ(report[1].name, "m");
-  EXPECT_NEAR(report[1].value, draft.mullins->m_J_m3, 1e-9);
+  EXPECT_NEAR(report[1].value, hypothesis.mullins->m_J_m3, 1e-9);
 }
 
 TEST_F(Mullins, HasNoRBelowOne) {
-  const Cause& mullins = book_.cause(Number("mullins", "body"));
+  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
   const Eigen::Vector2d more_than_can_be(0.9, 0.5);
   const auto report = mullins.Report(more_than_can_be, 1e-4 * Eigen::Matrix2d::Identity(), {});
   EXPECT_EQ(report[0].value, 1.0);
@@ -44,7 +45,7 @@ TEST_F(Mullins, HasNoRBelowOne) {
 
 TEST_F(Mullins, HasIntervalsOfAsMuchAsIsBelieved) {
   constexpr int kDraws = 100000;
-  const Cause& mullins = book_.cause(Number("mullins", "body"));
+  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
   Eigen::Matrix2d root;
   root << 0.02, 0.0, -0.1, 0.2;
   const auto report = mullins.Report(kZ, root * root.transpose(), {});

@@ -14,10 +14,10 @@ namespace {
 /// Simulations that begin from one of a robot that was a little different.
 class NearStart : public HiddenCauses {
  protected:
-  ModelDraft DraftOfOne(const std::string& id, const std::string& where, double z) const {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(book_.parameter_count());
+  ModelHypothesis DraftOfOne(const std::string& id, const std::string& where, double z) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
     all[ColumnOf(id, where)] = z;
-    return DraftWith(DraftOf(body_, observed_), book_.All(), all);
+    return DraftWith(DraftOf(body_, observed_), hypotheses_.All(), all);
   }
   static double Apart_m(const Simulation& a, const Simulation& b) {
     double most_m = 0.0;
@@ -40,9 +40,9 @@ class NearStart : public HiddenCauses {
 TEST_F(NearStart, LeadsToWhereARobotThatRemembersIsFromNothing) {
   constexpr double kSettled = 0.02;  // of the effect; sweeps end before all is
   for (const auto& [id, z] : {std::pair("viscoelastic_creep", 0.3), std::pair("mullins", 0.4)}) {
-    const ModelDraft draft = DraftOfOne(id, "body", z);
-    const Simulation from_nothing = simulator_.Run(draft);
-    const Simulation from_near = simulator_.Run(draft, &as_built_, Detail::kAllParts);
+    const ModelHypothesis hypothesis = DraftOfOne(id, "body", z);
+    const Simulation from_nothing = simulator_.Run(hypothesis);
+    const Simulation from_near = simulator_.Run(hypothesis, &as_built_, Detail::kAllParts);
     ASSERT_TRUE(from_nothing.status.ok() && from_near.status.ok()) << id;
     const double effect_m = Apart_m(from_nothing, as_built_);
     EXPECT_GT(effect_m, 1e-4) << id;
@@ -57,9 +57,9 @@ TEST_F(NearStart, ForgetsAPastThatTheRobotHasNot) {
 }
 
 TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
-  const ModelDraft draft = DraftOfOne("youngs_modulus", "body", 0.02);
-  const Simulation whole = simulator_.Run(draft, &as_built_, Detail::kAllParts);
-  const Simulation kept = simulator_.Run(draft, &as_built_);
+  const ModelHypothesis hypothesis = DraftOfOne("youngs_modulus", "body", 0.02);
+  const Simulation whole = simulator_.Run(hypothesis, &as_built_, Detail::kAllParts);
+  const Simulation kept = simulator_.Run(hypothesis, &as_built_);
   EXPECT_EQ(Choices(whole), 2 * Choices(as_built_));
   EXPECT_LT(Choices(kept), Choices(whole));
   const double effect_m = Apart_m(whole, as_built_);
@@ -69,10 +69,10 @@ TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
 
 /// What nothing is known of begins, as one that was near, with the first moment that fails.
 TEST_F(NearStart, EndsWithTheFirstMomentWithoutABalance) {
-  ModelDraft draft = DraftOf(body_, observed_);
-  draft.body.gravity_m_s2 *= 1e4;
+  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  hypothesis.body.gravity_m_s2 *= 1e4;
   const Simulation nothing;
-  const Simulation ended = simulator_.Run(draft, &nothing);
+  const Simulation ended = simulator_.Run(hypothesis, &nothing);
   EXPECT_FALSE(ended.status.ok());
   const std::string left_out = "another moment could not be simulated";
   std::size_t tried = 0;

@@ -35,8 +35,8 @@ class NextExperiment : public testing::Test {
   }
 
   int NumberOf(const std::string& id, std::size_t nth = 0) const {
-    for (int k = 0; k < book_->size(); ++k) {
-      if (book_->cause(k).name().id == id && nth-- == 0) return k;
+    for (int k = 0; k < hypotheses_->size(); ++k) {
+      if (hypotheses_->cause(k).name().id == id && nth-- == 0) return k;
     }
     ADD_FAILURE() << id;
     return 0;
@@ -47,17 +47,18 @@ class NextExperiment : public testing::Test {
   std::vector<RankedProposal> Rank(const std::string& hidden, double z, const std::string& rival,
                                    std::size_t nth = 0) {
     observed_ = Observe(experiment_, body_);
-    book_ = std::make_unique<CauseBook>(MakeCauses({.body = body_, .observed = observed_}, {}),
-                                        std::map<std::string, double>{});
+    hypotheses_ = std::make_unique<HypothesisSet>(
+        MakeCauses({.body = body_, .observed = observed_}, {}), std::map<std::string, double>{});
     const int a = NumberOf(hidden, nth);
-    const Eigen::VectorXd own = z * Eigen::VectorXd::Unit(book_->count(a), 0);
+    const Eigen::VectorXd own = z * Eigen::VectorXd::Unit(hypotheses_->count(a), 0);
     const Simulation truth =
-        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), {&book_->cause(a)}, own));
+        Simulator(observed_, 1)
+            .Run(DraftWith(DraftOf(body_, observed_), {&hypotheses_->cause(a)}, own));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       observed_.samples[s].position_m = truth.samples[s].markers_m();
     }
-    fitter_ = std::make_unique<Fitter>(observed_, body_, *book_, NoiseModel{}, 1);
+    fitter_ = std::make_unique<Fitter>(observed_, body_, *hypotheses_, NoiseModel{}, 1);
     selection_.healthy = fitter_->AsBuilt();
     selection_.best = fitter_->Complete(fitter_->Refine({a}, selection_.healthy));
     EXPECT_TRUE(selection_.best.status.ok());
@@ -106,7 +107,7 @@ class NextExperiment : public testing::Test {
   robot::RobotBody body_;
   experiment::Experiment experiment_;
   ObservedExperiment observed_;
-  std::unique_ptr<CauseBook> book_;
+  std::unique_ptr<HypothesisSet> hypotheses_;
   std::unique_ptr<Fitter> fitter_;
   Selection selection_;
   Question question_;
@@ -190,9 +191,9 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   Rank("payload", 2e-3, "plastic_set");
   NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 4.0},
             {.cause = NumberOf("lag"), .ln_bayes_factor = 2.0}});
-  selection_.guard.passed = false;
+  selection_.goodness_of_fit.passed = false;
   EXPECT_TRUE(RankAgain().empty());
-  selection_.guard.passed = true;
+  selection_.goodness_of_fit.passed = true;
   ASSERT_FALSE(RankAgain().empty());
   EXPECT_EQ(question_.best.name.id, "no_fault");
   ASSERT_EQ(question_.rivals.size(), 1U);
@@ -205,7 +206,7 @@ TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
   NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 8.0},
             {.cause = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
             {.cause = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}});
-  selection_.guard.passed = true;
+  selection_.goodness_of_fit.passed = true;
   const std::vector<RankedProposal> ranked = RankAgain();
   EXPECT_EQ(question_.best.name.id, "youngs_modulus");
   std::vector<std::string> rivals;

@@ -35,28 +35,28 @@ class OtherPlaces : public HiddenCauses {
   /// Forces [places] by how far out on the beam they are looked for.
   std::vector<int> Forces() const {
     std::vector<int> forces;
-    for (int k = 0; k < book_.size(); ++k) {
-      if (book_.cause(k).name().id == "permanent_force") forces.push_back(k);
+    for (int k = 0; k < hypotheses_.size(); ++k) {
+      if (hypotheses_.cause(k).name().id == "permanent_force") forces.push_back(k);
     }
     std::sort(forces.begin(), forces.end(), [&](int a, int b) { return X_m(a) < X_m(b); });
     return forces;
   }
-  double X_m(int force) const { return book_.cause(force).parameters()[kAlong].nominal; }
+  double X_m(int force) const { return hypotheses_.cause(force).parameters()[kAlong].nominal; }
   /// Where a fit has the force.
   double X_m(const Fit& fit, int force) const {
-    return X_m(force) + fit.posterior.mean[book_.first(force) + kAlong];
+    return X_m(force) + fit.posterior.mean[hypotheses_.first(force) + kAlong];
   }
 
   /// A force sideways at one of the places it is looked for at, `noise` times as noisy as usual.
   void MeasureForceAt(int force, double noise) {
     observed_.sigma_m *= noise;
     Measure({});
-    Eigen::VectorXd z = Eigen::VectorXd::Zero(book_.parameter_count());
-    z[book_.first(force) + 1] = kForce_N;
-    const ModelDraft nominal = DraftOf(body_, observed_);
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
+    z[hypotheses_.first(force) + 1] = kForce_N;
+    const ModelHypothesis nominal = DraftOf(body_, observed_);
     const Simulator simulator(observed_, 1);
     const Simulation without = simulator.Run(nominal);
-    const Simulation with = simulator.Run(DraftWith(nominal, book_.All(), z));
+    const Simulation with = simulator.Run(DraftWith(nominal, hypotheses_.All(), z));
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       const Eigen::Matrix3Xd noise_m =
           observed_.samples[s].position_m - without.samples[s].markers_m();
@@ -73,7 +73,7 @@ TEST_F(OtherPlaces, AFitMovesToWhereTheDataHaveTheForce) {
   const int right = forces.back();
   const int wrong = forces.front();
   MeasureForceAt(right, 0.1);
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit stuck = FittedAt(fitter, wrong);
   ASSERT_TRUE(stuck.status.ok());
   int cause = wrong;
@@ -86,7 +86,7 @@ TEST_F(OtherPlaces, AFitMovesToWhereTheDataHaveTheForce) {
 TEST_F(OtherPlaces, OneThatIsWhereTheDataHaveItStays) {
   const int right = Forces().back();
   MeasureForceAt(right, 1.0);
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = FittedAt(fitter, right);
   int cause = right;
   EXPECT_EQ(AtTheBestPlace(fitter, fit, &cause).z, fit.z);
@@ -97,9 +97,9 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
   const std::vector<int> forces = Forces();
   const int near = forces.back();
   MeasureForceAt(near, 30.0);
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const Fit fit = FittedAt(fitter, near);
-  const Eigen::Index first = book_.first(near);
+  const Eigen::Index first = hypotheses_.first(near);
   const Eigen::MatrixXd own = fit.posterior.covariance.block<6, 6>(first, first);
   const Eigen::MatrixXd all = CovarianceOverPlaces(fitter, fit, near);
   EXPECT_LT(std::sqrt(own(kAlong, kAlong)), 1.01 * kPlaceSigma_m)
@@ -111,9 +111,9 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
 TEST_F(OtherPlaces, AreOfNoWeightWhereTheDataTell) {
   const int right = Forces().back();
   MeasureForceAt(right, 0.1);
-  const Fitter fitter(observed_, body_, book_, {.relative_error = 1e-4}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {.relative_error = 1e-4}, 1);
   const Fit fit = FittedAt(fitter, right);
-  const Eigen::Index first = book_.first(right);
+  const Eigen::Index first = hypotheses_.first(right);
   const Eigen::MatrixXd own = fit.posterior.covariance.block<6, 6>(first, first);
   EXPECT_TRUE(CovarianceOverPlaces(fitter, fit, right).isApprox(own, 0.05)) << "seed " << kSeed;
 }

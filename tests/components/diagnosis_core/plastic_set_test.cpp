@@ -27,20 +27,20 @@ Eigen::VectorXd GivesWay(const robot::RobotBody& body, const Eigen::VectorXd& pu
 }
 
 TEST_F(PlasticSet, IsBelievedToBendABodyByItsCompliance) {
-  const Cause& set = book_.cause(Number("plastic_set", "body"));
+  const FaultModel& set = hypotheses_.cause(Number("plastic_set", "body"));
   const Eigen::Index shapes = std::ssize(set.parameters());
   Eigen::VectorXd compliance(shapes);
   for (Eigen::Index k = 0; k < shapes; ++k) {
-    ModelDraft draft = DraftOf(body_, observed_);
-    set.Apply(Eigen::VectorXd::Unit(shapes, k), &draft);
-    const Eigen::VectorXd shape = (draft.body.mesh.nodes_m - body_.mesh.nodes_m).reshaped();
+    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    set.Apply(Eigen::VectorXd::Unit(shapes, k), &hypothesis);
+    const Eigen::VectorXd shape = (hypothesis.body.mesh.nodes_m - body_.mesh.nodes_m).reshaped();
     const Eigen::VectorXd moved = GivesWay(body_, shape);
     compliance[k] = moved.dot(shape) / shape.squaredNorm();
     EXPECT_LT((moved - compliance[k] * shape).norm(), 0.02 * moved.norm()) << "shape " << k;
   }
-  const CauseParameter& softest = set.parameters()[0];
+  const FaultParameter& softest = set.parameters()[0];
   for (Eigen::Index k = 0; k < shapes; ++k) {
-    const CauseParameter& part = set.parameters()[static_cast<std::size_t>(k)];
+    const FaultParameter& part = set.parameters()[static_cast<std::size_t>(k)];
     EXPECT_GT(part.fault, part.tolerance) << "shape " << k;
     const double beyond_m = std::sqrt(std::pow(part.fault, 2) - std::pow(part.tolerance, 2));
     EXPECT_NEAR(beyond_m / softest.fault, compliance[k] / compliance[0], 0.01) << "shape " << k;

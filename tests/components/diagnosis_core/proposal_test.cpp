@@ -167,19 +167,19 @@ TEST(PredictProposals, SeeFromWhereTheCameraStoodAsFarAsThatIsKnown) {
   experiment.recordings[2].base_tilt_deg.reset();
   experiment.recordings[3].kind = RecordingKind::kCameraMoved;
   const ObservedExperiment observed = Observe(experiment, body, {.most_samples = 14});
-  const CauseBook book(MakeCauses({.body = body, .observed = observed}, {}), {});
-  const Fit as_built = Fitter(observed, body, book, {}, 1).AsBuilt();
+  const HypothesisSet hypotheses(MakeCauses({.body = body, .observed = observed}, {}), {});
+  const Fit as_built = Fitter(observed, body, hypotheses, {}, 1).AsBuilt();
   const std::vector<Proposal> proposals = BenchProposals(body, observed);
   const ObservedExperiment planned = ObserveProposals(experiment, observed, body, proposals);
-  std::vector<int> all(static_cast<std::size_t>(book.size()));
+  std::vector<int> all(static_cast<std::size_t>(hypotheses.size()));
   std::iota(all.begin(), all.end(), 0);
-  const LinearModel model = PredictProposals(planned, body, book, as_built, all, {}, 1);
+  const LinearModel model = PredictProposals(planned, body, hypotheses, as_built, all, {}, 1);
   ASSERT_GT(model.J.rows(), 0);
   const auto columns_of = [&](const std::string& id) {
     std::vector<bool> seen;
-    for (int k = 0; k < book.size(); ++k) {
-      if (book.cause(k).name().id != id) continue;
-      seen.push_back(!model.J.middleCols(book.first(k), book.count(k)).isZero());
+    for (int k = 0; k < hypotheses.size(); ++k) {
+      if (hypotheses.cause(k).name().id != id) continue;
+      seen.push_back(!model.J.middleCols(hypotheses.first(k), hypotheses.count(k)).isZero());
     }
     return seen;
   };

@@ -23,7 +23,7 @@ class ResidualForcesOfOneForce : public HiddenCauses {
     selection.healthy = fitter.Complete(fitter.AsBuilt());
     selection.best = faults.empty() ? selection.healthy
                                     : fitter.Complete(fitter.Refine(faults, selection.healthy));
-    selection.guard.passed = !faults.empty();
+    selection.goodness_of_fit.passed = !faults.empty();
     return selection;
   }
   /// The world's axis along which it pushes, in the robot's frame of that recording.
@@ -37,8 +37,8 @@ class ResidualForcesOfOneForce : public HiddenCauses {
 
 TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
   Measure({{"permanent_force", "body", kResidualForce_N, kAxis}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
-  const ResidualForces forces = FindResidualForces(observed_, book_, Named(fitter, {}));
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
+  const ResidualForces forces = FindResidualForces(observed_, hypotheses_, Named(fitter, {}));
   ASSERT_GT(forces.place_m.cols(), 0);
   ASSERT_EQ(forces.before_N.cols(), forces.place_m.cols());
   const Eigen::Vector3d sum_N = forces.before_N.rowwise().sum();
@@ -53,9 +53,9 @@ TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
 
 TEST_F(ResidualForcesOfOneForce, AreGoneOnceItIsNamed) {
   Measure({{"permanent_force", "body", kResidualForce_N, kAxis}});
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const int force = Number("permanent_force", "body");
-  const ResidualForces forces = FindResidualForces(observed_, book_, Named(fitter, {force}));
+  const ResidualForces forces = FindResidualForces(observed_, hypotheses_, Named(fitter, {force}));
   EXPECT_LT(forces.after_N.norm(), 0.2 * forces.before_N.norm()) << "seed " << kSeed;
 }
 
@@ -63,16 +63,16 @@ TEST_F(ResidualForcesOfOneForce, AreLookedForInTheRecordingThatLeavesMost) {
   Measure({});
   Sample& sample = observed_.samples[observed_.samples.size() / 2];
   sample.position_m.array() += 20.0 * kSigma_m;
-  const Fitter fitter(observed_, body_, book_, {}, 1);
+  const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
   const auto recording = static_cast<std::size_t>(sample.recording);
-  EXPECT_EQ(FindResidualForces(observed_, book_, Named(fitter, {})).recording,
+  EXPECT_EQ(FindResidualForces(observed_, hypotheses_, Named(fitter, {})).recording,
             observed_.recordings[recording].name);
 }
 
 TEST_F(ResidualForcesOfOneForce, AreNoneWhereForcesAreNotBelievedIn) {
   Measure({});
-  const CauseBook without(MakeCauses({.body = body_, .observed = observed_}, {"permanent_force"}),
-                          {});
+  const HypothesisSet without(
+      MakeCauses({.body = body_, .observed = observed_}, {"permanent_force"}), {});
   const Fitter fitter(observed_, body_, without, {}, 1);
   EXPECT_EQ(FindResidualForces(observed_, without, Named(fitter, {})).place_m.cols(), 0);
 }

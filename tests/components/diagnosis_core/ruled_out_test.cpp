@@ -18,45 +18,45 @@ namespace {
 constexpr double kGain = 0.1;
 
 /// What a gain does, as something of which no robot has so much.
-class GainInDisguise final : public Cause {
+class GainInDisguise final : public FaultModel {
  public:
   explicit GainInDisguise(int number)
-      : Cause({"disguise", {std::to_string(number)}}, "a gain in disguise",
-              {{.name = "z",
-                .tolerance = 0.001,
-                .fault = 0.02,
-                .fault_at = kGain,
-                .plausible = 0.05}}) {}
+      : FaultModel({"disguise", {std::to_string(number)}}, "a gain in disguise",
+                   {{.name = "z",
+                     .tolerance = 0.001,
+                     .fault = 0.02,
+                     .fault_at = kGain,
+                     .plausible = 0.05}}) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.gain[0] += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[0] += z[0];
   }
 };
 
 /// Promises what a gain does, and does no more than a part of it.
-class Boaster final : public Cause {
+class Boaster final : public FaultModel {
  public:
   explicit Boaster(int number)
-      : Cause({"boaster", {std::to_string(number)}}, "a boaster",
-              {{.name = "z", .tolerance = 0.001, .fault = 0.02, .fault_at = kGain}}) {}
+      : FaultModel({"boaster", {std::to_string(number)}}, "a boaster",
+                   {{.name = "z", .tolerance = 0.001, .fault = 0.02, .fault_at = kGain}}) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.gain[0] += std::min(z[0], 0.2 * kGain);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[0] += std::min(z[0], 0.2 * kGain);
   }
 };
 
 /// Promises less than it does.
-class Understater final : public Cause {
+class Understater final : public FaultModel {
  public:
   explicit Understater(int number)
-      : Cause({"understater", {std::to_string(number)}}, "an understater",
-              {{.name = "z", .tolerance = 0.001, .fault = 0.015}}) {}
+      : FaultModel({"understater", {std::to_string(number)}}, "an understater",
+                   {{.name = "z", .tolerance = 0.001, .fault = 0.015}}) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.gain[0] += z[0] + z[0] * std::abs(z[0]) / (0.5 * kGain);
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[0] += z[0] + z[0] * std::abs(z[0]) / (0.5 * kGain);
   }
 };
 
@@ -71,15 +71,16 @@ class RuledOut : public HiddenCauses {
   template <class Other>
   Selection Select(int others, const std::vector<std::string>& without, TimeLimit limit = {}) {
     Measure({{"cable_gain", "cable:up", kGain}});
-    std::vector<CausePtr> causes = Causes(without);
+    std::vector<FaultModelPtr> causes = Causes(without);
     for (int k = 0; k < others; ++k) causes.push_back(std::make_unique<Other>(k));
-    with_others_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
+    with_others_ =
+        std::make_unique<HypothesisSet>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_others_, {}, 1, limit);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
   std::string IdOf(int cause) const { return with_others_->cause(cause).name().id; }
 
-  std::unique_ptr<CauseBook> with_others_;
+  std::unique_ptr<HypothesisSet> with_others_;
 };
 
 /// However many are simulated first in vain.

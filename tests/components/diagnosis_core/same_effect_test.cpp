@@ -16,15 +16,15 @@ namespace {
 constexpr double kHiddenGain = 0.1;
 
 /// A gain of the same cable of which much more is believed to be likely.
-class Twin final : public Cause {
+class Twin final : public FaultModel {
  public:
   explicit Twin(double fault)
-      : Cause({"twin", {"cable:up"}}, "a gain's twin",
-              {{.name = "z", .tolerance = 0.005, .fault = fault}}) {}
+      : FaultModel({"twin", {"cable:up"}}, "a gain's twin",
+                   {{.name = "z", .tolerance = 0.005, .fault = fault}}) {}
 
   bool OnDrives() const override { return true; }
-  void Apply(const Eigen::VectorXd& z, ModelDraft* draft) const override {
-    draft->drives.gain[0] += z[0];
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[0] += z[0];
   }
 };
 
@@ -33,9 +33,10 @@ class SameEffect : public HiddenCauses {
   /// With a twin of the gain that is hidden beside the real causes.
   Selection Select(double fault_of_twin) {
     Measure({{"cable_gain", "cable:up", kHiddenGain}});
-    std::vector<CausePtr> causes = Causes();
+    std::vector<FaultModelPtr> causes = Causes();
     causes.push_back(std::make_unique<Twin>(fault_of_twin));
-    with_twin_ = std::make_unique<CauseBook>(std::move(causes), std::map<std::string, double>());
+    with_twin_ =
+        std::make_unique<HypothesisSet>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_twin_, {}, 1);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
@@ -54,14 +55,14 @@ class SameEffect : public HiddenCauses {
     });
   }
 
-  std::unique_ptr<CauseBook> with_twin_;
+  std::unique_ptr<HypothesisSet> with_twin_;
 };
 
 TEST_F(SameEffect, IsNotToldApartByWhatIsBelievedBeforehand) {
   const Selection selection = Select(20.0);
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   EXPECT_EQ(with_twin_->cause(selection.named[0].cause).name().id, "cable_gain");
-  EXPECT_GT(Find("twin", selection).likeness, 0.99);
+  EXPECT_GT(Find("twin", selection).canonical_correlation, 0.99);
   ASSERT_GT(Behind(selection), 4.0) << "else it would be alike in any case";
   ASSERT_LT(Behind(selection), 9.0);
   EXPECT_TRUE(IsAlike(selection));
@@ -70,7 +71,7 @@ TEST_F(SameEffect, IsNotToldApartByWhatIsBelievedBeforehand) {
 TEST_F(SameEffect, IsToldApartWhereThatIsClear) {
   const Selection selection = Select(2e5);
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
-  EXPECT_GT(Find("twin", selection).likeness, 0.99);
+  EXPECT_GT(Find("twin", selection).canonical_correlation, 0.99);
   ASSERT_GT(Behind(selection), 11.0);
   EXPECT_FALSE(IsAlike(selection));
 }

@@ -12,7 +12,7 @@ class SearchTime : public HiddenCauses {
   SearchTime() { Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.3}}); }
 
   Selection Select(TimeLimit limit) {
-    const Fitter fitter(observed_, body_, book_, {}, 1, limit);
+    const Fitter fitter(observed_, body_, hypotheses_, {}, 1, limit);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 3, [](int, int, const auto&) {});
   }
 };
@@ -33,8 +33,8 @@ TEST_F(SearchTime, ThatIsOverLeavesTheFirstCauseAndSaysSo) {
 
 /// Else whatever is fitted after it looks better than none.
 TEST_F(SearchTime, ThatIsOverFitsAHealthyRobotToItsEnd) {
-  const Fitter in_time(observed_, body_, book_, {}, 1);
-  const Fitter late(observed_, body_, book_, {}, 1, TimeLimit(1e-9));
+  const Fitter in_time(observed_, body_, hypotheses_, {}, 1);
+  const Fitter late(observed_, body_, hypotheses_, {}, 1, TimeLimit(1e-9));
   const Fit fit = in_time.Complete(in_time.AsBuilt());
   EXPECT_NE(fit.z, in_time.AsBuilt().z);
   EXPECT_EQ(late.Complete(late.AsBuilt()).z, fit.z);

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "tests/components/diagnosis_core/cause_derivatives.hpp"
+#include "tests/components/diagnosis_core/fault_derivatives.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -45,21 +45,21 @@ void SeeSkin(const robot::RobotBody& body, ObservedExperiment* observed) {
 }
 
 /// Beside markers, of the camera that they are in the frame of, or another.
-class CauseDerivativesOfSkin : public CauseDerivatives {
+class FaultDerivativesOfSkin : public FaultDerivatives {
  protected:
-  CauseDerivativesOfSkin()
-      : CauseDerivatives(SmallRobot(), SmallExperiment(SmallRobot()), SeeSkin) {}
+  FaultDerivativesOfSkin()
+      : FaultDerivatives(SmallRobot(), SmallExperiment(SmallRobot()), SeeSkin) {}
 };
 
-TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
+TEST_F(FaultDerivativesOfSkin, AreThoseOfApplyWhereTheRobotIsAsItsFileHasIt) {
   ExpectDerivativesAsBuilt();
 }
 
 /// Where all that a camera gets wrong is there, what moves the body is seen through it.
-TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
-  CauseList all;
+TEST_F(FaultDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
+  FaultModelList all;
   Eigen::Index parameters = 0;
-  for (const CausePtr& cause : causes_) {
+  for (const FaultModelPtr& cause : causes_) {
     const std::set<std::string> looked_at = {"youngs_modulus", "cable_gain", "extrinsics",
                                              "depth_scale",    "intrinsics", "lens_distortion",
                                              "warm_up_drift",  "depth_bias", "depth_incidence_bias",
@@ -70,13 +70,13 @@ TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
   }
   Eigen::VectorXd z(parameters);
   Eigen::Index p = 0;
-  for (const Cause* cause : all) {
-    for (const CauseParameter& parameter : cause->parameters()) z[p++] = 0.1 * parameter.fault;
+  for (const FaultModel* cause : all) {
+    for (const FaultParameter& parameter : cause->parameters()) z[p++] = 0.1 * parameter.fault;
   }
   const Eigen::MatrixXd analytic = Analytic(all, z);
   p = 0;
-  for (const Cause* cause : all) {
-    for (const CauseParameter& parameter : cause->parameters()) {
+  for (const FaultModel* cause : all) {
+    for (const FaultParameter& parameter : cause->parameters()) {
       ExpectAlike(parameter.fault * analytic.col(p),
                   parameter.fault * Difference(all, z, p, parameter), 4e-3,
                   cause->words() + ", " + parameter.name, 1e-2);
@@ -86,14 +86,14 @@ TEST_F(CauseDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
 }
 
 /// No place of a marker matters where nobody saw one.
-TEST_F(CauseDerivativesOfSkin, NeedNoMarkers) {
+TEST_F(FaultDerivativesOfSkin, NeedNoMarkers) {
   for (Sample& sample : observed_.samples) sample.count.setZero();
-  const std::vector<CausePtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
-  for (const CausePtr& cause : causes) EXPECT_NE(cause->name().id, "marker_misplacement");
-  const auto modulus = std::find_if(causes.begin(), causes.end(), [](const CausePtr& cause) {
+  const std::vector<FaultModelPtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
+  for (const FaultModelPtr& cause : causes) EXPECT_NE(cause->name().id, "marker_misplacement");
+  const auto modulus = std::find_if(causes.begin(), causes.end(), [](const FaultModelPtr& cause) {
     return cause->name().id == "youngs_modulus";
   });
-  const CauseList one{modulus->get()};
+  const FaultModelList one{modulus->get()};
   const Eigen::VectorXd alone = Analytic(one, Eigen::VectorXd::Zero(1));
   for (Sample& sample : observed_.samples) sample.count.setOnes();
   const Eigen::VectorXd beside = Analytic(one, Eigen::VectorXd::Zero(1));

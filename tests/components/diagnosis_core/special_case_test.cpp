@@ -17,10 +17,10 @@ class SpecialCase : public HiddenCauses {
  protected:
   Selection Select(double force_N) {
     Measure({{"payload", "body", 0.01}, {"permanent_force", "body", force_N, 1}});
-    const Fitter fitter(observed_, body_, book_, {}, 1);
+    const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
     return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
-  std::string IdOf(int cause) const { return book_.cause(cause).name().id; }
+  std::string IdOf(int cause) const { return hypotheses_.cause(cause).name().id; }
   double LnBayesFactorOf(const std::string& id, const Selection& selection) const {
     for (const Candidate& one : selection.candidates) {
       if (IdOf(one.cause) == id) return one.ln_bayes_factor;
@@ -49,10 +49,13 @@ TEST_F(SpecialCase, IsAlikeAsOtherCausesAreHoweverMuchTheirEffectsAreTheSame) {
   const int force = Number("permanent_force", "body");
   const int mass = Number("payload", "body");
   constexpr double kSame = 0.999;
-  EXPECT_EQ(AlikeWithin(book_, force, {.cause = mass, .likeness = kSame}), kAlikeEvidence);
+  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = mass, .canonical_correlation = kSame}),
+            kAlikeEvidence);
   const int other = Number("density", "body");
-  EXPECT_EQ(AlikeWithin(book_, force, {.cause = other, .likeness = kSame}), kClearEvidence);
-  EXPECT_EQ(AlikeWithin(book_, force, {.cause = other, .likeness = 0.9}), kAlikeEvidence);
+  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = other, .canonical_correlation = kSame}),
+            kClearEvidence);
+  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = other, .canonical_correlation = 0.9}),
+            kAlikeEvidence);
 }
 
 TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) {

@@ -50,7 +50,9 @@ class StickingTest : public testing::Test {
  protected:
   StickingTest() { SetFriction(0.4); }
 
-  void SetFriction(double coefficient) { draft_.body.cables[0].friction_coefficient = coefficient; }
+  void SetFriction(double coefficient) {
+    hypothesis_.body.cables[0].friction_coefficient = coefficient;
+  }
   static ObservedExperiment Ramps(const robot::RobotBody& body) {
     experiment::Experiment experiment;
     experiment.recordings = {MakeRecording(
@@ -60,8 +62,9 @@ class StickingTest : public testing::Test {
   /// One part after the other.
   std::vector<SamplePart> Parts() const {
     const DriveTrain drives(observed_);
-    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(draft_.drives);
-    Sticking(drives).Follow(draft_, Simulator(observed_, 1).Run(draft_).samples, &of_samples);
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.drives);
+    Sticking(drives).Follow(hypothesis_, Simulator(observed_, 1).Run(hypothesis_).samples,
+                            &of_samples);
     std::vector<SamplePart> all;
     for (const auto& parts : of_samples) all.insert(all.end(), parts.begin(), parts.end());
     return all;
@@ -69,7 +72,7 @@ class StickingTest : public testing::Test {
 
   robot::RobotBody body_ = SmallRobot();
   ObservedExperiment observed_ = Ramps(body_);
-  ModelDraft draft_ = DraftOf(body_, observed_);
+  ModelHypothesis hypothesis_ = DraftOf(body_, observed_);
 };
 
 TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
@@ -99,10 +102,10 @@ TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
 /// One that could not be simulated takes no other's sticking away.
 TEST_F(StickingTest, StaysWhereOneMomentIsNotKnown) {
   const DriveTrain drives(observed_);
-  std::vector<SimulatedSample> samples = Simulator(observed_, 1).Run(draft_).samples;
+  std::vector<SimulatedSample> samples = Simulator(observed_, 1).Run(hypothesis_).samples;
   const auto followed = [&] {
-    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(draft_.drives);
-    Sticking(drives).Follow(draft_, samples, &of_samples);
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.drives);
+    Sticking(drives).Follow(hypothesis_, samples, &of_samples);
     return of_samples;
   };
   const auto with_all = followed();
@@ -128,11 +131,11 @@ TEST_F(StickingTest, TurnsRoundAtOnceWhereNothingRubs) {
 /// slid since the one before.
 class SmallSteps {
  public:
-  SmallSteps(const ModelDraft& draft, const ObservedExperiment& observed)
+  SmallSteps(const ModelHypothesis& hypothesis, const ObservedExperiment& observed)
       : observed_(observed),
-        solver_(draft, observed),
-        eyelets_(RubbingEyelets(draft.body)),
-        coefficient_(FrictionAt(eyelets_, draft.body)),
+        solver_(hypothesis, observed),
+        eyelets_(RubbingEyelets(hypothesis.body)),
+        coefficient_(FrictionAt(eyelets_, hypothesis.body)),
         s_(Eigen::VectorXd::Zero(coefficient_.size())) {
     now_.middle.state = solver_.model().RestState();
     length_m_ = Lengths_m();
@@ -183,17 +186,17 @@ class SmallSteps {
 };
 
 TEST_F(StickingTest, SimulationIsThatOfSmallStepsThroughTime) {
-  SmallSteps steps(draft_, observed_);
+  SmallSteps steps(hypothesis_, observed_);
   const DriveTrain drives(observed_);
   std::vector<Eigen::VectorXd> seen_m;  // [times]
-  const Eigen::MatrixXd path = drives.Path(draft_.drives);
+  const Eigen::MatrixXd path = drives.Path(hypothesis_.drives);
   for (const auto& taken_in : path.colwise()) {
     seen_m.push_back(steps.StepTo(taken_in));
   }
-  const auto parts = drives.PartsAt(draft_.drives);
-  const Simulation simulation = Simulator(observed_, 2).Run(draft_);
+  const auto parts = drives.PartsAt(hypothesis_.drives);
+  const Simulation simulation = Simulator(observed_, 2).Run(hypothesis_);
   SetFriction(0.0);
-  const Simulation without = Simulator(observed_, 2).Run(draft_);
+  const Simulation without = Simulator(observed_, 2).Run(hypothesis_);
   ASSERT_TRUE(simulation.status.ok() && without.status.ok());
   double effect_m = 0.0;
   double apart_m = 0.0;

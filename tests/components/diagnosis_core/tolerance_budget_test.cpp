@@ -17,20 +17,20 @@ class ToleranceBudget : public HiddenCauses {
   static constexpr double kClearEvidence = 10.0;
 
   /// The same causes, all parts as exact as the robot file.
-  CauseBook BookWithoutTolerances() const {
+  HypothesisSet BookWithoutTolerances() const {
     constexpr double kExact = 1e-9;  // of any unit: nothing moves by so little
     std::map<std::string, double> exact;
-    for (int k = 0; k < book_.size(); ++k) exact[book_.cause(k).name().id] = kExact;
+    for (int k = 0; k < hypotheses_.size(); ++k) exact[hypotheses_.cause(k).name().id] = kExact;
     return {Causes(), exact};
   }
 
   /// ln BF of the cause that looks most like what was measured.
-  static double MostAccusing(const CauseBook& book, const Information& data) {
-    const double healthy = book.InferWithin(data, {}).ln_evidence;
+  static double MostAccusing(const HypothesisSet& hypotheses, const Information& data) {
+    const double healthy = hypotheses.InferWithin(data, {}).ln_evidence;
     double most = -std::numeric_limits<double>::infinity();
-    for (int k = 0; k < book.size(); ++k) {
-      if (!book.CanBeFault(k)) continue;
-      most = std::max(most, book.InferWithin(data, {k}).ln_evidence - healthy);
+    for (int k = 0; k < hypotheses.size(); ++k) {
+      if (!hypotheses.CanBeFault(k)) continue;
+      most = std::max(most, hypotheses.InferWithin(data, {k}).ln_evidence - healthy);
     }
     return most;
   }
@@ -38,8 +38,8 @@ class ToleranceBudget : public HiddenCauses {
   /// Healthy robots, measured.
   std::vector<Information> HealthyRobots() {
     Measure({});
-    const LinearModel model = Fitter(observed_, body_, book_, {}, 1).AsBuilt().model;
-    const Belief healthy = book_.BeliefWith({});
+    const LinearModel model = Fitter(observed_, body_, hypotheses_, {}, 1).AsBuilt().model;
+    const GaussianPrior healthy = hypotheses_.PriorWith({});
     std::mt19937 random(kSeed);
     std::normal_distribution<double> normal;
     std::vector<Information> robots;
@@ -59,12 +59,12 @@ class ToleranceBudget : public HiddenCauses {
 };
 
 TEST_F(ToleranceBudget, KeepsHealthyRobotsFromBeingAccused) {
-  const CauseBook without = BookWithoutTolerances();
-  ASSERT_EQ(without.parameter_count(), book_.parameter_count());
+  const HypothesisSet without = BookWithoutTolerances();
+  ASSERT_EQ(without.parameter_count(), hypotheses_.parameter_count());
   int accused = 0;
   int accused_without = 0;
   for (const Information& robot : HealthyRobots()) {
-    accused += MostAccusing(book_, robot) > kClearEvidence;
+    accused += MostAccusing(hypotheses_, robot) > kClearEvidence;
     accused_without += MostAccusing(without, robot) > kClearEvidence;
   }
   EXPECT_LE(accused, kRobots / 20) << "seed " << kSeed;

@@ -13,17 +13,17 @@
 namespace palpate::diagnosis {
 
 /// Parameters without a robot.
-class ToyCause final : public Cause {
+class ToyCause final : public FaultModel {
  public:
-  ToyCause(const std::string& id, std::vector<CauseParameter> parameters)
-      : Cause({id, {"body"}}, id, std::move(parameters)) {}
-  void Apply(const Eigen::VectorXd& /*z*/, ModelDraft* /*draft*/) const override {}
+  ToyCause(const std::string& id, std::vector<FaultParameter> parameters)
+      : FaultModel({id, {"body"}}, id, std::move(parameters)) {}
+  void Apply(const Eigen::VectorXd& /*z*/, ModelHypothesis* /*hypothesis*/) const override {}
 };
 
 /// Two causes of which a healthy robot has a little, and two faults; the last has two parameters.
-inline CauseBook ToyBook() {
-  std::vector<CausePtr> causes;
-  const auto add = [&](const std::string& id, std::vector<CauseParameter> parameters) {
+inline HypothesisSet ToyBook() {
+  std::vector<FaultModelPtr> causes;
+  const auto add = [&](const std::string& id, std::vector<FaultParameter> parameters) {
     causes.push_back(std::make_unique<ToyCause>(id, std::move(parameters)));
   };
   add("small", {{.name = "a", .tolerance = 0.5, .fault = 20.0}});
@@ -37,7 +37,7 @@ inline CauseBook ToyBook() {
 /// Three recordings of 12 moments and one marker, whitened: y - J z is noise of unit variance.
 class ToyData {
  public:
-  explicit ToyData(const CauseBook& book, unsigned seed) : random_(seed) {
+  explicit ToyData(const HypothesisSet& hypotheses, unsigned seed) : random_(seed) {
     constexpr int kRecordings = 3;
     constexpr int kSamples = 12;
     for (int r = 0; r < kRecordings; ++r) {
@@ -51,7 +51,7 @@ class ToyData {
       }
     }
     const auto rows = std::ssize(model_.sample_of_row);
-    model_.J = Normal(rows, book.parameter_count());
+    model_.J = Normal(rows, hypotheses.parameter_count());
   }
 
   Eigen::Index rows() const { return model_.J.rows(); }
@@ -64,30 +64,31 @@ class ToyData {
     return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random_); });
   }
   /// A robot out of a belief, measured.
-  Eigen::VectorXd Draw(const Belief& belief) {
+  Eigen::VectorXd Draw(const GaussianPrior& prior) {
     const Eigen::VectorXd z =
-        belief.mean + belief.sigma.cwiseProduct(Eigen::VectorXd(Normal(belief.sigma.size(), 1)));
+        prior.mean + prior.sigma.cwiseProduct(Eigen::VectorXd(Normal(prior.sigma.size(), 1)));
     return model_.J * z + Normal(rows(), 1);
   }
 
   /// What is fitted to `y`.
-  Fit FitTo(const CauseBook& book, const Eigen::VectorXd& y, const std::vector<int>& faults) const {
+  Fit FitTo(const HypothesisSet& hypotheses, const Eigen::VectorXd& y,
+            const std::vector<int>& faults) const {
     Fit fit;
     fit.status = Status::Ok();
     fit.faults = faults;
-    fit.z = Eigen::VectorXd::Zero(book.parameter_count());
+    fit.z = Eigen::VectorXd::Zero(hypotheses.parameter_count());
     fit.model = model_;
     fit.model.y = y;
     const Eigen::Index each = rows() / std::ssize(observed.recordings);
     for (Eigen::Index first = 0; first < rows(); first += each) {
-      Information& one = fit.model.of_recording.emplace_back(book.parameter_count());
+      Information& one = fit.model.of_recording.emplace_back(hypotheses.parameter_count());
       const auto J = model_.J.middleRows(first, each);
       one.H = J.transpose() * J;
       one.b = J.transpose() * y.segment(first, each);
       one.c = y.segment(first, each).squaredNorm();
       one.rows = static_cast<int>(each);
     }
-    fit.posterior = book.InferWithin(fit.model.All(), faults);
+    fit.posterior = hypotheses.InferWithin(fit.model.All(), faults);
     return fit;
   }
 

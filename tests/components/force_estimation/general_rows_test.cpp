@@ -63,7 +63,7 @@ class GeneralRows : public testing::Test {
 
   std::unique_ptr<robot::RobotModel> model_;
   ForceFitter fitter_;
-  std::vector<robot::EffectorRow> rows_;
+  std::vector<robot::ObservationRow> rows_;
   fem::StaticState free_;
 };
 

@@ -114,8 +114,8 @@ class HiddenScene {
   robot::RobotModel model;
   std::vector<robot::CableCommand> commands;
   fem::StaticState free;
-  std::vector<robot::EffectorRow> rows;
-  RowResponses responses;                 ///< of `rows`, about what Respond or MoveTo came to
+  std::vector<robot::ObservationRow> rows;
+  ObservationJacobian responses;          ///< of `rows`, about what Respond or MoveTo came to
   std::vector<Eigen::Vector3d> hidden_m;  ///< places, at rest
   std::unique_ptr<HiddenSearch> search;
 
@@ -179,7 +179,7 @@ class HiddenScene {
   void LookAtFeatures() {
     const robot::RobotBody& body = model.body();
     for (size_t f = 0; f < body.feature_points.size(); ++f) {
-      const fem::NodeWeights& point = body.feature_points[f].weights;
+      const fem::InterpolationWeights& point = body.feature_points[f].weights;
       const Eigen::Vector3d normal = body.feature_normals.col(static_cast<Eigen::Index>(f));
       if (Seen(point.Position(free.x_m), normal)) rows.push_back(robot::RowOfPoint(point, normal));
     }

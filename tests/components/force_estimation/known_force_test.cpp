@@ -103,7 +103,7 @@ TEST(MarkerForceEstimator, FollowsALargeDeformationFromAColdStart) {
   const Eigen::Vector3d force_N(0.4, -0.8, -2.0);
   const fem::StaticState truth =
       SolveTruth(*model, {}, {LoadAt(*model, kKnownTip, 0.005, force_N)});
-  const fem::NodeWeights tip = model->Patch(kKnownTip, 0.005).weights;
+  const fem::InterpolationWeights tip = model->Patch(kKnownTip, 0.005).weights;
   ASSERT_GT((tip.Position(truth.x_m) - kKnownTip).norm(), 0.02);
   MarkerForceEstimator estimator(*model, WithContacts({kTipSite}));
   const ForceEstimate& estimate = estimator.Update(FrameOf(*model, truth, {}));

@@ -34,7 +34,7 @@ bool IsFinite(const ModelState& state) {
 }
 
 /// Residual of the state over the internal forces, found without the fitter.
-double ResidualOf(robot::RobotModel& model, const fem::NodeWeights& patch,
+double ResidualOf(robot::RobotModel& model, const fem::InterpolationWeights& patch,
                   const ModelState& state) {
   Eigen::VectorXd force_N = Eigen::VectorXd::Zero(state.x_m.size());
   model.AddWeight(force_N);

@@ -9,7 +9,7 @@
 
 #include "components/force_estimation/shape/contact_report.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
-#include "components/force_estimation/shape/shape_fit.hpp"
+#include "components/force_estimation/shape/shape_fitter.hpp"
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
 #include "components/force_estimation/statistics.hpp"
 #include "tests/components/force_estimation/shape_scene.hpp"
@@ -84,7 +84,7 @@ class Contacts : public testing::Test {
   const Eigen::Vector3d place_m_{0.0212, -0.0212, 0.103};
   ShapeScene scene_{51};
   ShapeConfig shape_;
-  ShapeFit fit_;
+  ShapeFitter fit_;
   HiddenContacts hidden_;
   ContactReport report_;
   DepthBias bias_;

@@ -101,7 +101,7 @@ void ExpectConvergenceInFourSteps(const robot::RobotDescription& robot) {
     const ForceFit& fit = fitter.Fit(sweep.Targets(), sweep.Cables(frame), &state);
     ASSERT_TRUE(fit.status.ok()) << frame << ' ' << ToString(fit.status.code());
     EXPECT_LE(fit.iterations, 4) << frame;
-    EXPECT_EQ(fit.restorations, 0) << frame;
+    EXPECT_EQ(fit.continuation_steps, 0) << frame;
     EXPECT_LE((state.lambda_f_N - Sweep::Forces_N(frame)).norm(), 1e-7) << frame;
   }
 }

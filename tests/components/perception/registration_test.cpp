@@ -33,7 +33,7 @@ rgbd::RgbdCamera TwoCameras() {
 }
 
 /// A far wall, and a near square before its middle.
-rgbd::RgbdFrame SquareBeforeWall(const rgbd::RgbdCamera& camera) {
+rgbd::RgbdFrame SquareBeforeObstacle(const rgbd::RgbdCamera& camera) {
   rgbd::RgbdFrame frame;
   frame.depth = rgbd::DepthImage(camera.depth.width_px, camera.depth.height_px, kFar);
   for (int v = 40; v < 80; ++v) {
@@ -75,7 +75,7 @@ struct Registered {
 
 TEST(Registration, BringsColorsToTheirDepthPixels) {
   const rgbd::RgbdCamera camera = TwoCameras();
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   Paint(camera, &frame);
   const Registered seen(camera, frame);
   ASSERT_TRUE(seen.status.ok()) << seen.status.message();
@@ -92,7 +92,7 @@ TEST(Registration, BringsColorsToTheirDepthPixels) {
 
 TEST(Registration, GivesNoColorOfANearerSurfaceToWhatItHides) {
   const rgbd::RgbdCamera camera = TwoCameras();
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   Paint(camera, &frame);
   const Registered seen(camera, frame);
   int hidden = 0;
@@ -109,7 +109,7 @@ TEST(Registration, GivesNoColorOfANearerSurfaceToWhatItHides) {
 TEST(Registration, KnowsNoColorBesideThePictureOrWithoutDepth) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.color.fx_px = camera.color.fy_px = 400.0;  // sees less than the depth camera
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   *frame.depth.Pixel(80, 60) = 0;
   const Registered seen(camera, frame);
   EXPECT_FALSE(seen.Known(0, 0));
@@ -122,7 +122,7 @@ TEST(Registration, KnowsNoColorBesideThePictureOrWithoutDepth) {
 TEST(Registration, FollowsTheLensOfTheColorCamera) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.color.distortion = {-0.2, 0.05, 0.001, -0.001, 0.0};
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   for (int v = 0; v < camera.color.height_px; ++v) {
     for (int u = 0; u < camera.color.width_px; ++u) {
       frame.color.Pixel(u, v)[0] = static_cast<std::uint8_t>(u);
@@ -142,7 +142,7 @@ TEST(Registration, FollowsTheLensOfTheColorCamera) {
 
 TEST(Registration, RegistersAPartAsItDoesTheWhole) {
   const rgbd::RgbdCamera camera = TwoCameras();
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   Paint(camera, &frame);
   const Registered whole(camera, frame);
   Registration registration(camera);
@@ -164,7 +164,7 @@ TEST(Registration, TakesRegisteredColorsAsTheyAre) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.color = camera.depth;
   camera.color_registered = true;
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   frame.color.Pixel(7, 9)[1] = 77;
   const Registered seen(camera, frame);
   ASSERT_TRUE(seen.status.ok());
@@ -175,7 +175,7 @@ TEST(Registration, TakesRegisteredColorsAsTheyAre) {
 TEST(Registration, GoesWithoutAColorCamera) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.color = {};
-  rgbd::RgbdFrame frame = SquareBeforeWall(TwoCameras());
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(TwoCameras());
   frame.color = {};
   const Registered seen(camera, frame);
   ASSERT_TRUE(seen.status.ok()) << seen.status.message();
@@ -186,7 +186,7 @@ TEST(Registration, GoesWithoutAColorCamera) {
 TEST(Registration, HonoursTheCamerasInvalidValue) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.invalid_value = kFar;
-  const rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  const rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   const Registered seen(camera, frame);
   EXPECT_TRUE(std::isnan(*seen.result.z_m.Pixel(5, 5)));
   EXPECT_FLOAT_EQ(*seen.result.z_m.Pixel(80, 60), 0.3f);
@@ -196,7 +196,7 @@ TEST(Registration, HasNoDepthWhereTheLensCannotBeInverted) {
   rgbd::RgbdCamera camera = TwoCameras();
   camera.depth.fx_px = camera.depth.fy_px = 60.0;
   camera.depth.distortion[0] = -0.3;  // folds over at r = 1.05, before the corners
-  const Registered seen(camera, SquareBeforeWall(camera));
+  const Registered seen(camera, SquareBeforeObstacle(camera));
   int blind = 0;
   for (int v = 0; v < camera.depth.height_px; ++v) {
     for (int u = 0; u < camera.depth.width_px; ++u) {
@@ -210,10 +210,10 @@ TEST(Registration, HasNoDepthWhereTheLensCannotBeInverted) {
 
 TEST(Registration, RefusesImagesOfAnotherSize) {
   const rgbd::RgbdCamera camera = TwoCameras();
-  rgbd::RgbdFrame frame = SquareBeforeWall(camera);
+  rgbd::RgbdFrame frame = SquareBeforeObstacle(camera);
   frame.color = rgbd::ColorImage(160, 120);
   EXPECT_EQ(Registered(camera, frame).status.code(), StatusCode::kInvalidInput);
-  frame = SquareBeforeWall(camera);
+  frame = SquareBeforeObstacle(camera);
   frame.depth = {};
   const Registered seen(camera, frame);
   EXPECT_EQ(seen.status.code(), StatusCode::kInvalidInput);

@@ -28,7 +28,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kOfInterval = 1.53;
 /// Frames from the end of the trouble to the first right one, itself counted.
 constexpr int kFramesToRecover = 5;
-/// A contact that the camera loses must show for so long before it is said (SiteBook).
+/// A contact that the camera loses must show for so long before it is said (ContactTracks).
 constexpr int kFramesToFindHidden = 4;
 
 template <typename Image>

@@ -12,7 +12,7 @@ namespace {
 
 /// No next residual corrects what a frame makes of responses: rounding must be far below the
 /// model's own error (shape.model_relative_sigma, 3 %).
-TEST(RoundedResponses, ErrFarLessThanTheModel) {
+TEST(SinglePrecisionResponses, ErrFarLessThanTheModel) {
   robot::RobotModel model(robot::BuildRobotBody(FourLeg()));
   fem::StaticState state = model.RestState();
   std::vector<robot::CableCommand> cables(static_cast<size_t>(model.CableCount()),
@@ -40,10 +40,10 @@ TEST(RoundedResponses, ErrFarLessThanTheModel) {
   }
   Eigen::MatrixXd exact = forces;
   linearisation.Solve(exact);
-  linearisation.KeepRounded();
+  linearisation.KeepSinglePrecision();
   ASSERT_TRUE(update());
   Eigen::MatrixXd rounded = forces;
-  linearisation.SolveRounded(rounded);
+  linearisation.SolveSingle(rounded);
   ASSERT_NE(rounded, exact);
   const Eigen::ArrayXd error =
       ((rounded - exact).colwise().norm().array() / exact.colwise().norm().array()).transpose();

@@ -29,9 +29,9 @@ Eigen::VectorXd RandomVector(int size, double amplitude, std::mt19937* engine) {
 /// A cable through three eyelets, neighbours of which share nodes; some weights are negative.
 class CableTest : public testing::Test {
  protected:
-  std::vector<fem::NodeWeights> eyelets_{{{0, 1, 2, 3}, {0.2, 0.3, 0.6, -0.1}},
-                                         {{2, 3, 4, 5}, {0.25, 0.25, 0.4, 0.1}},
-                                         {{3, 6, 7, 8}, {0.1, -0.2, 0.5, 0.6}}};
+  std::vector<fem::InterpolationWeights> eyelets_{{{0, 1, 2, 3}, {0.2, 0.3, 0.6, -0.1}},
+                                                  {{2, 3, 4, 5}, {0.25, 0.25, 0.4, 0.1}},
+                                                  {{3, 6, 7, 8}, {0.1, -0.2, 0.5, 0.6}}};
   Eigen::Vector3d pull_point_m_{0.1, -0.2, 0.3};
   std::mt19937 engine_{5};
   Eigen::VectorXd rest_m_ = RandomVector(3 * kNodes, 0.1, &engine_);
@@ -120,7 +120,7 @@ TEST_F(CableTest, ARigidMotionOfBodyAndPullPointChangesNothing) {
 
 /// Force of each piece on the node where it ends, from a cable of one node an eyelet.
 TEST_F(CableTest, FrictionTakesExpOfTheTurningAngleAtEachEyelet) {
-  const std::vector<fem::NodeWeights> nodes{{{0}, {1.0}}, {{1}, {1.0}}, {{2}, {1.0}}};
+  const std::vector<fem::InterpolationWeights> nodes{{{0}, {1.0}}, {{1}, {1.0}}, {{2}, {1.0}}};
   Eigen::VectorXd x_m(9);
   x_m << 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.5, 1.5, 0.0;  // turns by 90 and 45 degrees
   for (const std::vector<double>& sliding :

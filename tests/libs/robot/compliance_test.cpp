@@ -65,7 +65,7 @@ class ComplianceTest : public BeamModelTest {
 
   std::unique_ptr<RobotModel> model_;
   std::unique_ptr<Compliance> compliance_;
-  std::vector<fem::NodeWeights> effectors_;
+  std::vector<fem::InterpolationWeights> effectors_;
   fem::StaticState state_;
   Eigen::VectorXd lambda_a_ = Eigen::Vector2d(0.8, 0.4);
   Eigen::VectorXd lambda_f_ = Eigen::Vector3d(0.02, -0.01, 0.03);

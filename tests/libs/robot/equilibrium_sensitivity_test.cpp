@@ -25,7 +25,7 @@ class SensitivityTest : public BeamModelTest {
     return state;
   }
 
-  const fem::NodeWeights& Point() const { return model_->body().markers[0].point.weights; }
+  const fem::InterpolationWeights& Point() const { return model_->body().markers[0].point.weights; }
 
   Eigen::MatrixXd ForceDerivative(const Eigen::VectorXd& x_m) const {
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(x_m.size(), kParameters);

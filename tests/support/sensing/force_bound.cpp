@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/location_step.hpp"
-#include "components/force_estimation/shape/row_responses.hpp"
+#include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "components/force_estimation/shape/temporal_correlation.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -50,7 +50,7 @@ double Sigma(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& variance_m2
 }  // namespace
 
 struct ForceBounds::Rows {
-  std::vector<robot::EffectorRow> rows;
+  std::vector<robot::ObservationRow> rows;
   Eigen::VectorXd noise_m2;  ///< of the mean over the frames
   Eigen::VectorXd constant_m2;
 };
@@ -80,7 +80,7 @@ ForceBounds::Rows ForceBounds::RowsOf(const ShapeFrame& frame, const Eigen::Vect
   std::vector<double> noise_m2, constant_m2;
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f].state != MatchState::kMatched) continue;
-    const robot::EffectorRow& row = matches[f].row;
+    const robot::ObservationRow& row = matches[f].row;
     all.rows.push_back(row);
     noise_m2.push_back(left * std::pow(bias_.NoiseScale() * matches[f].sigma_m, 2));
     const double moved_m = row.Value(x_m) - row.Value(untouched_.x_m);
@@ -96,8 +96,8 @@ ForceBounds::Rows ForceBounds::RowsOf(const ShapeFrame& frame, const Eigen::Vect
 /// [rows x 5] by the force along the inward normal and both tangents, and by the place along those.
 Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth, const SkinPoint& place,
                                       const ShapeFrame& frame, const fem::StaticState& state,
-                                      const std::vector<robot::EffectorRow>& rows) {
-  force_estimation::RowResponses responses;
+                                      const std::vector<robot::ObservationRow>& rows) {
+  force_estimation::ObservationJacobian responses;
   Expect(responses.Add(model_, rows, state.x_m, frame.cables, state.multipliers_N));
   const auto at = [&](const Eigen::Vector3d& rest_m) -> Eigen::MatrixX3d {
     const Eigen::Vector3d on_skin_m = map_.NearestAtRest(rest_m).rest_m;

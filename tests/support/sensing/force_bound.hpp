@@ -46,7 +46,7 @@ class ForceBounds {
   Eigen::MatrixXd Jacobian(const virtual_robot::TrueForce& truth,
                            const force_estimation::SkinPoint& place,
                            const force_estimation::ShapeFrame& frame, const fem::StaticState& state,
-                           const std::vector<robot::EffectorRow>& rows);
+                           const std::vector<robot::ObservationRow>& rows);
 
   robot::RobotModel& model_;
   force_estimation::ShapeConfig shape_;

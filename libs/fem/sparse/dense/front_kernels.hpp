@@ -43,7 +43,7 @@ struct FactorPanelOf {
 };
 
 using FactorPanel = FactorPanelOf<double>;
-using RoundedPanel = FactorPanelOf<float>;
+using SinglePrecisionPanel = FactorPanelOf<float>;
 
 /// The contribution of a front to its parent, below x below, lower triangle; above the diagonal
 /// there may be anything.
@@ -111,8 +111,8 @@ struct FrontKernels {
 
   /// Stores the tiles of rows [tile_begin, tile_end) of a panel that is done.
   void (*store)(const Panel& panel, const FactorPanel& factor, int tile_begin, int tile_end);
-  void (*store_rounded)(const Panel& panel, const RoundedPanel& factor, int tile_begin,
-                        int tile_end);
+  void (*store_single)(const Panel& panel, const SinglePrecisionPanel& factor, int tile_begin,
+                       int tile_end);
 
   SubstitutionKernelsOf<double> exact;
   SubstitutionKernelsOf<float> rounded;

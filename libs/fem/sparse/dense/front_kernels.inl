@@ -341,7 +341,7 @@ constexpr FrontKernels kKernels{.clear = Clear,
                                 .update_pivots = UpdatePivots,
                                 .update_below = UpdateBelow,
                                 .store = StoreFactor<double>,
-                                .store_rounded = StoreFactor<float>,
+                                .store_single = StoreFactor<float>,
                                 .exact = kSubstitution<double>,
                                 .rounded = kSubstitution<float>};
 

@@ -11,7 +11,7 @@ namespace {
 
 class PointForce final : public Parameter {
  public:
-  PointForce(fem::NodeWeights weights, const Eigen::Vector3d& direction)
+  PointForce(fem::InterpolationWeights weights, const Eigen::Vector3d& direction)
       : weights_(std::move(weights)), direction_(direction) {}
 
   void Describe(const EquilibriumPoint&, ParameterColumn* column) const override {
@@ -19,7 +19,7 @@ class PointForce final : public Parameter {
   }
 
  private:
-  fem::NodeWeights weights_;
+  fem::InterpolationWeights weights_;
   Eigen::Vector3d direction_;
 };
 
@@ -38,7 +38,7 @@ class NodalForces final : public Parameter {
 
 }  // namespace
 
-ParameterPtr ExternalForce(fem::NodeWeights weights, const Eigen::Vector3d& direction) {
+ParameterPtr ExternalForce(fem::InterpolationWeights weights, const Eigen::Vector3d& direction) {
   return std::make_unique<PointForce>(std::move(weights), direction);
 }
 

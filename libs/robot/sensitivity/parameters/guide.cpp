@@ -32,7 +32,7 @@ class PullPoint final : public Parameter {
 /// The eyelet's place changes as well as what it holds on to.
 class Eyelet final : public Parameter {
  public:
-  Eyelet(int cable, int eyelet, fem::NodeWeights weights_along, CableZero zero)
+  Eyelet(int cable, int eyelet, fem::InterpolationWeights weights_along, CableZero zero)
       : cable_(cable), eyelet_(eyelet), weights_(std::move(weights_along)), zero_(zero) {}
 
   void Describe(const EquilibriumPoint& at, ParameterColumn* column) const override {
@@ -51,7 +51,7 @@ class Eyelet final : public Parameter {
  private:
   int cable_;
   int eyelet_;
-  fem::NodeWeights weights_;
+  fem::InterpolationWeights weights_;
   CableZero zero_;
 };
 
@@ -61,7 +61,8 @@ ParameterPtr PullPointMove(int cable, const Eigen::Vector3d& direction, CableZer
   return std::make_unique<PullPoint>(cable, direction, zero);
 }
 
-ParameterPtr EyeletMove(int cable, int eyelet, fem::NodeWeights weights_along, CableZero zero) {
+ParameterPtr EyeletMove(int cable, int eyelet, fem::InterpolationWeights weights_along,
+                        CableZero zero) {
   return std::make_unique<Eyelet>(cable, eyelet, std::move(weights_along), zero);
 }
 

@@ -64,7 +64,7 @@ TEST_F(SkinInViewTest, PlacesInViewAreTheirOwnFeet) {
     if (!foot) continue;  // grazing
     ++found;
     EXPECT_LT(foot->distance_m, 1e-6);
-    const fem::NodeWeights weights = skin_.WeightsOf(*foot);
+    const fem::InterpolationWeights weights = skin_.WeightsOf(*foot);
     EXPECT_LT((weights.Position(model_->RestState().x_m) - foot->position_m).norm(), 1e-12);
   }
   EXPECT_GT(found, static_cast<int>(0.9 * static_cast<double>(places_m.cols()) / 23));

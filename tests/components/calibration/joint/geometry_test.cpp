@@ -9,7 +9,7 @@
 
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
-#include "components/calibration/joint/kept_model.hpp"
+#include "components/calibration/joint/model_snapshot.hpp"
 #include "libs/robot/calibrated_geometry.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
 
@@ -202,7 +202,7 @@ TEST_F(GeometryOfOurRobot, PathsArePutBackWhereNothingIsFound) {
   const Eigen::Vector3d guide_m = model->cable(0).pull_point_m();
   const Eigen::VectorXd rest_length_m = model->cable_rest_length_m();
   const std::vector<double> weights = model->cable(1).eyelets()[0].weights;
-  const KeptModel kept(*model);
+  const ModelSnapshot kept(*model);
   model->SetPullPoint(0, guide_m + Eigen::Vector3d(0.0, 0.0, -0.01));
   ASSERT_TRUE(model->MoveEyelet(1, 0, Eigen::Vector3d(2e-3, 0.0, 1e-3)).ok());
   EXPECT_NE(model->cable_rest_length_m()[0], rest_length_m[0]);

@@ -218,7 +218,7 @@ TEST_F(JointCalibrationOfOurRobot, APlaneIsNotEnteredWhateverTheMarkersSay) {
   setup.frames[0].markers[4].position_m.x() += 2e-3;
   setup.T_robot_camera = TableOnePose();
   setup.fit_pose = false;
-  const fem::NodeWeights tip = model_->body().markers[4].point.weights;
+  const fem::InterpolationWeights tip = model_->body().markers[4].point.weights;
   const fem::StaticState truth = force_estimation::SolveTruth(*model_, tensions, {});
   JointProblem anywhere(*model_, setup);
   const LeastSquaresSolution loose = SolveLeastSquares(anywhere, {});

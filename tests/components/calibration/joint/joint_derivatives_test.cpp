@@ -20,7 +20,7 @@ class JointDerivatives : public testing::Test {
     const auto tight = Commands(Kind::kTension, {1.2, 0.7, 1.0, 0.5});
     setup_.frames = {See(*model_, TableOnePose(), "pulled", pulled, {}, 1e-4),
                      See(*model_, TableOnePose(), "tight", tight, {}, 1e-4)};
-    const fem::NodeWeights hub = model_->body().markers.front().point.weights;
+    const fem::InterpolationWeights hub = model_->body().markers.front().point.weights;
     setup_.frames[1].surface.push_back({.position_m = {0.01, -0.02, 0.4},
                                         .sigma_m = 3e-4,
                                         .point = hub,
@@ -40,7 +40,7 @@ class JointDerivatives : public testing::Test {
     setup_.conditions.push_back(
         StaysBeyondPlane(0, hub, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, 0.6, 0.8)));
     setup_.T_robot_camera = TableOnePose();
-    setup_.depth_bias = DepthBiasBelief{.coefficient = {.sigma = 0.005, .plausible = 0.01}};
+    setup_.depth_bias = DepthBiasPrior{.coefficient = {.sigma = 0.005, .plausible = 0.01}};
     setup_.marker_offset_sigma_m = 5e-4;
   }
 

@@ -43,7 +43,7 @@ void ExpectTableOne(const robot::RobotDescription& robot, const std::vector<int>
       "after "
       "10, %.1e mm at the end, forces to %.1e N\n",
       robot.name.c_str(), markers.size(), found.outer_iterations, found.tangents,
-      found.restorations, rate, 1e3 * rms_m[9], 1e3 * found.residual_rms_m,
+      found.continuation_steps, rate, 1e3 * rms_m[9], 1e3 * found.residual_rms_m,
       (found.lambda_a_N - kTableOneForces_N).lpNorm<Eigen::Infinity>());
 }
 

@@ -41,7 +41,7 @@ FiducialConfig GreenConfig() {
 }
 
 /// A grey wall.
-rgbd::RgbdFrame Wall() {
+rgbd::RgbdFrame Obstacle() {
   rgbd::RgbdFrame frame;
   frame.depth = rgbd::DepthImage(kWidth_px, kHeight_px, kWall_mm);
   frame.color = rgbd::ColorImage(kWidth_px, kHeight_px, 150);
@@ -96,7 +96,7 @@ void ExpectRejected(const FiducialFrame& found, int FiducialRejections::*reason)
 
 TEST(FiducialRefusals, ADiscOnAWallIsFoundToAFractionOfAPixel) {
   for (const double offset : {0.0, 0.2, 0.4, 0.6, 0.8}) {
-    rgbd::RgbdFrame frame = Wall();
+    rgbd::RgbdFrame frame = Obstacle();
     Paint(Disc(70.0 + offset, 50.0 - 0.5 * offset, 3.4), kGreen, &frame.color);
     const FiducialFrame& found = DetectIn(frame);
     ASSERT_EQ(found.fiducials.size(), 1u);
@@ -116,7 +116,7 @@ TEST(FiducialRefusals, ADiscOnAWallIsFoundToAFractionOfAPixel) {
 TEST(FiducialRefusals, EachOfSeveralColors) {
   FiducialConfig config = GreenConfig();
   config.color_rgb.insert(config.color_rgb.end(), {0.1, 0.2, 0.9});
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(50.0, 40.0, 3.4), {26, 51, 230}, &frame.color);
   Paint(Disc(90.0, 80.0, 3.4), kGreen, &frame.color);
   const FiducialFrame& found = DetectIn(frame, config);
@@ -129,7 +129,7 @@ TEST(FiducialRefusals, AColorThatOnlyOneHasTellsItsName) {
   FiducialConfig config = GreenConfig();
   config.color_rgb.insert(config.color_rgb.end(), {0.1, 0.2, 0.9, 0.9, 0.1, 0.1});
   config.names = {"tip", "leg", "foot"};
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(50.0, 40.0, 3.4), {26, 51, 230}, &frame.color);
   Paint(Disc(90.0, 80.0, 3.4), kGreen, &frame.color);
   Paint(Disc(50.0, 90.0, 3.4), kGreen, &frame.color);
@@ -141,10 +141,10 @@ TEST(FiducialRefusals, AColorThatOnlyOneHasTellsItsName) {
 }
 
 TEST(FiducialRefusals, TooSmall) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(70.0, 50.0, 0.8), kGreen, &frame.color);
   ExpectRejected(DetectIn(frame), &FiducialRejections::too_small);
-  frame = Wall();
+  frame = Obstacle();
   Paint(Disc(70.0, 50.0, 2.5), kGreen, &frame.color);
   FiducialConfig config = GreenConfig();
   config.min_radius_m = config.max_radius_m = 0.004;
@@ -153,7 +153,7 @@ TEST(FiducialRefusals, TooSmall) {
 
 TEST(FiducialRefusals, TooLarge) {
   for (const double radius_px : {5.4, 20.0}) {
-    rgbd::RgbdFrame frame = Wall();
+    rgbd::RgbdFrame frame = Obstacle();
     Paint(Disc(70.0, 50.0, radius_px), kGreen, &frame.color);
     ExpectRejected(DetectIn(frame), &FiducialRejections::too_large);
   }
@@ -168,14 +168,14 @@ TEST(FiducialRefusals, NotRound) {
         return r < 4.4 && r > 2.6;
       }};
   for (const auto& shape : shapes) {
-    rgbd::RgbdFrame frame = Wall();
+    rgbd::RgbdFrame frame = Obstacle();
     Paint(shape, kGreen, &frame.color);
     ExpectRejected(DetectIn(frame), &FiducialRejections::not_round);
   }
 }
 
 TEST(FiducialRefusals, WithoutDepthOrOutOfRange) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
   rgbd::RgbdFrame holes = frame;
   for (int v = 46; v < 55; ++v) {
@@ -188,10 +188,10 @@ TEST(FiducialRefusals, WithoutDepthOrOutOfRange) {
 }
 
 TEST(FiducialRefusals, AtAnEdge) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(4.0, 50.0, 3.4), kGreen, &frame.color);
   ExpectRejected(DetectIn(frame), &FiducialRejections::at_edge);  // of the picture
-  frame = Wall();
+  frame = Obstacle();
   Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 74; u < kWidth_px; ++u) *frame.depth.Pixel(u, v) = 450;
@@ -201,7 +201,7 @@ TEST(FiducialRefusals, AtAnEdge) {
 }
 
 TEST(FiducialRefusals, OfTheColorOfWhatIsRoundIt) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint([](double, double) { return true; }, {70, 130, 80}, &frame.color);
   Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
   FiducialConfig config = GreenConfig();
@@ -212,7 +212,7 @@ TEST(FiducialRefusals, OfTheColorOfWhatIsRoundIt) {
 }
 
 TEST(FiducialRefusals, DarkOnesAndOtherColorsAreNoSpots) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(70.0, 50.0, 3.4), {2, 14, 4}, &frame.color);
   Paint(Disc(40.0, 50.0, 3.4), {200, 30, 30}, &frame.color);
   const FiducialFrame& found = DetectIn(frame);
@@ -221,7 +221,7 @@ TEST(FiducialRefusals, DarkOnesAndOtherColorsAreNoSpots) {
 }
 
 TEST(FiducialRefusals, OpenRimsMakeThePlaceLessSure) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
   const Eigen::Matrix3d whole_m2 = DetectIn(frame).fiducials.at(0).covariance_m2;
   for (int v = 0; v < kHeight_px; ++v) {
@@ -233,7 +233,7 @@ TEST(FiducialRefusals, OpenRimsMakeThePlaceLessSure) {
 }
 
 TEST(FiducialRefusals, FramesOfAnotherSizeAndCamerasWithoutColors) {
-  rgbd::RgbdFrame frame = Wall();
+  rgbd::RgbdFrame frame = Obstacle();
   frame.color = rgbd::ColorImage(10, 10);
   EXPECT_EQ(DetectIn(frame).status.code(), StatusCode::kInvalidInput);
   EXPECT_THAT(DetectIn(frame).status.message(), testing::HasSubstr("10x10"));
@@ -241,8 +241,8 @@ TEST(FiducialRefusals, FramesOfAnotherSizeAndCamerasWithoutColors) {
   camera.color = {};
   FiducialDetector detector(GreenConfig());
   detector.SetCamera(camera);
-  EXPECT_EQ(detector.Detect(Wall()).status.code(), StatusCode::kInvalidInput);
-  EXPECT_THAT(detector.Detect(Wall()).status.message(), testing::HasSubstr("no colours"));
+  EXPECT_EQ(detector.Detect(Obstacle()).status.code(), StatusCode::kInvalidInput);
+  EXPECT_THAT(detector.Detect(Obstacle()).status.message(), testing::HasSubstr("no colours"));
 }
 
 std::string RefusalOf(const FiducialConfig& config) {

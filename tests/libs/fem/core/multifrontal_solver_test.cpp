@@ -114,12 +114,12 @@ TEST_P(MultifrontalSolver, SolvesWithAFrontOfAnySize) {
       solver->Solve(x);
       EXPECT_LE((dense * x - b).norm(), 1e-12 * b.norm()) << nodes << " nodes, " << columns;
     }
-    solver->KeepRounded();
+    solver->KeepSinglePrecision();
     ASSERT_TRUE(solver->Factorize(values).ok());
     for (const int columns : {1, 3, 12}) {
       const Eigen::MatrixXd b = RandomColumns(3 * nodes, columns);
       Eigen::MatrixXd x = b;
-      solver->SolveRounded(x);
+      solver->SolveSingle(x);
       EXPECT_LE((dense * x - b).norm(), 1e-4 * b.norm()) << nodes << " nodes, rounded " << columns;
     }
   }
@@ -139,10 +139,10 @@ TEST_P(MultifrontalSolver, SolvesByARoundedFactor) {
       exact.emplace_back(all.leftCols(columns));
       solver->Solve(exact.back());
     }
-    solver->KeepRounded();
+    solver->KeepSinglePrecision();
     for (size_t k = 0; k < counts.size(); ++k) {
       Eigen::MatrixXd x = all.leftCols(counts[k]);
-      solver->SolveRounded(x);
+      solver->SolveSingle(x);
       EXPECT_EQ(x, exact[k]) << "rounded from the next factorisation on";
     }
     ASSERT_TRUE(solver->Factorize(matrix.Values()).ok());
@@ -150,13 +150,13 @@ TEST_P(MultifrontalSolver, SolvesByARoundedFactor) {
       SCOPED_TRACE(counts[k]);
       const Eigen::MatrixXd b = all.leftCols(counts[k]);
       Eigen::MatrixXd x = b;
-      solver->SolveRounded(x);
+      solver->SolveSingle(x);
       EXPECT_LE((x - exact[k]).norm(), 1e-6 * exact[k].norm());
       EXPECT_GE((x - exact[k]).norm(), 1e-12 * exact[k].norm()) << "not rounded";
       for (int step = 0; step < 2; ++step) {
         Eigen::MatrixXd left(b.rows(), b.cols());
         for (Eigen::Index c = 0; c < b.cols(); ++c) left.col(c) = b.col(c) - matrix.Times(x.col(c));
-        solver->SolveRounded(left);
+        solver->SolveSingle(left);
         x += left;
       }
       EXPECT_LE((x - exact[k]).norm(), 1e-13 * exact[k].norm());

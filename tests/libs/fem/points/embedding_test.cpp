@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> PointsAround(int count, unsigned seed) {
 
 Eigen::VectorXd Flat(const Eigen::Matrix3Xd& nodes) { return nodes.reshaped(); }
 
-double WeightSum(const NodeWeights& weights) {
+double WeightSum(const InterpolationWeights& weights) {
   return std::accumulate(weights.weights.begin(), weights.weights.end(), 0.0);
 }
 
@@ -224,7 +224,7 @@ TEST(EmbedBall, TakesTheMeanOverTheVolumeOfTheBall) {
 TEST(EmbedBall, SpreadsTheForceOverMoreNodesThanThePoint) {
   const PointLocator locator(BoxMesh(kEmbedded_m, {20, 4, 6}));
   const Eigen::Vector3d point_m(0.0512, 0.0112, 0.0172);
-  const auto largest = [](const NodeWeights& weights) {
+  const auto largest = [](const InterpolationWeights& weights) {
     return *std::max_element(weights.weights.begin(), weights.weights.end());
   };
   const BodyPoint point = locator.Embed(point_m);

@@ -22,11 +22,11 @@ TetMesh PatchMesh(ElementType element) {
   return element == ElementType::kTet10 ? MakeQuadratic(mesh) : mesh;
 }
 
-double SumOfWeights(const NodeWeights& weights) {
+double SumOfWeights(const InterpolationWeights& weights) {
   return std::accumulate(weights.weights.begin(), weights.weights.end(), 0.0);
 }
 
-double WeightOf(const NodeWeights& weights, int node) {
+double WeightOf(const InterpolationWeights& weights, int node) {
   double sum = 0.0;
   for (size_t k = 0; k < weights.nodes.size(); ++k) {
     if (weights.nodes[k] == node) sum += weights.weights[k];
@@ -56,8 +56,8 @@ TEST_P(Patch, OnAPlaneIsADiscRoundThePoint) {
 
 TEST_P(Patch, ShrinksToThePointItself) {
   const PointLocator locator(PatchMesh(GetParam()));
-  const NodeWeights point = locator.Embed(kOnTop_m).weights;
-  const NodeWeights small = MakeSurfacePatch(locator, kOnTop_m, 1e-7).weights;
+  const InterpolationWeights point = locator.Embed(kOnTop_m).weights;
+  const InterpolationWeights small = MakeSurfacePatch(locator, kOnTop_m, 1e-7).weights;
   for (size_t k = 0; k < point.nodes.size(); ++k) {
     EXPECT_NEAR(WeightOf(small, point.nodes[k]), point.weights[k], 1e-5);
   }

@@ -50,7 +50,7 @@ TEST(Allocation, NothingIsAllocatedAfterTheFirstFrame) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer, or not glibc";
   RobotModel model(SoftBox());
   const fem::PointLocator locator(model.body().mesh);
-  std::vector<fem::NodeWeights> effectors;
+  std::vector<fem::InterpolationWeights> effectors;
   for (int k = 0; k < 51; ++k) {
     effectors.push_back(locator.Embed({0.01 + 0.0015 * k, 0.02, 0.01}).weights);
   }

@@ -67,7 +67,7 @@ class Sweep {
 
  private:
   RobotModel model_;
-  fem::NodeWeights patch_;
+  fem::InterpolationWeights patch_;
   fem::StaticState truth_;
 };
 

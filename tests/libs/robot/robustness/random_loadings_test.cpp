@@ -42,7 +42,8 @@ bool IsFinite(const fem::StaticState& state) {
 
 void RunLoading(RobotModel& model, const RandomLoading& loading, const fem::StaticState& at_rest,
                 FrameTracker* tracker, FrameTally* tally) {
-  const fem::NodeWeights patch = model.Patch(loading.point_m, loading.patch_radius_m).weights;
+  const fem::InterpolationWeights patch =
+      model.Patch(loading.point_m, loading.patch_radius_m).weights;
   tracker->Start(at_rest);
   Eigen::VectorXd force_N(at_rest.x_m.size());
   for (int k = 1; k <= loading.frames; ++k) {

@@ -115,7 +115,7 @@ TEST_F(CablePathTest, TurnsHoldAllThatIsNotSymmetric) {
 }
 
 TEST_F(CablePathTest, IsThatOfTheCable) {
-  std::vector<fem::NodeWeights> eyelets;
+  std::vector<fem::InterpolationWeights> eyelets;
   for (int e = 1; e < kPoints; ++e) eyelets.push_back({{e}, {1.0}});
   const Eigen::VectorXd x_m = points_m_.reshaped();
   for (const CableFriction& friction :

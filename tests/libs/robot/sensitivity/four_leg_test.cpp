@@ -81,7 +81,8 @@ TEST_P(FourLegSensitivity, WeightAndForce) {
                          Eigen::AngleAxisd(by, kDirection) * robot->body.gravity_m_s2;
                    }),
                    1e-2);
-  const fem::NodeWeights patch = Solve(robot_).model->Patch({0.021, 0.021, 0.1}, 0.008).weights;
+  const fem::InterpolationWeights patch =
+      Solve(robot_).model->Patch({0.021, 0.021, 0.1}, 0.008).weights;
   ExpectDerivative(robot_, ExternalForce(patch, kDirection), By([&](RobotCase* robot, double by) {
                      robot->loads.push_back({patch, by * kDirection});
                    }),
@@ -108,7 +109,7 @@ TEST_P(FourLegSensitivity, Guides) {
   const fem::PointLocator locator(robot_.body.mesh);
   const CableSettings& north = description_.cables[0];
   const Eigen::Vector3d knot_m = north.path_m.col(1);
-  const fem::NodeWeights along =
+  const fem::InterpolationWeights along =
       EyeletWeightsAlong(locator, knot_m, north.guide_radius_m, kDirection);
   ExpectDerivative(robot_, EyeletMove(0, 0, along), By([&](RobotCase* robot, double by) {
                      robot->body.cables[0].eyelets[0] =

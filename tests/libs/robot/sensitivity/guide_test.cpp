@@ -71,12 +71,14 @@ TEST(EyeletWeights, AlongADirectionAreTheDerivativeOfTheEmbedding) {
           Eigen::Vector3d(0.0187, 0.0017, -0.0009)}) {
       for (const double radius_m : {0.0, 0.0011}) {
         const auto weights = [&](double by) {
-          const fem::NodeWeights at = locator.EmbedBall(point_m + by * direction, radius_m).weights;
+          const fem::InterpolationWeights at =
+              locator.EmbedBall(point_m + by * direction, radius_m).weights;
           Eigen::VectorXd dense = Eigen::VectorXd::Zero(robot.body.mesh.NodeCount());
           for (size_t k = 0; k < at.nodes.size(); ++k) dense[at.nodes[k]] += at.weights[k];
           return dense;
         };
-        const fem::NodeWeights along = EyeletWeightsAlong(locator, point_m, radius_m, direction);
+        const fem::InterpolationWeights along =
+            EyeletWeightsAlong(locator, point_m, radius_m, direction);
         Eigen::VectorXd dense = Eigen::VectorXd::Zero(robot.body.mesh.NodeCount());
         for (size_t k = 0; k < along.nodes.size(); ++k) dense[along.nodes[k]] += along.weights[k];
         const double step = 1e-7;

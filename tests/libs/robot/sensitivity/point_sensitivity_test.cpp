@@ -8,8 +8,8 @@
 namespace palpate::robot {
 namespace {
 
-std::vector<fem::NodeWeights> MarkersOf(const RobotBody& body) {
-  std::vector<fem::NodeWeights> markers;
+std::vector<fem::InterpolationWeights> MarkersOf(const RobotBody& body) {
+  std::vector<fem::InterpolationWeights> markers;
   for (const BodyMarker& marker : body.markers) markers.push_back(marker.point.weights);
   return markers;
 }
@@ -36,7 +36,7 @@ TEST_P(OfPoints, AreThoseOfTheWholeBody) {
   for (const double mu : {0.0, 0.3}) {
     for (CableFriction& friction : robot_.friction) friction.coefficient = mu;
     Balance balance = Solve(robot_);
-    const std::vector<fem::NodeWeights> markers = MarkersOf(robot_.body);
+    const std::vector<fem::InterpolationWeights> markers = MarkersOf(robot_.body);
     const std::vector<ParameterPtr> parameters = Many(robot_.body);
     SensitivitySolver forward(*balance.model);
     ASSERT_TRUE(forward.Compute(robot_.cables, balance.state, parameters).ok());
@@ -61,9 +61,9 @@ TEST_P(OfPoints, AreThoseOfTheWholeBody) {
 /// both methods in turn.
 TEST_P(OfPoints, MoveEachOtherAlike) {
   Balance balance = Solve(robot_);
-  const std::vector<fem::NodeWeights> markers = MarkersOf(robot_.body);
+  const std::vector<fem::InterpolationWeights> markers = MarkersOf(robot_.body);
   std::vector<ParameterPtr> forces;
-  for (const fem::NodeWeights& marker : markers) {
+  for (const fem::InterpolationWeights& marker : markers) {
     for (int i = 0; i < 3; ++i) forces.push_back(ExternalForce(marker, Eigen::Vector3d::Unit(i)));
   }
   PointSensitivity adjoint(*balance.model, markers);

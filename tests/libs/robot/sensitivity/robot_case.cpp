@@ -110,7 +110,7 @@ RobotCase SoftBeam(const CaseKind& kind) {
 }
 
 double RestLength_m(const RobotBody& body, size_t cable) {
-  std::vector<fem::NodeWeights> eyelets;
+  std::vector<fem::InterpolationWeights> eyelets;
   for (const fem::BodyPoint& eyelet : body.cables[cable].eyelets) eyelets.push_back(eyelet.weights);
   return Cable(body.cables[cable].pull_point_m, eyelets, body.mesh.nodes_m.reshaped())
       .rest_length_m();
@@ -158,7 +158,7 @@ Derivative Differentiate(Balance& balance, const RobotCase& robot, ParameterPtr 
   parameters.push_back(std::move(parameter));
   const Status status = solver.Compute(robot.cables, balance.state, parameters);
   EXPECT_TRUE(status.ok()) << status.message();
-  std::vector<fem::NodeWeights> markers;
+  std::vector<fem::InterpolationWeights> markers;
   for (const BodyMarker& marker : balance.model->body().markers) {
     markers.push_back(marker.point.weights);
   }

@@ -55,7 +55,7 @@ TEST_P(SolverOfSensitivities, PointsMoveWithTheirNodes) {
   SensitivitySolver solver(*balance.model);
   ASSERT_TRUE(solver.Compute(robot_.cables, balance.state, Several()).ok());
   // One that holds on to held and free nodes alike.
-  const fem::NodeWeights& point = robot_.body.markers[3].point.weights;
+  const fem::InterpolationWeights& point = robot_.body.markers[3].point.weights;
   const Eigen::Matrix3Xd motion = solver.PointMotion(point);
   Eigen::VectorXd nodal;
   for (int p = 0; p < solver.ParameterCount(); ++p) {
@@ -95,7 +95,7 @@ TEST_P(SolverOfSensitivities, TheFactorOfTheStaticSolverServes) {
   Balance balance = Solve(robot_);
   SensitivitySolver solver(*balance.model);
   ASSERT_TRUE(solver.Compute(robot_.cables, balance.state, Several(), Factor::kPresent).ok());
-  const fem::NodeWeights& point = robot_.body.markers[0].point.weights;
+  const fem::InterpolationWeights& point = robot_.body.markers[0].point.weights;
   const Eigen::Matrix3Xd present = solver.PointMotion(point);
   ASSERT_TRUE(solver.Compute(robot_.cables, balance.state, Several(), Factor::kRenew).ok());
   EXPECT_LE((solver.PointMotion(point) - present).norm(), 1e-12 * present.norm());
@@ -148,7 +148,7 @@ TEST(SensitivitySolver, SaysWhereThereIsNoFactorAndGivesNoNumbers) {
   SensitivitySolver solver(*balance.model);
   std::vector<ParameterPtr> parameters;
   parameters.push_back(YoungsModulus(0));
-  const fem::NodeWeights& point = robot.body.markers[0].point.weights;
+  const fem::InterpolationWeights& point = robot.body.markers[0].point.weights;
   ASSERT_TRUE(solver.Compute(robot.cables, balance.state, parameters).ok());
   ASSERT_EQ(solver.PointMotion(point).cols(), 1);
   EXPECT_EQ(solver.Compute(robot.cables, state, parameters).code(),

@@ -57,7 +57,8 @@ TEST_P(Weight, GravityTurned) {
 
 TEST_P(Weight, ExternalForceOnAPatch) {
   const Eigen::Vector3d direction = Eigen::Vector3d(0.3, 1.0, 0.7).normalized();
-  const fem::NodeWeights patch = Solve(robot_).model->Patch({0.1, 0.01, 0.01}, 0.006).weights;
+  const fem::InterpolationWeights patch =
+      Solve(robot_).model->Patch({0.1, 0.01, 0.01}, 0.006).weights;
   ASSERT_GT(patch.nodes.size(), 4U);
   const auto changed = [&](double by) {
     RobotCase robot = robot_;

@@ -24,7 +24,7 @@ TEST_P(SensitivityAllocation, NoneWhenCalledAgain) {
   parameters.push_back(CableGain(0));
   parameters.push_back(
       ExternalForce(robot_.body.markers[0].point.weights, Eigen::Vector3d::UnitY()));
-  const std::vector<fem::NodeWeights> points(51, robot_.body.markers[1].point.weights);
+  const std::vector<fem::InterpolationWeights> points(51, robot_.body.markers[1].point.weights);
   Eigen::MatrixXd motions_m;
   bool ok = true;
   const auto frame = [&] {

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/backward_elimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/diagnosis/inference/fault_size.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// A named cause for another one.
+struct Exchange {
+  std::size_t named = 0;
+  int other = -1;
+  double ln_gain = 0.0;  ///< of the evidence of all together, as linear models have it
+};
+
+std::vector<int> Exchanged(std::vector<int> faults, int from, int to) {
+  std::replace(faults.begin(), faults.end(), from, to);
+  return faults;
+}
+
+/// Whether the book's cause k is named already, at another place or with another time, too.
+bool IsNamed(const HypothesisSet& hypotheses, const std::vector<int>& faults, int k) {
+  return std::any_of(faults.begin(), faults.end(), [&](int f) {
+    return hypotheses.cause(f).name() == hypotheses.cause(k).name();
+  });
+}
+
+/// What could stand in the place of each that is named, the most promising first, each cause by the
+/// best of its name. The linear model about the fit tells within one or two of ln p what a refit
+/// gives: named causes are far from none, but rivals do about the same as them.
+std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& selection) {
+  constexpr double kWorthALook = -8.0;
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const Fit& best = selection.best;
+  const Information data = best.model.All();
+  std::vector<Exchange> exchanges;
+  for (std::size_t n = 0; n < selection.named.size(); ++n) {
+    for (int k = 0; k < hypotheses.size(); ++k) {
+      if (!hypotheses.CanBeFault(k) || IsNamed(hypotheses, best.faults, k)) continue;
+      const std::vector<int> others = Exchanged(best.faults, selection.named[n].cause, k);
+      const double promised =
+          hypotheses.InferWithin(data, others).ln_evidence - best.posterior.ln_evidence;
+      if (promised < kWorthALook) continue;
+      const auto same = std::find_if(exchanges.begin(), exchanges.end(), [&](const Exchange& one) {
+        return one.named == n && hypotheses.cause(one.other).name() == hypotheses.cause(k).name();
+      });
+      if (same == exchanges.end()) {
+        exchanges.push_back({n, k, promised});
+      } else if (promised > same->ln_gain) {
+        *same = {n, k, promised};
+      }
+    }
+  }
+  std::sort(exchanges.begin(), exchanges.end(),
+            [](const auto& a, const auto& b) { return a.ln_gain > b.ln_gain; });
+  return exchanges;
+}
+
+/// The first of the promising exchanges that keeps its promise. What was named last was chosen
+/// beside all others: it stays.
+void ExchangeOne(const Fitter& fitter, Selection* selection) {
+  constexpr double kWorthAFit = -3.0;
+  constexpr int kMostTried = 2;
+  const double before = selection->best.posterior.ln_evidence;
+  int tried = 0;
+  for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
+    const int most_tried = fitter.IsOutOfTime() ? 1 : kMostTried;
+    if (exchange.ln_gain < kWorthAFit || tried >= most_tried) break;
+    if (exchange.named + 1 == selection->named.size()) continue;
+    ++tried;
+    Choice& choice = selection->named[exchange.named];
+    Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.cause, exchange.other),
+                              selection->best);
+    if (other.posterior.ln_evidence - before < kWorthAFit) continue;
+    other = fitter.Complete(std::move(other));
+    if (!other.status.ok() || other.posterior.ln_evidence <= before) continue;
+    if (!WhyNoFault(fitter.hypotheses(), other.posterior, exchange.other).empty()) continue;
+    choice.cause = exchange.other;
+    selection->best = std::move(other);
+    return;
+  }
+}
+
+/// What each of the named adds to all others; one that adds nothing clear is dropped.
+void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* selection) {
+  for (std::size_t k = 0; k < selection->named.size();) {
+    Choice& choice = selection->named[k];
+    const Fit& best = selection->best;
+    std::vector<int> others = best.faults;
+    std::erase(others, choice.cause);
+    choice.ln_bayes_factor = best.posterior.ln_evidence - fitter.Guess(best, others).ln_evidence;
+    if (choice.ln_bayes_factor < clear_evidence) {
+      Fit without = fitter.Complete(fitter.Refine(others, best));
+      if (without.status.ok()) {
+        selection->best = std::move(without);
+        selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
+        continue;
+      }
+    }
+    const CrossValidation before = LeaveOneOut(fitter.hypotheses(), best.model, others);
+    const CrossValidation after = LeaveOneOut(fitter.hypotheses(), best.model, best.faults);
+    choice.held_out = Compare(before, after);
+    for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
+      choice.ln_gain_of_recording[r] = after.ln_predicted[r] - before.ln_predicted[r];
+    }
+    ++k;
+  }
+}
+
+/// Each against nothing, and against all that could stand in its place.
+void WeighEach(const Fitter& fitter, Selection* selection) {
+  const std::vector<Exchange> exchanges = PromisingExchanges(fitter, *selection);
+  const double ln_causes = std::log(static_cast<double>(fitter.hypotheses().size()));
+  for (std::size_t n = 0; n < selection->named.size(); ++n) {
+    Choice& choice = selection->named[n];
+    double others = std::exp(ln_causes - choice.ln_bayes_factor);
+    for (const Exchange& one : exchanges) {
+      if (one.named == n) others += std::exp(one.ln_gain);
+    }
+    choice.probability = 1.0 / (1.0 + others);
+  }
+}
+
+}  // namespace
+
+void EliminateBackward(const Fitter& fitter, double clear_evidence, Selection* selection) {
+  ExchangeOne(fitter, selection);
+  DropTheUnclear(fitter, clear_evidence, selection);
+  WeighEach(fitter, selection);
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/confusability_of_faults.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "components/diagnosis/inference/screening.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Data about causes, where a healthy robot's tolerances are not known.
+class BesideTolerances {
+ public:
+  BesideTolerances(const HypothesisSet& hypotheses, const Information& data)
+      : hypotheses_(hypotheses), tolerance_(hypotheses.PriorWith({}).sigma) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index p = 0; p < tolerance_.size(); ++p) {
+      if (tolerance_[p] > 0.0) free.push_back(p);
+    }
+    const Eigen::VectorXd sigma = tolerance_(free);
+    const Eigen::MatrixXd D_H = sigma.asDiagonal() * data.H(free, Eigen::all);
+    Eigen::MatrixXd A = D_H(Eigen::all, free) * sigma.asDiagonal();
+    A.diagonal().array() += 1.0;
+    H_ = data.H - D_H.transpose() * A.llt().solve(D_H);
+  }
+
+  /// [own x own] of these parameters, their own tolerances left out.
+  Eigen::MatrixXd About(const std::vector<Eigen::Index>& own) const {
+    Eigen::MatrixXd H = H_(own, own);
+    std::vector<Eigen::Index> tolerated;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (tolerance_[own[k]] > 0.0) tolerated.push_back(static_cast<Eigen::Index>(k));
+    }
+    if (tolerated.empty()) return H;
+    const Eigen::MatrixXd told = H(tolerated, Eigen::all);
+    Eigen::MatrixXd left = -H(tolerated, tolerated);
+    for (std::size_t k = 0; k < tolerated.size(); ++k) {
+      const double tolerance = tolerance_[own[static_cast<std::size_t>(tolerated[k])]];
+      left(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) +=
+          1.0 / (tolerance * tolerance);
+    }
+    return H + told.transpose() * left.ldlt().solve(told);
+  }
+
+  /// Squares of noise that a fault of this cause would make, expected.
+  double Size(int withheld) const {
+    const std::vector<Eigen::Index> own = hypotheses_.ParametersOf({withheld});
+    return About(own).diagonal().dot(FaultSquares(withheld));
+  }
+
+  /// Which share of that these others would explain.
+  double ExplainedBy(const std::vector<int>& others, int withheld) const {
+    std::vector<Eigen::Index> own = hypotheses_.ParametersOf({withheld});
+    const Eigen::Index count = std::ssize(own);
+    const std::vector<Eigen::Index> of_others = hypotheses_.ParametersOf(others);
+    const Eigen::Index count_of_others = std::ssize(of_others);
+    own.insert(own.end(), of_others.begin(), of_others.end());
+    const Eigen::MatrixXd H = About(own);
+    const Eigen::MatrixXd both = H.bottomLeftCorner(count_of_others, count);
+    Eigen::MatrixXd of_other = H.bottomRightCorner(count_of_others, count_of_others);
+    Eigen::Index first = 0;
+    for (const int other : others) {
+      of_other.diagonal().segment(first, hypotheses_.count(other)) +=
+          FaultSquares(other).cwiseInverse();
+      first += hypotheses_.count(other);
+    }
+    const Eigen::VectorXd squares = FaultSquares(withheld);
+    const Eigen::MatrixXd explained = both.transpose() * of_other.ldlt().solve(both);
+    return explained.diagonal().dot(squares) /
+           H.topLeftCorner(count, count).diagonal().dot(squares);
+  }
+
+ private:
+  /// [parameters] of a fault, what is believed of their squares.
+  Eigen::VectorXd FaultSquares(int cause) const {
+    constexpr double kNone = 1e-12;  // of what is held where it is
+    const GaussianPrior prior = hypotheses_.PriorWith({cause});
+    const auto sigma =
+        prior.sigma.segment(hypotheses_.first(cause), hypotheses_.count(cause)).array();
+    const auto mean =
+        prior.mean.segment(hypotheses_.first(cause), hypotheses_.count(cause)).array();
+    return (sigma.square() + mean.square()).max(kNone);
+  }
+
+  const HypothesisSet& hypotheses_;
+  Eigen::VectorXd tolerance_;
+  Eigen::MatrixXd H_;
+};
+
+struct ConfusabilityOfFaults {
+  int by = -1;
+  double explained = 0.0;  ///< together with those named before
+};
+
+/// The cause of another id that explains most of the withheld one; none: there is no other.
+std::optional<ConfusabilityOfFaults> BestBeside(const HypothesisSet& hypotheses,
+                                                const BesideTolerances& beside,
+                                                const std::vector<int>& named, int withheld) {
+  std::optional<ConfusabilityOfFaults> best;
+  for (int other = 0; other < hypotheses.size(); ++other) {
+    const bool is_named = std::find(named.begin(), named.end(), other) != named.end();
+    const bool is_withheld =
+        hypotheses.cause(other).name().id == hypotheses.cause(withheld).name().id;
+    if (!hypotheses.CanBeFault(other) || is_named || is_withheld) continue;
+    const double explained = std::min(1.0, beside.ExplainedBy(With(named, other), withheld));
+    if (!best || explained > best->explained) best = ConfusabilityOfFaults{other, explained};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> ExplainedByOthers(const HypothesisSet& hypotheses, const Information& data,
+                                      std::size_t others) {
+  constexpr double kWouldShow = 20.0;  // squares of noise
+  const BesideTolerances beside(hypotheses, data);
+  std::vector<double> most(static_cast<std::size_t>(hypotheses.size()), -1.0);
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    if (!hypotheses.CanBeFault(k) || beside.Size(k) < kWouldShow) continue;
+    double& explained = most[static_cast<std::size_t>(k)];
+    explained = 0.0;
+    std::vector<int> named;
+    while (named.size() < others) {
+      const std::optional<ConfusabilityOfFaults> next = BestBeside(hypotheses, beside, named, k);
+      if (!next || next->explained <= explained) break;
+      explained = next->explained;
+      named.push_back(next->by);
+    }
+  }
+  return most;
+}
+
+double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& data,
+                         std::size_t others, double explained) {
+  struct OfId {
+    double imitated = 0.0;
+    double all = 0.0;
+  };
+  const std::vector<double> most = ExplainedByOthers(hypotheses, data, others);
+  std::map<std::string, OfId> of_id;
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    const double by_others = most[static_cast<std::size_t>(k)];
+    if (by_others < 0.0) continue;
+    OfId& one = of_id[hypotheses.cause(k).name().id];
+    one.all += 1.0;
+    one.imitated += by_others >= explained ? 1.0 : 0.0;
+  }
+  double sum = 0.0;
+  for (const auto& [id, one] : of_id) sum += one.imitated / one.all;
+  return of_id.empty() ? 1.0 : sum / static_cast<double>(of_id.size());
+}
+
+double ExplainedOfMisfit(const Fit& healthy, const Fit& fit) {
+  constexpr double kSeen = 2.0;  // sigma of chi-squared
+  const auto rows = static_cast<double>(fit.model.y.size());
+  const double explained = healthy.posterior.misfit - fit.posterior.misfit;
+  const double left = std::max(kSeen * std::sqrt(2.0 * rows), fit.posterior.misfit - rows);
+  return explained > 0.0 ? explained / (explained + left) : 0.0;
+}
+
+double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& healthy, const Fit& fit,
+                              bool looks_like_noise) {
+  constexpr double kOutside = 1.0 / 20.0;  // as likely as one cause of the catalogue
+  constexpr double kFurther = 1.0 / 3.0;   // as likely as that there is none
+  const std::size_t named = fit.faults.size();
+  const double before =
+      looks_like_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;
+  const double imitated = before * ShareOfConfusable(hypotheses, healthy.model.All(), named,
+                                                     ExplainedOfMisfit(healthy, fit));
+  return imitated / (1.0 + imitated);
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/cross_validation.hpp"
+
+#include <algorithm>
+
+namespace palpate::diagnosis {
+
+CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& model,
+                            const std::vector<int>& faults) {
+  CrossValidation out;
+  out.residual = model.y;
+  const Posterior all = hypotheses.InferWithin(model.All(), faults);
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < model.of_recording.size(); ++r) {
+    const Information& own = model.of_recording[r];
+    const Information others = model.AllBut(r);
+    const Posterior posterior = hypotheses.InferWithin(others, faults);
+    const auto J = model.J.middleRows(first, own.rows);
+    auto residual = out.residual.segment(first, own.rows);
+    residual -= J * posterior.mean;
+    out.chi_squared.push_back(residual.squaredNorm());
+    out.ln_predicted.push_back(all.ln_evidence - posterior.ln_evidence);
+    first += own.rows;
+  }
+  return out;
+}
+
+CrossValidationGain Compare(const CrossValidation& before, const CrossValidation& after) {
+  constexpr double kShare = 0.03;
+  constexpr double kLeastBeyond = 0.01;  // of the noise: nothing is divided by nothing
+  CrossValidationGain gain;
+  double chi_before = 0.0;
+  double chi_after = 0.0;
+  for (std::size_t r = 0; r < before.chi_squared.size(); ++r) {
+    gain.ln_gain += after.ln_predicted[r] - before.ln_predicted[r];
+    chi_before += before.chi_squared[r];
+    chi_after += after.chi_squared[r];
+  }
+  const double noise = static_cast<double>(before.residual.size());
+  const double beyond = std::max(chi_before - noise, kLeastBeyond * noise);
+  gain.relative = (chi_before - chi_after) / beyond;
+  gain.clear = gain.relative > kShare && gain.ln_gain > 0.0;
+  return gain;
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/hypothesis_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Of the first parameter, or of the length of the vector that it is a component of.
+double FirstTolerance(const std::vector<FaultParameter>& parameters) {
+  const auto components = static_cast<double>(
+      std::count_if(parameters.begin(), parameters.end(),
+                    [](const FaultParameter& parameter) { return parameter.component; }));
+  const FaultParameter& first = parameters.front();
+  return first.component ? std::sqrt(components) * first.tolerance : first.tolerance;
+}
+
+}  // namespace
+
+HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> causes,
+                             std::map<std::string, double> tolerances)
+    : causes_(std::move(causes)), first_{0}, tolerances_(std::move(tolerances)) {
+  for (const FaultModelPtr& cause : causes_) {
+    first_.push_back(first_.back() + std::ssize(cause->parameters()));
+  }
+}
+
+double HypothesisSet::ToleranceOf(int k, int parameter) const {
+  const auto& parameters = cause(k).parameters();
+  const double own = parameters[static_cast<std::size_t>(parameter)].tolerance;
+  const auto told = tolerances_.find(cause(k).name().id);
+  if (told == tolerances_.end()) return own;
+  const double first = FirstTolerance(parameters);
+  return first > 0.0 ? own * told->second / first : parameter == 0 ? told->second : own;
+}
+
+bool HypothesisSet::CanBeFault(int k) const {
+  const auto& parameters = cause(k).parameters();
+  return std::any_of(parameters.begin(), parameters.end(), [](const FaultParameter& parameter) {
+    return parameter.fault > parameter.tolerance;
+  });
+}
+
+GaussianPrior HypothesisSet::PriorWith(const std::vector<int>& faults) const {
+  GaussianPrior prior(parameter_count());
+  for (int k = 0; k < size(); ++k) {
+    const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
+    for (Eigen::Index p = 0; p < count(k); ++p) {
+      const FaultParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+      const double tolerance = ToleranceOf(k, static_cast<int>(p));
+      prior.sigma[first(k) + p] = fault ? std::max(parameter.fault, tolerance) : tolerance;
+      if (fault) prior.mean[first(k) + p] = parameter.fault_at;
+    }
+  }
+  return prior;
+}
+
+Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<int>& faults,
+                                     const std::vector<Eigen::Index>& at_zero) const {
+  GaussianPrior prior = PriorWith(faults);
+  prior.sigma(at_zero).setZero();
+  for (const Eigen::Index p : Idle(faults)) prior.mean[p] = data.about[p];
+  while (true) {
+    Posterior posterior = Infer(data, prior);
+    bool inside = true;
+    for (const int k : faults) {
+      for (Eigen::Index p = 0; p < count(k); ++p) {
+        const FaultParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+        const Eigen::Index column = first(k) + p;
+        const double z = posterior.mean[column];
+        const double bounded = std::clamp(z, parameter.least, parameter.most);
+        if (bounded == z || prior.sigma[column] == 0.0) continue;
+        prior.mean[column] = bounded;
+        prior.sigma[column] = 0.0;
+        inside = false;
+      }
+    }
+    if (inside) return posterior;
+  }
+}
+
+std::vector<Eigen::Index> HypothesisSet::Idle(const std::vector<int>& faults) const {
+  std::vector<Eigen::Index> idle;
+  for (int k = 0; k < size(); ++k) {
+    if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
+    for (Eigen::Index p = 0; p < count(k); ++p) {
+      const bool qualifies = cause(k).parameters()[static_cast<std::size_t>(p)].qualifies;
+      if (qualifies && ToleranceOf(k, static_cast<int>(p)) == 0.0) idle.push_back(first(k) + p);
+    }
+  }
+  return idle;
+}
+
+FaultModelList HypothesisSet::All() const {
+  FaultModelList list;
+  for (const FaultModelPtr& cause : causes_) list.push_back(cause.get());
+  return list;
+}
+
+std::vector<Eigen::Index> HypothesisSet::ParametersOf(const std::vector<int>& numbers) const {
+  std::vector<Eigen::Index> parameters;
+  for (const int k : numbers) {
+    for (Eigen::Index p = 0; p < count(k); ++p) parameters.push_back(first(k) + p);
+  }
+  return parameters;
+}
+
+}  // namespace palpate::diagnosis

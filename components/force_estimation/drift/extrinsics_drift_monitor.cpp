@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/drift/extrinsics_drift_monitor.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libs/core/text.hpp"
+
+namespace palpate::force_estimation {
+
+namespace {
+
+using State = DriftReport::State;
+
+constexpr double kSecond_s = 1.0;
+constexpr int kLeastFrames = 3;
+constexpr std::size_t kReferenceSeconds = 5;
+constexpr std::size_t kTogether = 3;  ///< seconds that are judged together, too
+constexpr int kInARow = 2;
+constexpr double kFar = 5.0;  ///< standard deviations
+/// What may pass for rest.
+constexpr double kRestTurn_rad = 7e-4;
+constexpr double kRestShift_m = 2.5e-4;
+/// How far a calibration that holds may be off.
+constexpr double kOffTurn_rad = 8e-3;
+constexpr double kOffShift_m = 8e-4;
+
+Eigen::Matrix<double, 6, 6> Allowance(double turn_rad, double shift_m) {
+  Motion sigma;
+  sigma << Eigen::Vector3d::Constant(turn_rad), Eigen::Vector3d::Constant(shift_m);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+bool IsFar(const Motion& motion, const Eigen::Matrix<double, 6, 6>& covariance) {
+  return motion.dot(covariance.ldlt().solve(motion)) > kFar * kFar;
+}
+
+}  // namespace
+
+std::string ToString(State state) {
+  switch (state) {
+    case State::kLearning: return "learning";
+    case State::kHolds: return "holds";
+    case State::kMoved: return "moved";
+    case State::kNotSeen: return "not_seen";
+  }
+  return {};
+}
+
+void AppendDrift(const DriftReport& report,
+                 std::vector<std::pair<std::string, std::string>>* values) {
+  const auto text = [](const Eigen::Vector3d& vector) {
+    return FormatNumber(vector.x()) + " " + FormatNumber(vector.y()) + " " +
+           FormatNumber(vector.z());
+  };
+  values->emplace_back("drift", ToString(report.state));
+  values->emplace_back("drift_shift_m", text(report.motion.tail<3>()));
+  values->emplace_back("drift_shift_error_m", text(report.standard_error.tail<3>()));
+  values->emplace_back("drift_turn_rad", text(report.motion.head<3>()));
+  values->emplace_back("drift_turn_error_rad", text(report.standard_error.head<3>()));
+}
+
+void ExtrinsicsDriftMonitor::Add(double t_s, const MotionSighting& seen) {
+  if (t_s < last_s_) *this = ExtrinsicsDriftMonitor(what_);
+  last_s_ = t_s;
+  if (second_.frames == 0) second_.begin_s = t_s;
+  if (t_s - second_.begin_s >= kSecond_s) {
+    Close();
+    second_ = {.begin_s = t_s};
+  }
+  ++second_.frames;
+  if (seen.information.isZero()) return;
+  ++second_.seen;
+  const Motion pull = seen.information * seen.motion;
+  second_.information += seen.information;
+  second_.pull += pull;
+  second_.squares += seen.motion.dot(pull);
+}
+
+/// The weighted mean; where frames scatter by more than their information says, it is known the
+/// worse.
+ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::MeanOf(const Second& second) {
+  Mean mean;
+  const auto factor = second.information.ldlt();
+  mean.motion = factor.solve(second.pull);
+  const double scatter = second.squares - mean.motion.dot(second.pull);
+  const double excess = std::max(1.0, scatter / (6.0 * (second.seen - 1)));
+  mean.covariance = excess * factor.solve(Matrix::Identity());
+  return mean;
+}
+
+ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::Together(const std::deque<Mean>& means) {
+  Matrix information = Matrix::Zero();
+  Motion pull = Motion::Zero();
+  for (const Mean& mean : means) {
+    const Matrix of_one = mean.covariance.ldlt().solve(Matrix::Identity());
+    information += of_one;
+    pull += of_one * mean.motion;
+  }
+  const auto factor = information.ldlt();
+  return {factor.solve(pull), factor.solve(Matrix::Identity())};
+}
+
+void ExtrinsicsDriftMonitor::Close() {
+  if (second_.seen < kLeastFrames) {
+    if (report_.state == State::kHolds) report_.state = State::kNotSeen;
+    return;
+  }
+  const Mean mean = MeanOf(second_);
+  report_.motion = mean.motion;
+  report_.standard_error = mean.covariance.diagonal().cwiseSqrt();
+  seconds_.push_back(mean);
+  if (has_reference_) {
+    Judge(mean);
+  } else if (seconds_.size() == kReferenceSeconds) {
+    Learn();
+  }
+}
+
+void ExtrinsicsDriftMonitor::Learn() {
+  has_reference_ = true;
+  reference_ = Together(seconds_);
+  seconds_.clear();
+  reference_is_off_ =
+      IsFar(reference_.motion, reference_.covariance + Allowance(kOffTurn_rad, kOffShift_m));
+  report_.state = reference_is_off_ ? State::kMoved : State::kHolds;
+  if (reference_is_off_) Say(reference_.motion, "from where the calibration has it");
+}
+
+bool ExtrinsicsDriftMonitor::IsOff(const Mean& mean) const {
+  return IsFar(mean.motion - reference_.motion,
+               mean.covariance + reference_.covariance + Allowance(kRestTurn_rad, kRestShift_m));
+}
+
+void ExtrinsicsDriftMonitor::Judge(const Mean& mean) {
+  if (seconds_.size() > kTogether) seconds_.pop_front();
+  const bool far = IsOff(mean) || (seconds_.size() == kTogether && IsOff(Together(seconds_)));
+  if (report_.state == State::kNotSeen) report_.state = State::kHolds;
+  if (reference_is_off_ && !far) return;
+  const bool says_moved = report_.state == State::kMoved;
+  in_a_row_ = far != says_moved ? in_a_row_ + 1 : 0;
+  if (in_a_row_ == kInARow) {
+    in_a_row_ = 0;
+    report_.state = far ? State::kMoved : State::kHolds;
+    report_.advice.clear();
+  }
+  if (far && report_.state == State::kMoved)
+    Say(mean.motion - reference_.motion, "since the start");
+}
+
+void ExtrinsicsDriftMonitor::Say(const Motion& motion, const std::string& since) {
+  const double turn_deg = motion.head<3>().norm() * 180.0 / std::numbers::pi;
+  const double shift_mm = 1e3 * motion.tail<3>().norm();
+  report_.advice = what_ + " seems shifted by " +
+                   FormatNumber(std::round(100.0 * shift_mm) / 100.0) + " mm and turned by " +
+                   FormatNumber(std::round(100.0 * turn_deg) / 100.0) + " degrees " + since +
+                   ": camera or base moved, calibrate anew";
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/fit/anderson_accelerator.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+/// Directions of the memory that are shorter than this part of the longest, squared, are rounding
+/// and noise.
+constexpr double kIndependent = 1e-4;
+/// A secant that goes farther than so many steps has met another bend.
+constexpr double kMostAcceleration = 2.0;
+
+void Resize(FitVariables* variables, Eigen::Index nodes3, Eigen::Index cables,
+            Eigen::Index forces) {
+  variables->x_m.resize(nodes3);
+  variables->lambda_a_N.resize(cables);
+  variables->lambda_f_N.resize(forces);
+}
+
+void Subtract(const FitVariables& a, const FitVariables& b, FitVariables* difference) {
+  difference->x_m = a.x_m - b.x_m;
+  difference->lambda_a_N = a.lambda_a_N - b.lambda_a_N;
+  difference->lambda_f_N = a.lambda_f_N - b.lambda_f_N;
+}
+
+void Add(double share, const FitVariables& term, FitVariables* sum) {
+  sum->x_m += share * term.x_m;
+  sum->lambda_a_N += share * term.lambda_a_N;
+  sum->lambda_f_N += share * term.lambda_f_N;
+}
+
+}  // namespace
+
+void AndersonAccelerator::SetUp(Eigen::Index nodes3, Eigen::Index cables, Eigen::Index forces) {
+  Forget();
+  for (Pair& pair : pairs_) {
+    Resize(&pair.moved, nodes3, cables, forces);
+    Resize(&pair.changed, nodes3, cables, forces);
+  }
+  Resize(&last_at_, nodes3, cables, forces);
+  Resize(&last_step_, nodes3, cables, forces);
+}
+
+bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& step,
+                                  FitVariables* correction) {
+  if (has_last_) Learn(at, step);
+  last_at_ = at;
+  last_step_ = step;
+  has_last_ = true;
+  if (count_ == 0) return false;
+  // What of the step the memory can make vanish, in the directions that it knows apart.
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kDepth, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kDepth, kDepth>;
+  Vector along(count_);
+  for (int k = 0; k < count_; ++k) {
+    along[k] = pairs_[static_cast<std::size_t>(k)].changed.x_m.dot(step.x_m);
+  }
+  const Vector size = gram_.diagonal().head(count_).cwiseSqrt();
+  const Matrix scaled = size.cwiseInverse().asDiagonal() * gram_.topLeftCorner(count_, count_) *
+                        size.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
+  const Vector seen = eigen.eigenvectors().transpose() * along.cwiseQuotient(size);
+  Vector share = Vector::Zero(count_);
+  for (int k = 0; k < count_; ++k) {
+    const double value = eigen.eigenvalues()[k];
+    if (value <= kIndependent * count_) continue;
+    share += eigen.eigenvectors().col(k) * (seen[k] / value);
+  }
+  share = share.cwiseQuotient(size);
+  double longest_m2 = 0.0;
+  for (int k = 0; k < count_; ++k) {
+    const Pair& pair = pairs_[static_cast<std::size_t>(k)];
+    longest_m2 = std::max(longest_m2, share[k] * share[k] * pair.moved.x_m.squaredNorm());
+  }
+  if (!(longest_m2 <= kMostAcceleration * kMostAcceleration *
+                          std::max(step.x_m.squaredNorm(), last_step_.x_m.squaredNorm()))) {
+    return false;
+  }
+  correction->x_m.setZero(step.x_m.size());
+  correction->lambda_a_N.setZero(step.lambda_a_N.size());
+  correction->lambda_f_N.setZero(step.lambda_f_N.size());
+  for (int k = 0; k < count_; ++k) {
+    const Pair& pair = pairs_[static_cast<std::size_t>(k)];
+    Add(-share[k], pair.moved, correction);
+    Add(-share[k], pair.changed, correction);
+  }
+  return true;
+}
+
+/// In place of the oldest pair.
+void AndersonAccelerator::Learn(const FitVariables& at, const FitVariables& step) {
+  if (!((step.x_m - last_step_.x_m).squaredNorm() > 0.0)) return;
+  Pair& pair = pairs_[static_cast<std::size_t>(next_)];
+  Subtract(at, last_at_, &pair.moved);
+  Subtract(step, last_step_, &pair.changed);
+  count_ = std::max(count_, next_ + 1);
+  for (int k = 0; k < count_; ++k) {
+    gram_(next_, k) = gram_(k, next_) =
+        pair.changed.x_m.dot(pairs_[static_cast<std::size_t>(k)].changed.x_m);
+  }
+  next_ = (next_ + 1) % kDepth;
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/fit/observable_subspace.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace palpate::force_estimation {
+
+void ObservableSubspace::AskForEverything(const std::vector<FitSite>& sites) {
+  observability_.assign(sites.size(), Observability::kFull);
+  directions_.assign(sites.size(), Eigen::Matrix3d::Identity());
+  unknowns_.assign(sites.size(), 3);
+  for (size_t s = 0; s < sites.size(); ++s) {
+    if (sites[s].direction.isZero()) continue;
+    unknowns_[s] = 1;
+    directions_[s].col(0) = sites[s].direction;
+  }
+  BuildBasis();
+}
+
+void ObservableSubspace::BuildBasis() {
+  Eigen::Index columns = 0;
+  for (const int unknowns : unknowns_) columns += unknowns;
+  basis_ = fem::QpMatrix::Zero(static_cast<Eigen::Index>(3 * directions_.size()), columns);
+  Eigen::Index column = 0;
+  for (size_t s = 0; s < directions_.size(); ++s) {
+    const Eigen::Index unknowns = unknowns_[s];
+    basis_.block(static_cast<Eigen::Index>(3 * s), column, 3, unknowns) =
+        directions_[s].leftCols(unknowns);
+    column += unknowns;
+  }
+}
+
+void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,
+                                        const fem::QpMatrix& information, double largest_sigma_N) {
+  const double limit = largest_sigma_N * largest_sigma_N;
+  const fem::QpMatrix reduced = basis_.transpose() * information * basis_;
+  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(reduced);
+  // What the markers do not see at all gets a variance that is large, yet a number.
+  const fem::QpVector variances = eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
+  const fem::QpMatrix covariance = basis_ * eigen.eigenvectors() * variances.asDiagonal() *
+                                   eigen.eigenvectors().transpose() * basis_.transpose();
+  for (size_t s = 0; s < sites.size(); ++s) {
+    const auto row = static_cast<Eigen::Index>(3 * s);
+    const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);
+    if (!sites[s].direction.isZero()) {
+      if (own_covariance.trace() <= limit) continue;
+      observability_[s] = Observability::kNone;
+      unknowns_[s] = 0;
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(own_covariance);
+    if (own.eigenvalues()[2] <= limit) continue;
+    const Eigen::Vector3d normal = sites[s].patch.normal;
+    const bool normal_known = normal.dot(own_covariance * normal) <= limit;
+    observability_[s] = normal_known ? Observability::kNormal : Observability::kNone;
+    if (normal_known) {
+      KeepNormal(sites[s], s, own_covariance, limit);
+      continue;
+    }
+    directions_[s] = own.eigenvectors();
+    unknowns_[s] = 0;
+    while (unknowns_[s] < 3 && own.eigenvalues()[unknowns_[s]] <= limit) ++unknowns_[s];
+  }
+  BuildBasis();
+}
+
+/// The normal itself and, where it is certain enough, the better known tangent: the force along the
+/// other counts as zero, which leaves a force along the normal what it is.
+void ObservableSubspace::KeepNormal(const FitSite& site, size_t index,
+                                    const Eigen::Matrix3d& covariance_N2, double limit_N2) {
+  const Eigen::Vector3d normal = site.patch.normal;
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents.col(0) = normal.unitOrthogonal();
+  tangents.col(1) = normal.cross(tangents.col(0));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(tangents.transpose() * covariance_N2 *
+                                                             tangents);
+  directions_[index] << normal, tangents * eigen.eigenvectors();
+  unknowns_[index] = eigen.eigenvalues()[0] <= limit_N2 ? 2 : 1;
+}
+
+}  // namespace palpate::force_estimation

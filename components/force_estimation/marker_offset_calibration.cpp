@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/marker_offset_calibration.hpp"
+
+#include <algorithm>
+
+namespace palpate::force_estimation {
+
+MarkerOffsetCalibration::MarkerOffsetCalibration(robot::RobotModel& model)
+    : model_(model),
+      sum_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * model.body().markers.size()))),
+      offset_(sum_),
+      counts_(model.body().markers.size(), 0) {}
+
+void MarkerOffsetCalibration::Add(const MarkerFrame& frame) {
+  if (!open_ || frame.reference != last_.reference) {
+    sum_.setZero();
+    std::fill(counts_.begin(), counts_.end(), 0);
+  }
+  open_ = true;
+  last_ = frame;
+  for (size_t m = 0; m < counts_.size(); ++m) {
+    if (!frame.markers[m].valid || !frame.markers[m].position_m.allFinite()) continue;
+    sum_.segment<3>(static_cast<Eigen::Index>(3 * m)) += frame.markers[m].position_m;
+    ++counts_[m];
+  }
+}
+
+Status MarkerOffsetCalibration::Finish() {
+  if (!open_) return Status::Ok();
+  Eigen::VectorXd model_positions(sum_.size());
+  if (Status status = ModelPositions(&model_positions); !status.ok()) return status;
+  offset_.setZero();
+  for (size_t m = 0; m < counts_.size(); ++m) {
+    if (counts_[m] == 0) continue;
+    const auto row = static_cast<Eigen::Index>(3 * m);
+    offset_.segment<3>(row) = sum_.segment<3>(row) / counts_[m] - model_positions.segment<3>(row);
+  }
+  open_ = false;
+  tared_ = true;
+  return Status::Ok();
+}
+
+Status MarkerOffsetCalibration::ModelPositions(Eigen::VectorXd* positions_m) {
+  fem::StaticState state = model_.RestState();
+  if (last_.reference == ReferenceShape::kEquilibrium) {
+    const fem::StaticResult result = model_.Solve(last_.cables, {}, &state);
+    if (!result.status.ok()) return result.status;
+  }
+  const auto& markers = model_.body().markers;
+  for (size_t m = 0; m < markers.size(); ++m) {
+    positions_m->segment<3>(static_cast<Eigen::Index>(3 * m)) =
+        markers[m].point.weights.Position(state.x_m);
+  }
+  return Status::Ok();
+}
+
+}  // namespace palpate::force_estimation

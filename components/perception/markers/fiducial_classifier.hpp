@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <vector>
+
+#include "components/perception/markers/bent_skin.hpp"
+#include "components/perception/markers/color_spots.hpp"
+#include "components/perception/markers/fiducial.hpp"
+#include "components/perception/markers/spot_window.hpp"
+#include "libs/rgbd/depth_noise.hpp"
+
+namespace palpate::perception {
+
+/// Tells the markers among the spots of their colour and measures them.
+class FiducialClassifier {
+ public:
+  /// `registration` must outlive this.
+  FiducialClassifier(const FiducialConfig& config, const Registration& registration);
+
+  /// Adds a fiducial to `found`, or one to a count of what was rejected.
+  void Judge(const ColorSpot& spot, const RegisteredFrame& frame, FiducialFrame* found);
+
+ private:
+  /// Where a rejected spot is counted; nullptr: it is a marker.
+  using Reason = int FiducialRejections::*;
+
+  Reason Measure(const ColorSpot& spot, const RegisteredFrame& frame, Fiducial* fiducial);
+  Reason LookAtDepth(const ColorSpot& spot, const RegisteredFrame& frame);
+  bool FitSkin(BentSkin* skin);
+  double OpenRim(const SpotColors& colors) const;
+  Reason CheckShape(const BentSkin& skin, const BentSkin::Point& center, double area_m2) const;
+  Eigen::Matrix2d Moments(const BentSkin& skin, const BentSkin::Point& center,
+                          double area_m2) const;
+  void SetCovariance(const BentSkin& skin, const SpotColors& colors, Fiducial* fiducial) const;
+  BentSkin::Point CenterOn(const BentSkin& skin, const BentSkin::Coefficients& coefficients,
+                           double* area_m2) const;
+  double PlaceSigma_px(const SpotColors& colors, const Fiducial& fiducial) const;
+
+  const FiducialConfig config_;
+  const Registration& registration_;
+  rgbd::DepthNoise noise_;
+  SpotWindow window_;
+  std::vector<char> on_skin_;  ///< [pixels of the window]
+  std::vector<SkinSample> samples_;
+  std::vector<double> depths_m_;
+  double z_m_ = 0.0;            ///< of the spot
+  double sigma_m_ = 0.0;        ///< of a depth there
+  Eigen::Vector2d step_{0, 0};  ///< from pixel to pixel in the normalised image
+  double blur_px2_ = 0.0;       ///< second moment of the colour's blur, in the depth image
+  double rough_radius_px_ = 0.0;
+};
+
+}  // namespace palpate::perception

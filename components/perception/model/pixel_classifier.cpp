@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/model/pixel_classifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace palpate::perception {
+
+namespace {
+
+/// What is not the robot may stand anywhere within such a distance, m.
+constexpr float kElsewhere_m = 0.1f;
+constexpr float kRootTwoPi = 2.5066283f;
+constexpr float kMostAgainst = -8.0f;
+/// Inside of the predicted surface nothing but the robot can be, pushed in more than predicted.
+constexpr float kInsideSigma = 2.0f;
+constexpr float kOnBackground = -2.5f;
+/// A distance that tells, in sigmas.
+constexpr float kSureSigmas = 1.5f;
+/// Less alike, colours were learnt in another light.
+constexpr double kLeastLikeness = 0.85;
+constexpr double kMostWithoutColor = 0.5;
+/// Colours are learnt from every other pixel of every other row.
+constexpr int kSampleStep_px = 2;
+/// Share of the largest error of the prediction: what is so far from it once it is fitted is not
+/// the robot.
+constexpr float kFar = 0.5f;
+/// Of objects in the colours of everything but the robot, beside the background's 1.
+constexpr float kObjectShare = 0.4f;
+/// So few pixels of objects may be anything.
+constexpr float kFewObjects = 50.0f;
+/// Of the pixels of the fitted surface that nothing hides, so many must agree with it.
+constexpr double kLeastAgreement = 0.25;
+
+std::size_t FirstPixel(const RegisteredFrame& frame, const PixelRegion& region, int row) {
+  return static_cast<std::size_t>(region.v_begin + row) *
+             static_cast<std::size_t>(frame.z_m.width_px) +
+         static_cast<std::size_t>(region.u_begin);
+}
+
+}  // namespace
+
+PixelClassifier::PixelClassifier(const Config& config, const NoiseLaw& noise)
+    : config_(config.model),
+      noise_(noise),
+      tolerance_{.noise = noise, .bias = static_cast<float>(config.model.background_bias)} {
+  if (const auto rgb = RobotColor(config)) colors_.Assume({rgb->x(), rgb->y(), rgb->z()});
+}
+
+float PixelClassifier::Sigma_m(float z_m) const {
+  const auto surface_m = static_cast<float>(config_.surface_sigma_m);
+  const float depth_m = noise_.At(z_m);
+  return std::sqrt(surface_m * surface_m + depth_m * depth_m);
+}
+
+void PixelClassifier::JudgeDistances(const Registration& registration,
+                                     const BackgroundPlanes& background,
+                                     PixelRegion* region) const {
+  JudgeBackground(registration, background, region);
+  for (std::size_t at = 0; at < region->size(); ++at) {
+    const float z_m = region->z_m[at];
+    if (z_m <= 0.0f) continue;
+    const float distance_m = region->distance_m[at];
+    const float sigma_m = Sigma_m(z_m);
+    const float off = distance_m / (distance_m < 0.0f ? kInsideSigma * sigma_m : sigma_m);
+    const float against = 0.5f * off * off;
+    const float evidence = against > -kMostAgainst + 5.0f
+                               ? kMostAgainst
+                               : std::log(kElsewhere_m / (kRootTwoPi * sigma_m)) - against;
+    region->evidence[at] += std::max(kMostAgainst, evidence);
+  }
+}
+
+void PixelClassifier::JudgeBackground(const Registration& registration,
+                                      const BackgroundPlanes& background,
+                                      PixelRegion* region) const {
+  for (int row = 0; row < region->height; ++row) {
+    for (int column = 0; column < region->width; ++column) {
+      const std::size_t at = region->At(column, row);
+      const float z_m = region->z_m[at];
+      const Eigen::Vector3f ray = registration.Ray(region->u_begin + column, region->v_begin + row);
+      const bool held = z_m > 0.0f && background.Holds(z_m * ray, tolerance_);
+      region->on_background[at] = held ? 1 : 0;
+      region->evidence[at] = held ? kOnBackground : 0.0f;
+    }
+  }
+}
+
+Status PixelClassifier::CheckAgreement(const PredictionView& prediction,
+                                       const PixelRegion& region) const {
+  std::int64_t agree = 0;
+  std::int64_t seen = 0;
+  const auto largest_m = static_cast<float>(config_.largest_error_m);
+  for (int row = 0; row < region.height; ++row) {
+    for (int column = 0; column < region.width; ++column) {
+      const int u = region.u_begin + column, v = region.v_begin + row;
+      const std::size_t at = region.At(column, row);
+      const float z_m = region.z_m[at];
+      if (z_m <= 0.0f || !prediction.Covers(u, v)) continue;
+      const bool hidden = z_m < prediction.Z_m(u, v) - largest_m;
+      seen += hidden ? 0 : 1;
+      agree += region.evidence[at] > 0.0f ? 1 : 0;
+    }
+  }
+  const bool enough = agree >= config_.min_robot_pixels &&
+                      static_cast<double>(agree) >= kLeastAgreement * static_cast<double>(seen);
+  if (enough) return Status::Ok();
+  return Status(StatusCode::kNoRobotSeen,
+                "the depth image does not agree with the predicted robot: " +
+                    std::to_string(agree) + " of " + std::to_string(seen) + " pixels do");
+}
+
+void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion& region,
+                                 bool by_label) {
+  sample_.robot.assign(ColorModel::kBins, 0.0f);
+  sample_.background.assign(ColorModel::kBins, 0.0f);
+  sample_.object.assign(ColorModel::kBins, 0.0f);
+  sample_.robot_count = 0.0;
+  const float far_m = kFar * static_cast<float>(config_.largest_error_m);
+  for (int row = 0; row < region.height; row += kSampleStep_px) {
+    const std::size_t first = FirstPixel(frame, region, row);
+    for (int column = 0; column < region.width; column += kSampleStep_px) {
+      const std::size_t at = region.At(column, row);
+      const std::size_t pixel = first + static_cast<std::size_t>(column);
+      if (region.z_m[at] <= 0.0f || frame.color_known[pixel] == 0) continue;
+      const std::uint16_t bin = colors_.BinOf(frame.color.values.data() + 3 * pixel);
+      const float distance_m = std::abs(region.distance_m[at]);
+      const Label label = region.label[at];
+      if (region.on_background[at] != 0) {
+        if (distance_m > far_m) sample_.background[bin] += 1.0f;
+      } else if (distance_m > far_m || label == Label::kObject) {
+        sample_.object[bin] += 1.0f;
+      } else if ((!by_label || label == Label::kRobot) &&
+                 distance_m < kSureSigmas * Sigma_m(region.z_m[at])) {
+        sample_.robot[bin] += 1.0f;
+        sample_.robot_count += 1.0;
+      }
+    }
+  }
+}
+
+bool PixelClassifier::MeetColors(const RegisteredFrame& frame, const PixelRegion& region,
+                                 std::vector<std::string>* notes) {
+  TakeSample(frame, region, false);
+  if (sample_.robot_count < LeastCount()) return colors_.learnt();
+  const auto without_color = static_cast<double>(sample_.robot[ColorModel::kNoColor]);
+  if (without_color > kMostWithoutColor * sample_.robot_count) {
+    notes->emplace_back("the robot's colour is saturated or dark: the shape alone is used");
+    return false;
+  }
+  if (colors_.learnt() && colors_.Likeness(sample_.robot) < kLeastLikeness) {
+    notes->emplace_back("the light has changed: colours are learnt anew");
+    colors_.Forget();
+  }
+  if (!colors_.learnt()) colors_.Learn(sample_.robot, Others(), 1.0);
+  return true;
+}
+
+void PixelClassifier::LearnColors(const RegisteredFrame& frame, const PixelRegion& region) {
+  TakeSample(frame, region, true);
+  if (sample_.robot_count >= LeastCount()) {
+    colors_.Learn(sample_.robot, Others(), config_.color_update);
+  }
+}
+
+/// Objects count however few pixels they have: what is not on the background is one or the other,
+/// robot or object.
+ColorModel::Histogram PixelClassifier::Others() const {
+  const auto sum = [](const ColorModel::Histogram& counts) {
+    return std::accumulate(counts.begin(), counts.end(), 0.0f);
+  };
+  const float background = sum(sample_.background);
+  const float object = sum(sample_.object);
+  ColorModel::Histogram others(ColorModel::kBins, 0.0f);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    others[i] = sample_.background[i] / std::max(1.0f, background) +
+                kObjectShare * sample_.object[i] / (object + kFewObjects);
+  }
+  return others;
+}
+
+double PixelClassifier::LeastCount() const {
+  return static_cast<double>(config_.min_robot_pixels) / (kSampleStep_px * kSampleStep_px);
+}
+
+void PixelClassifier::JudgeColors(const RegisteredFrame& frame, PixelRegion* region) const {
+  for (int row = 0; row < region->height; ++row) {
+    const std::size_t first = FirstPixel(frame, *region, row);
+    float* evidence = region->evidence.data() + region->At(0, row);
+    for (int column = 0; column < region->width; ++column) {
+      const std::size_t pixel = first + static_cast<std::size_t>(column);
+      if (frame.color_known[pixel] == 0) continue;
+      evidence[column] += colors_.LogRatio(colors_.BinOf(frame.color.values.data() + 3 * pixel));
+    }
+  }
+}
+
+}  // namespace palpate::perception

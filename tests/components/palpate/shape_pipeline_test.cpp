@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/shape_pipeline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "components/palpate/find_robot.hpp"
+#include "components/perception/predicted_surface.hpp"
+#include "libs/rgbd/png.hpp"
+#include "tests/components/palpate/test_robot.hpp"
+
+namespace palpate::command {
+namespace {
+
+using experiment::Recording;
+using experiment::RecordingKind;
+using force_estimation::ForceEstimate;
+using force_estimation::ShapeFrame;
+using testing::Each;
+using testing::ElementsAre;
+using testing::SizeIs;
+
+Eigen::Isometry3d LookingDown() {
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
+  T_robot_camera.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  T_robot_camera.translation() = Eigen::Vector3d(0.03, 0.02, 0.4);
+  return T_robot_camera;
+}
+
+// Senses that note what they are shown and answer what they are told.
+struct FakeSenses {
+  int cameras_opened = 0;
+  std::vector<std::int64_t> stamps_ns;
+  std::vector<std::optional<perception::PredictedSurface>> predictions;
+  std::vector<ShapeFrame> frames;
+  std::vector<Eigen::Vector3d> gravity_m_s2;
+  perception::Observation observation;
+  ForceEstimate estimate;
+  std::function<void(ForceEstimate*)> answer = [](ForceEstimate*) {};
+
+  ShapeSenses Senses(const robot::RobotModel& model) {
+    ShapeSenses senses;
+    senses.open_camera = [this](const rgbd::RgbdCamera&) { ++cameras_opened; };
+    senses.look =
+        [this](const rgbd::RgbdFrame& frame,
+               const perception::PredictedSurface* predicted) -> const perception::Observation& {
+      stamps_ns.push_back(frame.stamp_ns);
+      predictions.emplace_back(predicted ? std::optional(*predicted) : std::nullopt);
+      return observation;
+    };
+    senses.feel = [this, &model](const ShapeFrame& frame) -> const ForceEstimate& {
+      frames.push_back(frame);
+      gravity_m_s2.push_back(model.gravity_m_s2());
+      estimate.t_s = frame.t_s;
+      answer(&estimate);
+      return estimate;
+    };
+    return senses;
+  }
+};
+
+class ShapeWayTest : public testing::Test {
+ protected:
+  ShapeWayTest() : model_(LoadRobot(WriteBarRobot(folder_))) {
+    experiment_.T_robot_camera = LookingDown();
+    fake_.observation.frame.status = Status::Ok();
+    fake_.estimate.status = Status(StatusCode::kNoContact, "");
+    fake_.estimate.x_m = Nodes(0.1);
+  }
+
+  // Nodes with digits that single precision does not hold.
+  Eigen::VectorXd Nodes(double stretch) const {
+    const Eigen::Matrix3Xd& rest_m = model_->body().mesh.nodes_m;
+    return (1.0 + stretch / 3.0) * Eigen::Map<const Eigen::VectorXd>(rest_m.data(), rest_m.size());
+  }
+  // A recording with `count` frames from `t_s` on, 0.1 s apart.
+  Recording Images(const std::string& name, RecordingKind kind, int count, double t_s = 1.0) const {
+    std::filesystem::create_directories(folder_ / name);
+    Recording recording;
+    recording.name = name;
+    recording.folder = folder_ / name;
+    recording.kind = kind;
+    recording.camera_file = folder_.Write(name + "/camera.yaml",
+                                          "depth: {width_px: 4, height_px: 3, fx_px: 3, fy_px: 3, "
+                                          "cx_px: 1.5, cy_px: 1, unit_m: 0.001}\n");
+    rgbd::WriteDepthPng(folder_ / name / "d.png", rgbd::DepthImage(4, 3, 400));
+    for (int i = 0; i < count; ++i) {
+      const auto t_ns = static_cast<std::int64_t>(std::llround(1e9 * (t_s + 0.1 * i)));
+      recording.depth_images.push_back({t_ns, folder_ / name / "d.png"});
+    }
+    return recording;
+  }
+  ShapePipeline Way(int first_untouched = 0) {
+    return ShapePipeline({.experiment = experiment_,
+                          .model = model_.get(),
+                          .cable_input = robot::CableInput::kDisplacement,
+                          .sites = {},
+                          .first_untouched = first_untouched},
+                         fake_.Senses(*model_));
+  }
+  std::vector<bool> Untouched() const {
+    std::vector<bool> flags;
+    for (const ShapeFrame& frame : fake_.frames) flags.push_back(frame.untouched);
+    return flags;
+  }
+
+  TestFolder folder_;
+  std::unique_ptr<robot::RobotModel> model_;
+  experiment::Experiment experiment_;
+  FakeSenses fake_;
+  const TakeEstimate ignore_ = [](const ForceEstimate&) {};
+};
+
+TEST_F(ShapeWayTest, PredictsFromTheLastEstimateAsItTravels) {
+  Way().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
+  ASSERT_THAT(fake_.predictions, SizeIs(2));
+  EXPECT_FALSE(fake_.predictions[0]);
+  ASSERT_TRUE(fake_.predictions[1]);
+  const Eigen::VectorXd nodes_m = Nodes(0.1);
+  const Eigen::Matrix3Xf travelled =
+      Eigen::Map<const Eigen::Matrix3Xd>(nodes_m.data(), 3, nodes_m.size() / 3).cast<float>();
+  const auto expected = perception::MakePredictedSurface(
+      travelled, model_->body().boundary.DrawnTriangles(), LookingDown());
+  EXPECT_EQ(fake_.predictions[1]->vertices_m, expected.vertices_m);  // to the last bit
+  EXPECT_EQ(fake_.predictions[1]->triangles, expected.triangles);
+}
+
+TEST_F(ShapeWayTest, AnEstimateThatDoesNotStandPredictsNothing) {
+  int frame = 0;
+  fake_.answer = [&](ForceEstimate* estimate) {
+    estimate->x_m = Nodes(0.1 * ++frame);
+    estimate->status = Status(frame == 2 ? StatusCode::kNotConverged : StatusCode::kOk, "");
+    if (frame == 3) estimate->x_m[4] = std::nan("");
+  };
+  Way().Estimate(Images("r", RecordingKind::kFree, 4), ignore_);
+  ASSERT_TRUE(fake_.predictions[1] && fake_.predictions[2] && fake_.predictions[3]);
+  EXPECT_EQ(fake_.predictions[2]->vertices_m, fake_.predictions[1]->vertices_m);
+  EXPECT_EQ(fake_.predictions[3]->vertices_m, fake_.predictions[1]->vertices_m);
+}
+
+TEST_F(ShapeWayTest, ARobotThatIsNotSeenIsLookedForWhereItWouldBe) {
+  fake_.estimate.status = Status(StatusCode::kNoRobotSeen, "");
+  Way().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
+  EXPECT_TRUE(fake_.predictions[1]);
+}
+
+TEST_F(ShapeWayTest, OnlyTeachersAreUntouched) {
+  ShapePipeline way = Way();
+  EXPECT_EQ(way.Teach(Images("a", RecordingKind::kRest, 2)), 2);
+  int taken = 0;
+  way.Estimate(Images("b", RecordingKind::kRest, 1), [&](const ForceEstimate&) { ++taken; });
+  EXPECT_THAT(Untouched(), ElementsAre(true, true, false));
+  EXPECT_EQ(taken, 1);
+  EXPECT_EQ(fake_.cameras_opened, 2);
+  EXPECT_TRUE(fake_.predictions[2]);  // the senses go on from one recording to the next
+}
+
+TEST_F(ShapeWayTest, TheFirstFramesTeachAsInTheProcess) {
+  ShapePipeline way = Way(2);
+  way.Estimate(Images("a", RecordingKind::kFree, 1), ignore_);
+  fake_.observation.frame.status = Status(StatusCode::kNoRobotSeen, "too dark");
+  way.Estimate(Images("dark", RecordingKind::kFree, 1), ignore_);  // does not count
+  fake_.observation.frame.status = Status::Ok();
+  way.Estimate(Images("b", RecordingKind::kFree, 2), ignore_);
+  EXPECT_THAT(Untouched(), ElementsAre(true, true, true, false));
+}
+
+TEST_F(ShapeWayTest, CableInputsAreThoseOfTheFramesTime) {
+  Recording recording = Images("r", RecordingKind::kFree, 2, 1.0);
+  experiment::Actuation actuation;
+  actuation.t_s = {0.9, 1.1};
+  actuation.columns.push_back({.cable = "top",
+                               .quantity = experiment::CableQuantity::kDisplacement,
+                               .samples = {0.0, 0.004},
+                               .where = {}});
+  recording.actuation = actuation;
+  Way().Estimate(recording, ignore_);
+  ASSERT_THAT(fake_.frames, SizeIs(2));
+  EXPECT_DOUBLE_EQ(fake_.frames[0].t_s, 1.0);
+  EXPECT_EQ(fake_.stamps_ns[1], 1100000000);
+  EXPECT_EQ(fake_.frames[0].cables[0].kind, robot::CableCommand::Kind::kDisplacement);
+  EXPECT_NEAR(fake_.frames[0].cables[0].value, 0.002, 1e-12);
+  EXPECT_NEAR(fake_.frames[1].cables[0].value, 0.004, 1e-12);
+}
+
+TEST_F(ShapeWayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
+  perception::DetectedContact contact;
+  contact.name = "contact_7";
+  contact.position_m = {0.01, 0.02, 0.3};
+  contact.covariance_m2 = Eigen::Vector3d(1e-6, 2e-6, 9e-6).asDiagonal();
+  contact.covariance_m2(0, 1) = contact.covariance_m2(1, 0) = 5e-7;
+  contact.extent_m = {0.001, 0.002, 0.003};
+  contact.point_count = 12;
+  fake_.observation.contacts = {contact};
+  fake_.observation.frame.robot.points_m = Eigen::Matrix3Xf::Ones(3, 5);
+  Way().Estimate(Images("r", RecordingKind::kFree, 1), ignore_);
+  const ShapeFrame& frame = fake_.frames.at(0);
+  EXPECT_EQ(frame.cloud.Count(), 5);
+  EXPECT_TRUE(frame.T_robot_camera.isApprox(LookingDown()));
+  ASSERT_THAT(frame.contacts, SizeIs(1));
+  EXPECT_EQ(frame.contacts[0].name, "contact_7");
+  EXPECT_TRUE(frame.contacts[0].position_m.isApprox(Eigen::Vector3d(0.04, 0.0, 0.1), 1e-12));
+  EXPECT_NEAR(frame.contacts[0].covariance_m2(0, 1), -5e-7, 1e-15);
+  EXPECT_NEAR(frame.contacts[0].covariance_m2(2, 2), 9e-6, 1e-15);
+  EXPECT_EQ(frame.contacts[0].extent_m, contact.extent_m);
+  EXPECT_EQ(frame.contacts[0].point_count, 12);
+}
+
+TEST_F(ShapeWayTest, AKnownLoadIsAContactWhileItActs) {
+  Recording recording = Images("r", RecordingKind::kKnownLoad, 3);
+  recording.loads.resize(2);
+  recording.loads[0].t_s = 1.0;
+  recording.loads[1].t_s = 1.15;
+  recording.loads[0].position_m = recording.loads[1].position_m = {0.075, 0.01, 0.02};
+  recording.loads[1].force_N = {0.0, 0.0, -0.5};
+  Way().Estimate(recording, ignore_);
+  EXPECT_THAT(fake_.frames[1].contacts, SizeIs(0));
+  ASSERT_THAT(fake_.frames[2].contacts, SizeIs(1));
+  EXPECT_EQ(fake_.frames[2].contacts[0].name, "load_1");
+  const Eigen::Vector3d there_m = (1.0 + 0.1 / 3.0) * Eigen::Vector3d(0.075, 0.01, 0.02);
+  EXPECT_TRUE(fake_.frames[2].contacts[0].position_m.isApprox(there_m, 1e-6));
+}
+
+TEST_F(ShapeWayTest, WithoutACameraPoseEachFrameSaysSo) {
+  experiment_.T_robot_camera.reset();
+  ShapePipeline way = Way();
+  const Recording recording = Images("r", RecordingKind::kRest, 3);
+  EXPECT_EQ(way.Teach(recording), 0);
+  std::vector<StatusCode> codes;
+  way.Estimate(recording, [&](const ForceEstimate& estimate) {
+    codes.push_back(estimate.status.code());
+    EXPECT_THAT(estimate.status.message(), testing::HasSubstr("no T_robot_camera is given"));
+    EXPECT_GE(estimate.t_s, 1.0);
+  });
+  EXPECT_THAT(codes, ElementsAre(StatusCode::kNoCalibration, StatusCode::kNoCalibration,
+                                 StatusCode::kNoCalibration));
+  EXPECT_THAT(fake_.frames, SizeIs(0));
+}
+
+TEST_F(ShapeWayTest, AFrameThatPerceptionRefusesKeepsItsReason) {
+  fake_.observation.frame.status = Status(StatusCode::kInvalidInput, "all depth is invalid");
+  fake_.estimate.status = Status(StatusCode::kNoRobotSeen, "only 0 points");
+  Way().Estimate(Images("r", RecordingKind::kFree, 1), [&](const ForceEstimate& estimate) {
+    EXPECT_EQ(estimate.status.code(), StatusCode::kInvalidInput);
+    EXPECT_EQ(estimate.status.message(), "all depth is invalid");
+  });
+}
+
+TEST_F(ShapeWayTest, ATiltedBaseTiltsGravityForItsRecordingOnly) {
+  Recording tilted = Images("a", RecordingKind::kBaseTilted, 1);
+  tilted.base_tilt_deg = Eigen::Vector2d(90.0, 0.0);
+  ShapePipeline way = Way();
+  way.Estimate(tilted, ignore_);
+  way.Estimate(Images("b", RecordingKind::kFree, 1), ignore_);
+  EXPECT_NEAR(fake_.gravity_m_s2[0].y(), -9.81, 1e-9);
+  EXPECT_NEAR(fake_.gravity_m_s2[1].z(), -9.81, 1e-9);
+}
+
+}  // namespace
+}  // namespace palpate::command
