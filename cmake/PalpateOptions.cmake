@@ -34,6 +34,12 @@ if(PALPATE_SANITIZE)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})
 endif()
 
+# GCC collects garbage less often: 4 % of the build's processor time for some 0.5 GB more a compiler.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-expand=200>"
+                      "$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-heapsize=524288>")
+endif()
+
 # clang-tidy beside the compiler, for our own targets only (palpate_add_library and its kin turn
 # it on); generated code never sees it.
 if(PALPATE_TIDY)
@@ -44,6 +50,9 @@ endif()
 # the headers and templates that its neighbours use, too. On in the presets of optimised builds,
 # where tests/style/check_includes.py finds what a source forgets to include; off in debug and tidy.
 option(PALPATE_UNITY "Compile ten sources of a target at a time" OFF)
+
+# Sources of tests are compiled with less optimisation than what they test: a quarter of their time.
+set(PALPATE_TEST_OPTIONS "$<$<CONFIG:Release>:-O1>")
 
 # palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,
 # in the tidy preset, clang-tidy.
@@ -56,6 +65,9 @@ function(palpate_own_code target)
   if(PALPATE_PCH)
     target_precompile_headers(${target} REUSE_FROM ${ARG_PCH})
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+  if(ARG_PCH STREQUAL palpate_test_pch)
+    target_compile_options(${target} PRIVATE ${PALPATE_TEST_OPTIONS})
   endif()
   if(PALPATE_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)

@@ -35,4 +35,5 @@ palpate_add_precompiled(palpate_pch LIBS Eigen3::Eigen HEADERS ${common_headers}
 if(PALPATE_BUILD_TESTS)
   palpate_add_precompiled(palpate_test_pch LIBS Eigen3::Eigen GTest::gmock GTest::gtest
                           HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h>)
+  target_compile_options(palpate_test_pch PRIVATE ${PALPATE_TEST_OPTIONS})
 endif()

@@ -40,7 +40,7 @@ double MedianSmallestForce_N(SensingChain& chain) {
   const auto& features = chain.estimator().features();
   const auto& points = chain.model().body().feature_points;
   for (std::size_t k = 0; k < features.size(); ++k) {
-    if (features[k].state != skin::MatchState::kMatched) continue;
+    if (features[k].state != correspondence::MatchState::kMatched) continue;
     const double force_N = chain.estimator().SmallestForce_N(points[k].rest_m);
     if (std::isfinite(force_N)) smallest_N.push_back(force_N);
   }

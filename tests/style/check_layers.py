@@ -20,7 +20,7 @@ LIBRARIES = {
     "geometry": {"core"},
     "plot": {"core"},
     "rgbd": {"core", "geometry"},
-    "skin": {"core", "geometry", "fem", "robot", "rgbd"},
+    "correspondence": {"core", "geometry", "fem", "robot", "rgbd"},
     "experiment": {"core", "geometry", "rgbd"},
     "scenario": {"core", "geometry", "fem", "robot", "rgbd"},
     "gige_vision": {"core", "rgbd"},

@@ -50,7 +50,7 @@ rgbd::SensedCloud Rippled(rgbd::SensedCloud cloud, double stereo_px_m, double tu
   return cloud;
 }
 
-double HeightOf(const skin::FeatureMatch& match, const Eigen::VectorXd& measured_m) {
+double HeightOf(const correspondence::FeatureMatch& match, const Eigen::VectorXd& measured_m) {
   return match.target_m - match.row.Value(measured_m);
 }
 
@@ -182,27 +182,27 @@ void SkinMatcher::LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, 
   surface_.MoveTo(measured_m, Eigen::Isometry3d::Identity());
   view_.Look(surface_.vertices_m(), surface_.triangles());
   const auto match = [&](const rgbd::SensedCloud& cloud) {
-    std::vector<skin::FeatureMatch> found(in_pictures->size());
+    std::vector<correspondence::FeatureMatch> found(in_pictures->size());
     patches_.Match(cloud, Eigen::Isometry3d::Identity(), surface_, view_, {kBeside_m, kFarthest_m},
                    &found);
     return found;
   };
-  const std::vector<skin::FeatureMatch> found = match(seen->cloud);
-  std::vector<std::vector<skin::FeatureMatch>> rippled;
+  const std::vector<correspondence::FeatureMatch> found = match(seen->cloud);
+  std::vector<std::vector<correspondence::FeatureMatch>> rippled;
   for (const double turns : kRippleTurns) {
     if (stereo_px_m > 0.0) rippled.push_back(match(Rippled(seen->cloud, stereo_px_m, turns)));
   }
   seen->height_m.setConstant(std::ssize(found), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t f = 0; f < found.size(); ++f) {
-    if (found[f].state == skin::MatchState::kOutlier) ++outliers_;
-    if (found[f].state != skin::MatchState::kMatched) continue;
+    if (found[f].state == correspondence::MatchState::kOutlier) ++outliers_;
+    if (found[f].state != correspondence::MatchState::kMatched) continue;
     ++matched_;
     const double height_m = HeightOf(found[f], measured_m);
     seen->height_m[static_cast<Eigen::Index>(f)] = height_m;
     FeatureInPicture& one = (*in_pictures)[f].emplace_back();
     one = {height_m, found[f].sigma_m, found[f].row, found[f].normal};
     for (std::size_t k = 0; k < rippled.size(); ++k) {
-      if (rippled[k][f].state != skin::MatchState::kMatched) continue;
+      if (rippled[k][f].state != correspondence::MatchState::kMatched) continue;
       one.ripple_m_px[static_cast<Eigen::Index>(k)] =
           (HeightOf(rippled[k][f], measured_m) - height_m) / kRipple_px;
     }

@@ -11,7 +11,7 @@
 #include "components/diagnosis/model/shapes_in_time.hpp"
 #include "components/diagnosis/skin/seen_cloud.hpp"
 #include "components/diagnosis/skin/skin_source.hpp"
-#include "libs/skin/patch_matching.hpp"
+#include "libs/correspondence/patch_matching.hpp"
 
 namespace palpate::diagnosis {
 
@@ -67,10 +67,10 @@ class SkinMatcher {
   void TellSigmas(ObservedExperiment* observed) const;
 
   const robot::RobotBody& body_;
-  skin::SurfaceFeatures features_;
-  skin::MovingSurface surface_;
-  skin::PredictedView view_;
-  skin::PatchMatching patches_;
+  correspondence::SurfaceFeatures features_;
+  correspondence::MovingSurface surface_;
+  correspondence::PredictedView view_;
+  correspondence::PatchMatching patches_;
   SkinClouds clouds_;
   std::vector<MeanOf> measured_;  ///< [features] variance of one picture where nothing moves, m2
   std::vector<MeanOf> nominal_;   ///< [features] as the depth noise makes it, m2

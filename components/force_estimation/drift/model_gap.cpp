@@ -110,7 +110,7 @@ ModelGapReport FeatureGapMeter::Measure(const std::vector<FeatureReport>& featur
   PALPATE_CHECK(features.size() == parts_.PointCount(), features.size(), parts_.PointCount());
   for (size_t f = 0; fitted && f < features.size(); ++f) {
     const FeatureReport& feature = features[f];
-    if (feature.state != skin::MatchState::kMatched) continue;
+    if (feature.state != correspondence::MatchState::kMatched) continue;
     parts_.Add(f, feature.residual_m * feature.residual_m, feature.sigma_m * feature.sigma_m,
                &report);
   }

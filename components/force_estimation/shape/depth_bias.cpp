@@ -98,7 +98,7 @@ void DepthBias::StartFrom(const geometry::DepthBiasMap& map,
   known_ = true;
 }
 
-Eigen::VectorXd DepthBias::SharedBasis(const skin::FeatureMatch& match,
+Eigen::VectorXd DepthBias::SharedBasis(const correspondence::FeatureMatch& match,
                                        const Eigen::Isometry3d& T_robot_camera) const {
   const Eigen::Vector3d normal = T_robot_camera.linear().transpose() * match.normal;
   const Eigen::Vector3d& position_m = match.position_m;
@@ -112,19 +112,21 @@ Eigen::VectorXd DepthBias::SharedBasis(const skin::FeatureMatch& match,
   return basis;
 }
 
-Eigen::VectorXd DepthBias::ScaledBasis(const skin::FeatureMatch& match,
+Eigen::VectorXd DepthBias::ScaledBasis(const correspondence::FeatureMatch& match,
                                        const Eigen::Isometry3d& T_robot_camera) const {
   return prior_root_.transpose() * SharedBasis(match, T_robot_camera);
 }
 
-void DepthBias::Learn(const std::vector<skin::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
-                      const Eigen::Isometry3d& T_robot_camera) {
+void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
+                      const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera) {
   PALPATE_CHECK(static_cast<int>(matches.size()) == feature_count_, matches.size());
-  const auto matched = [](const auto& match) { return match.state == skin::MatchState::kMatched; };
+  const auto matched = [](const auto& match) {
+    return match.state == correspondence::MatchState::kMatched;
+  };
   if (std::none_of(matches.begin(), matches.end(), matched)) return;
   ++frames_;
   for (int feature = 0; feature < feature_count_; ++feature) {
-    const skin::FeatureMatch& match = matches[static_cast<size_t>(feature)];
+    const correspondence::FeatureMatch& match = matches[static_cast<size_t>(feature)];
     if (!matched(match)) continue;
     const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
     const double residual_over_sigma =
@@ -200,14 +202,14 @@ Status DepthBias::Finish() {
   return Status::Ok();
 }
 
-double DepthBias::Correction_m(int feature, const skin::FeatureMatch& match,
+double DepthBias::Correction_m(int feature, const correspondence::FeatureMatch& match,
                                const Eigen::Isometry3d& T_robot_camera) const {
   const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
   return basis.dot(prior_mean_ + prior_root_ * solution_.head(shared_count_)) +
          config_.feature_offset_prior_m * solution_[shared_count_ + feature];
 }
 
-double DepthBias::CorrectionSigma_m(int feature, const skin::FeatureMatch& match,
+double DepthBias::CorrectionSigma_m(int feature, const correspondence::FeatureMatch& match,
                                     const Eigen::Isometry3d& T_robot_camera) const {
   const Eigen::VectorXd shared = ScaledBasis(match, T_robot_camera);
   const double own = config_.feature_offset_prior_m;

@@ -35,7 +35,7 @@ class DepthBias {
 
   /// Matches of one untouched frame, found about an equilibrium `x_m` [3n] of the model. Frames in
   /// the order of time; those without a match do not count.
-  void Learn(const std::vector<skin::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
+  void Learn(const std::vector<correspondence::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
              const Eigen::Isometry3d& T_robot_camera);
   /// Solves for what was learnt; more frames and another call make it better. kNoCalibration where
   /// no frame or too few features (three) were seen, and no calibration told of it.
@@ -46,10 +46,10 @@ class DepthBias {
 
   /// What is to be taken off target_m of a match, m. Of what is not matched, only the feature's own
   /// offset.
-  double Correction_m(int feature, const skin::FeatureMatch& match,
+  double Correction_m(int feature, const correspondence::FeatureMatch& match,
                       const Eigen::Isometry3d& T_robot_camera) const;
   /// Sigma of that correction, m; also before anything was learnt (the priors).
-  double CorrectionSigma_m(int feature, const skin::FeatureMatch& match,
+  double CorrectionSigma_m(int feature, const correspondence::FeatureMatch& match,
                            const Eigen::Isometry3d& T_robot_camera) const;
   /// Scatter of single frames about the correction, over what their sigma_m says: 1 where the
   /// noise model is right. 1 before anything was learnt.
@@ -70,10 +70,10 @@ class DepthBias {
   /// What the residual of a match changes by with each parameter that the features share: camera
   /// shift (3, m) and turn (3, rad), camera frame, about its centre; then the coefficients of the
   /// map.
-  Eigen::VectorXd SharedBasis(const skin::FeatureMatch& match,
+  Eigen::VectorXd SharedBasis(const correspondence::FeatureMatch& match,
                               const Eigen::Isometry3d& T_robot_camera) const;
   /// The same per independent parameter that the prior gives a sigma of 1.
-  Eigen::VectorXd ScaledBasis(const skin::FeatureMatch& match,
+  Eigen::VectorXd ScaledBasis(const correspondence::FeatureMatch& match,
                               const Eigen::Isometry3d& T_robot_camera) const;
   void SetPrior();
   void BeginAnew();

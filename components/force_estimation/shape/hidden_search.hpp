@@ -10,8 +10,8 @@
 #include "components/force_estimation/shape/contact_location_posterior.hpp"
 #include "components/force_estimation/shape/observation_jacobian.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "libs/skin/surface_features.hpp"
 
 namespace palpate::force_estimation {
 

@@ -38,7 +38,8 @@ Eigen::Index NearestTo(const NormalLine& line, const Eigen::Matrix3Xf& points_m)
 }
 
 void MatchAlong(const NormalLine& line, const rgbd::SensedCloud& cloud,
-                const skin::MatchDistances& distances, skin::FeatureMatch* match) {
+                const correspondence::MatchDistances& distances,
+                correspondence::FeatureMatch* match) {
   const Eigen::Index nearest = NearestTo(line, cloud.points_m);
   const Eigen::Vector3d point_m = cloud.points_m.col(nearest).cast<double>();
   const Eigen::Vector3d offset_m = point_m - line.point_m;
@@ -47,11 +48,11 @@ void MatchAlong(const NormalLine& line, const rgbd::SensedCloud& cloud,
   match->position_m = point_m;
   match->distance_m = offset_m.norm();
   if (match->distance_m > distances.outlier_m) {
-    match->state = skin::MatchState::kOutlier;
+    match->state = correspondence::MatchState::kOutlier;
     match->outliers = 1;
     return;
   }
-  match->state = skin::MatchState::kMatched;
+  match->state = correspondence::MatchState::kMatched;
   match->count = 1;
   match->sigma_m = static_cast<double>(cloud.sigma_m[nearest]) *
                    std::abs(line.normal.dot(point_m) / point_m.z());
@@ -59,21 +60,22 @@ void MatchAlong(const NormalLine& line, const rgbd::SensedCloud& cloud,
 
 }  // namespace
 
-void MatchPoints(const skin::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
+void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-                 const skin::PredictedView& view, const skin::MatchDistances& distances,
-                 std::vector<skin::FeatureMatch>* matches) {
+                 const correspondence::PredictedView& view,
+                 const correspondence::MatchDistances& distances,
+                 std::vector<correspondence::FeatureMatch>* matches) {
   const Eigen::Isometry3d T_camera_robot = T_robot_camera.inverse();
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    skin::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    correspondence::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
     const Eigen::Vector3d position_m = features.point(feature).Position(x_m);
     const NormalLine line{T_camera_robot * position_m,
                           T_camera_robot.linear() * normals.col(feature)};
     const bool turned_away = line.normal.dot(line.point_m) >= 0.0;
     if (turned_away || view.Hides(line.point_m, kSameSurface_m)) continue;
     MatchAlong(line, cloud, distances, &match);
-    if (match.state != skin::MatchState::kMatched) continue;
+    if (match.state != correspondence::MatchState::kMatched) continue;
     match.normal = normals.col(feature);
     match.row = robot::RowOfPoint(features.point(feature), match.normal);
     match.target_m = match.normal.dot(T_robot_camera * match.position_m);

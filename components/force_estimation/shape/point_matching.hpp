@@ -8,18 +8,19 @@
 #include <vector>
 
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/correspondence/patch_matching.hpp"
+#include "libs/correspondence/predicted_view.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
-#include "libs/skin/patch_matching.hpp"
-#include "libs/skin/predicted_view.hpp"
-#include "libs/skin/surface_features.hpp"
 
 namespace palpate::force_estimation {
 
 /// The way `point` of SurfaceMatching: Algorithm 3 as published, and hidden, too, what `view` does
 /// not show. `x_m` [3n] robot frame.
-void MatchPoints(const skin::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
+void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-                 const skin::PredictedView& view, const skin::MatchDistances& distances,
-                 std::vector<skin::FeatureMatch>* matches);
+                 const correspondence::PredictedView& view,
+                 const correspondence::MatchDistances& distances,
+                 std::vector<correspondence::FeatureMatch>* matches);
 
 }  // namespace palpate::force_estimation

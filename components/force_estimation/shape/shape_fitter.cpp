@@ -186,7 +186,7 @@ Status ShapeFitter::Match(const ShapeFrame& frame) {
   AddWork(kMatchWork);
   matches_ = &matching_.Match(frame, state_.x_m);
   const auto matched = std::count_if(matches_->begin(), matches_->end(), [](const auto& match) {
-    return match.state == skin::MatchState::kMatched;
+    return match.state == correspondence::MatchState::kMatched;
   });
   if (matched < kFewestFeatures) {
     return {StatusCode::kNoRobotSeen,

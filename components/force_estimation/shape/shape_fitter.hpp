@@ -16,8 +16,8 @@
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/shape_targets.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "libs/skin/surface_features.hpp"
 
 namespace palpate::force_estimation {
 
@@ -77,8 +77,8 @@ class ShapeFitter {
   /// The shape to which the bias belongs: nodes [3n].
   void LearntAt(const Eigen::VectorXd& x_m) { learnt_x_m_ = x_m; }
 
-  const skin::SurfaceFeatures& features() const { return features_; }
-  const std::vector<skin::FeatureMatch>& matches() const { return *matches_; }
+  const correspondence::SurfaceFeatures& features() const { return features_; }
+  const std::vector<correspondence::FeatureMatch>& matches() const { return *matches_; }
   const ShapeTargets& targets() const { return targets_; }
   ContactTracks& book() { return book_; }
   const ContactTracks& book() const { return book_; }
@@ -120,7 +120,7 @@ class ShapeFitter {
   double MoveSites();
 
   ShapeConfig shape_;
-  skin::SurfaceFeatures features_;
+  correspondence::SurfaceFeatures features_;
   SurfaceMatching matching_;
   ShapeTargets targets_;
   ContactTracks book_;
@@ -134,7 +134,7 @@ class ShapeFitter {
   Eigen::VectorXd learnt_x_m_;             ///< [3n]; empty: the first shape that was started at
   std::vector<std::string> fitted_names_;  ///< of the sites that the fitter has
   bool places_moved_ = false;              ///< since the fitter took them
-  const std::vector<skin::FeatureMatch>* matches_ = nullptr;
+  const std::vector<correspondence::FeatureMatch>* matches_ = nullptr;
   std::vector<LocatedForce> located_;
   int iterations_ = 0;
   int linearisations_ = 0;

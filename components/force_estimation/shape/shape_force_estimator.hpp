@@ -19,7 +19,7 @@ namespace palpate::force_estimation {
 
 /// A feature point in the last frame.
 struct FeatureReport {
-  skin::MatchState state = skin::MatchState::kHidden;
+  correspondence::MatchState state = correspondence::MatchState::kHidden;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the model, robot frame
   double residual_m = 0.0;  ///< cloud - model along the normal, after the fit; 0 where not matched
   double sigma_m = 0.0;     ///< expected of it

@@ -16,8 +16,9 @@ constexpr double kMuchOfAWeight = 0.2;
 /// Mean square of residual over sigma up to which a shape tells outliers.
 constexpr double kNear = 4.0;
 
-bool IsNearContact(const skin::FeatureMatch& match, const Eigen::Isometry3d& T_robot_camera,
-                   const Eigen::VectorXd& x_m, const std::vector<ShapeSite>& sites) {
+bool IsNearContact(const correspondence::FeatureMatch& match,
+                   const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
+                   const std::vector<ShapeSite>& sites) {
   const Eigen::Vector3d position_m = T_robot_camera * match.position_m;
   return std::any_of(sites.begin(), sites.end(), [&](const ShapeSite& site) {
     return (site.patch.weights.Position(x_m) - position_m).norm() <
@@ -30,13 +31,14 @@ bool IsNearContact(const skin::FeatureMatch& match, const Eigen::Isometry3d& T_r
 ShapeTargets::ShapeTargets(const ShapeConfig& config, double contact_weight)
     : config_(config), contact_weight_(contact_weight) {}
 
-void ShapeTargets::Build(const std::vector<skin::FeatureMatch>& matches, const DepthBias& bias,
-                         const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-                         const Eigen::VectorXd& learnt_x_m, const std::vector<ShapeSite>& sites) {
+void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matches,
+                         const DepthBias& bias, const Eigen::Isometry3d& T_robot_camera,
+                         const Eigen::VectorXd& x_m, const Eigen::VectorXd& learnt_x_m,
+                         const std::vector<ShapeSite>& sites) {
   rows_.clear();
   features_.clear();
   for (std::size_t f = 0; f < matches.size(); ++f) {
-    if (matches[f].state != skin::MatchState::kMatched) continue;
+    if (matches[f].state != correspondence::MatchState::kMatched) continue;
     rows_.push_back(matches[f].row);
     features_.push_back(static_cast<int>(f));
   }
@@ -48,7 +50,7 @@ void ShapeTargets::Build(const std::vector<skin::FeatureMatch>& matches, const D
   noise_m_.resize(count);
   for (Eigen::Index r = 0; r < count; ++r) {
     const int feature = features_[static_cast<std::size_t>(r)];
-    const skin::FeatureMatch& match = matches[static_cast<std::size_t>(feature)];
+    const correspondence::FeatureMatch& match = matches[static_cast<std::size_t>(feature)];
     targets_.value_m[r] = match.target_m - bias.Correction_m(feature, match, T_robot_camera);
     noise_m_[r] = bias.NoiseScale() * match.sigma_m;
     const double moved_m = match.row.Value(x_m) - match.row.Value(learnt_x_m);

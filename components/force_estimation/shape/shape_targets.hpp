@@ -23,7 +23,7 @@ class ShapeTargets {
   explicit ShapeTargets(const ShapeConfig& config, double contact_weight);
 
   /// `x_m` [3n] the model's present shape, `learnt_x_m` the shape in which the bias was learnt.
-  void Build(const std::vector<skin::FeatureMatch>& matches, const DepthBias& bias,
+  void Build(const std::vector<correspondence::FeatureMatch>& matches, const DepthBias& bias,
              const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
              const Eigen::VectorXd& learnt_x_m, const std::vector<ShapeSite>& sites);
   /// Huber's weights for the residuals at a shape, where that is near enough to tell outliers by.

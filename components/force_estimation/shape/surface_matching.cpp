@@ -9,9 +9,9 @@
 
 #include "components/force_estimation/shape/point_matching.hpp"
 #include "libs/core/check.hpp"
-#include "libs/skin/moving_surface.hpp"
-#include "libs/skin/patch_matching.hpp"
-#include "libs/skin/predicted_view.hpp"
+#include "libs/correspondence/moving_surface.hpp"
+#include "libs/correspondence/patch_matching.hpp"
+#include "libs/correspondence/predicted_view.hpp"
 
 namespace palpate::force_estimation {
 
@@ -55,8 +55,9 @@ double Spacing_m(const Eigen::Matrix3Xf& points_m) {
   return std::sqrt(MedianOf(&squared_m2));
 }
 
-skin::MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::SensedCloud& cloud) {
-  skin::MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
+correspondence::MatchDistances ChooseDistances(const ShapeConfig& config,
+                                               const rgbd::SensedCloud& cloud) {
+  correspondence::MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
   if (distances.hidden_m == 0.0) distances.hidden_m = 2.0 * Spacing_m(cloud.points_m);
   if (distances.outlier_m == 0.0) {
     std::vector<float> sigmas_m(cloud.sigma_m.data(), cloud.sigma_m.data() + cloud.sigma_m.size());
@@ -66,12 +67,13 @@ skin::MatchDistances ChooseDistances(const ShapeConfig& config, const rgbd::Sens
 }
 
 /// For a patch, whose points do not aim at the feature's normal line.
-void MeasureLineDistances(const skin::SurfaceFeatures& features, const ShapeFrame& frame,
-                          const Eigen::VectorXd& x_m, std::vector<skin::FeatureMatch>* matches) {
+void MeasureLineDistances(const correspondence::SurfaceFeatures& features, const ShapeFrame& frame,
+                          const Eigen::VectorXd& x_m,
+                          std::vector<correspondence::FeatureMatch>* matches) {
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    skin::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
-    if (match.state != skin::MatchState::kMatched) continue;
+    correspondence::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    if (match.state != correspondence::MatchState::kMatched) continue;
     const Eigen::Vector3d offset_m =
         frame.T_robot_camera * match.position_m - features.point(feature).Position(x_m);
     match.line_distance_m = offset_m.cross(normals.col(feature)).norm();
@@ -81,32 +83,33 @@ void MeasureLineDistances(const skin::SurfaceFeatures& features, const ShapeFram
 }  // namespace
 
 struct SurfaceMatching::Parts {
-  const skin::SurfaceFeatures& features;
+  const correspondence::SurfaceFeatures& features;
   ShapeConfig config;
-  skin::MovingSurface surface;
-  skin::PredictedView view;
-  skin::PatchMatching patches;
-  std::vector<skin::FeatureMatch> matches;
+  correspondence::MovingSurface surface;
+  correspondence::PredictedView view;
+  correspondence::PatchMatching patches;
+  std::vector<correspondence::FeatureMatch> matches;
 };
 
-SurfaceMatching::SurfaceMatching(const skin::SurfaceFeatures& features, const ShapeConfig& config)
+SurfaceMatching::SurfaceMatching(const correspondence::SurfaceFeatures& features,
+                                 const ShapeConfig& config)
     : parts_(new Parts{features,
                        config,
-                       skin::MovingSurface(features.triangles()),
-                       skin::PredictedView(),
-                       skin::PatchMatching(features),
+                       correspondence::MovingSurface(features.triangles()),
+                       correspondence::PredictedView(),
+                       correspondence::PatchMatching(features),
                        {}}) {}
 
 SurfaceMatching::~SurfaceMatching() = default;
 
-const std::vector<skin::FeatureMatch>& SurfaceMatching::Match(const ShapeFrame& frame,
-                                                              const Eigen::VectorXd& x_m) {
-  const skin::SurfaceFeatures& features = parts_->features;
-  std::vector<skin::FeatureMatch>& matches = parts_->matches;
+const std::vector<correspondence::FeatureMatch>& SurfaceMatching::Match(
+    const ShapeFrame& frame, const Eigen::VectorXd& x_m) {
+  const correspondence::SurfaceFeatures& features = parts_->features;
+  std::vector<correspondence::FeatureMatch>& matches = parts_->matches;
   CheckInput(frame, x_m, features.triangles().maxCoeff());
-  matches.assign(static_cast<size_t>(features.Count()), skin::FeatureMatch{});
+  matches.assign(static_cast<size_t>(features.Count()), correspondence::FeatureMatch{});
   if (frame.cloud.Count() == 0) return matches;
-  const skin::MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
+  const correspondence::MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
   parts_->surface.MoveTo(x_m, frame.T_robot_camera.inverse());
   parts_->view.Look(parts_->surface.vertices_m(), parts_->surface.triangles());
   if (parts_->config.matching == "point") {

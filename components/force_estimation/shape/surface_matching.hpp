@@ -9,8 +9,8 @@
 
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
-#include "libs/skin/feature_match.hpp"
-#include "libs/skin/surface_features.hpp"
+#include "libs/correspondence/feature_match.hpp"
+#include "libs/correspondence/surface_features.hpp"
 
 namespace palpate::force_estimation {
 
@@ -26,13 +26,14 @@ namespace palpate::force_estimation {
 /// beside the silhouette a cloud point may lie.
 class SurfaceMatching {
  public:
-  SurfaceMatching(const skin::SurfaceFeatures& features, const ShapeConfig& config);
+  SurfaceMatching(const correspondence::SurfaceFeatures& features, const ShapeConfig& config);
   ~SurfaceMatching();
 
   /// `x_m` [3n] the model's nodes, robot frame. One entry for each feature; holds until the next
   /// call. Cloud points farther than d_l from the surface count as outliers. Everything must be
   /// finite and the cloud's sigmas above 0.
-  const std::vector<skin::FeatureMatch>& Match(const ShapeFrame& frame, const Eigen::VectorXd& x_m);
+  const std::vector<correspondence::FeatureMatch>& Match(const ShapeFrame& frame,
+                                                         const Eigen::VectorXd& x_m);
 
  private:
   struct Parts;

@@ -19,9 +19,9 @@ class Average : public testing::Test {
  protected:
   Average() {
     const DepthBias bias(kFeatures, shape_);
-    std::vector<skin::FeatureMatch> matches(kFeatures);
-    for (skin::FeatureMatch& match : matches) {
-      match.state = skin::MatchState::kMatched;
+    std::vector<correspondence::FeatureMatch> matches(kFeatures);
+    for (correspondence::FeatureMatch& match : matches) {
+      match.state = correspondence::MatchState::kMatched;
       match.sigma_m = kNoise_m;
       match.position_m = {0.0, 0.0, 0.4};
       match.normal = Eigen::Vector3d::UnitZ();

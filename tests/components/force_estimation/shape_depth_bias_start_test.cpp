@@ -39,9 +39,10 @@ Found FindWithErrors(const Eigen::Isometry3d& pose, std::mt19937& random) {
   return found;
 }
 
-skin::FeatureMatch MatchAt(const Eigen::Vector3d& position_m, const Eigen::Vector3d& normal) {
-  skin::FeatureMatch match;
-  match.state = skin::MatchState::kMatched;
+correspondence::FeatureMatch MatchAt(const Eigen::Vector3d& position_m,
+                                     const Eigen::Vector3d& normal) {
+  correspondence::FeatureMatch match;
+  match.state = correspondence::MatchState::kMatched;
   match.sigma_m = 1e-5;
   match.position_m = position_m;
   match.normal = normal.normalized();
@@ -63,7 +64,7 @@ TEST(DepthBiasFromCalibration, ErrsAsTheCalibrationDid) {
     bias.StartFrom(found.map, pose);
     EXPECT_TRUE(bias.known());
     EXPECT_TRUE(bias.Finish().ok());
-    const skin::FeatureMatch match =
+    const correspondence::FeatureMatch match =
         MatchAt({0.1 * uniform(random), 0.1 * uniform(random), kDistance_m},
                 {uniform(random), uniform(random), uniform(random)});
     const Eigen::Vector3d here_m = pose.linear() * match.position_m;
@@ -87,7 +88,7 @@ TEST(DepthBiasFromCalibration, IsLearntOn) {
   geometry::DepthBiasMap truth = map;
   truth.coefficients << -5e-3, 5e-4, -5e-4, 0.0, 5e-4, 0.0;
   const Eigen::Isometry3d pose = BenchPose();
-  std::vector<skin::FeatureMatch> matches;
+  std::vector<correspondence::FeatureMatch> matches;
   for (int k = 0; k < 30; ++k) {
     const Eigen::Vector3d position_m(0.1 * std::cos(k), 0.1 * std::sin(1.7 * k), kDistance_m);
     const Eigen::Vector3d normal(std::sin(2.0 * k), std::cos(3.0 * k), -1.5);
@@ -100,7 +101,7 @@ TEST(DepthBiasFromCalibration, IsLearntOn) {
   const auto largest_m = [&] {
     double largest = 0.0;
     for (int k = 0; k < 30; ++k) {
-      const skin::FeatureMatch& match = matches[static_cast<std::size_t>(k)];
+      const correspondence::FeatureMatch& match = matches[static_cast<std::size_t>(k)];
       largest = std::max(largest, std::abs(match.target_m - bias.Correction_m(k, match, pose)));
     }
     return largest;

@@ -79,8 +79,8 @@ Left LeftOver(const Eigen::VectorXd& x_m, const DepthBias& bias, SurfaceMatching
   for (int frame = 0; frame < kFrames; ++frame) {
     const auto& matches = matching->Match(NoisyFrame(cloud, random), x_m);
     for (int feature = 0; feature < features; ++feature) {
-      const skin::FeatureMatch& match = matches[static_cast<size_t>(feature)];
-      if (match.state != skin::MatchState::kMatched) continue;
+      const correspondence::FeatureMatch& match = matches[static_cast<size_t>(feature)];
+      if (match.state != correspondence::MatchState::kMatched) continue;
       const double error_m =
           Residual_m(match, x_m) - bias.Correction_m(feature, match, BenchPose());
       const double sigma_m =
@@ -122,9 +122,9 @@ TEST(DepthBias, KnowsNothingBeforeItHasLearnt) {
   EXPECT_EQ(bias.frames(), 0);
   EXPECT_EQ(bias.NoiseScale(), 1.0);
   for (int feature = 0; feature < scene.features->Count(); ++feature) {
-    const skin::FeatureMatch& match = matches[static_cast<size_t>(feature)];
+    const correspondence::FeatureMatch& match = matches[static_cast<size_t>(feature)];
     EXPECT_EQ(bias.Correction_m(feature, match, BenchPose()), 0.0);
-    if (match.state != skin::MatchState::kMatched) continue;
+    if (match.state != correspondence::MatchState::kMatched) continue;
     // The camera's place alone is known to 2 mm, a depth to 0.5 %.
     EXPECT_GT(bias.CorrectionSigma_m(feature, match, BenchPose()), 1e-3);
     EXPECT_LT(bias.CorrectionSigma_m(feature, match, BenchPose()), 5e-3);
@@ -134,13 +134,13 @@ TEST(DepthBias, KnowsNothingBeforeItHasLearnt) {
 TEST(DepthBias, NeedsThreeFeatures) {
   DepthBias bias(4, {});
   EXPECT_EQ(bias.Finish().code(), StatusCode::kNoCalibration);
-  skin::FeatureMatch match;
-  match.state = skin::MatchState::kMatched;
+  correspondence::FeatureMatch match;
+  match.state = correspondence::MatchState::kMatched;
   match.sigma_m = 1e-4;
   match.normal = Eigen::Vector3d::UnitX();
   match.position_m = {0.0, 0.0, 0.4};
   const Eigen::VectorXd x_m = Eigen::VectorXd::Zero(3);
-  const skin::FeatureMatch hidden;
+  const correspondence::FeatureMatch hidden;
   bias.Learn({hidden, hidden, hidden, hidden}, x_m, BenchPose());
   EXPECT_EQ(bias.frames(), 0);
   bias.Learn({match, hidden, match, hidden}, x_m, BenchPose());
@@ -162,7 +162,7 @@ struct NoiseLesson {
     std::normal_distribution<double> normal(0.0, 1.0);
     for (size_t k = 0; k < kFeatures; ++k) {
       const double angle = 0.5 * static_cast<double>(k);
-      matches[k].state = skin::MatchState::kMatched;
+      matches[k].state = correspondence::MatchState::kMatched;
       matches[k].sigma_m = 1e-4;
       matches[k].normal = -Eigen::Vector3d(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0.9);
       matches[k].position_m = {0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.45};
@@ -181,7 +181,7 @@ struct NoiseLesson {
   }
 
   DepthBias bias{kFeatures, {}};
-  std::vector<skin::FeatureMatch> matches{kFeatures};
+  std::vector<correspondence::FeatureMatch> matches{kFeatures};
   std::vector<double> offset_m = std::vector<double>(kFeatures);
   std::vector<double> noise_m = std::vector<double>(kFeatures);
 };
@@ -242,9 +242,9 @@ void ExpectToldFromHalf(const ShapeConfig& config, const Bias& bias_m) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const Eigen::Isometry3d pose = BenchPose();
-  std::vector<skin::FeatureMatch> all(kFeatures);
-  for (skin::FeatureMatch& match : all) {
-    match.state = skin::MatchState::kMatched;
+  std::vector<correspondence::FeatureMatch> all(kFeatures);
+  for (correspondence::FeatureMatch& match : all) {
+    match.state = correspondence::MatchState::kMatched;
     match.sigma_m = 1e-5;
     match.position_m = {0.12 * uniform(random), 0.12 * uniform(random),
                         0.45 + 0.08 * uniform(random)};
@@ -252,14 +252,14 @@ void ExpectToldFromHalf(const ShapeConfig& config, const Bias& bias_m) {
     match.normal = pose.linear() * normal.normalized();
     match.target_m = match.normal.dot(pose.linear() * bias_m(match.position_m));
   }
-  std::vector<skin::FeatureMatch> half = all;
-  for (size_t k = 0; k < kFeatures; k += 2) half[k].state = skin::MatchState::kHidden;
+  std::vector<correspondence::FeatureMatch> half = all;
+  for (size_t k = 0; k < kFeatures; k += 2) half[k].state = correspondence::MatchState::kHidden;
   DepthBias bias(kFeatures, config);
   for (int frame = 0; frame < 10; ++frame) bias.Learn(half, Eigen::VectorXd::Zero(3), pose);
   ASSERT_TRUE(bias.Finish().ok());
   double largest_m = 0.0;
   for (int k = 0; k < kFeatures; k += 2) {
-    const skin::FeatureMatch& match = all[static_cast<size_t>(k)];
+    const correspondence::FeatureMatch& match = all[static_cast<size_t>(k)];
     EXPECT_NEAR(bias.Correction_m(k, match, pose), match.target_m, 2e-5);
     largest_m = std::max(largest_m, std::abs(match.target_m));
   }
@@ -292,15 +292,15 @@ TEST(DepthBias, TellsADepthBiasOfSecondOrder) {
 TEST(DepthBias, AFeatureNotSeenYetKeepsThePriorOfItsOffset) {
   const ShapeScene& scene = FourLegScene();
   SurfaceMatching matching(*scene.features, {});
-  std::vector<skin::FeatureMatch> matches =
+  std::vector<correspondence::FeatureMatch> matches =
       matching.Match(FrameOf(BiasedCloud(scene.rest_x_m)), scene.rest_x_m);
   const auto left_out = std::find_if(matches.begin(), matches.end(), [](const auto& match) {
-    return match.state == skin::MatchState::kMatched;
+    return match.state == correspondence::MatchState::kMatched;
   });
   ASSERT_NE(left_out, matches.end());
-  const skin::FeatureMatch kept = *left_out;
+  const correspondence::FeatureMatch kept = *left_out;
   const int feature = static_cast<int>(left_out - matches.begin());
-  left_out->state = skin::MatchState::kHidden;
+  left_out->state = correspondence::MatchState::kHidden;
   DepthBias bias(scene.features->Count(), {});
   for (int frame = 0; frame < 10; ++frame) bias.Learn(matches, scene.rest_x_m, BenchPose());
   ASSERT_TRUE(bias.Finish().ok());

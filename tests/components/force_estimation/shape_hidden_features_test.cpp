@@ -67,7 +67,8 @@ TEST(HiddenFeatures, WhatIsTurnedAwayIsHiddenWhateverLiesOnItsNormalLine) {
       const Eigen::Vector3d point_m = scene.features->rest_m().col(k);
       const Eigen::Vector3d sight = (point_m - BenchPose().translation()).normalized();
       if (normals.col(k).dot(sight) < 0.7) continue;
-      EXPECT_EQ(matches[static_cast<size_t>(k)].state, skin::MatchState::kHidden) << way << k;
+      EXPECT_EQ(matches[static_cast<size_t>(k)].state, correspondence::MatchState::kHidden)
+          << way << k;
       if (LineDistance_m(cloud, BenchPose(), point_m, normals.col(k)) < 4e-3) ++near_the_line;
     }
     EXPECT_GE(near_the_line, 3);
@@ -93,7 +94,8 @@ TEST(HiddenFeatures, WhatTheBodyItselfCoversIsHidden) {
   for (int k = 0; k < scene.features->Count(); ++k) {
     const Eigen::Vector3d point_m = scene.features->rest_m().col(k);
     if (normals.col(k).dot((eye_m - point_m).normalized()) < 0.5) continue;
-    const bool hidden = matches[static_cast<size_t>(k)].state == skin::MatchState::kHidden;
+    const bool hidden =
+        matches[static_cast<size_t>(k)].state == correspondence::MatchState::kHidden;
     if (IsCovered(surface, eye_m, point_m)) {
       ++covered;
       EXPECT_TRUE(hidden) << k;
@@ -128,7 +130,7 @@ TEST(HiddenFeatures, PatchesGetPointsOfWhatIsSeenOfThemOnly) {
   for (size_t k = 0; k < 51; ++k) {
     if (in_sight[k]) continue;
     ++hidden;
-    EXPECT_EQ(matches[k].state, skin::MatchState::kHidden) << k;
+    EXPECT_EQ(matches[k].state, correspondence::MatchState::kHidden) << k;
     EXPECT_TRUE(matches[k].row.nodes.empty());
   }
   EXPECT_GE(hidden, 8);
@@ -142,8 +144,8 @@ TEST(HiddenFeatures, WhatIsSeenAtAGrazingAngleDoesNotCount) {
         Eigen::Vector3d(-0.1, 0.3, 0.35)}) {
     const Eigen::Isometry3d pose = LookAt(eye_m, {0.0, 0.0, 0.06});
     const ShapeFrame frame = FrameOf(Cast(scene, scene.rest_x_m, pose, 2), pose);
-    for (const skin::FeatureMatch& match : matching.Match(frame, scene.rest_x_m)) {
-      if (match.state != skin::MatchState::kMatched) continue;
+    for (const correspondence::FeatureMatch& match : matching.Match(frame, scene.rest_x_m)) {
+      if (match.state != correspondence::MatchState::kMatched) continue;
       const Eigen::Vector3d sight = pose.linear() * match.position_m.normalized();
       EXPECT_GE(-match.normal.dot(sight), 0.26);  // 75 degrees
     }
@@ -156,9 +158,9 @@ TEST(HiddenFeatures, AShareWithFewPointsIsHidden) {
   const ShapeFrame frame = FrameOf(Cast(scene, scene.rest_x_m, BenchPose(), 8));
   int too_few = 0;
   int enough = 0;
-  for (const skin::FeatureMatch& match : matching.Match(frame, scene.rest_x_m)) {
-    EXPECT_EQ(match.state == skin::MatchState::kMatched, match.count >= 8);
-    ++(match.state == skin::MatchState::kMatched ? enough : too_few);
+  for (const correspondence::FeatureMatch& match : matching.Match(frame, scene.rest_x_m)) {
+    EXPECT_EQ(match.state == correspondence::MatchState::kMatched, match.count >= 8);
+    ++(match.state == correspondence::MatchState::kMatched ? enough : too_few);
   }
   EXPECT_GE(enough, 5);
   EXPECT_GE(too_few, 5);
@@ -172,10 +174,11 @@ TEST(HiddenFeatures, WithoutACloudPointNearItsNormalLineAFeatureIsHidden) {
   SurfaceMatching matching(*scene.features, config);
   const rgbd::SensedCloud cloud = Cast(scene, scene.rest_x_m, BenchPose());
   const Eigen::Matrix3Xd normals = scene.features->Normals(scene.rest_x_m);
-  const std::vector<skin::FeatureMatch> matches = matching.Match(FrameOf(cloud), scene.rest_x_m);
+  const std::vector<correspondence::FeatureMatch> matches =
+      matching.Match(FrameOf(cloud), scene.rest_x_m);
   int tried = 0;
   for (int k = 0; k < scene.features->Count(); ++k) {
-    if (matches[static_cast<size_t>(k)].state != skin::MatchState::kMatched) continue;
+    if (matches[static_cast<size_t>(k)].state != correspondence::MatchState::kMatched) continue;
     EXPECT_LE(matches[static_cast<size_t>(k)].line_distance_m, 3e-3);
     rgbd::SensedCloud holed = cloud;
     Eigen::Index kept = 0;
@@ -188,9 +191,9 @@ TEST(HiddenFeatures, WithoutACloudPointNearItsNormalLineAFeatureIsHidden) {
     }
     holed.points_m.conservativeResize(3, kept);
     holed.sigma_m.conservativeResize(kept);
-    const skin::FeatureMatch match =
+    const correspondence::FeatureMatch match =
         matching.Match(FrameOf(holed), scene.rest_x_m)[static_cast<size_t>(k)];
-    EXPECT_EQ(match.state, skin::MatchState::kHidden) << k;
+    EXPECT_EQ(match.state, correspondence::MatchState::kHidden) << k;
     EXPECT_GT(match.line_distance_m, 3e-3);
     ++tried;
   }
@@ -203,8 +206,8 @@ TEST(HiddenFeatures, WithoutACloudAllAre) {
     SurfaceMatching matching(*scene.features, With(way));
     const auto& matches = matching.Match(FrameOf({}), scene.rest_x_m);
     ASSERT_EQ(matches.size(), 51u);
-    for (const skin::FeatureMatch& match : matches)
-      EXPECT_EQ(match.state, skin::MatchState::kHidden);
+    for (const correspondence::FeatureMatch& match : matches)
+      EXPECT_EQ(match.state, correspondence::MatchState::kHidden);
   }
 }
 
@@ -217,8 +220,9 @@ TEST(HiddenFeatures, ACameraThatCannotSeeTheRobotMatchesNothing) {
     for (const Eigen::Isometry3d& pose :
          {LookAt({0.3, -0.2, 0.3}, {0.6, -0.4, 0.5}), LookAt({0.0, 0.01, 0.06}, {0.0, 0.5, 0.0}),
           LookAt({300.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}) {
-      for (const skin::FeatureMatch& match : matching.Match(FrameOf(cloud, pose), scene.rest_x_m)) {
-        EXPECT_NE(match.state, skin::MatchState::kMatched) << way;
+      for (const correspondence::FeatureMatch& match :
+           matching.Match(FrameOf(cloud, pose), scene.rest_x_m)) {
+        EXPECT_NE(match.state, correspondence::MatchState::kMatched) << way;
       }
     }
   }

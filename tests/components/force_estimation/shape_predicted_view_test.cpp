@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/predicted_view.hpp"
+#include "libs/correspondence/predicted_view.hpp"
 
 #include <gtest/gtest.h>
 
-#include "libs/skin/moving_surface.hpp"
+#include "libs/correspondence/moving_surface.hpp"
 #include "tests/components/force_estimation/shape_scene.hpp"
 
 namespace palpate::force_estimation {
@@ -24,8 +24,8 @@ struct View {
            3.0;
   }
 
-  skin::MovingSurface surface;
-  skin::PredictedView view;
+  correspondence::MovingSurface surface;
+  correspondence::PredictedView view;
 };
 
 /// What is seen towards a point that the camera sees lies at that point.

@@ -14,11 +14,11 @@
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/rgbd/surface_view.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "libs/skin/surface_features.hpp"
 
 namespace palpate::force_estimation {
 
@@ -30,13 +30,13 @@ struct ShapeScene {
     robot::RobotDescription robot = robot::ReadRobotFile(folder / "four_leg.yaml", app::LoadYaml);
     robot.feature_point_count = feature_points;
     model = std::make_unique<robot::RobotModel>(robot::BuildRobotBody(robot));
-    features = std::make_unique<skin::SurfaceFeatures>(model->body());
+    features = std::make_unique<correspondence::SurfaceFeatures>(model->body());
     const Eigen::Matrix3Xd& nodes_m = model->body().mesh.nodes_m;
     rest_x_m = Eigen::Map<const Eigen::VectorXd>(nodes_m.data(), nodes_m.size());
   }
 
   std::unique_ptr<robot::RobotModel> model;
-  std::unique_ptr<skin::SurfaceFeatures> features;
+  std::unique_ptr<correspondence::SurfaceFeatures> features;
   Eigen::VectorXd rest_x_m;  ///< [3n]
 };
 
@@ -123,7 +123,7 @@ inline void AddDepthNoise(std::mt19937& random, rgbd::SensedCloud* cloud) {
   }
 }
 
-inline double Residual_m(const skin::FeatureMatch& match, const Eigen::VectorXd& x_m) {
+inline double Residual_m(const correspondence::FeatureMatch& match, const Eigen::VectorXd& x_m) {
   return match.target_m - match.row.Value(x_m);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/surface_features.hpp"
+#include "libs/correspondence/surface_features.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(SurfaceFeatures, RefusesARobotWithoutFeaturePoints) {
   robot::RobotBody body = robot::BuildRobotBody(BeamRobot());
   body.feature_points.clear();
   body.feature_normals.resize(3, 0);
-  EXPECT_THROW(skin::SurfaceFeatures{body}, InputError);
+  EXPECT_THROW(correspondence::SurfaceFeatures{body}, InputError);
 }
 
 TEST(SurfaceFeatures, ArePointsOfTheBody) {
@@ -60,7 +60,7 @@ TEST(SurfaceFeatures, NormalsPointOutwardAndTurnWithTheBody) {
 /// What a feature stands for lies around it, and on its side of the limb.
 TEST(SurfaceFeatures, ShareTheSurfaceOutByPlaceAndDirection) {
   const ShapeScene& scene = FourLegScene();
-  const skin::SurfaceFeatures& features = *scene.features;
+  const correspondence::SurfaceFeatures& features = *scene.features;
   const geometry::TriangleSurface surface{scene.model->body().mesh.nodes_m, features.triangles()};
   const double area_m2 = geometry::SurfaceArea_m2(surface);
   const Eigen::Matrix3Xd normals = features.Normals(scene.rest_x_m);

@@ -14,7 +14,8 @@
 namespace palpate::force_estimation {
 namespace {
 
-int CountOf(const std::vector<skin::FeatureMatch>& matches, skin::MatchState state) {
+int CountOf(const std::vector<correspondence::FeatureMatch>& matches,
+            correspondence::MatchState state) {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(),
                                         [&](const auto& match) { return match.state == state; }));
 }
@@ -30,10 +31,10 @@ TEST(PatchMatching, ExactCloudOfABentBodyHasNoResidual) {
   const Eigen::VectorXd x_m = Moved(scene.rest_x_m, Bend);
   SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const auto& matches = matching.Match(FrameOf(Cast(scene, x_m, BenchPose())), x_m);
-  EXPECT_GE(CountOf(matches, skin::MatchState::kMatched), 20);
-  EXPECT_EQ(CountOf(matches, skin::MatchState::kOutlier), 0);
-  for (const skin::FeatureMatch& match : matches) {
-    if (match.state != skin::MatchState::kMatched) continue;
+  EXPECT_GE(CountOf(matches, correspondence::MatchState::kMatched), 20);
+  EXPECT_EQ(CountOf(matches, correspondence::MatchState::kOutlier), 0);
+  for (const correspondence::FeatureMatch& match : matches) {
+    if (match.state != correspondence::MatchState::kMatched) continue;
     EXPECT_NEAR(Residual_m(match, x_m), 0.0, 1e-5);
   }
 }
@@ -43,8 +44,8 @@ TEST(PatchMatching, ARowNamesItsNodesRisingAndMovesWithTheBody) {
   SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const auto& matches =
       matching.Match(FrameOf(Cast(scene, scene.rest_x_m, BenchPose())), scene.rest_x_m);
-  for (const skin::FeatureMatch& match : matches) {
-    if (match.state != skin::MatchState::kMatched) continue;
+  for (const correspondence::FeatureMatch& match : matches) {
+    if (match.state != correspondence::MatchState::kMatched) continue;
     ASSERT_EQ(match.row.nodes.size(), match.row.coefficients.size());
     EXPECT_TRUE(
         std::is_sorted(match.row.nodes.begin(), match.row.nodes.end(), std::less_equal<>()));
@@ -63,9 +64,9 @@ void ExpectShiftAlongNormals(const Eigen::Vector3d& by_m, double tolerance_m) {
   const Eigen::VectorXd shifted_m = Shifted(scene.rest_x_m, by_m);
   const auto& matches =
       matching.Match(FrameOf(Cast(scene, shifted_m, BenchPose())), scene.rest_x_m);
-  EXPECT_GE(CountOf(matches, skin::MatchState::kMatched), 20);
-  for (const skin::FeatureMatch& match : matches) {
-    if (match.state != skin::MatchState::kMatched) continue;
+  EXPECT_GE(CountOf(matches, correspondence::MatchState::kMatched), 20);
+  for (const correspondence::FeatureMatch& match : matches) {
+    if (match.state != correspondence::MatchState::kMatched) continue;
     EXPECT_NEAR(Residual_m(match, scene.rest_x_m), match.normal.dot(by_m), tolerance_m)
         << match.count << " points, normal " << match.normal.transpose();
   }
@@ -94,8 +95,8 @@ TEST(SurfaceMatching, DoesNotDependOnTheRobotFrame) {
   });
   for (const char* way : {"patch", "point"}) {
     SurfaceMatching matching(*scene.features, WithMatching(way));
-    const std::vector<skin::FeatureMatch> here = matching.Match(frame, scene.rest_x_m);
-    const std::vector<skin::FeatureMatch> there = matching.Match(moved, moved_x_m);
+    const std::vector<correspondence::FeatureMatch> here = matching.Match(frame, scene.rest_x_m);
+    const std::vector<correspondence::FeatureMatch> there = matching.Match(moved, moved_x_m);
     for (size_t k = 0; k < here.size(); ++k) {
       ASSERT_EQ(here[k].state, there[k].state);
       EXPECT_NEAR(Residual_m(here[k], scene.rest_x_m), Residual_m(there[k], moved_x_m), 1e-8);
@@ -138,11 +139,11 @@ TEST(PatchMatching, RowsAreTheDerivativeOfTheMatchedDistance) {
     return Eigen::Vector3d(kStep * Bend(rest_m));
   };
   const Eigen::VectorXd bent_m = Moved(scene.rest_x_m, bend);
-  const std::vector<skin::FeatureMatch> before = matching.Match(frame, scene.rest_x_m);
-  const std::vector<skin::FeatureMatch> after = matching.Match(frame, bent_m);
+  const std::vector<correspondence::FeatureMatch> before = matching.Match(frame, scene.rest_x_m);
+  const std::vector<correspondence::FeatureMatch> after = matching.Match(frame, bent_m);
   double largest_m = 0.0;
   for (size_t k = 0; k < before.size(); ++k) {
-    if (before[k].state != skin::MatchState::kMatched || before[k].count < 30) continue;
+    if (before[k].state != correspondence::MatchState::kMatched || before[k].count < 30) continue;
     const double by_row_m = -before[k].row.Value(bent_m - scene.rest_x_m);
     const double found_m = Residual_m(after[k], bent_m) - Residual_m(before[k], scene.rest_x_m);
     EXPECT_NEAR(found_m, by_row_m, 2e-6) << before[k].count;
@@ -165,8 +166,8 @@ TEST(PatchMatching, ResidualsScatterAsTheirSigmasSay) {
     AddDepthNoise(random, &frame.cloud);
     const auto& matches = matching.Match(frame, scene.rest_x_m);
     for (int k = 0; k < scene.features->Count(); ++k) {
-      const skin::FeatureMatch& match = matches[static_cast<size_t>(k)];
-      if (match.state != skin::MatchState::kMatched || match.count < 10) continue;
+      const correspondence::FeatureMatch& match = matches[static_cast<size_t>(k)];
+      if (match.state != correspondence::MatchState::kMatched || match.count < 10) continue;
       const double share = Residual_m(match, scene.rest_x_m) / match.sigma_m;
       sum[k] += share;
       squares[k] += share * share;
@@ -201,7 +202,7 @@ rgbd::SensedCloud WithTool(rgbd::SensedCloud cloud, const Eigen::Vector3d& centr
 }
 
 /// The feature that most points stand behind.
-int BestSeen(const std::vector<skin::FeatureMatch>& matches) {
+int BestSeen(const std::vector<correspondence::FeatureMatch>& matches) {
   const auto best =
       std::max_element(matches.begin(), matches.end(),
                        [](const auto& a, const auto& b) { return a.count < b.count; });
@@ -212,18 +213,19 @@ TEST(PatchMatching, WhatLiesFarBeforeTheSurfaceIsLeftOutAndCounted) {
   const ShapeScene& scene = FourLegScene();
   SurfaceMatching matching(*scene.features, WithMatching("patch"));
   const rgbd::SensedCloud clean = Cast(scene, scene.rest_x_m, BenchPose());
-  const std::vector<skin::FeatureMatch> matches = matching.Match(FrameOf(clean), scene.rest_x_m);
+  const std::vector<correspondence::FeatureMatch> matches =
+      matching.Match(FrameOf(clean), scene.rest_x_m);
   const auto best = static_cast<size_t>(BestSeen(matches));
   EXPECT_EQ(matches[best].outliers, 0);
   const Eigen::Vector3d centre_m = matches[best].position_m;
-  const skin::FeatureMatch half =
+  const correspondence::FeatureMatch half =
       matching.Match(FrameOf(WithTool(clean, centre_m, 0.02, 0.02f, 3)), scene.rest_x_m)[best];
-  EXPECT_EQ(half.state, skin::MatchState::kMatched);
+  EXPECT_EQ(half.state, correspondence::MatchState::kMatched);
   EXPECT_GE(half.outliers, matches[best].count / 5);
   EXPECT_NEAR(Residual_m(half, scene.rest_x_m), 0.0, 2e-5);
-  const skin::FeatureMatch all =
+  const correspondence::FeatureMatch all =
       matching.Match(FrameOf(WithTool(clean, centre_m, 0.05, 0.025f, 1)), scene.rest_x_m)[best];
-  EXPECT_EQ(all.state, skin::MatchState::kOutlier);
+  EXPECT_EQ(all.state, correspondence::MatchState::kOutlier);
   EXPECT_NEAR(all.distance_m, 0.02, 6e-3);
 }
 
@@ -233,9 +235,10 @@ TEST(PatchMatching, AFewWrongPointsNearTheSurfaceDoNotMoveTheMean) {
   rgbd::SensedCloud cloud = Cast(scene, scene.rest_x_m, BenchPose());
   std::mt19937 random(8);
   AddDepthNoise(random, &cloud);
-  const std::vector<skin::FeatureMatch> clean = matching.Match(FrameOf(cloud), scene.rest_x_m);
+  const std::vector<correspondence::FeatureMatch> clean =
+      matching.Match(FrameOf(cloud), scene.rest_x_m);
   const auto best = static_cast<size_t>(BestSeen(clean));
-  const skin::FeatureMatch touched = matching.Match(
+  const correspondence::FeatureMatch touched = matching.Match(
       FrameOf(WithTool(cloud, clean[best].position_m, 0.03, 0.006f, 4)), scene.rest_x_m)[best];
   EXPECT_EQ(touched.outliers, 0);
   EXPECT_NEAR(Residual_m(touched, scene.rest_x_m), Residual_m(clean[best], scene.rest_x_m),
@@ -251,10 +254,10 @@ TEST(SurfaceMatching, TheOutlierDistanceIsASetting) {
     const Eigen::VectorXd away_m =
         Shifted(scene.rest_x_m, BenchPose().linear() * Eigen::Vector3d(0, 0, 6e-3));
     const auto& matches = matching.Match(FrameOf(Cast(scene, scene.rest_x_m, BenchPose())), away_m);
-    EXPECT_GE(CountOf(matches, skin::MatchState::kOutlier), 10) << way;
-    for (const skin::FeatureMatch& match : matches) {
-      if (match.state == skin::MatchState::kHidden) continue;
-      EXPECT_EQ(match.distance_m > 1e-3, match.state == skin::MatchState::kOutlier);
+    EXPECT_GE(CountOf(matches, correspondence::MatchState::kOutlier), 10) << way;
+    for (const correspondence::FeatureMatch& match : matches) {
+      if (match.state == correspondence::MatchState::kHidden) continue;
+      EXPECT_EQ(match.distance_m > 1e-3, match.state == correspondence::MatchState::kOutlier);
     }
   }
 }

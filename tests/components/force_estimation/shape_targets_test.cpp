@@ -19,8 +19,8 @@ class Targets : public testing::Test {
  protected:
   Targets() : targets_(config_, 0.01), bias_(kFeatures, config_) {
     for (int f = 0; f < kFeatures; ++f) {
-      skin::FeatureMatch& match = matches_.emplace_back();
-      match.state = skin::MatchState::kMatched;
+      correspondence::FeatureMatch& match = matches_.emplace_back();
+      match.state = correspondence::MatchState::kMatched;
       match.row.nodes = {f};
       match.row.coefficients = {Eigen::Vector3d::UnitX()};
       match.sigma_m = kSigma_m;
@@ -42,14 +42,14 @@ class Targets : public testing::Test {
   const Eigen::Isometry3d kHere = Eigen::Isometry3d::Identity();
   ShapeConfig config_;
   Eigen::VectorXd x_m_ = Eigen::VectorXd::Zero(3 * kFeatures);
-  std::vector<skin::FeatureMatch> matches_;
+  std::vector<correspondence::FeatureMatch> matches_;
   ShapeTargets targets_;
   DepthBias bias_;
 };
 
 TEST_F(Targets, OnlyMatchedFeaturesAreRows) {
-  matches_[3].state = skin::MatchState::kHidden;
-  matches_[7].state = skin::MatchState::kOutlier;
+  matches_[3].state = correspondence::MatchState::kHidden;
+  matches_[7].state = correspondence::MatchState::kOutlier;
   Build();
   EXPECT_EQ(targets_.Count(), kFeatures - 2);
   EXPECT_EQ(targets_.features(), (std::vector<int>{0, 1, 2, 4, 5, 6, 8, 9}));
@@ -74,7 +74,7 @@ TEST_F(Targets, AnOutlierLosesWeightAsHubersDoes) {
 }
 
 TEST_F(Targets, AShapeThatIsFarOffTellsNoOutliers) {
-  for (skin::FeatureMatch& match : matches_) match.target_m = 20.0 * kSigma_m;
+  for (correspondence::FeatureMatch& match : matches_) match.target_m = 20.0 * kSigma_m;
   matches_[6].target_m = 60.0 * kSigma_m;
   Build();
   const Eigen::VectorXd before = targets_.targets().weight;

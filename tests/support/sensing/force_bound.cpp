@@ -17,11 +17,11 @@ namespace palpate::test_support {
 
 namespace {
 
+using correspondence::FeatureMatch;
+using correspondence::MatchState;
 using force_estimation::ShapeFrame;
 using force_estimation::SkinPoint;
 using force_estimation::Tangents;
-using skin::FeatureMatch;
-using skin::MatchState;
 
 constexpr double kFriction = 0.3;
 /// Of the model's motion: what the robot file's mesh is too stiff by (config/scenarios/README.md).

@@ -12,9 +12,9 @@
 #include "components/force_estimation/shape/surface_map.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
 #include "components/virtual_robot/virtual_robot.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "libs/skin/surface_features.hpp"
 
 namespace palpate::test_support {
 
@@ -50,7 +50,7 @@ class ForceBounds {
 
   robot::RobotModel& model_;
   force_estimation::ShapeConfig shape_;
-  skin::SurfaceFeatures features_;
+  correspondence::SurfaceFeatures features_;
   force_estimation::SurfaceMatching matching_;
   force_estimation::SurfaceMap map_;
   force_estimation::DepthBias bias_;

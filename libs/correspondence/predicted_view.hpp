@@ -8,7 +8,7 @@
 
 #include "libs/rgbd/surface_view.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// What can be seen of a surface from the camera's centre. Which camera it is does not matter for
 /// that: the view is a pinhole of a fixed size, turned and drawn out so that the surface fills it.
@@ -46,4 +46,4 @@ class PredictedView {
   std::vector<int> numbers_;  ///< of the triangles in facing_
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// Where the normal projection of a point meets a surface.
 struct SurfaceFoot {
@@ -48,4 +48,4 @@ class MovingSurface {
   Eigen::Matrix3Xd vertices_m_;
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

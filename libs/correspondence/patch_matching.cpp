@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/patch_matching.hpp"
+#include "libs/correspondence/patch_matching.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 namespace {
 
@@ -144,4 +144,4 @@ void PatchMatching::AddRow(int begin, int end, const Eigen::Matrix3d& R_robot_ca
   }
 }
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

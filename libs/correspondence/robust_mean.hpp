@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// Mean of values with errors, that some wrong ones among them do not move.
 class RobustMean {
@@ -26,4 +26,4 @@ class RobustMean {
   Eigen::VectorXd lowered_;
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

@@ -9,7 +9,7 @@
 #include "libs/fem/embedding.hpp"
 #include "libs/robot/robot_body.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// The robot's feature points X_e and the surface that they stand for. The surface is the drawn one
 /// (four triangles for each face of tet10); each of its triangles belongs to the feature that is
@@ -52,4 +52,4 @@ class SurfaceFeatures {
   std::vector<std::vector<Part>> parts_of_feature_;
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/surface_features.hpp"
+#include "libs/correspondence/surface_features.hpp"
 
 #include "libs/core/error.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/triangle_surface.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 namespace {
 
@@ -90,4 +90,4 @@ Eigen::Matrix3Xd SurfaceFeatures::Normals(const Eigen::VectorXd& x_m) const {
   return normals;
 }
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

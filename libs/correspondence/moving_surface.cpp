@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/moving_surface.hpp"
+#include "libs/correspondence/moving_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "libs/geometry/closest_point.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 namespace {
 
@@ -124,4 +124,4 @@ SurfaceFoot MovingSurface::FootOf(const Eigen::Vector3d& point_m, int start) con
   }
 }
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

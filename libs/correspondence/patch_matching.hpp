@@ -7,14 +7,14 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "libs/correspondence/feature_match.hpp"
+#include "libs/correspondence/moving_surface.hpp"
+#include "libs/correspondence/predicted_view.hpp"
+#include "libs/correspondence/robust_mean.hpp"
+#include "libs/correspondence/surface_features.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
-#include "libs/skin/feature_match.hpp"
-#include "libs/skin/moving_surface.hpp"
-#include "libs/skin/predicted_view.hpp"
-#include "libs/skin/robust_mean.hpp"
-#include "libs/skin/surface_features.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// d_m and d_l of one frame, m.
 struct MatchDistances {
@@ -66,4 +66,4 @@ class PatchMatching {
   std::vector<int> touched_;
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

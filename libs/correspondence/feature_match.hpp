@@ -7,7 +7,7 @@
 
 #include "libs/robot/observation_row.hpp"
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 /// What Algorithm 3 finds out about a feature point.
 enum class MatchState {
@@ -34,4 +34,4 @@ struct FeatureMatch {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< mean of the cloud points, camera frame
 };
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

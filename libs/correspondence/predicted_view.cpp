@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/predicted_view.hpp"
+#include "libs/correspondence/predicted_view.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 namespace {
 
@@ -130,4 +130,4 @@ bool PredictedView::Hides(const Eigen::Vector3d& point_m, double tolerance_m) co
   return seen_m > 0.0 && seen_m < z_m - tolerance_m;
 }
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence

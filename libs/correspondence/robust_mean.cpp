@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "libs/skin/robust_mean.hpp"
+#include "libs/correspondence/robust_mean.hpp"
 
 #include <algorithm>
 
-namespace palpate::skin {
+namespace palpate::correspondence {
 
 namespace {
 
@@ -46,4 +46,4 @@ void RobustMean::LowerWeights(const Eigen::Ref<const Eigen::VectorXd>& value,
   weight = lowered_;
 }
 
-}  // namespace palpate::skin
+}  // namespace palpate::correspondence
