@@ -34,7 +34,7 @@ if(PALPATE_SANITIZE)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})
 endif()
 
-# GCC collects garbage less often: 4 % of the build's processor time for some 0.5 GB more a compiler.
+# GCC collects garbage less often, which trades some 0.5 GB of memory for processor time.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-expand=200>"
                       "$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-heapsize=524288>")

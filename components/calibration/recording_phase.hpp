@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/calibration/joint/load_place.hpp"
+#include "components/calibration/load_place.hpp"
 #include "libs/experiment/recording.hpp"
 #include "libs/robot/robot_model.hpp"
 

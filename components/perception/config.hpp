@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "components/perception/color/color_config.hpp"
-#include "components/perception/contacts/contact_config.hpp"
-#include "components/perception/markers/fiducial_config.hpp"
-#include "components/perception/model/model_config.hpp"
+#include "components/perception/color_config.hpp"
+#include "components/perception/contact_config.hpp"
+#include "components/perception/fiducial_config.hpp"
+#include "components/perception/model_config.hpp"
 #include "libs/core/config_reader.hpp"
 #include "libs/rgbd/depth_noise.hpp"
 

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who may include whom (ARCHITECTURE, "Who may include whom"), checked on every #include line."""
+"""Who may include whom (docs/architecture.md), checked on every #include line; and no circle of
+includes between the folders of a library or component."""
 
+import collections
 import dataclasses
+import graphlib
 import pathlib
 import re
 import sys
@@ -147,6 +150,37 @@ def check_include(source, header, quoted, messages):
     return 'our headers are included from the root ("libs/..."), others in angle brackets'
 
 
+def layer_of(path):
+    """The layer of a file within its library or component, or None outside of both: its folder, or
+    for a file at the top the file, as the vocabulary of all folders and what joins them both stand
+    there."""
+    parts = pathlib.PurePosixPath(path).parts
+    if parts[0] not in ("libs", "components") or len(parts) < 3:
+        return None
+    return parts[:2], "/".join(parts[2:-1] or parts[2:])
+
+
+def check_circles(includes):
+    """`includes`: (file, line, header) of our own. One violation for each library or component
+    with a circle, at an include that closes it."""
+    layers = collections.defaultdict(dict)  # library or component -> (layer, layer) -> include
+    for file, line, header in includes:
+        source, target = layer_of(file), layer_of(header)
+        if source and target and source[0] == target[0] and source[1] != target[1]:
+            layers[source[0]].setdefault((source[1], target[1]), (file, line))
+    for edges in layers.values():
+        sorter = graphlib.TopologicalSorter()
+        for source, target in edges:
+            sorter.add(source, target)
+        try:
+            sorter.prepare()
+        except graphlib.CycleError as error:
+            circle = error.args[1]  # each is included by the one after it
+            file, line = edges[circle[1], circle[0]]
+            yield Violation(file, line, "folders are layers; these include each other in a circle: "
+                            + " -> ".join(reversed(circle)))
+
+
 def message_headers(files):
     """What idlc and idl/CMakeLists.txt make of idl/<package>/msg/<Name>.idl."""
     stems = [path.relative_to("idl").with_suffix("") for path in files
@@ -160,6 +194,7 @@ def check_tree(root):
     sources = [path for path in files
                if path.suffix in source_tree.CPP_SUFFIXES | {".c", ".h", ".in"}]
     violations = []
+    includes = []
     for path in sources:
         source = place_of(path.as_posix())
         for number, line in enumerate(source_tree.read_lines(root / path), start=1):
@@ -170,10 +205,11 @@ def check_tree(root):
             if not match:
                 continue
             header = match[1] or match[2]
+            includes.append((path.as_posix(), number, header))
             rule = check_include(source, header, match[2] is not None, messages)
             if rule:
                 violations.append(Violation(path.as_posix(), number, f'"{header}": {rule}'))
-    return violations, len(sources)
+    return violations + list(check_circles(includes)), len(sources)
 
 
 def main():

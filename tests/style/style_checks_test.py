@@ -123,6 +123,20 @@ class CheckLayers(TreeTest):
         self.assert_broken("libs/fem/a.cpp", '"tet_mesh.hpp"', "from the root")
         self.assert_broken("libs/fem/a.cpp", '"tests/libs/fem/b.hpp"', "only tests include tests")
 
+    def test_folders_of_a_component_are_layers(self):
+        self.plant("components/view/scene.hpp", "")
+        self.plant("components/view/draw/line.hpp", '#include "components/view/scene.hpp"\n')
+        self.plant("components/view/view.cpp", '#include "components/view/draw/line.hpp"\n')
+        self.plant("components/view/draw/fill.cpp", '#include "components/view/draw/line.hpp"\n')
+        self.assertEqual(self.rules(check_layers.check_tree(self.root)[0]), "")
+
+    def test_folders_do_not_include_each_other_in_a_circle(self):
+        self.plant("components/view/draw/line.hpp", '#include "components/view/text/glyph.hpp"\n')
+        self.plant("components/view/text/glyph.hpp", '#include "components/view/paper.hpp"\n')
+        self.plant("components/view/paper.hpp", '#include "components/view/draw/line.hpp"\n')
+        self.assertIn("include each other in a circle",
+                      self.rules(check_layers.check_tree(self.root)[0]))
+
     def test_comments_are_no_includes(self):
         self.plant("libs/core/a.cpp", '// #include "libs/robot/b.hpp"\n')
         self.assertEqual(check_layers.check_tree(self.root), ([], 1))
@@ -182,16 +196,24 @@ class CheckSizes(TreeTest):
     def found(self):
         return self.rules(check_sizes.check_tree(self.root)[0])
 
-    def test_files_of_400_lines_and_no_more(self):
-        self.plant("a.cpp", "int a;\n" * 400)
+    def test_files_of_600_lines_and_no_more(self):
+        self.plant("a.cpp", "int a;\n" * 600)
         self.assertEqual(self.found(), "")
-        self.plant("a.cpp", "int a;\n" * 401)
-        self.assertIn("a.cpp: 401 lines", self.found())
+        self.plant("a.cpp", "int a;\n" * 601)
+        self.assertIn("a.cpp: 601 lines", self.found())
 
     def test_functions_of_60_lines_and_no_more(self):
         self.plant("a.cpp", "int F(int a) const {\n" + "  a;\n" * 58 + "}\n")
         self.assertEqual(self.found(), "")
         self.plant("a.cpp", "int b;\nint F(int a) const {\n" + "  a;\n" * 59 + "}\n")
+        self.assertIn("a.cpp:2: function of 61 lines", self.found())
+
+    def test_functions_whose_signature_takes_several_lines(self):
+        head = "int F(int a,\n      int (*b)(int),\n      int c) {\n"
+        block = "  if (a &&\n      (b || c)) {\n    d();\n  }\n"
+        self.plant("a.cpp", head + block + "  a;\n" * 52 + "}\n")
+        self.assertEqual(self.found(), "")
+        self.plant("a.cpp", "int b;\n" + head + block + "  a;\n" * 53 + "}\n")
         self.assertIn("a.cpp:2: function of 61 lines", self.found())
 
     def test_initialisers_are_no_function(self):

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/calibration/joint/load_place.hpp"
+#include "components/calibration/load_place.hpp"
 #include "components/calibration/marker_sighting.hpp"
 #include "libs/fem/interpolation_weights.hpp"
 #include "libs/robot/robot_model.hpp"

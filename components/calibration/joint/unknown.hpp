@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/calibration/joint/load_place.hpp"
+#include "components/calibration/load_place.hpp"
 #include "libs/core/status.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"

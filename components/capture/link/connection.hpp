@@ -7,6 +7,7 @@
 #include <string>
 
 #include "components/capture/frame_source.hpp"
+#include "components/capture/network/control_probe.hpp"
 
 namespace palpate::capture {
 
@@ -18,13 +19,6 @@ struct ConnectionTimes {
   double access_denied_s = 10.0;    ///< somebody else's control is waited out for so long
   double first_back_off_s = 0.1;    ///< between attempts to open, doubled each time ...
   double longest_back_off_s = 2.0;  ///< ... up to this
-};
-
-/// What a device answers when asked who controls it, beside the stream.
-enum class Probe {
-  kSilent,      ///< nothing
-  kControlled,  ///< by somebody: by us, if we opened it
-  kFree,        ///< by nobody: it has been off since we opened it
 };
 
 enum class Step {

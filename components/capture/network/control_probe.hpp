@@ -5,9 +5,14 @@
 
 #include <string>
 
-#include "components/capture/link/connection.hpp"
-
 namespace palpate::capture {
+
+/// What a device answers when asked who controls it, beside the stream.
+enum class Probe {
+  kSilent,      ///< nothing
+  kControlled,  ///< by somebody: by us, if we opened it
+  kFree,        ///< by nobody: it has been off since we opened it
+};
 
 /// Asks a GigE Vision device, beside whatever controls it, for its control privilege (GVCP register
 /// 0x0a00) and waits for the answer up to `timeout_s`. Any answer that is not a sound reading, such

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/perception/color/color_config.hpp"
+#include "components/perception/color_config.hpp"
 
 namespace palpate::perception {
 

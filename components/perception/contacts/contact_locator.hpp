@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/perception/contacts/contact_config.hpp"
+#include "components/perception/contact_config.hpp"
 #include "components/perception/contacts/hidden_contact.hpp"
 #include "components/perception/contacts/point_grid.hpp"
 #include "components/perception/observation.hpp"

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/perception/contacts/contact_config.hpp"
+#include "components/perception/contact_config.hpp"
 #include "components/perception/observation.hpp"
 
 namespace palpate::perception {

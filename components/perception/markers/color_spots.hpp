@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "components/perception/markers/fiducial_config.hpp"
+#include "components/perception/fiducial_config.hpp"
 #include "components/perception/registered_frame.hpp"
 
 namespace palpate::perception {

@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "components/perception/fiducial_config.hpp"
 #include "components/perception/markers/fiducial.hpp"
-#include "components/perception/markers/fiducial_config.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
 

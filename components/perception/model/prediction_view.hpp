@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "components/perception/model/model_config.hpp"
 #include "components/perception/model/pixel_region.hpp"
 #include "components/perception/model/sample_grid.hpp"
 #include "components/perception/model/surface_fit.hpp"
+#include "components/perception/model_config.hpp"
 #include "components/perception/observation.hpp"
 #include "components/perception/registered_frame.hpp"
 #include "libs/rgbd/surface_view.hpp"
