@@ -12,7 +12,7 @@ namespace palpate {
 /// What is known of each of the robot's cables at one time.
 struct CableReading {
   struct Inputs {
-    std::optional<double> displacement_m;  ///< as the drive says it
+    std::optional<double> displacement_m;  ///< as the actuator reports it
     std::optional<double> tension_N;
   };
   std::int64_t stamp_ns = 0;

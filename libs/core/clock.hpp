@@ -12,7 +12,7 @@ namespace palpate {
 /// hand.
 using Clock = std::function<std::int64_t()>;
 
-/// Never goes back; counts from an arbitrary moment. For durations and deadlines.
+/// Never goes back; counts from an arbitrary time. For durations and deadlines.
 std::int64_t MonotonicNow_ns();
 
 /// Since the epoch (UTC), as message stamps are; may jump when the clock is set.

@@ -52,7 +52,7 @@ class MapReader {
   const ConfigNode& Require(const std::string& key);
   /// The entry, or nullptr where it is missing or null.
   const ConfigNode* Optional(const std::string& key);
-  /// Throws InputError at the first key that nobody asked for.
+  /// Throws InputError at the first unknown key.
   void Finish() const;
 
   double Number(const std::string& key, double fallback, const NumberRule& rule = kAnyNumber);

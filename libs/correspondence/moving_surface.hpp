@@ -16,7 +16,7 @@ struct SurfaceFoot {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();       ///< unit, outward
   double height_m = 0.0;                                  ///< of the point, along `normal`
   double distance_m = 0.0;                                ///< >= |height_m|, more beyond a ridge
-  /// The point lies beyond a sharp ridge: nobody knows which side of it such a point came from.
+  /// The point lies beyond a sharp ridge: its side of the ridge is ambiguous.
   bool beyond_sharp_ridge = false;
 };
 
@@ -32,7 +32,7 @@ class MovingSurface {
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }    ///< [3 x t] vertex numbers
   int NodeOfVertex(int vertex) const { return nodes_[static_cast<size_t>(vertex)]; }  ///< rising
 
-  /// Foot of `point_m` (camera frame), looked for from triangle `start` on over the edges that the
+  /// Foot of `point_m` (camera frame), searched from triangle `start` on over the edges that the
   /// projection lies beyond. Beyond a ridge, where both triangles send it to the other, it is the
   /// ridge's nearest point and the normal is the mean of the two. None where triangles have no
   /// area.

@@ -53,7 +53,7 @@ void PredictedView::TakeFacing(const Eigen::Matrix3Xd& vertices_m,
   }
 }
 
-/// Towards the middle of the surface, and as near as keeps it in the picture.
+/// Towards the middle of the surface, and as near as keeps it in the image.
 bool PredictedView::Aim(const Eigen::Matrix3Xd& vertices_m) {
   aim_.setZero();
   const Eigen::Vector3d middle_m =

@@ -29,7 +29,7 @@ SurfaceFeatures::SurfaceFeatures(const robot::RobotBody& body)
   const std::vector<fem::BodyPoint>& points = body.feature_points;
   if (points.empty()) {
     throw InputError("robot \"" + body.name +
-                     "\": without feature_points its skin cannot be measured");
+                     "\": without feature_points its surface cannot be measured");
   }
   rest_m_.resize(3, static_cast<Eigen::Index>(points.size()));
   for (const fem::BodyPoint& point : points) {

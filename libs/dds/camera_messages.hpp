@@ -19,7 +19,7 @@ namespace palpate::dds {
 /// The colour camera's optical frame; registered colour is in the depth camera's.
 std::string_view ColorFrameId(const rgbd::RgbdCamera& camera);
 
-/// An image message that points at pixels of somebody else, sent again and again: nothing is copied
+/// An image message that points at pixels of its caller, sent again and again: nothing is copied
 /// before DDS itself does.
 class ImageMessage {
  public:
@@ -50,7 +50,7 @@ Message<idl::sensor_msgs::CameraInfo> ToCameraInfo(const rgbd::CameraModel& came
 struct CameraIdentity {
   std::string device;  ///< "vendor-serial", or the replayed folder
   std::string model;
-  std::uint32_t epoch = 0;         ///< rises whenever the camera was opened anew
+  std::uint32_t epoch = 0;         ///< rises whenever the camera was reopened
   double subpixel_sigma_px = 0.0;  ///< of the disparity noise; 0: unknown
 };
 

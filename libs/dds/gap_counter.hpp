@@ -15,7 +15,7 @@ class GapCounter {
   enum class Order {
     kNext,         ///< newer than all before; skipped ones were added to lost()
     kRepeated,     ///< the same once more
-    kNewSequence,  ///< the writer started anew
+    kNewSequence,  ///< the writer restarted
   };
 
   Order Add(uint64_t counter) {

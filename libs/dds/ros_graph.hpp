@@ -26,7 +26,7 @@ class RosGraph {
   RosGraph(dds_entity_t participant, std::string node_namespace, std::string node_name,
            GidLayout layout);
 
-  /// Adds an endpoint and announces the node anew. Throws RunError where it cannot be sent.
+  /// Adds an endpoint and announces the node again. Throws RunError where it cannot be sent.
   void AddWriter(dds_entity_t writer);
   void AddReader(dds_entity_t reader);
 

@@ -54,7 +54,7 @@ inline constexpr Topic<idl::palpate_msgs::PerceptionReport> kPerceptionReportTop
 /// The last of a frame's four.
 inline constexpr Topic<idl::palpate_msgs::ContactArray> kContactsTopic{"/perception/contacts"};
 inline constexpr Topic<idl::sensor_msgs::JointState> kJointStatesTopic{"/robot/joint_states"};
-/// What the drives are told: name = cable, position = displacement in m (NaN: not driven).
+/// Commands to the actuators: name = cable, position = displacement in m (NaN: cable free).
 inline constexpr Topic<idl::sensor_msgs::JointState> kRobotCommandTopic{"/robot/command"};
 inline constexpr Topic<idl::palpate_msgs::ForceArray> kForcesTopic{"/forces"};
 inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kWrenchTopic{"/forces/<name>/wrench"};

@@ -22,7 +22,7 @@ RowOrder NaturalRowOrder(int node_count);
 RowOrder EliminationRowOrder(const Eigen::MatrixXi& cells, const StiffnessMatrix& stiffness);
 
 /// What one thread assembles. It owns the rows [first_row, end_row): the forces on their nodes and
-/// the block columns of the matrix that belong to them; nobody else writes there. It evaluates
+/// the block columns of the matrix that belong to them; no other thread writes there. It evaluates
 /// every block of cells that has a node of it. Blocks on the border are evaluated by each of their
 /// threads; each writes what it owns. So each sum has its terms in the order of the blocks, however
 /// many threads there are.
@@ -38,7 +38,7 @@ struct AssemblyShare {
   int end_row = 0;
   int first_column = 0;  ///< of the matrix; without one, 0
   int end_column = 0;
-  int spare_row = 0;  ///< takes forces that nobody reads
+  int spare_row = 0;  ///< takes forces that are never read
   std::vector<OfLaw> laws;
 };
 

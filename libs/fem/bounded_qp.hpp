@@ -36,7 +36,7 @@ struct BoundedQpResult {
 };
 
 /// Primal active-set method (Nocedal & Wright, Numerical Optimization, 2nd ed., algorithm 16.3) on
-/// scaled variables; nothing is allocated. `start` is clipped into the bounds and tells which of
+/// scaled variables; nothing is allocated. `start` is clipped into the bounds and gives which of
 /// them are active at first: the solution of a neighbouring problem is a warm start, and one
 /// iteration is enough where the active bounds are still the same.
 /// Where H is singular along a direction without a bound, the smallest step along it is taken. A

@@ -50,7 +50,7 @@ double InverseTrace(const QpMatrix& L) {
 }
 
 /// The step -H^-1 g of a block whose smallest eigenvalue is above kSingular * size for certain;
-/// false where that cannot be told. Pivots alone do not tell it (Higham, Accuracy and Stability of
+/// false where that is undecided. Pivots alone do not decide it (Higham, Accuracy and Stability of
 /// Numerical Algorithms, 2nd ed., chapter 8: a triangle with a large diagonal can be nearly
 /// singular), the inverse's trace does: with it, both ways to a step agree on what is singular.
 bool CholeskyStep(const FreeBlock& block, QpVector* step) {

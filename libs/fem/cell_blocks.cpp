@@ -51,7 +51,7 @@ CellBlocks::CellBlocks(const TetMesh& mesh, const std::vector<int>& cells, const
   for (int block = 0; block < BlockCount(); ++block) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int cell = CellAt(block, lane);
-      // Lanes left over repeat a cell; nobody reads what they give.
+      // Lanes left over repeat a cell; their results are never read.
       FillLane(mesh, cell < 0 ? cells.front() : cell, row_of_node, block, lane);
     }
   }

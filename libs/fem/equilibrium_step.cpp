@@ -135,7 +135,7 @@ double ConstraintError_m(const Linearisation& linearisation, const LoadState& lo
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
     const ConstraintCommand& command = loads.command(c);
     if (!IsBounded(loads, c)) continue;
-    if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the drive cannot pull harder
+    if (multipliers_N[c] >= command.max_multiplier_N) continue;  // the actuator cannot pull harder
     const double excess = Value(linearisation, c, x_m) - command.Bound_m(multipliers_N[c]);
     error = std::max(error, multipliers_N[c] > 0.0 ? std::abs(excess) : excess);
   }

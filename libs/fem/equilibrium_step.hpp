@@ -15,7 +15,7 @@ namespace palpate::fem {
 
 /// Newton's step of a loaded body from a state towards equilibrium: dx = K^-1 r + K^-1 H_a' dlambda
 /// (paper, eq. 6), the multipliers from delta_a = W_aa lambda + delta_a^free (eq. 4) under their
-/// bounds, W_aa = H_a K^-1 H_a' and what the bounds give way by, as a bounded QP. Nothing is
+/// bounds, W_aa = H_a K^-1 H_a' plus the compliance of the bounds, as a bounded QP. Nothing is
 /// allocated after construction.
 class EquilibriumStep {
  public:

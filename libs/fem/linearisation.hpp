@@ -37,7 +37,7 @@ class Linearisation {
   const FixedDirections& fixed() const { return fixed_; }
 
   /// Assembles r and K at the state and factorises K. Where K has no Cholesky factor, a multiple of
-  /// the identity is added if `allow_shift`, so that a descent step exists; shifted() tells.
+  /// the identity is added if `allow_shift`, so that a descent step exists: shifted().
   Status Update(const Eigen::VectorXd& x_m, const Eigen::VectorXd& multipliers_N,
                 const Eigen::VectorXd& external_force_N, bool allow_shift = false);
 

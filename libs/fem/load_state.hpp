@@ -19,8 +19,8 @@ struct ConstraintCommand {
   Mode mode = Mode::kOff;
   double value = 0.0;  ///< N for kMultiplier, m for kUpperBound
   double max_multiplier_N = std::numeric_limits<double>::infinity();
-  /// Of kUpperBound: by how much the bound gives way under its multiplier. Negative where the body
-  /// gives way less there than it is modelled to; with what the body gives way by it is positive.
+  /// Of kUpperBound: compliance of the bound under its multiplier. Negative where the body
+  /// is stiffer there than modelled; with the compliance of the body it is positive.
   double compliance_m_N = 0.0;
 
   double Bound_m(double multiplier_N) const { return value + compliance_m_N * multiplier_N; }

@@ -51,7 +51,7 @@ double JacobianDeterminant_m3(const TetMesh& mesh, int cell, const Eigen::Vector
   return jacobian.determinant();
 }
 
-/// One coordinate `own`, the three others alike.
+/// One coordinate `own`, the three others equal.
 Eigen::Vector4d Barycentric(int corner, double own) {
   Eigen::Vector4d L = Eigen::Vector4d::Constant((1.0 - own) / 3.0);
   L(corner) = own;

@@ -53,7 +53,7 @@ class NewtonProblem {
   virtual Status Try(double length, bool last) = 0;
   /// Error where the last successful Try led, relative, comparable with a tolerance.
   virtual double TrialError() const = 0;
-  /// Whether the last Try went less far than the step leads, on purpose: its error tells little.
+  /// Whether the last Try went less far than the step leads, on purpose: its error says little.
   virtual bool StepWasCut() const { return false; }
   /// The state becomes what the last successful Try evaluated.
   virtual void AcceptTrial() = 0;

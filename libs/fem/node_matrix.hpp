@@ -11,7 +11,7 @@
 
 namespace palpate::fem {
 
-/// A symmetric matrix over the nodes of a mesh that acts on x, y and z alike: A (x) I3, as a mass
+/// A symmetric matrix over the nodes of a mesh that is the same for x, y and z: A (x) I3, as a mass
 /// matrix does. Nodes are coupled where they share a cell. Its unit is its user's.
 class NodeMatrix {
  public:

@@ -186,7 +186,7 @@ Status StaticSolver::Linearise(const LoadState& loads, const StaticState& state,
     measure();
     const bool balanced = result->residual_relative <= settings_.relative_tolerance;
     if (balanced && ConstraintError(loads, state) <= settings_.constraint_tolerance_m) {
-      return Status::Ok();  // nobody takes a step from here
+      return Status::Ok();  // no step follows
     }
     if (balanced || result->residual_relative < settings_.keep_tangent_below * before) {
       return step_.ComputeChord(loads, state.x_m, state.multipliers_N);

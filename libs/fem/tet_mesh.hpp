@@ -10,7 +10,7 @@
 namespace palpate::fem {
 
 /// Corner nodes first, then the mid-edge nodes of edges 01, 12, 02, 03, 13, 23 (VTK_QUADRATIC_
-/// TETRA; Gmsh swaps the last two, which the reader mends).
+/// TETRA; Gmsh swaps the last two, which the reader corrects).
 enum class ElementType { kTet4 = 4, kTet10 = 10 };
 
 /// A volume mesh at rest. Node numbers are those of the file; mid-edge nodes that we make

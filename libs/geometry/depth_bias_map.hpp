@@ -9,7 +9,7 @@
 
 namespace palpate::geometry {
 
-/// Polynomials over a picture: all monomials up to `order` in x / (z span) and y / (z span) of a
+/// Polynomials over an image: all monomials up to `order` in x / (z span) and y / (z span) of a
 /// point (camera frame, z > 0), rising in degree, those of x first: 1, x, y, xx, xy, yy, ...
 struct DepthBiasBasis {
   int order = 2;       ///< >= 0; 0: the same everywhere
@@ -33,15 +33,15 @@ Eigen::Matrix3Xd SlopesAt(const DepthBiasBasis& basis, const Eigen::Vector3d& p_
 /// The smooth part by which a depth image errs, as stereo cameras do by 0.2 to 0.5 % of z: a point
 /// that is measured at p (camera frame) is at (1 + b) p, b = sum of coefficients times the basis.
 /// A constant looks like a shift of the camera along its axis, a slope like a turn: seen from a
-/// robot that is flat against its distance, data tell the map and the camera's pose together far
+/// robot that is flat against its distance, data determine the map and the camera pose together far
 /// better than either, so that the two are known by one covariance.
 struct DepthBiasMap {
   DepthBiasBasis basis;
   Eigen::VectorXd coefficients;  ///< [k] shares of the distance
   /// [6 + k square] of the errors (found - right) of the pose that was found together with it: a
   /// rotation vector (rad) and a shift (m) of the camera, robot frame; then of the coefficients.
-  /// Right are the two that lay the picture best on the model whose skin they were found from: what
-  /// is wrong with that skin, and turns both alike each time, does not count.
+  /// Right are the two that align the image best with the model whose surface gave them: what
+  /// is wrong with that surface, and turns both equally each time, does not count.
   Eigen::MatrixXd covariance;
 
   double At(const Eigen::Vector3d& p_camera_m) const {

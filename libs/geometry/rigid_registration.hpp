@@ -19,8 +19,8 @@ struct Registration {
   Status status;
   RigidTransform T_target_source;
   double rms_m = 0.0;  ///< root mean square distance of the pairs after the motion
-  /// The same after the best motion with a reflection. Points in a plane do not tell one from the
-  /// other.
+  /// The same after the best motion with a reflection. Points in a plane do not distinguish one
+  /// from the other.
   double mirrored_rms_m = 0.0;
   /// The reflection explains the points far better: they are assigned the wrong way round.
   bool mirrored = false;
@@ -46,7 +46,7 @@ Registration RegisterRigid(const Eigen::Ref<const Eigen::Matrix3Xd>& source_m,
                            const Eigen::Ref<const Eigen::Matrix3Xd>& target_m,
                            const std::vector<Eigen::Matrix3d>& source_covariance_m2);
 
-/// The same with one standard deviation per point, > 0, alike in all directions. [n]
+/// The same with one standard deviation per point, > 0, equal in all directions. [n]
 Registration RegisterRigid(const Eigen::Ref<const Eigen::Matrix3Xd>& source_m,
                            const Eigen::Ref<const Eigen::Matrix3Xd>& target_m,
                            const Eigen::Ref<const Eigen::VectorXd>& source_sigma_m);

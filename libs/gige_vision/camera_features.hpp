@@ -11,7 +11,7 @@
 
 namespace palpate::gige_vision {
 
-/// The pictures that this camera takes, in the order of ComponentSelector's entries and of the
+/// The images that this camera takes, in the order of ComponentSelector's entries and of the
 /// parts in a frame.
 std::vector<ComponentId> Components(const DeviceSettings& settings, const rgbd::RgbdCamera& camera);
 

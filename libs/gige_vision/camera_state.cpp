@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t kFirstFeature = 0x0001'0000;
 constexpr std::uint32_t kDescription = 0x0020'0000;
 constexpr std::uint64_t kTicksPerSecond = 1'000'000'000;
-constexpr std::int64_t kTaiFromUtc_ns = 37'000'000'000;  // since 2017: what PTP tells
+constexpr std::int64_t kTaiFromUtc_ns = 37'000'000'000;  // since 2017: what PTP says
 constexpr std::uint32_t kPtpDisabled = 3;
 constexpr std::uint32_t kPtpSlave = 9;
 enum AcquisitionMode : std::uint32_t { kContinuous = 0, kSingleFrame = 1, kMultiFrame = 2 };

@@ -59,7 +59,7 @@ class CameraState {
   const Identity& identity() const { return identity_; }
   const std::string& description() const { return description_; }
 
-  /// While a client has started acquisition and told where to: what to send.
+  /// While a client has started acquisition and named a destination: what to send.
   std::optional<StreamPlan> Plan() const;
   /// Whether the client wants a frame that comes now; counts frames (SingleFrame, MultiFrame) and
   /// leaves out some where a lower rate is asked for.

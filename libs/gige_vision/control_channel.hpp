@@ -31,7 +31,7 @@ class ControlChannel {
   Bytes Answer(ByteView packet, const Peer& from, std::int64_t now_ns);
   /// Takes control away from a client that has been silent for longer than the timeout.
   void CheckHeartbeat(std::int64_t now_ns);
-  /// When CheckHeartbeat has to look next; nothing: nobody has control.
+  /// When CheckHeartbeat is due next; nothing: no client has control.
   std::optional<std::int64_t> Deadline_ns() const;
   bool controlled() const { return controller_.has_value(); }
 

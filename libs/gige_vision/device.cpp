@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t kEverywhere = 0xffff'ffff;     // 255.255.255.255
 constexpr std::uint64_t kLocalMac = 0x0200'0000'0000;  // of no manufacturer
-constexpr int kMostPackets = 64;                       // answered before time is looked at again
+constexpr int kMostPackets = 64;                       // answered before the clock is read again
 
 /// The same serial number at the same address has the same MAC address (FNV-1a).
 std::uint64_t MacOf(const std::string& serial, std::uint32_t address) {

@@ -21,7 +21,7 @@ struct Impairment {
   std::uint64_t seed = 1;
 };
 
-/// What a faulty camera tells about itself, to test clients with. Both are called by the device,
+/// Faults in what a camera reports of itself, for tests of clients. Both are called by the device,
 /// which they must not call; absent: the truth.
 struct DescriptionFaults {
   /// From the sound GenICam XML to the one that clients get (any bytes; edits in

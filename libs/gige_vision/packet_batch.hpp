@@ -27,7 +27,7 @@ class PacketBatch {
   /// Send. Not where the batch is full.
   StreamPacket* Add();
   /// Empties the batch; how many packets the network took. One that it does not take (too large
-  /// for the link, nobody there) is lost, as on a wire.
+  /// for the link, no receiver) is lost, as on a wire.
   std::size_t Send(const UdpSocket& socket);
 
  private:

@@ -34,7 +34,7 @@ class StreamBlock {
   std::uint32_t packet_count() const { return packet_count_; }
   /// `packet_id` < packet_count. `resent` marks the packet.
   void MakePacket(std::uint32_t packet_id, bool resent, StreamPacket* packet) const;
-  /// What tells a client that a packet cannot be had any more.
+  /// The answer that a packet is no longer available.
   static void MakeRefusal(std::uint64_t block_id, std::uint32_t packet_id, bool extended_ids,
                           StreamPacket* packet);
 

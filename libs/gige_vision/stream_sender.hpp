@@ -33,7 +33,7 @@ class StreamSender {
   /// The client has opened the channel: block ids begin with 1; or closed it: what is being sent
   /// ends, what is kept is forgotten.
   void Reset();
-  /// Leave to offer a frame to the client of this moment; nothing where a frame waits already,
+  /// Leave to offer a frame to the present client; nothing where a frame waits already,
   /// which is counted as skipped.
   std::optional<Ticket> Ask();
   /// Takes a copy of the frame. Only one thread asks and offers. Never waits for the network: one
@@ -70,7 +70,7 @@ class StreamSender {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
-  Ticket generation_ = 0;              ///< changes when nobody wants what is on its way
+  Ticket generation_ = 0;              ///< changes when no client wants what is being sent
   std::shared_ptr<StreamBlock> next_;  ///< waits for the one that is being sent
   std::deque<Kept> kept_;              ///< the oldest first
   StreamPlan last_plan_;

@@ -25,7 +25,7 @@ Color Mix(const Color& a, const Color& b, double t);
 /// vision.
 Color SequentialColor(double t);
 
-/// What every picture is drawn on and lettered with.
+/// Background and text colours of every figure.
 namespace palette {
 inline constexpr Color kPaper = FromHex(0xFFFFFF);
 inline constexpr Color kInk = FromHex(0x1F2933);

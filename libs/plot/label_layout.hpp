@@ -11,7 +11,7 @@
 
 namespace palpate::plot {
 
-/// A label that wants to stand close to a point of the picture.
+/// A label that wants to stand close to a point of the figure.
 struct LabelRequest {
   Eigen::Vector2d anchor_px;
   double width_px = 0.0;

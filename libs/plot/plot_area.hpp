@@ -8,7 +8,7 @@
 
 namespace palpate::plot {
 
-/// Where the axes of a panel lie in the picture.
+/// Where the axes of a panel lie in the figure.
 class PlotArea {
  public:
   PlotArea(const SvgPoint& corner, double width_px, double height_px, const AxisRange& x,

@@ -5,7 +5,7 @@
 
 namespace palpate::plot {
 
-/// A rectangle of the picture, x to the right, y down, px.
+/// A rectangle of the figure, x to the right, y down, px.
 struct Rect {
   double x_px = 0.0;
   double y_px = 0.0;

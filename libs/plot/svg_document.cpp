@@ -131,8 +131,8 @@ void SvgDocument::Text(const SvgPoint& at, std::string_view text, const SvgText&
   body_.append(">").append(EscapeXml(text)).append("</text>\n");
 }
 
-void SvgDocument::Picture(const SvgPoint& corner, double width_px, double height_px,
-                          std::string_view png_bytes) {
+void SvgDocument::Image(const SvgPoint& corner, double width_px, double height_px,
+                        std::string_view png_bytes) {
   body_ += std::string("<image") + Attribute("x", corner.x_px) + Attribute("y", corner.y_px) +
            Attribute("width", width_px) + Attribute("height", height_px) +
            Attribute("preserveAspectRatio", "none") +

@@ -12,7 +12,7 @@
 
 namespace palpate::plot {
 
-/// A point of the picture, pixels from the upper left corner.
+/// A point of the figure, pixels from the upper left corner.
 struct SvgPoint {
   double x_px = 0.0;
   double y_px = 0.0;
@@ -34,10 +34,10 @@ struct SvgText {
   double turned_deg = 0.0;  ///< anticlockwise
 };
 
-/// Writes a picture in SVG 1.1: well-formed XML, whatever the texts hold.
+/// Writes a figure in SVG 1.1: well-formed XML, whatever the texts hold.
 class SvgDocument {
  public:
-  /// `name`: begins the ids inside, which must differ between the pictures of one page.
+  /// `name`: begins the ids inside, which must differ between the figures of one page.
   SvgDocument(int width_px, int height_px, const std::string& name = "");
 
   void Rectangle(const SvgPoint& corner, double width_px, double height_px, const Color& fill);
@@ -54,8 +54,7 @@ class SvgDocument {
   void Text(const SvgPoint& at, std::string_view text, const SvgText& style);
 
   /// A PNG file's bytes, stretched over the rectangle.
-  void Picture(const SvgPoint& corner, double width_px, double height_px,
-               std::string_view png_bytes);
+  void Image(const SvgPoint& corner, double width_px, double height_px, std::string_view png_bytes);
 
   /// What comes until EndGroup() is seen inside the rectangle only. `name`: its class.
   void BeginGroup(const std::string& name, const SvgPoint& corner, double width_px,

@@ -9,7 +9,7 @@
 namespace palpate::plot {
 
 /// About how wide a text (UTF-8) is, px: what DejaVu Sans takes, the widest of the fonts that a
-/// picture asks for.
+/// figure asks for.
 double TextWidth_px(std::string_view text, double size_px, bool bold = false);
 
 /// `text`, or as much of its beginning as fits, with an ellipsis.

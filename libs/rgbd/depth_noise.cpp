@@ -20,8 +20,8 @@ double DepthSigma_m(const RgbdCamera& camera, const DepthNoise& noise, double z_
 double IndependentPixels(const DepthNoise& noise, double count) {
   // Area under a Gaussian correlation exp(-r^2 / (2 c^2)).
   constexpr double kTwoPi = 6.283185307179586;
-  const double alike = std::max(1.0, kTwoPi * noise.correlation_px * noise.correlation_px);
-  return std::max(1.0, count / alike);
+  const double correlated = std::max(1.0, kTwoPi * noise.correlation_px * noise.correlation_px);
+  return std::max(1.0, count / correlated);
 }
 
 }  // namespace palpate::rgbd

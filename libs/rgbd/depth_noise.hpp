@@ -11,7 +11,7 @@ namespace palpate::rgbd {
 struct DepthNoise {
   double subpixel_px = 0.08;    ///< sigma of the disparity; of stereo cameras (baseline_m > 0)
   double range_sigma_m = 1e-3;  ///< sigma of z of all others
-  double correlation_px = 1.5;  ///< over which neighbours err alike, >= 0
+  double correlation_px = 1.5;  ///< correlation length of the error, >= 0
 };
 
 /// Sigma of z at `z_m`: z^2 s / (f b) of a stereo camera, and the step of the depth value

@@ -9,7 +9,7 @@
 
 namespace palpate::rgbd {
 
-/// A picture, rows from top to bottom, pixels from left to right, channels interleaved, no padding.
+/// An image, rows from top to bottom, pixels from left to right, channels interleaved, no padding.
 /// Pixel (0, 0) has its centre at u = v = 0.
 template <typename T, int kChannels>
 struct Image {

@@ -19,10 +19,10 @@ namespace palpate::rgbd {
 
 namespace {
 
-/// More than this is no camera's picture, but a broken or hostile header.
-constexpr std::uint64_t kLargestPicture_px = 64'000'000;
+/// More than this is no camera image, but a broken or hostile header.
+constexpr std::uint64_t kLargestImage_px = 64'000'000;
 
-/// A picture as libpng has it: rows of bytes.
+/// An image as libpng has it: rows of bytes.
 struct Rows {
   int width_px = 0;
   int height_px = 0;
@@ -30,11 +30,11 @@ struct Rows {
   int color_type = 0;  ///< PNG_COLOR_TYPE_...
   std::vector<png_bytep> rows;
 
-  template <typename Picture>
-  void PointInto(Picture& picture) {
-    rows.resize(static_cast<std::size_t>(picture.height_px));
-    for (int v = 0; v < picture.height_px; ++v) {
-      const void* row = picture.Pixel(0, v);
+  template <typename Image>
+  void PointInto(Image& image) {
+    rows.resize(static_cast<std::size_t>(image.height_px));
+    for (int v = 0; v < image.height_px; ++v) {
+      const void* row = image.Pixel(0, v);
       rows[static_cast<std::size_t>(v)] = static_cast<png_bytep>(const_cast<void*>(row));
     }
   }
@@ -64,37 +64,37 @@ void TakeBytes(png_structp png, png_bytep data, png_size_t size) {
 // In each of the next functions nothing with a destructor lives, so that libpng's longjmp is well
 // defined.
 
-bool EncodeRows(png_structp png, png_infop info, Rows* picture, int level) {
+bool EncodeRows(png_structp png, png_infop info, Rows* image_rows, int level) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_compression_level(png, level);
   // Depth and colour are smooth along a row; trying all filters costs half as much again.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(picture->width_px),
-               static_cast<png_uint_32>(picture->height_px), picture->bit_depth,
-               picture->color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image_rows->width_px),
+               static_cast<png_uint_32>(image_rows->height_px), image_rows->bit_depth,
+               image_rows->color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  if (picture->bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
-  png_write_image(png, picture->rows.data());
+  if (image_rows->bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
+  png_write_image(png, image_rows->rows.data());
   png_write_end(png, nullptr);
   return true;
 }
 
-bool DecodeHeader(png_structp png, png_infop info, Rows* picture, bool* transparent) {
+bool DecodeHeader(png_structp png, png_infop info, Rows* image_rows, bool* transparent) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_info(png, info);
-  picture->width_px = static_cast<int>(png_get_image_width(png, info));
-  picture->height_px = static_cast<int>(png_get_image_height(png, info));
-  picture->bit_depth = png_get_bit_depth(png, info);
-  picture->color_type = png_get_color_type(png, info);
-  *transparent = (picture->color_type & PNG_COLOR_MASK_ALPHA) != 0 ||
+  image_rows->width_px = static_cast<int>(png_get_image_width(png, info));
+  image_rows->height_px = static_cast<int>(png_get_image_height(png, info));
+  image_rows->bit_depth = png_get_bit_depth(png, info);
+  image_rows->color_type = png_get_color_type(png, info);
+  *transparent = (image_rows->color_type & PNG_COLOR_MASK_ALPHA) != 0 ||
                  png_get_valid(png, info, PNG_INFO_tRNS) != 0;
   return true;
 }
 
-bool DecodeRows(png_structp png, png_infop info, Rows* picture) {
+bool DecodeRows(png_structp png, png_infop info, Rows* image_rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  if (picture->bit_depth == 16) {
+  if (image_rows->bit_depth == 16) {
     if (std::endian::native == std::endian::little) png_set_swap(png);
   } else {
     png_set_expand(png);
@@ -102,14 +102,14 @@ bool DecodeRows(png_structp png, png_infop info, Rows* picture) {
   }
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
-  png_read_image(png, picture->rows.data());
+  png_read_image(png, image_rows->rows.data());
   png_read_end(png, nullptr);
   return true;
 }
 
-std::string Encode(Rows* picture, int level) {
-  PALPATE_CHECK(picture->width_px > 0 && picture->height_px > 0, picture->width_px,
-                picture->height_px);
+std::string Encode(Rows* image_rows, int level) {
+  PALPATE_CHECK(image_rows->width_px > 0 && image_rows->height_px > 0, image_rows->width_px,
+                image_rows->height_px);
   PALPATE_CHECK(level >= 0 && level <= 9, level);
   std::string error;
   std::string bytes;
@@ -121,22 +121,22 @@ std::string Encode(Rows* picture, int level) {
     throw RunError("libpng could not be started (out of memory)");
   }
   png_set_write_fn(png, &bytes, AppendBytes, FlushNothing);
-  const bool encoded = EncodeRows(png, info, picture, level);
+  const bool encoded = EncodeRows(png, info, image_rows, level);
   png_destroy_write_struct(&png, &info);
-  if (!encoded) throw RunError("cannot encode the picture as PNG: " + error);
+  if (!encoded) throw RunError("cannot encode the image as PNG: " + error);
   return bytes;
 }
 
-template <typename Picture>
-std::string Encode(const Picture& image, int level) {
-  constexpr bool kDepth = Picture::channels == 1;
-  Rows picture{.width_px = image.width_px,
-               .height_px = image.height_px,
-               .bit_depth = kDepth ? 16 : 8,
-               .color_type = kDepth ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
-               .rows = {}};
-  picture.PointInto(image);
-  return Encode(&picture, level);
+template <typename Image>
+std::string Encode(const Image& image, int level) {
+  constexpr bool kDepth = Image::channels == 1;
+  Rows image_rows{.width_px = image.width_px,
+                  .height_px = image.height_px,
+                  .bit_depth = kDepth ? 16 : 8,
+                  .color_type = kDepth ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
+                  .rows = {}};
+  image_rows.PointInto(image);
+  return Encode(&image_rows, level);
 }
 
 /// Reads one file; the destructor gives libpng's memory back.
@@ -145,7 +145,7 @@ class Decoder {
   explicit Decoder(const std::filesystem::path& file)
       : file_{file.string()}, bytes_(ReadFile(file)), rest_(bytes_) {
     const auto* head = reinterpret_cast<png_const_bytep>(bytes_.data());
-    if (bytes_.size() < 8 || png_sig_cmp(head, 0, 8) != 0) Refuse("is no PNG picture");
+    if (bytes_.size() < 8 || png_sig_cmp(head, 0, 8) != 0) Refuse("is no PNG image");
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error_, CollectError, IgnoreWarning);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -162,26 +162,26 @@ class Decoder {
 
   const Rows& Header() {
     bool transparent = false;
-    if (!DecodeHeader(png_, info_, &picture_, &transparent)) RefuseDamaged();
-    const auto width = static_cast<std::uint64_t>(picture_.width_px);
-    if (width * static_cast<std::uint64_t>(picture_.height_px) > kLargestPicture_px) {
-      Refuse("has " + std::to_string(picture_.width_px) + " x " +
-             std::to_string(picture_.height_px) + " pixels; at most 64 million are read");
+    if (!DecodeHeader(png_, info_, &rows_, &transparent)) RefuseDamaged();
+    const auto width = static_cast<std::uint64_t>(rows_.width_px);
+    if (width * static_cast<std::uint64_t>(rows_.height_px) > kLargestImage_px) {
+      Refuse("has " + std::to_string(rows_.width_px) + " x " + std::to_string(rows_.height_px) +
+             " pixels; at most 64 million are read");
     }
-    if (transparent) Refuse("has an alpha channel or transparent colour; a picture has none");
-    return picture_;
+    if (transparent) Refuse("has an alpha channel or transparent colour; an image must have none");
+    return rows_;
   }
 
-  template <typename Picture>
-  Picture Pixels() {
-    Picture image(picture_.width_px, picture_.height_px);
-    picture_.PointInto(image);
-    if (!DecodeRows(png_, info_, &picture_)) RefuseDamaged();
+  template <typename Image>
+  Image Pixels() {
+    Image image(rows_.width_px, rows_.height_px);
+    rows_.PointInto(image);
+    if (!DecodeRows(png_, info_, &rows_)) RefuseDamaged();
     return image;
   }
 
  private:
-  [[noreturn]] void RefuseDamaged() const { Refuse("is a damaged PNG picture: " + error_); }
+  [[noreturn]] void RefuseDamaged() const { Refuse("is a damaged PNG image: " + error_); }
 
   SourceLocation file_;
   std::string bytes_;
@@ -189,7 +189,7 @@ class Decoder {
   std::string error_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  Rows picture_;
+  Rows rows_;
 };
 
 }  // namespace

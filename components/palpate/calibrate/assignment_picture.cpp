@@ -180,7 +180,7 @@ class PanelDrawing {
       std::copy_n(row, 3 * part.width_px, part.Pixel(0, v - first.y()));
     }
     const view::Rect at = projection_.PictureFrame();
-    svg_->Picture({at.x_px, at.y_px}, at.width_px, at.height_px, rgbd::EncodeColorPng(part, 6));
+    svg_->Image({at.x_px, at.y_px}, at.width_px, at.height_px, rgbd::EncodeColorPng(part, 6));
   }
 
   void DrawMissing(Eigen::Index marker, const std::string& name) {

@@ -12,7 +12,7 @@ enum class CellRole {
   kTet4,
   kTet10,
   kLowerDimension,  ///< points, lines, surfaces: passed over
-  kRefused,         ///< other volumes, and types nobody knows
+  kRefused,         ///< other volumes, and unknown types
 };
 
 struct CellKind {

@@ -13,7 +13,7 @@
 
 namespace palpate::fem::mesh_io {
 
-/// What the sections of a .msh file hand on to each other, and what both versions do alike.
+/// What the sections of a .msh file pass on to each other, and what both versions share.
 /// Format: Gmsh reference manual, "MSH file format" (4.1) and "MSH file format version 2".
 class GmshReader {
  public:

@@ -42,7 +42,7 @@ cholmod_sparse* ToCholmod(const internal::NodeGraph& graph, cholmod_common* comm
 
 /// One at a time: METIS draws from the process's one stream of random numbers, and puts handlers of
 /// its own on SIGTERM and SIGABRT while it works. Two at once change each other's order, and leave
-/// a handler behind that jumps to where nobody is any more.
+/// a handler behind that jumps into a frame that has returned.
 std::vector<int> Order(cholmod_sparse* graph, int method, cholmod_common* common) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);

@@ -40,7 +40,7 @@ class FactorStore {
   const FrontTree& tree_;
   std::vector<size_t> offset_;  ///< [fronts]
   AlignedBuffer values_;
-  AlignedBufferOf<float> rounded_;  ///< empty where nobody wants them
+  AlignedBufferOf<float> rounded_;  ///< empty where they were not requested
   std::vector<double> inverse_;
 };
 

@@ -27,7 +27,7 @@ class EliminationGraph {
     UpdateScores();
   }
 
-  /// Neighbours that were looked at so far.
+  /// Neighbours that were visited so far.
   long work() const { return work_; }
 
   int Best() {
@@ -47,7 +47,7 @@ class EliminationGraph {
  private:
   const std::vector<int>& Neighbours(int node) const { return neighbours_[At(node)]; }
 
-  /// From here on, IsMarked(n) tells whether n is one of `nodes`.
+  /// From here on, IsMarked(n) is whether n is one of `nodes`.
   void Mark(const std::vector<int>& nodes) {
     ++stamp_;
     for (const int node : nodes) mark_[At(node)] = stamp_;

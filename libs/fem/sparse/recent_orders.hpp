@@ -10,7 +10,7 @@
 
 namespace palpate::fem {
 
-/// The elimination orders that were asked for last. Who looks for a robot's parameters makes a
+/// The most recent elimination orders. A fit of a robot's parameters makes a
 /// solver of the same mesh for each set of them, and to find an order takes as long as some ten
 /// factorisations by it. For any number of threads: one that asks for an order that another is
 /// looking for waits for it.
@@ -19,7 +19,7 @@ class RecentOrders {
   /// As FindEliminationOrder has it.
   EliminationOrder Find(int node_count, const NodePairs& pairs);
 
-  /// How many had to be looked for.
+  /// Number of orders that were computed.
   int found_count() const { return found_count_; }
 
   /// So many are kept: as many as a process has kinds of solvers, and a few of before.

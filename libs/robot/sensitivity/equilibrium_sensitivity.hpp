@@ -15,8 +15,8 @@ namespace palpate::robot {
 /// the derivative of f_ext - F_int with respect to p at fixed x. Taut cables under displacement
 /// control keep their length, so that their tension changes; slack ones and those under force
 /// control take no part. SensitivitySolver with NodalForce parameters, dense.
-/// Not ok where K has no factor at the state, or two taut cables act alike (kUnobservable); `dx_dp`
-/// is then left empty.
+/// Not ok where K has no factor at the state, or two taut cables are collinear (kUnobservable);
+/// `dx_dp` is then left empty.
 Status EquilibriumSensitivity(RobotModel& model, const std::vector<CableCommand>& cables,
                               const fem::StaticState& state,
                               const Eigen::MatrixXd& force_derivative_N, Eigen::MatrixXd* dx_dp);

@@ -40,7 +40,7 @@ class SensitivitySolver {
   /// Everything below is about this equilibrium and these parameters. `cables` are the commands
   /// that `state` was solved with. Not ok where the state is inverted or not finite, K has no
   /// Cholesky factor (also where only the cables' held lengths make the balance stable), or two
-  /// taut cables act alike (kUnobservable); then there are no results: ParameterCount() is 0.
+  /// taut cables are collinear (kUnobservable); then there are no results: ParameterCount() is 0.
   Status Compute(const std::vector<CableCommand>& cables, const fem::StaticState& state,
                  std::span<const ParameterPtr> parameters, Factor factor = Factor::kRenew);
 

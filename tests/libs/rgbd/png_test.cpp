@@ -215,7 +215,7 @@ TEST(Png, RefusesAnAbsurdSizeBeforeItTakesMemory) {
 TEST(Png, SaysThatAFileIsNoPictureOrIsNotThere) {
   const TestFolder folder;
   const fs::path text = folder.Write("text.png", "this is no picture at all");
-  EXPECT_EQ(MessageOf([&] { ReadColorPng(text); }), text.string() + ": is no PNG picture");
+  EXPECT_EQ(MessageOf([&] { ReadColorPng(text); }), text.string() + ": is no PNG image");
   EXPECT_THAT(MessageOf([&] { ReadDepthPng(folder.path() / "none.png"); }),
               HasSubstr("none.png: cannot be read: No such file"));
 }
