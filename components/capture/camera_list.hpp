@@ -22,7 +22,7 @@ struct CameraDescription {
 };
 
 /// All cameras that answer on the interfaces of this host (1 s), and those at `addresses`, which
-/// need not be on a network of its own. Each is opened for a moment, which leaves one
+/// need not be on a network of its own. Each is opened briefly, which leaves one
 /// that another program controls alone.
 std::vector<CameraDescription> ListCameras(const std::vector<std::string>& addresses = {});
 

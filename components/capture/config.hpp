@@ -12,7 +12,7 @@
 
 namespace palpate::capture {
 
-/// What is known better than the camera tells, for one of its lenses.
+/// Settings that override what the camera reports of one lens.
 struct LensConfig {
   std::vector<double> intrinsics_px;
   std::vector<double> distortion;
@@ -50,24 +50,24 @@ struct GenicamConfig {
     v("color_camera_id", color_camera_id,
       "A second camera for the colour, paired by time; empty: colour comes with the depth");
     v("interface_address", interface_address,
-      "IPv4 of this host's interface to the camera; empty: as the kernel finds the way");
+      "IPv4 of this host's interface to the camera; empty: chosen by the routing table");
     v("depth_format", depth_format, "GenICam pixel format; empty: the camera's, if it is decoded");
     v("color_format", color_format, "GenICam pixel format; empty: the camera's, if it is decoded");
     v("exposure_s", exposure_s, {.min = 0.0, .max = 10.0, .min_open = true},
-      "Exposure time; unset: as the camera is set");
-    v("gain_dB", gain_dB, {.min = 0.0, .max = 100.0}, "Gain; unset: as the camera is set");
+      "Exposure time; unset: unchanged");
+    v("gain_dB", gain_dB, {.min = 0.0, .max = 100.0}, "Gain; unset: unchanged");
     v("frame_rate_Hz", frame_rate_Hz, {.min = 0.0, .max = 1000.0, .min_open = true},
-      "Frames each second; unset: as the camera is set");
+      "Frame rate; unset: unchanged");
     v("trigger_source", trigger_source, "Trigger of each frame, as Line0; empty: free-running");
     v("socket_buffer_bytes", socket_buffer_bytes, {.min = 65536.0, .max = 1073741824.0},
-      "Receive buffer asked of the kernel, which net.core.rmem_max limits");
+      "Requested receive buffer; net.core.rmem_max limits it");
     v("packet_size_bytes", packet_size_bytes, {.min = 0.0, .max = 65532.0},
-      "Stream packets with their headers; 0: as large as interface and camera allow");
+      "Size of stream packets with headers; 0: the largest that interface and camera allow");
     v("packet_delay_ns", packet_delay_ns, {.min = 0.0, .max = 1e9},
-      "Pause between packets (GevSCPD, in the camera's ticks); 0: as the camera is set");
-    v("packet_resend", packet_resend, "Ask for lost packets again");
+      "Pause between packets (GevSCPD, in the camera's ticks); 0: unchanged");
+    v("packet_resend", packet_resend, "Request lost packets again");
     v("packet_socket", packet_socket,
-      "Take packets from the network card's ring: less load, needs CAP_NET_RAW");
+      "Read packets from the network card's ring buffer: less load, needs CAP_NET_RAW");
   }
 };
 
@@ -85,9 +85,10 @@ struct ReplayConfig {
       "Recording with images, experiment of such, TUM RGB-D folder, or PCD/PLY files with "
       "camera.yaml");
     v("clock", clock, {"real_time", "as_fast_as_possible", "step"},
-      "When the next frame comes: as recorded; when there is room; when the last one was taken");
-    v("rate", rate, {.min = 0.001, .max = 1000.0}, "So many times real time");
-    v("loop", loop, "Begin again at the end, with stamps that go on");
+      "Pace of frames: real_time as recorded; as_fast_as_possible as the queue has room; step "
+      "after the last was read");
+    v("rate", rate, {.min = 0.001, .max = 1000.0}, "Playback speed, as a multiple of real time");
+    v("loop", loop, "Restart at the end, with stamps that continue");
     v("stamp_offset_s", stamp_offset_s, {.min = -1e10, .max = 1e10},
       "Added to the stamps of the files");
   }
@@ -120,20 +121,21 @@ struct Config {
     v("depth_unit_m", depth_unit_m, {.min = 1e-6, .max = 0.01},
       "Metres in one step of the published depth; unset: the camera's step, else 0.1 mm");
     v("distance_unit_m", distance_unit_m, {.min = 1e-6, .max = 1.0},
-      "Metres in one unit of the camera's distances; unset: as it tells, else 1 mm");
+      "Metres in one unit of the camera's distances; unset: as the camera reports, else 1 mm");
     v("coordinate_scale", coordinate_scale, {.min = 1e-9, .max = 1e6},
-      "Distance units in one step of the camera's z (px of a disparity); unset: as it tells");
+      "Distance units in one step of the camera's z (px of a disparity); unset: as the camera "
+      "reports");
     v("baseline_m", baseline_m, {.min = 0.001, .max = 10.0},
-      "Of a stereo camera; unset: as it tells");
+      "Baseline of a stereo camera; unset: as the camera reports");
     v("color_registered", color_registered, {"as_told", "yes", "no"},
-      "Colour pixels are those of the depth image");
+      "Colour image registered to the depth image; as_told: as the camera reports");
     v("color_pose", color_pose, {.min = -10.0, .max = 10.0},
       "Colour camera in the depth camera's frame: x, y, z in m, unit quaternion x, y, z, w; empty: "
-      "as the camera tells, else none");
+      "as the camera reports, else none");
     v("subpixel_sigma_px", subpixel_sigma_px, {.min = 0.0, .max = 10.0},
       "Disparity noise of a stereo camera, passed on in /camera/setup; 0: unknown");
     v("queue_frames", queue_frames, {.min = 1.0, .max = 64.0},
-      "Frames that wait for the publisher; then the oldest is dropped");
+      "Frames queued for the publisher; a full queue drops the oldest");
   }
 };
 

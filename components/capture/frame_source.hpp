@@ -17,10 +17,10 @@ namespace palpate::capture {
 /// Where the host stamp of a frame comes from.
 enum class ClockSource { kHostReceive, kDeviceMapped, kPtp, kReplay };
 
-/// What is known about one frame besides its pixels; NaN and nullopt: not told by the camera.
+/// What is known about one frame besides its pixels; NaN and nullopt: not reported by the camera.
 struct FrameFacts {
   std::uint64_t frame_id = 0;  ///< the camera's
-  std::uint32_t epoch = 0;     ///< rises whenever the camera was opened anew
+  std::uint32_t epoch = 0;     ///< rises whenever the camera was reopened
   std::int64_t stamp_device_ns = 0;
   std::int64_t stamp_host_ns = 0;     ///< device stamp on the host's clock (UTC)
   std::int64_t stamp_receive_ns = 0;  ///< when the last packet was there
@@ -34,7 +34,7 @@ struct FrameFacts {
   std::uint64_t packets_resent = 0;
 };
 
-/// One frame set in a pooled buffer: goes back to the pool when the last holder lets go.
+/// One frame set in a pooled buffer: goes back to the pool when the last holder releases it.
 struct SourceFrame {
   rgbd::RgbdFrame images;
   FrameFacts facts;
@@ -44,7 +44,7 @@ using FramePtr = std::shared_ptr<const SourceFrame>;
 
 enum class SourceState { kDiscover, kOpen, kConfigure, kStream, kStale, kLost, kEnded };
 
-/// What the source tells about itself; all counters since the start.
+/// State of the source; all counters since the start.
 struct SourceHealth {
   SourceState state = SourceState::kDiscover;
   std::string reason;        ///< for a person; empty while all is well

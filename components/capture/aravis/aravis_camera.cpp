@@ -57,7 +57,7 @@ struct AravisCamera::Impl {
 AravisCamera::AravisCamera(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 AravisCamera::~AravisCamera() {
-  // A device that answers is told to stop; of one that is gone nobody waits for the answer.
+  // A device that answers is commanded to stop; an absent one is not waited for.
   if (impl_->stream && !impl_->control_lost) impl_->features.Execute("AcquisitionStop").ok();
 }
 
@@ -222,8 +222,8 @@ std::span<const ImagePart> FilledBuffer::ReadParts(const PixelFormatCodes& codes
   std::size_t whole_size = 0;
   const auto* whole = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &whole_size));
   std::size_t count = 0;
-  const guint told = arv_buffer_get_n_parts(buffer);
-  for (guint i = 0; i < told && count < kMostParts; ++i) {
+  const guint reported = arv_buffer_get_n_parts(buffer);
+  for (guint i = 0; i < reported && count < kMostParts; ++i) {
     if (!IsImage(arv_buffer_get_part_data_type(buffer, i))) continue;
     ImagePart part;
     std::size_t size = 0;

@@ -21,7 +21,7 @@ namespace palpate::capture {
 /// Which camera is meant.
 struct CameraTarget {
   std::string id;  ///< IPv4 address, "vendor-serial", serial number, MAC; empty: the only one
-  std::string interface_address;  ///< of this host, where the way to the camera is not the kernel's
+  std::string interface_address;  ///< of this host, where the routing table is not to decide
   bool fake = false;              ///< Aravis' in-process fake (Fake_1)
   std::string fake_description;   ///< its GenICam XML, a file; empty: Aravis' own
 };
@@ -68,7 +68,7 @@ class FilledBuffer {
 /// Pop(), control_lost() and the counters may be used while another thread uses features().
 class AravisCamera {
  public:
-  /// Opens the device, or tells why not. `known_address`: where it was last, else it is searched
+  /// Opens the device, or says why not. `known_address`: where it was last, else it is searched
   /// (1 s).
   static std::unique_ptr<AravisCamera> Open(const CameraTarget& target,
                                             const std::string& known_address, std::string* reason);
@@ -82,7 +82,7 @@ class AravisCamera {
 
   Features& features();
   std::string Description() const;  ///< the GenICam XML as the device sends it
-  /// True where nobody else controls the device, or it needs no control.
+  /// True where no other client controls the device, or it needs no control.
   bool TakeControl();
   /// Begins to stream; frames come with Pop(). `packet_limit_bytes`: at most, 0: no limit.
   Status Start(const StreamSettings& settings, int packet_limit_bytes);
@@ -106,7 +106,7 @@ class AravisCamera {
   std::string id_;
   std::string model_;
   std::string address_;
-  std::string local_address_;  ///< of this host, on the way to it
+  std::string local_address_;  ///< of this host, towards it
   int packet_size_bytes_ = 0;
   bool guarded_ = false;
 };

@@ -109,7 +109,7 @@ FoundDevice FindDevice(const CameraTarget& target, const std::string& known_addr
 }
 
 GObjectPtr<ArvDevice> OpenDevice(const FoundDevice& found, std::string* reason) {
-  // Aravis reads descriptions with objects that all devices share and nobody guards.
+  // Aravis reads descriptions with objects that all devices share without a lock.
   static std::mutex opening;
   const std::lock_guard lock(opening);
   GErrorHolder error;

@@ -18,7 +18,7 @@ struct FoundDevice {
   std::string reason;         ///< why none was found; empty: one was
   std::string id;             ///< Aravis': "vendor-serial"
   std::string address;        ///< of a GigE Vision device
-  std::string local_address;  ///< of this host, on the way to it
+  std::string local_address;  ///< of this host, towards it
 };
 
 /// All that answer on this host's interfaces (1 s).

@@ -11,7 +11,7 @@
 
 namespace palpate::capture {
 
-/// One reading of the device's clock: latched at some moment between the two host times.
+/// One reading of the device's clock: latched at some time between the two host times.
 struct ClockSample {
   std::int64_t device_ns = 0;
   std::int64_t host_before_ns = 0;  ///< UTC
@@ -25,7 +25,7 @@ inline constexpr std::int64_t kTaiMinusUtc_ns = 37'000'000'000;
 /// trip was short. Reached on loopback: +-6 us. Not thread-safe.
 class ClockFit {
  public:
-  /// A sample that is off the line by more than 20 ms says that a clock was set: begins anew.
+  /// A sample that is off the line by more than 20 ms means that a clock was set: restarts.
   void Add(const ClockSample& sample);
   /// PTP is on at the device: its time is TAI (or UTC), taken as it is where the samples agree to
   /// 20 ms.

@@ -33,7 +33,7 @@ class DeviceClock {
 
   std::optional<std::int64_t> ToHost_ns(std::int64_t device_ns) const;
   ClockSource source() const;
-  double temperature_degC() const;  ///< NaN: not told
+  double temperature_degC() const;  ///< NaN: not reported
 
  private:
   void Run();

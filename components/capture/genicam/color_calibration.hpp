@@ -13,7 +13,7 @@
 
 namespace palpate::capture {
 
-/// What some cameras tell beyond GenICam's standard, which knows one camera model only: the
+/// What some cameras report beyond GenICam's standard, which knows one camera model only: the
 /// features Palpate... of our own virtual camera. Each part is unset where it is missing or absurd.
 struct ColorCalibration {
   std::optional<rgbd::CameraModel> model;  ///< without its size
@@ -23,7 +23,7 @@ struct ColorCalibration {
 
 ColorCalibration ReadColorCalibration(Features& features);
 
-/// k1, k2, p1, p2, k3 of the depth camera; zeros where it tells none.
+/// k1, k2, p1, p2, k3 of the depth camera; zeros where it reports none.
 std::array<double, 5> ReadDepthDistortion(Features& features);
 
 }  // namespace palpate::capture

@@ -211,7 +211,7 @@ class Configurer {
     const int width = SizeOf(features_, "Width");
     const int height = SizeOf(features_, "Height");
     if (width == 0 || height == 0) {
-      Refuse("the camera tells no sound image size (Width, Height)");
+      Refuse("the camera reports no valid image size (Width, Height)");
       return;
     }
     Scan3dReading reading = ReadScan3d(features_, width, height, wishes_.scan3d);

@@ -21,7 +21,7 @@ enum class DeviceRole {
   kColorOnly,
 };
 
-/// What a device is told at the start. Unset: left as it is.
+/// Settings written to a device at the start. Unset: left as it is.
 struct DeviceWishes {
   DeviceRole role = DeviceRole::kDepthAndColor;
   std::string depth_format;  ///< empty: the device's, or the first that is decoded
@@ -43,15 +43,15 @@ struct ComponentFacts {
 
 /// What is known of a device after configuring.
 struct DeviceSetup {
-  Status status;  ///< not ok: what is missing, and the setting that mends it
+  Status status;  ///< not ok: what is missing, and the setting that fixes it
   Scan3dDescription scan3d;
   PixelFormat depth_format = PixelFormat::kUnknown;  ///< expected; kUnknown: no depth
   PixelFormatCodes codes;
   std::vector<ComponentFacts> components;  ///< those that there are; empty: one unnamed image
-  rgbd::CameraModel color;                 ///< width 0: no colour; focal length 0: not told
-  ColorCalibration color_calibration;      ///< what of it the camera tells by itself
+  rgbd::CameraModel color;                 ///< width 0: no colour; focal length 0: not reported
+  ColorCalibration color_calibration;      ///< what the camera itself reports of it
   double period_s = 0.0;                   ///< 0: unknown
-  double exposure_s;                       ///< NaN: not told
+  double exposure_s;                       ///< NaN: not reported
   double gain_dB;
   std::vector<std::string> notes;
 };

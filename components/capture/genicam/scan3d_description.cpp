@@ -152,7 +152,7 @@ class Reader {
 
   void CheckFocalLength(const std::optional<double>& focal_px, const char* setting) {
     if (!focal_px) {
-      Refuse(std::string("the camera does not tell its focal length: give ") + setting);
+      Refuse(std::string("the camera does not report its focal length: give ") + setting);
     } else if (!Within(*focal_px, kLeastFocalLength_px, kGreatestFocalLength_px)) {
       Refuse("the focal length is " + FormatNumber(*focal_px) + " px, not in [50, 20000]: give " +
              setting);
@@ -163,13 +163,13 @@ class Reader {
                         const char* other_name, double first_px, int size_px, const char* setting) {
     if (override_px) return *override_px;
     const double middle_px = 0.5 * (size_px - 1);
-    const auto told = Find({}, {name, other_name});
-    if (!told) {
-      Note(std::string("the camera does not tell its principal point: the middle is taken (") +
+    const auto reported = Find({}, {name, other_name});
+    if (!reported) {
+      Note(std::string("the camera does not report its principal point: the middle is taken (") +
            setting + ")");
       return middle_px;
     }
-    const double point_px = *told - first_px;
+    const double point_px = *reported - first_px;
     if (!Within(point_px, -0.5 * size_px, 1.5 * size_px)) {
       Refuse(std::string(name) + " is " + FormatNumber(point_px) + " px of an image of " +
              std::to_string(size_px) + " px: give " + setting);
@@ -179,25 +179,25 @@ class Reader {
 
   void ReadBaseline() {
     double& baseline_m = reading_.description.baseline_m;
-    const auto told = features_.Number("Scan3dBaseline");
+    const auto reported = features_.Number("Scan3dBaseline");
     if (overrides_.baseline_m) {
       baseline_m = *overrides_.baseline_m;
-    } else if (told) {
-      baseline_m = PlausibleBaseline(*told);
+    } else if (reported) {
+      baseline_m = PlausibleBaseline(*reported);
     }
     if (reading_.description.mode == OutputMode::kDisparityC && !(baseline_m > 0.0)) {
-      Refuse("disparities need the baseline, which the camera does not tell: give baseline_m");
+      Refuse("disparities need the baseline, which the camera does not report: give baseline_m");
     }
   }
 
-  double PlausibleBaseline(double told) {
-    const double in_units_m = told * reading_.description.distance_unit_m;
+  double PlausibleBaseline(double reported) {
+    const double in_units_m = reported * reading_.description.distance_unit_m;
     if (Within(in_units_m, kLeastBaseline_m, kGreatestBaseline_m)) return in_units_m;
-    if (Within(told, kLeastBaseline_m, kGreatestBaseline_m)) {
-      Note("Scan3dBaseline " + FormatNumber(told) + " is taken in metres (baseline_m)");
-      return told;
+    if (Within(reported, kLeastBaseline_m, kGreatestBaseline_m)) {
+      Note("Scan3dBaseline " + FormatNumber(reported) + " is taken in metres (baseline_m)");
+      return reported;
     }
-    Note("Scan3dBaseline " + FormatNumber(told) + " is absurd: unknown (baseline_m)");
+    Note("Scan3dBaseline " + FormatNumber(reported) + " is absurd: unknown (baseline_m)");
     return 0.0;
   }
 

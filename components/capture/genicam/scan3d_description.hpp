@@ -49,7 +49,7 @@ struct Scan3dOverrides {
 };
 
 struct Scan3dReading {
-  Status status;  ///< not ok: what is missing or absurd, and the setting that mends it
+  Status status;  ///< not ok: what is missing or absurd, and the setting that fixes it
   Scan3dDescription description;
   std::vector<std::string> notes;  ///< what was assumed, for a person
 };

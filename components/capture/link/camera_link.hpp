@@ -30,7 +30,7 @@ struct LinkSettings {
   std::size_t pool_frames = 8;
 };
 
-/// One camera, kept alive: opened, configured, streamed, watched, and opened anew whenever it comes
+/// One camera, kept alive: opened, configured, streamed, monitored, and reopened whenever it comes
 /// back, in a thread of its own. Decoded frames go to `on_frame`, in that thread; it must not wait.
 class CameraLink {
  public:
@@ -39,7 +39,7 @@ class CameraLink {
   using OnSetup = std::function<void(const DeviceSetup&, double depth_unit_m)>;
 
   CameraLink(LinkSettings settings, OnSetup on_setup, OnFrame on_frame);
-  /// Waits until the camera is let go: up to some seconds where it does not answer.
+  /// Waits until the camera is released: up to some seconds where it does not answer.
   ~CameraLink();
   CameraLink(const CameraLink&) = delete;
   CameraLink& operator=(const CameraLink&) = delete;

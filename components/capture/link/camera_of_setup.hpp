@@ -25,7 +25,7 @@ rgbd::RgbdCamera CameraOfSetup(const DeviceSetup& setup, double depth_unit_m,
                                const ColorOverrides& overrides);
 
 /// Puts the colour of `setup`, perhaps of another device than the depth's, into `camera`.
-/// Pictures of one device and one size count as registered where nothing else is said.
+/// Images of one device and one size count as registered unless reported otherwise.
 void AddColor(const DeviceSetup& setup, bool same_device, const ColorOverrides& overrides,
               rgbd::RgbdCamera* camera);
 

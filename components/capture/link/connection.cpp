@@ -82,7 +82,7 @@ void Connection::OnAccessDenied(std::int64_t now_ns) {
     Lose(now_ns, "another program controls the camera");
     return;
   }
-  reason_ = "another program controls the camera, or did until a moment ago: waiting";
+  reason_ = "another program controls the camera, or did until just now: waiting";
   wake_ns_ = now_ns + Ns(kAccessRetry_s);
 }
 

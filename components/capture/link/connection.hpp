@@ -11,12 +11,12 @@
 
 namespace palpate::capture {
 
-/// Times of a camera's watchdog. CAPTURE.md, "Losing the camera".
+/// Times of a camera's watchdog. docs/architecture.md, "Lost cameras".
 struct ConnectionTimes {
   double stale_s = 1.0;             ///< no frame for so long, or for five periods: stale
   double silent_s = 0.4;            ///< stale, and no answer to probes for so long: lost
   double lost_s = 3.0;              ///< stale for so long: lost, whatever it answers
-  double access_denied_s = 10.0;    ///< somebody else's control is waited out for so long
+  double access_denied_s = 10.0;    ///< how long another client's control is waited for
   double first_back_off_s = 0.1;    ///< between attempts to open, doubled each time ...
   double longest_back_off_s = 2.0;  ///< ... up to this
 };
@@ -44,7 +44,7 @@ class Connection {
   void OnConfigured(std::int64_t now_ns, double period_s);
   /// Opening or configuring failed, with the reason. What is open is released.
   void OnFailed(std::int64_t now_ns, std::string reason);
-  /// The device is there but controlled by somebody else: asked again soon, nothing released.
+  /// The device is there but controlled by another client: asked again soon, nothing released.
   void OnAccessDenied(std::int64_t now_ns);
   void OnFrame(std::int64_t now_ns);
   void OnControlLost(std::int64_t now_ns);

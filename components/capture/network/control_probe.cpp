@@ -57,7 +57,7 @@ Probe Ask(int handle, double timeout_s) {
   pollfd waiting = {handle, POLLIN, 0};
   if (poll(&waiting, 1, static_cast<int>(timeout_s * 1e3)) <= 0) return Probe::kSilent;
   std::array<std::uint8_t, 64> answer;
-  // A refusal by the host itself ("port unreachable") is an error here: nobody is there.
+  // A refusal by the host itself ("port unreachable") is an error here: no device is there.
   const ssize_t size = recv(handle, answer.data(), answer.size(), 0);
   const bool ours = size >= 8 && (answer[6] << 8 | answer[7]) == id;
   return ours ? Judge(answer.data(), static_cast<std::size_t>(size)) : Probe::kSilent;

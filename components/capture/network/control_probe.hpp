@@ -7,16 +7,16 @@
 
 namespace palpate::capture {
 
-/// What a device answers when asked who controls it, beside the stream.
+/// Who controls a device, as it answers beside the stream.
 enum class Probe {
   kSilent,      ///< nothing
-  kControlled,  ///< by somebody: by us, if we opened it
-  kFree,        ///< by nobody: it has been off since we opened it
+  kControlled,  ///< by a client: by us, if we opened it
+  kFree,        ///< by no client: it has been off since we opened it
 };
 
 /// Asks a GigE Vision device, beside whatever controls it, for its control privilege (GVCP register
 /// 0x0a00) and waits for the answer up to `timeout_s`. Any answer that is not a sound reading, such
-/// as "access denied", counts as kControlled: somebody is there.
+/// as "access denied", counts as kControlled: a device is there.
 Probe ProbeControl(const std::string& address, double timeout_s);
 
 }  // namespace palpate::capture

@@ -19,7 +19,7 @@ inline constexpr int kLeastPacketSize_bytes = 576;
 int ChoosePacketSize_bytes(int wanted_bytes, std::optional<int> mtu_bytes,
                            std::optional<std::pair<std::int64_t, std::int64_t>> camera_range);
 
-/// IPv4 of the own interface from which `address` is reached; nothing where there is no way, or
+/// IPv4 of the own interface from which `address` is reached; nothing where there is no route, or
 /// `address` is no IPv4 address.
 std::optional<std::string> LocalAddressTowards(const std::string& address);
 /// MTU of the interface that has this IPv4 address; nothing where none has.

@@ -55,7 +55,7 @@ std::string ReceiveBufferAdvice(int wanted_bytes, int granted_bytes) {
   const std::string wanted = std::to_string(wanted_bytes);
   return "the kernel grants a receive buffer of " + std::to_string(granted_bytes) +
          " bytes only (" + wanted +
-         " wanted): frames will be lost in bursts; mend it with: sudo sysctl -w "
+         " wanted): frames will be lost in bursts; fix with: sudo sysctl -w "
          "net.core.rmem_max=" +
          wanted;
 }

@@ -14,8 +14,8 @@ namespace palpate::capture {
 /// nothing where there are no sockets.
 std::optional<int> GrantedReceiveBuffer_bytes(int wanted_bytes);
 
-/// What to tell a person whose kernel grants less than `least_bytes` of what was asked for, with
-/// the command that mends it; empty where all is well.
+/// Advice for a user whose kernel grants less than `least_bytes` of what was asked for, with
+/// the command that fixes it; empty where all is well.
 std::string ReceiveBufferAdvice(int wanted_bytes, int granted_bytes);
 
 /// Datagrams that the kernel threw away at local UDP `port`, by the text of /proc/net/udp; nothing

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kSparePackets = 64;
 
 /// Lets the kernel throw away, at this process's UDP socket of `local_address` and `port`, whatever
 /// is not from `camera_address`, is no leader, trailer or data packet of GVSP, or numbers its
-/// packets beyond `last_packet_id`: Aravis takes stream packets from anybody and believes their
+/// packets beyond `last_packet_id`: Aravis takes stream packets from any host and trusts their
 /// numbers. False where there is no such socket, or the kernel refuses.
 bool GuardStreamSocket(const std::string& local_address, int port,
                        const std::string& camera_address, std::uint32_t last_packet_id);

@@ -28,7 +28,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   std::string camera;
   std::filesystem::path replay;
   app::Arguments arguments("palpate-capture",
-                           "Publishes the frames of an RGB-D camera, or of a recording of one.");
+                           "Publish the frames of an RGB-D camera, or of a recording of one.");
   arguments.Option("--camera", &camera, "Same as --set genicam.camera_id=...");
   arguments.Option("--replay", &replay, "A recording instead of a camera");
   arguments.Flag("--list", &command.list, "Show the cameras that answer");

@@ -15,7 +15,7 @@
 
 namespace {
 
-/// glibc raises this limit to the largest block that was ever given back; the picture buffers of a
+/// glibc raises this limit to the largest block that was ever given back; the image buffers of a
 /// camera that has gone would then stay in a heap that is full of holes.
 constexpr int kBytesOfItsOwn = 256 * 1024;
 

@@ -82,7 +82,7 @@ void CaptureNode::PublishFrames() {
 
 void CaptureNode::PublishOne(const SourceFrame& frame) {
   const bool sent = publisher_.Publish(frame, source_->Health());
-  // Step by step, so that nobody misses a frame.
+  // Step by step, so that no reader misses a frame.
   if (step_ && !publisher_.WaitUntilReceived(kLastMessagesWait)) {
     log_.Write(Severity::kWarning, "a reader has not confirmed a frame");
   }

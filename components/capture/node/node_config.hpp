@@ -17,7 +17,7 @@ struct NodeConfig : Config {
   void Visit(Visitor&& v) {
     Config::Visit(v);
     v("wait_for_reader", wait_for_reader,
-      "Begin only when somebody reads /camera/frame_info, so that a recording is seen whole");
+      "Start only when /camera/frame_info has a reader, so that no frame of a recording is missed");
     v("dds", dds, "DDS side");
   }
 };

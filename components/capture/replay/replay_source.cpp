@@ -37,7 +37,7 @@ ReplaySource::ReplaySource(const ReplayConfig& config, std::size_t queue_frames,
   offset_ns_ = std::llround(config.stamp_offset_s * 1e9);
   health_.device = config.folder.filename().string();
   health_.model = "recording";
-  health_.reason = "nobody asked for a frame yet";
+  health_.reason = "no frame was requested yet";
 }
 
 ReplaySource::~ReplaySource() {

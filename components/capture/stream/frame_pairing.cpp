@@ -16,7 +16,7 @@ std::int64_t Difference_ns(const FramePairing::Frame& color, const FramePairing:
 }
 
 FramePairing::Frame Join(FramePairing::Frame depth, const FramePairing::Frame& color) {
-  // The pictures change places, so that both pools keep their memory.
+  // The images change places, so that both pools keep their memory.
   std::swap(depth->images.color, color->images.color);
   depth->facts.pairing_difference_ns = Difference_ns(color, depth);
   depth->facts.packets_lost += color->facts.packets_lost;

@@ -13,7 +13,7 @@
 namespace palpate::capture {
 
 /// Puts frames of a depth camera and of a colour camera together that were taken at nearly the same
-/// time (stamp_host_ns). Each queue is bounded; what finds no partner is let go and counted. Not
+/// time (stamp_host_ns). Each queue is bounded; what finds no partner is dropped and counted. Not
 /// thread-safe.
 class FramePairing {
  public:
@@ -25,8 +25,8 @@ class FramePairing {
 
   void AddDepth(Frame frame);
   void AddColor(Frame frame);
-  /// The oldest depth frame with the colour picture nearest to it in time, moved into it; nothing
-  /// while a nearer picture may still come.
+  /// The oldest depth frame with the colour image nearest to it in time, moved into it; nothing
+  /// while a nearer image may still come.
   std::optional<Frame> Next();
   std::uint64_t unpaired() const { return unpaired_; }
 
@@ -39,7 +39,7 @@ class FramePairing {
   std::deque<Frame> depth_;  ///< rising stamps
   std::deque<Frame> color_;
   std::int64_t last_color_ns_ = 0;
-  std::int64_t color_period_ns_ = 0;  ///< between the last two pictures; 0: unknown
+  std::int64_t color_period_ns_ = 0;  ///< between the last two images; 0: unknown
   std::uint64_t unpaired_ = 0;
 };
 

@@ -12,12 +12,12 @@
 namespace palpate::capture {
 
 /// Frames with their pixels, used again and again: once as many exist as are ever held at a time,
-/// taking one allocates nothing. For one taking thread; frames may be let go in any.
+/// taking one allocates nothing. For one taking thread; frames may be released in any.
 class FramePool {
  public:
   explicit FramePool(std::size_t capacity) : capacity_(capacity) { frames_.reserve(capacity); }
 
-  /// A frame that nobody holds (its pixels are those of long ago), or nullptr where `capacity` of
+  /// A free frame (its pixels are stale), or nullptr where `capacity` of
   /// them are held.
   std::shared_ptr<SourceFrame> Take();
   std::size_t made() const { return frames_.size(); }

@@ -15,7 +15,7 @@ void FrameQueue::Put(FramePtr frame) {
 }
 
 void FrameQueue::Push(FramePtr frame) {
-  FramePtr oldest;  // let go outside the lock
+  FramePtr oldest;  // released outside the lock
   const std::lock_guard lock(mutex_);
   if (closed_) return;
   if (size_ == slots_.size()) {
