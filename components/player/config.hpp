@@ -25,16 +25,17 @@ struct Config {
       "Frame of the published markers: the robot's (needs T_robot_camera where a camera measured), "
       "or as measured");
     v("start_time_s", start_time_s, {.min = 0.0, .max = 2e9},
-      "Added to t_s of the recording to make the stamps");
-    v("wait_for_readers", wait_for_readers, "Begin only when somebody listens");
+      "Offset of the stamps: stamp = start_time_s + t_s");
+    v("wait_for_readers", wait_for_readers, "Start only when every published topic has a reader");
     v("reader_deadline_s", reader_deadline_s, {.min = 0.0, .min_open = true},
-      "Give up where nobody listens for so long");
+      "Time without a reader after which the player fails, s");
     v("step_deadline_s", step_deadline_s, {.min = 0.0, .min_open = true},
-      "With --step: give up where one frame is not answered for so long");
+      "With --step: time without an answer to a frame after which the player fails, s");
     v("resend_s", resend_s, {.min = 0.0, .min_open = true},
-      "With --step: send a frame again where it is not answered for so long");
+      "With --step: time without an answer after which a frame is sent again, s");
     v("rewind_for_new_estimator", rewind_for_new_estimator,
-      "Begin the recording again when a force estimator appears, so that it sees the reference");
+      "Restart the recording when a force estimator appears, so that it receives the reference "
+      "frames");
   }
 };
 

@@ -21,7 +21,7 @@ using experiment::Recording;
 constexpr double kNsPerSecond = 1e9;
 
 /// Times of all frames and actuation rows, each once. Rows before the first or after the last frame
-/// are left out: nobody can use them.
+/// are left out: no reader can use them.
 std::vector<double> EventTimes(std::vector<double> times_s, const Recording& recording) {
   if (!recording.actuation) return times_s;
   const double first_s = times_s.front(), last_s = times_s.back();

@@ -86,7 +86,7 @@ class ExperimentPlayer {
 
   bool has_cables() const;
   bool plays_images() const { return plays_images_; }
-  /// What the folder is called, and what it tells of its camera.
+  /// Name of the folder, and the properties of its camera.
   const experiment::Experiment& experiment() const { return experiment_; }
 
  private:

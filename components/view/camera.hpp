@@ -12,7 +12,7 @@ namespace palpate::view {
 
 using plot::Rect;
 
-/// Where the picture is taken from: the direction from the scene to the viewer.
+/// Viewpoint: the direction from the scene to the viewer.
 struct ViewDirection {
   double azimuth_deg = -60.0;   ///< about z, from x towards y
   double elevation_deg = 22.0;  ///< above the x-y plane, in (-90, 90)
@@ -20,13 +20,13 @@ struct ViewDirection {
   double eye_distance_radii = 0.0;
 };
 
-/// A ball of the scene that must be inside the picture.
+/// A ball of the scene that must be inside the image.
 struct Extent {
   Eigen::Vector3d center_m;
   double radius_m = 0.0;
 };
 
-/// Maps points of the scene (m, z up) to the picture.
+/// Maps points of the scene (m, z up) to the image.
 class Camera {
  public:
   /// The camera that shows all `extents` as large as `area` allows, centred in it.
@@ -34,7 +34,7 @@ class Camera {
                     const Rect& area);
 
   /// x to the right and y down in px; the third entry is the nearness: larger is closer to the
-  /// viewer, and it is linear over a plane in the picture in both projections.
+  /// viewer, and it is linear over a plane in the image in both projections.
   Eigen::Vector3d Project(const Eigen::Vector3d& point_m) const;
 
   /// px for one metre at the centre of the scene (everywhere, if orthographic).

@@ -46,7 +46,7 @@ void CheckSize(const Scene& scene) {
   constexpr int kLargest_px = 8192;
   if (scene.width_px < 320 || scene.height_px < 240 || scene.width_px > kLargest_px ||
       scene.height_px > kLargest_px || scene.samples_per_px < 1 || scene.samples_per_px > 8) {
-    Refuse("a picture of " + std::to_string(scene.width_px) + " x " +
+    Refuse("an image of " + std::to_string(scene.width_px) + " x " +
            std::to_string(scene.height_px) + " px with " + std::to_string(scene.samples_per_px) +
            " samples a pixel (320 x 240 to 8192 x 8192, 1 to 8)");
   }

@@ -11,7 +11,7 @@
 
 namespace palpate::view {
 
-/// 8-bit picture: rows from the top, three bytes (red, green, blue) a pixel.
+/// 8-bit image: rows from the top, three bytes (red, green, blue) a pixel.
 struct Image {
   int width_px = 0;
   int height_px = 0;

@@ -12,11 +12,11 @@
 
 namespace palpate::view {
 
-/// Smooth-edged strokes over a finished picture: collects how much of each pixel is covered, then
+/// Smooth-edged strokes over a finished image: collects how much of each pixel is covered, then
 /// paints once, so that strokes that meet do not darken each other.
 class CoverageMask {
  public:
-  /// For strokes inside `box` (cut to the picture).
+  /// For strokes inside `box` (cut to the image).
   CoverageMask(const Rect& box, const Image& image);
 
   /// A line with round ends of the given radius; from == to is a disc.
@@ -36,7 +36,7 @@ class CoverageMask {
 void DrawStroke(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double width_px,
                 const Color& color, Image* image);
 
-/// A filled rectangle, its edges rounded to whole pixels, cut to the picture.
+/// A filled rectangle, its edges rounded to whole pixels, cut to the image.
 void FillRect(const Rect& rect, const Color& color, double opacity, Image* image);
 
 /// A circle line.

@@ -14,9 +14,9 @@ constexpr int kLevel = 6;  // once for a scene, and people send it around
 }  // namespace
 
 void WritePng(const std::filesystem::path& path, const Image& image) {
-  rgbd::ColorImage picture(image.width_px, image.height_px);
-  picture.values = image.rgb;
-  rgbd::WriteColorPng(path, picture, kLevel);
+  rgbd::ColorImage color(image.width_px, image.height_px);
+  color.values = image.rgb;
+  rgbd::WriteColorPng(path, color, kLevel);
 }
 
 }  // namespace palpate::view

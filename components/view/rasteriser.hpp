@@ -27,20 +27,20 @@ struct Vertex {
 };
 
 /// Draws triangles and thick lines with a depth test into samples_per_px^2 samples a pixel.
-/// The same calls give the same picture, bit for bit, on any machine with IEEE arithmetic.
+/// The same calls give the same image, bit for bit, on any machine with IEEE arithmetic.
 class Rasteriser {
  public:
   Rasteriser(int width_px, int height_px, int samples_per_px, const Color& background);
 
   /// A sample takes the triangle's colour if its centre lies in the triangle (edges included) and
-  /// nothing nearer was drawn there. What lies outside the picture is cut off.
+  /// nothing nearer was drawn there. What lies outside the image is cut off.
   void DrawTriangle(const std::array<Vertex, 3>& vertices, const Lighting& lighting);
 
   /// A line with round ends; `opacity` mixes it into what is there.
   void DrawLine(const Eigen::Vector3d& from_seen, const Eigen::Vector3d& to_seen, double width_px,
                 const Color& color, double opacity);
 
-  /// Lays `veil` (same size) over this picture wherever it is nearer by more than `margin`, mixed
+  /// Lays `veil` (same size) over this image wherever it is nearer by more than `margin`, mixed
   /// in by `opacity`.
   void Overlay(const Rasteriser& veil, double opacity, double margin = 0.0);
 
@@ -50,7 +50,7 @@ class Rasteriser {
   /// The nearness of what is drawn in the middle of the pixel; -infinity where nothing is.
   double NearnessAt(int x, int y) const;
 
-  /// The picture, each pixel the mean of its samples.
+  /// The image, each pixel the mean of its samples.
   Image Resolve() const;
 
  private:

@@ -41,7 +41,7 @@ struct Arrow {
   std::string label{};  ///< beside the free end; empty: none
 };
 
-/// Points of one kind: balls (seen) or crosses (of the model, of a fixed size in the picture).
+/// Points of one kind: balls (seen) or crosses (of the model, of a fixed size in the image).
 struct Points {
   enum class Shape { kBall, kCross };
   Shape shape = Shape::kBall;
@@ -71,7 +71,7 @@ struct ColorBar {
   double shown_per_unit = 1.0;  ///< 1000 shows metres in mm
 };
 
-/// All of one picture. Positions in m in a frame whose z points up.
+/// All of one image. Positions in m in a frame whose z points up.
 struct Scene {
   int width_px = 1280;
   int height_px = 960;
@@ -90,8 +90,8 @@ struct Scene {
   std::vector<LegendEntry> legend;   ///< besides the named points
 };
 
-/// Draws the scene; all of it is inside the picture and no two labels overlap while there is room.
-/// The same scene gives the same picture, bit for bit.
+/// Draws the scene; all of it is inside the image and no two labels overlap while there is room.
+/// The same scene gives the same image, bit for bit.
 /// Throws RunError for a scene without anything in it, with NaN in it, with a triangle that names
 /// a point that is not there, or with scalars that do not match the points.
 Image RenderScene(const Scene& scene);

@@ -11,11 +11,11 @@
 
 namespace palpate::view {
 
-/// What must be inside the picture.
+/// What must be inside the image.
 std::vector<Extent> ExtentsOf(const Scene& scene);
 
 /// Draws all that stands in space: floor and shadow, blocks, bodies, ghosts, cables, balls,
-/// arrows. `px` is the size of a design pixel (1 in a picture 960 px high).
+/// arrows. `px` is the size of a design pixel (1 in an image 960 px high).
 void DrawStage(const Scene& scene, const Camera& camera, double px, Rasteriser* rasteriser);
 
 /// A round step (1, 2 or 5 times a power of ten), the largest not above `value` > 0.

@@ -10,7 +10,7 @@
 
 namespace palpate::view {
 
-/// What a surface looks like beyond its triangles.
+/// Edges of a surface beyond its triangles.
 struct SurfaceEdges {
   /// One unit normal for each corner of each triangle, the mean over the neighbours that it
   /// meets smoothly (below 35 degrees): round parts look round, creases stay sharp. [3 x 3m]

@@ -13,7 +13,7 @@ namespace palpate::view {
 
 enum class Align { kLeft, kCenter, kRight };
 
-/// How a line of text looks. Size is the height of a capital letter.
+/// Style of a line of text. Size is the height of a capital letter.
 struct TextStyle {
   double capital_height_px = 12.0;
   Color color = palette::kInk;
@@ -26,7 +26,7 @@ struct TextStyle {
 double TextWidth(std::string_view text, const TextStyle& style);
 
 /// Writes one line; `baseline_px` is the left, middle or right end of its baseline (by align).
-/// Letters outside the picture are cut off.
+/// Letters outside the image are cut off.
 void DrawText(std::string_view text, const Eigen::Vector2d& baseline_px, const TextStyle& style,
               Image* image);
 

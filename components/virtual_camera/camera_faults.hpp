@@ -13,7 +13,7 @@
 namespace palpate::virtual_camera {
 
 /// What is wrong with the camera, put together from the effects of the catalogue that belong to it
-/// (DIAGNOSIS, "Catalogue"). Effects of one kind add up.
+/// (docs/theory/model_selection.md). Effects of one kind add up.
 struct CameraFaults {
   struct Move {
     int from_recording = 0;

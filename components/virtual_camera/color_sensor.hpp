@@ -13,7 +13,7 @@
 
 namespace palpate::virtual_camera {
 
-/// Makes a colour picture of what a camera sees: light, a little blur, vignetting, noise.
+/// Makes a colour image of what a camera sees: light, a little blur, vignetting, noise.
 class ColorSensor {
  public:
   /// `loops` must outlive this.

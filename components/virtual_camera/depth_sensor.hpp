@@ -16,7 +16,7 @@
 namespace palpate::virtual_camera {
 
 /// Measures what the depth camera sees, with the noise of a stereo or a time-of-flight camera
-/// (CAPTURE, "Virtual camera") and its systematic errors.
+/// (docs/architecture.md, "Depth noise") and its systematic errors.
 class DepthSensor {
  public:
   /// `loops` must outlive this. Throws InputError for a stereo camera without a baseline, a depth

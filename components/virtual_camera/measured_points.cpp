@@ -10,7 +10,7 @@ namespace palpate::virtual_camera {
 
 namespace {
 
-/// As in the pictures (kernels/depth_rows.inl).
+/// As in the images (kernels/depth_rows.inl).
 constexpr double kLeastCosine = 0.05;
 
 bool IsInPicture(const rgbd::CameraModel& camera, const Eigen::Vector2d& pixel_px) {

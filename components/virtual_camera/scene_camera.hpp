@@ -15,7 +15,7 @@ namespace palpate::virtual_camera {
 /// Nearer than this nothing is seen; surfaces that reach farther are cut there.
 inline constexpr double kNearest_m = 0.01;
 
-/// One camera that looks at a drawing: which surface each pixel sees, and what that looks like.
+/// One camera in front of a scene: which surface each pixel sees, and its appearance.
 /// Triangles and round shapes are both met exactly at the centre of each pixel; round shapes are
 /// not cut into triangles.
 class SceneCamera {

@@ -53,28 +53,31 @@ void CopyColor(const Eigen::Vector3d& rgb, float* to) {
 }
 
 // The discs that a triangle of the rest shape may carry.
-std::vector<int> DiscsNear(const Skin& skin, Eigen::Index triangle, double radius_m) {
+std::vector<int> DiscsNear(const RobotSurface& robot_surface, Eigen::Index triangle,
+                           double radius_m) {
   Eigen::Matrix3d corners;
-  for (int k = 0; k < 3; ++k) corners.col(k) = skin.rest_m.col(skin.triangles(k, triangle));
+  for (int k = 0; k < 3; ++k)
+    corners.col(k) = robot_surface.rest_m.col(robot_surface.triangles(k, triangle));
   const Eigen::Vector3d center = corners.rowwise().mean();
   const double reach = (corners.colwise() - center).colwise().norm().maxCoeff();
   std::vector<int> near;
-  for (Eigen::Index marker = 0; marker < skin.markers_m.cols(); ++marker) {
+  for (Eigen::Index marker = 0; marker < robot_surface.markers_m.cols(); ++marker) {
     // A pixel's width for the soft rim.
     const double limit = reach + 1.5 * radius_m;
-    if ((skin.markers_m.col(marker) - center).norm() <= limit) {
+    if ((robot_surface.markers_m.col(marker) - center).norm() <= limit) {
       near.push_back(static_cast<int>(marker));
     }
   }
   return near;
 }
 
-void CheckSkin(const Skin& skin) {
-  const bool fits = skin.triangles.size() == 0 || (skin.triangles.minCoeff() >= 0 &&
-                                                   skin.triangles.maxCoeff() < skin.rest_m.cols());
-  if (!fits) throw InputError("the skin's triangles name nodes that it does not have");
-  if (!skin.rest_m.allFinite() || !skin.markers_m.allFinite()) {
-    throw InputError("the skin has positions that are no numbers");
+void CheckSurface(const RobotSurface& robot_surface) {
+  const bool fits = robot_surface.triangles.size() == 0 ||
+                    (robot_surface.triangles.minCoeff() >= 0 &&
+                     robot_surface.triangles.maxCoeff() < robot_surface.rest_m.cols());
+  if (!fits) throw InputError("the surface's triangles name nodes that it does not have");
+  if (!robot_surface.rest_m.allFinite() || !robot_surface.markers_m.allFinite()) {
+    throw InputError("the surface has positions that are not numbers");
   }
 }
 
@@ -86,7 +89,7 @@ std::vector<int> UsedNodes(const Eigen::Matrix3Xi& triangles) {
   return nodes;
 }
 
-// Horizontal, from the robot's axis away from the camera; zero where the camera looks from above.
+// Horizontal, from the robot's axis away from the camera; zero where the camera is above.
 Eigen::Vector3d AwayFrom(const Eigen::Isometry3d& T_robot_camera) {
   Eigen::Vector3d away = -T_robot_camera.translation();
   away.z() = 0.0;
@@ -96,10 +99,11 @@ Eigen::Vector3d AwayFrom(const Eigen::Isometry3d& T_robot_camera) {
 
 }  // namespace
 
-Scenery::Scenery(const scenario::Scenario& scenario, Skin skin) : tools_(scenario.tools) {
-  CheckSkin(skin);
+Scenery::Scenery(const scenario::Scenario& scenario, RobotSurface robot_surface)
+    : tools_(scenario.tools) {
+  CheckSurface(robot_surface);
   drawing_.lighting = LightOf(scenario.stage);
-  AddRobot(skin, scenario.stage);
+  AddRobot(robot_surface, scenario.stage);
   AddStage(scenario);
   for (const scenario::Tool& tool : tools_) {
     tool_paints_.push_back(AddPaint(tool.color_rgb, kernels::Pattern::kPlain, 0.0, 1.0));
@@ -117,29 +121,29 @@ int Scenery::AddPaint(const Eigen::Vector3d& rgb, kernels::Pattern pattern, doub
   return static_cast<int>(drawing_.paints.size()) - 1;
 }
 
-void Scenery::AddRobot(const Skin& skin, const scenario::Stage& stage) {
+void Scenery::AddRobot(const RobotSurface& robot_surface, const scenario::Stage& stage) {
   DrawnMesh& robot = drawing_.meshes.emplace_back();
   robot.paint = AddPaint(stage.robot_color_rgb, kernels::Pattern::kSolid, 0.22, 0.006);
-  nodes_ = UsedNodes(skin.triangles);
-  node_count_ = skin.rest_m.cols();
-  robot.vertices_m = skin.rest_m(Eigen::all, nodes_);
+  nodes_ = UsedNodes(robot_surface.triangles);
+  node_count_ = robot_surface.rest_m.cols();
+  robot.vertices_m = robot_surface.rest_m(Eigen::all, nodes_);
   robot.texture_m = robot.vertices_m;
-  robot.triangles = skin.triangles.unaryExpr([this](int node) {
+  robot.triangles = robot_surface.triangles.unaryExpr([this](int node) {
     return static_cast<int>(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
   });
   LightSmoothly(drawing_.lighting, &robot);
   if (stage.marker_radius_m <= 0.0) return;
-  const int markers = static_cast<int>(skin.markers_m.cols());
+  const int markers = static_cast<int>(robot_surface.markers_m.cols());
   for (int i = 0; i < markers; ++i) {
     kernels::Disc& disc = drawing_.discs.emplace_back();
-    CopyColor(skin.markers_m.col(i), disc.center_m);
+    CopyColor(robot_surface.markers_m.col(i), disc.center_m);
     disc.radius_m = static_cast<float>(stage.marker_radius_m);
     const double robot_hue = HueOf(stage.robot_color_rgb);
     CopyColor(stage.marker_color_rgb.value_or(MarkerColor(i, markers, robot_hue)), disc.rgb);
   }
   robot.disc_begin.push_back(0);
-  for (Eigen::Index t = 0; t < skin.triangles.cols(); ++t) {
-    const std::vector<int> near = DiscsNear(skin, t, stage.marker_radius_m);
+  for (Eigen::Index t = 0; t < robot_surface.triangles.cols(); ++t) {
+    const std::vector<int> near = DiscsNear(robot_surface, t, stage.marker_radius_m);
     robot.disc_list.insert(robot.disc_list.end(), near.begin(), near.end());
     robot.disc_begin.push_back(static_cast<int>(robot.disc_list.size()));
   }

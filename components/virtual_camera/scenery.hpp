@@ -14,8 +14,8 @@ namespace palpate::virtual_camera {
 /// The bench as it is drawn: robot, tools, table and the wall behind.
 class Scenery {
  public:
-  /// Throws InputError for a skin that does not fit together.
-  Scenery(const scenario::Scenario& scenario, Skin skin);
+  /// Throws InputError for an inconsistent surface.
+  Scenery(const scenario::Scenario& scenario, RobotSurface robot_surface);
 
   /// Moves robot and tools to where they are in `view`. Throws InputError for a tool that the
   /// scenario does not have.
@@ -23,7 +23,7 @@ class Scenery {
 
  private:
   void AddStage(const scenario::Scenario& scenario);
-  void AddRobot(const Skin& skin, const scenario::Stage& stage);
+  void AddRobot(const RobotSurface& robot_surface, const scenario::Stage& stage);
   void AddTool(const scenario::Tool& tool, int paint, const Eigen::Isometry3d& T_robot_tool);
   int AddPaint(const Eigen::Vector3d& rgb, kernels::Pattern pattern, double strength,
                double spot_m);

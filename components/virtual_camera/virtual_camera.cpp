@@ -34,11 +34,11 @@ const scenario::CameraSpec& SpecOf(const scenario::Scenario& scenario) {
 }  // namespace
 
 struct VirtualCamera::Parts {
-  Parts(const scenario::Scenario& scenario, Skin skin, CameraFaults camera_faults,
+  Parts(const scenario::Scenario& scenario, RobotSurface robot_surface, CameraFaults camera_faults,
         std::uint64_t seed)
       : spec{SpecOf(scenario)},
         faults{std::move(camera_faults)},
-        scenery{scenario, std::move(skin)},
+        scenery{scenario, std::move(robot_surface)},
         depth_camera{faults.TrueDepthCamera(spec.camera.depth), kernels::BestKernels()},
         depth_sensor{spec, faults, seed, kernels::BestKernels()},
         truth{spec.camera.depth.width_px, spec.camera.depth.height_px} {
@@ -59,9 +59,10 @@ struct VirtualCamera::Parts {
   rgbd::RangeImage truth;
 };
 
-VirtualCamera::VirtualCamera(const scenario::Scenario& scenario, Skin skin,
+VirtualCamera::VirtualCamera(const scenario::Scenario& scenario, RobotSurface robot_surface,
                              const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed)
-    : parts_{std::make_unique<Parts>(scenario, std::move(skin), FaultsFrom(effects, seed), seed)} {}
+    : parts_{std::make_unique<Parts>(scenario, std::move(robot_surface), FaultsFrom(effects, seed),
+                                     seed)} {}
 
 VirtualCamera::~VirtualCamera() = default;
 

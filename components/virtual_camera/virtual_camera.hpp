@@ -16,8 +16,8 @@
 
 namespace palpate::virtual_camera {
 
-/// The robot's skin as it is drawn.
-struct Skin {
+/// The robot's surface as it is drawn.
+struct RobotSurface {
   Eigen::Matrix3Xd rest_m;     ///< [3 x nodes] robot frame; colours and marker discs stick to it
   Eigen::Matrix3Xi triangles;  ///< [3 x k] corners, anticlockwise from outside
   Eigen::Matrix3Xd markers_m;  ///< [3 x markers] rest positions of the coloured discs
@@ -40,7 +40,7 @@ struct View {
 class VirtualCamera {
  public:
   /// Throws InputError without a camera in the scenario. Only effects of the camera act here.
-  VirtualCamera(const scenario::Scenario& scenario, Skin skin,
+  VirtualCamera(const scenario::Scenario& scenario, RobotSurface robot_surface,
                 const std::vector<scenario::ActiveEffect>& effects, std::uint64_t seed);
   ~VirtualCamera();
 

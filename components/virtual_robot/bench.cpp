@@ -63,7 +63,7 @@ Bench::Bench(const robot::RobotDescription& robot, const scenario::Scenario& sce
                  IsDynamic(motion_) ? motion_.rayleigh_stiffness_s : 0.0),
       softening_(body_.mesh, effects, Duration_s(scenario)),
       base_(body_, effects),
-      drives_(body_.CableNames(), effects),
+      actuators_(body_.CableNames(), effects),
       cables_(body_, effects),
       surface_(body_.mesh, body_.boundary, body_.fixed),
       contacts_(MakeContacts(body_, surface_, tools_, effects)),
@@ -116,7 +116,7 @@ void Bench::PlaceTools(const BenchInputs& inputs) {
 }
 
 Status Bench::Balance(const BenchInputs& inputs, double share) {
-  cables_.SetPulledIn(share * drives_.pulled_in_m());
+  cables_.SetPulledIn(share * actuators_.pulled_in_m());
   StepTask task{TimeScheme::QuasiStatic(1.0), share * inputs.load_N, state_.x_m};
   base_.Apply(&task.start_m);
   const Eigen::VectorXd tension_N = cables_.tension_N();
@@ -183,7 +183,7 @@ Status Bench::Start(double t_s, const Inputs& inputs) {
   begin_s_ = t_s;
   point_loads_ = loads_.PointLoads(inputs.weights, inputs.base_tilt_deg);
   const BenchInputs first = Prepare(inputs, point_loads_);
-  drives_.Reset(t_s, first.command_m);
+  actuators_.Reset(t_s, first.command_m);
   PlaceTools(first);
   cables_.SetFrictionless(true);
   for (Contact& contact : contacts_) contact.SetFrictionless(true);
@@ -259,8 +259,8 @@ Status Bench::Step(double t_s, const BenchInputs& inputs) {
                 .load_N = {},
                 .start_m = {}};
   const double balance_s = task.scheme.balance_s();
-  drives_.Propose(t_s, inputs.command_m);
-  cables_.SetPulledIn(drives_.pulled_in_m());
+  actuators_.Propose(t_s, inputs.command_m);
+  cables_.SetPulledIn(actuators_.pulled_in_m());
   PlaceTools(inputs);
   viscosity_.Prepare(balance_s);
   task.load_N = now_.load_N + balance_s / h_s * (inputs.load_N - now_.load_N);
@@ -307,7 +307,7 @@ Status Bench::FollowSoftening(StepTask* task) {
 }
 
 void Bench::Commit(double t_s, const BenchInputs& inputs, double h_s) {
-  drives_.Commit();
+  actuators_.Commit();
   cables_.Commit();
   for (Contact& contact : contacts_) contact.Commit(next_.x_m);
   viscosity_.Advance(body_.materials, softening_.factor_of_cell(), next_.x_m, h_s);

@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/virtual_robot/actuator_chain.hpp"
 #include "components/virtual_robot/bench_body.hpp"
 #include "components/virtual_robot/bench_inputs.hpp"
 #include "components/virtual_robot/compliant_base.hpp"
-#include "components/virtual_robot/drive_chain.hpp"
 #include "components/virtual_robot/external_loads.hpp"
 #include "components/virtual_robot/softening.hpp"
 #include "components/virtual_robot/step_solver.hpp"
@@ -17,7 +17,7 @@
 
 namespace palpate::virtual_robot {
 
-/// The robot of the bench in time: what VirtualRobot does, without what it tells about it.
+/// The robot of the bench in time: what VirtualRobot does, without its outputs.
 class Bench {
  public:
   /// Of the highest frequencies so much is left after a step, unless nothing damps the body at all:
@@ -41,10 +41,10 @@ class Bench {
   const BenchBody& body() const { return body_; }
   const MotionState& state() const { return state_; }
   const CableSystem& cable_system() const { return cables_; }
-  const DriveChain& drives() const { return drives_; }
+  const ActuatorChain& actuators() const { return actuators_; }
   const ContactSurface& surface() const { return surface_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
-  const Eigen::VectorXd& command_m() const { return now_.command_m; }  ///< [drives]
+  const Eigen::VectorXd& command_m() const { return now_.command_m; }  ///< [actuators]
   const std::vector<PointLoad>& point_loads() const { return point_loads_; }
   const StepCost& cost() const { return solver_.cost(); }
   /// Of the body on its clamp, as the last step left it.
@@ -79,7 +79,7 @@ class Bench {
   Viscosity viscosity_;
   Softening softening_;
   CompliantBase base_;
-  DriveChain drives_;
+  ActuatorChain actuators_;
   CableSystem cables_;
   ContactSurface surface_;
   std::vector<Contact> contacts_;

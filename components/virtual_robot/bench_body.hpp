@@ -21,7 +21,7 @@ namespace palpate::virtual_robot {
 /// The body of the bench: the robot file's, with the mesh, element and material that the scenario
 /// gives it, and with the effects that change what it is made of and its shape at rest.
 struct BenchBody {
-  fem::TetMesh nominal;  ///< undeformed, as drawn: where points of files are looked up
+  fem::TetMesh nominal;  ///< undeformed, as drawn: where points of files are located
   fem::TetMesh mesh;     ///< undeformed, as it is
   /// [3n] undeformed, as it was when the cables were put on: before a plastic set.
   Eigen::VectorXd assembled_m;

@@ -15,13 +15,13 @@ namespace palpate::virtual_robot {
 
 /// Inputs at one instant, as the step needs them.
 struct BenchInputs {
-  Eigen::VectorXd command_m;                           ///< [drives]
+  Eigen::VectorXd command_m;                           ///< [actuators]
   std::vector<std::optional<Eigen::Isometry3d>> pose;  ///< [tools of the scenario]
   Eigen::VectorXd load_N;                              ///< [3n] all dead loads
 };
 
-/// Straight from `from` to `to`; rotations by the shortest arc. Drives and tools that are not there
-/// at one end are as they are at `to`.
+/// Straight from `from` to `to`; rotations by the shortest arc. Actuators and tools that are not
+/// there at one end are as they are at `to`.
 BenchInputs Between(const BenchInputs& from, const BenchInputs& to, double fraction);
 
 /// Refuses wrong sizes, values that are not finite (but a NaN command: not driven), negative masses

@@ -12,14 +12,14 @@
 
 namespace palpate::virtual_robot {
 
-/// The cables between drives and body, with cable_routing (the guide is elsewhere),
+/// The cables between actuators and body, with cable_routing (the guide is elsewhere),
 /// cable_elasticity, cable_cutting and cable_friction. A cable pulls or is slack, and never pulls
-/// harder than its largest tension: then it slips at the drive.
+/// harder than its largest tension: then it slips at the actuator.
 ///
 /// Friction: at each eyelet that the cable runs through, T_out = T_in exp(-mu theta s), theta the
-/// angle by which it turns there. s is 1 while the cable slides towards the drive, -1 out of it,
+/// angle by which it turns there. s is 1 while the cable slides towards the actuator, -1 out of it,
 /// and follows the sliding in between over a travel of 2 kPresliding_m: it sticks, elastically.
-/// Cutting: each eyelet gives way to the force of the cable on it; of that the cable's length along
+/// Cutting: each eyelet yields to the force of the cable on it; of that the cable's length along
 /// its path is kept, not the change of its direction.
 class CableSystem {
  public:
@@ -35,7 +35,7 @@ class CableSystem {
 
   /// Slack, and no eyelet has slid yet.
   void Reset();
-  /// m that each drive has taken in [cables], NaN: not driven.
+  /// m that each actuator has taken in [cables], NaN: not driven.
   void SetPulledIn(const Eigen::VectorXd& pulled_in_m) { pulled_in_m_ = pulled_in_m; }
   /// Without friction until the next call: for the way to a new beginning.
   void SetFrictionless(bool frictionless) { frictionless_ = frictionless; }

@@ -11,7 +11,7 @@
 namespace palpate::virtual_robot {
 
 /// Where the clamped nodes are. With base_compliance the clamp turns about the middle of these
-/// nodes by compliance times the moment with which the body loads it, and gets there with a time
+/// nodes by compliance times the torque with which the body loads it, and gets there with a time
 /// constant of kSettling_s (a clamp has some damping; it also keeps the steps stable).
 class CompliantBase {
  public:

@@ -66,11 +66,11 @@ class Contact {
   void AddStiffness(const ContactSurface& surface, fem::StiffnessMatrix& stiffness) const;
   /// Adds how the forces evaluated last, with the surface at `x_m`, change where the thing's way
   /// since the last Commit is another than `share` times its way before that, as long as nothing
-  /// lets go or slips. Returns the largest difference of the ways, m.
+  /// releases or slips. Returns the largest difference of the slips, m.
   double AddForcesOfTurn(const ContactSurface& surface, const Eigen::VectorXd& x_m, double share,
                          Eigen::VectorXd& nodal) const;
-  /// Notes what touches how, and tells how much of that has changed since, relative to the stiffer
-  /// of the two: from 0 to 2.
+  /// Notes what touches how, and returns how much of that has changed since, relative to the
+  /// stiffer of the two: from 0 to 2.
   void Remember();
   double ChangeSinceRemembered() const;
   ContactResult Result(const ContactSurface& surface, const Eigen::VectorXd& x_m,

@@ -12,7 +12,7 @@
 namespace palpate::virtual_robot {
 
 /// The body's surface as points on its faces, each with its share of the area at rest: where
-/// contact is looked for and acts. Faces whose nodes are all clamped are left out.
+/// contact is searched and acts. Faces whose nodes are all clamped are left out.
 class ContactSurface {
  public:
   ContactSurface(const fem::TetMesh& mesh, const fem::BoundarySurface& boundary,

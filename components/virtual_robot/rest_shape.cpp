@@ -14,7 +14,7 @@ namespace palpate::virtual_robot {
 namespace {
 
 /// Shape of the lowest mode of vibration [3 x n] about rest, largest displacement 1, by inverse
-/// iteration from a push that favours no axis of a symmetric robot; of modes alike in frequency
+/// iteration from a push that favours no axis of a symmetric robot; of modes of equal frequency
 /// the mixture that this push excites. The largest displacement points along that push.
 Eigen::Matrix3Xd LowestMode(const BenchBody& body) {
   constexpr int kIterations = 30;

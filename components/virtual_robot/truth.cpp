@@ -47,10 +47,10 @@ Truth::Truth(const Bench& bench, const Effects& effects, std::uint64_t seed)
 }
 
 void Truth::Update() {
-  for (size_t drive = 0; drive < readings_.size(); ++drive) {
-    const int cable = bench_.drives().CableOfDrive(static_cast<int>(drive));
-    readings_[drive] = {bench_.command_m()[static_cast<Eigen::Index>(drive)],
-                        bench_.cable_system().DriveTension_N(cable)};
+  for (size_t actuator = 0; actuator < readings_.size(); ++actuator) {
+    const int cable = bench_.actuators().CableOfActuator(static_cast<int>(actuator));
+    readings_[actuator] = {bench_.command_m()[static_cast<Eigen::Index>(actuator)],
+                           bench_.cable_system().DriveTension_N(cable)};
   }
 }
 

@@ -14,7 +14,7 @@
 
 namespace palpate::virtual_robot {
 
-/// What is told about a bench: readings, forces, markers.
+/// The truth of a bench: readings, forces, markers.
 class Truth {
  public:
   /// Each marker_misplacement moves its marker by `d_m` on the body, in a direction that the seed

@@ -23,10 +23,10 @@ using ToolPose = scenario::ToolPose;
 /// What happens to the robot until the next instant.
 using Inputs = scenario::BenchInputs;
 
-/// What the sensors of the drives say: what is published as /robot/joint_states.
+/// Readings of the actuators, published as /robot/joint_states.
 struct CableReading {
-  double displacement_m = 0.0;  ///< at the drive, as it believes
-  double tension_N = 0.0;       ///< at the drive
+  double displacement_m = 0.0;  ///< at the actuator, as it reads
+  double tension_N = 0.0;       ///< at the actuator
 };
 
 /// A force on the robot that an estimator is to find.

@@ -42,11 +42,11 @@ scenario::Scenario MakeScenario(const CameraSettings& settings) {
 struct CameraScene {
   explicit CameraScene(const CameraSettings& settings) {
     const scenario::Scenario scenario = MakeScenario(settings);
-    virtual_camera::Skin skin =
+    virtual_camera::RobotSurface surface =
         test_support::SkinOf(BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10)));
-    view = test_support::ViewWithTool(scenario, skin, "tool", {0.10, -0.02, 0.15});
+    view = test_support::ViewWithTool(scenario, surface, "tool", {0.10, -0.02, 0.15});
     camera = std::make_unique<virtual_camera::VirtualCamera>(
-        scenario, std::move(skin), std::vector<scenario::ActiveEffect>{}, 1);
+        scenario, std::move(surface), std::vector<scenario::ActiveEffect>{}, 1);
   }
 
   virtual_camera::View view;

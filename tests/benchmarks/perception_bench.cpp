@@ -38,7 +38,7 @@ scenario::Scenario MakeScenario(const PerceptionSettings& settings) {
 struct PerceptionScene {
   explicit PerceptionScene(const PerceptionSettings& settings) {
     const scenario::Scenario scenario = MakeScenario(settings);
-    virtual_camera::Skin skin =
+    virtual_camera::RobotSurface skin =
         test_support::SkinOf(BuildBody(OwnRobot("four_leg", fem::ElementType::kTet10)));
     const virtual_camera::View view =
         test_support::ViewWithTool(scenario, skin, "ball", {0.03, -0.03, 0.11});

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
 """Sizes: source files up to 600 lines of up to 100 columns (of C++ check_format.py sees to that),
-functions up to 60 lines, READMEs of components up to 80 lines without the rows of their parameter
-table, any file below 1 MB; and no trailing white space."""
+functions up to 60 lines, READMEs of components up to 80 lines without the rows of tables, any file
+below 1 MB; and no trailing white space."""
 
 import re
 import sys
@@ -74,15 +74,8 @@ def check_source(name, lines, is_cpp):
 
 
 def readme_length(lines):
-    """Without the rows of the parameter table: the program prints them, check_readmes.py fills
-    them in."""
-    rows = 0
-    for start in [i for i, line in enumerate(lines) if line.startswith("| parameter |")]:
-        for line in lines[start + 2:]:
-            if not line.startswith("|"):
-                break
-            rows += 1
-    return len(lines) - rows
+    """Lines of text: the rows of tables do not count."""
+    return sum(not line.startswith("|") for line in lines)
 
 
 def check_tree(root):

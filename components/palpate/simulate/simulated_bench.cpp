@@ -32,7 +32,7 @@ class VirtualBench : public SimulatedBench {
       grazing_cosine_ = std::cos(scenario.camera->noise.grazing_angle_rad);
     }
     if (!scenario.TakesPictures()) return;
-    virtual_camera::Skin skin;
+    virtual_camera::RobotSurface skin;
     skin.rest_m = robot_.mesh().nodes_m;
     skin.triangles = robot_.boundary().DrawnTriangles();
     skin.markers_m = robot_.MarkerPositions_m();  // nothing has moved yet

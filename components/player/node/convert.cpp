@@ -66,7 +66,7 @@ dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const Event& event, 
   for (size_t i = 0; i < set.markers.size(); ++i) {
     const Marker& marker = set.markers[i];
     auto& target = message->markers._buffer[i];
-    // Whoever reads knows the robot's names only: a point that nobody named goes out without one.
+    // Whoever reads knows the robot's names only: an unnamed point goes out without one.
     if (!experiment::IsUnlabelled(marker.name)) dds::SetText(target.name, marker.name);
     target.sigma_m = {marker.sigma_m.x(), marker.sigma_m.y(), marker.sigma_m.z()};
     target.valid = marker.position_m.has_value();

@@ -65,7 +65,7 @@ void PlayerNode::WaitForReaders() {
   const Clock::time_point deadline = Clock::now() + Seconds(config_.reader_deadline_s);
   if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
   if (loop_.stopped()) return;
-  throw RunError("nobody reads " + topic +
+  throw RunError("no reader of " + topic +
                  std::string(playback_.step ? " and answers on /forces" : "") + " within " +
                  FormatNumber(config_.reader_deadline_s) +
                  " s: is the force estimation running, in this domain? (reader_deadline_s, "

@@ -42,8 +42,8 @@ class PlayerNode {
   PlayerNode(const NodeConfig& config, const Playback& playback, ExperimentPlayer player,
              int domain_id, dds::TopicTable table, dds::NodeLog::ProcessLog process_log);
 
-  /// Plays to the end, or until Stop(). Throws RunError where nobody listens, or with --step nobody
-  /// answers, within the deadlines.
+  /// Plays to the end, or until Stop(). Throws RunError where a reader is missing, or with --step
+  /// none answers, within the deadlines.
   void Run();
   /// From any thread.
   void Stop() { loop_.Stop(); }

@@ -18,7 +18,7 @@ struct ForceTrack {
   std::vector<double> ci95_N;    ///< half-width of the 95 % interval
   std::vector<double> hidden_N;  ///< as estimated_N, where the camera does not see the contact
   std::vector<double> hidden_ci95_N;
-  std::vector<double> true_N;  ///< empty: nobody knows it
+  std::vector<double> true_N;  ///< empty: unknown
 };
 
 /// Estimated forces with their 95 % intervals against the true ones, one panel for each contact;

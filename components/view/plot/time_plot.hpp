@@ -41,7 +41,7 @@ struct TimePlot {
 };
 
 /// The plot as an SVG file. Throws RunError for a plot without panels, a series whose lists differ
-/// in length, or a picture too small for its panels (60 px each).
+/// in length, or a figure too small for its panels (60 px each).
 std::string DrawTimePlot(const TimePlot& plot);
 
 /// DrawTimePlot into a file. Throws RunError.

@@ -21,7 +21,7 @@ struct Paint {
   float frequency_m;  ///< spots per metre of texture space
 };
 
-/// A coloured disc on the skin.
+/// A coloured disc on the surface.
 struct Disc {
   float center_m[3];  ///< in texture space
   float radius_m;

@@ -106,7 +106,7 @@ PALPATE_LANES std::uint32_t PlaceOf(const DepthRow& row, int u) {
 }
 
 /// The patch that pixel u is in, about kPatch_px x kPatch_px pixels with ragged sides; they lie
-/// anew in each frame.
+/// again in each frame.
 constexpr std::uint32_t kPatch_px = 6;
 PALPATE_LANES std::uint32_t PatchOf(const DepthRow& row, const CommonLaw& law, int u) {
   const auto column = static_cast<std::uint32_t>(u);

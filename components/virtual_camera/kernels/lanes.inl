@@ -81,7 +81,7 @@ PALPATE_LANES Pack Sqrt(Pack v) {
 PALPATE_LANES Int ToInt(Float v) { return __builtin_convertvector(v, Int); }
 PALPATE_LANES Float ToFloat(Int v) { return __builtin_convertvector(v, Float); }
 
-/// a + b, which may wrap round: lanes that nobody looks at hold anything.
+/// a + b, which may wrap round: unused lanes hold any value.
 PALPATE_LANES Int Sum(Int a, Int b) {
   return reinterpret_cast<Int>(reinterpret_cast<Word>(a) + reinterpret_cast<Word>(b));
 }

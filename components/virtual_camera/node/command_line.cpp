@@ -16,7 +16,7 @@ namespace palpate::virtual_camera {
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments("palpate-virtual-camera",
-                           "A GigE Vision RGB-D camera that looks at palpate-virtual-robot.");
+                           "Stream RGB-D frames of palpate-virtual-robot as a GigE Vision camera.");
   arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
   arguments.Option("--scenario", &command.scenario, "The scenario that the virtual robot runs");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),

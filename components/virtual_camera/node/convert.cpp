@@ -24,8 +24,8 @@ Status CheckFrame(const idl::std_msgs::Header& header) {
 
 }  // namespace
 
-Status FromMesh(const idl::palpate_msgs::Mesh& message, Skin* skin) {
-  return dds::FromMesh(message, &skin->rest_m, &skin->triangles);
+Status FromMesh(const idl::palpate_msgs::Mesh& message, RobotSurface* robot_surface) {
+  return dds::FromMesh(message, &robot_surface->rest_m, &robot_surface->triangles);
 }
 
 Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index node_count,

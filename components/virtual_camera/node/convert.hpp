@@ -10,10 +10,10 @@
 
 namespace palpate::virtual_camera {
 
-/// Nodes and triangles of the skin; its markers are left alone. kInvalidInput for another frame
+/// Nodes and triangles of the robot_surface; its markers stay. kInvalidInput for another frame
 /// than the robot's, numbers that do not make whole nodes or triangles, a node that does not exist,
 /// positions that are not finite.
-Status FromMesh(const idl::palpate_msgs::Mesh& message, Skin* skin);
+Status FromMesh(const idl::palpate_msgs::Mesh& message, RobotSurface* robot_surface);
 
 /// Positions of the `node_count` nodes. kInvalidInput as above, or where the state is not ok.
 Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index node_count,

@@ -58,7 +58,7 @@ VirtualCameraNode::VirtualCameraNode(const NodeConfig& config, Scene scene, int 
       mesh_states_{participant_.CreateReader(dds::kTrueMeshStateTopic)},
       device_{DeviceOf(config, scene_), CameraOf(scene_.schedule.scenario()).camera},
       last_state_ns_{MonotonicNow_ns()} {
-  skin_.markers_m = scene_.markers_m;
+  robot_surface_.markers_m = scene_.markers_m;
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(bench_states_, [this] { TakeBenchStates(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
@@ -69,13 +69,13 @@ VirtualCameraNode::VirtualCameraNode(const NodeConfig& config, Scene scene, int 
 
 void VirtualCameraNode::TakeMesh() {
   for (const idl::palpate_msgs::Mesh& message : meshes_.Take()) {
-    if (const Status status = FromMesh(message, &skin_); !status.ok()) {
+    if (const Status status = FromMesh(message, &robot_surface_); !status.ok()) {
       Refuse(status);
       continue;
     }
     mesh_hash_ = dds::Text(message.mesh_hash);
-    camera_ = std::make_unique<VirtualCamera>(scene_.schedule.scenario(), skin_, scene_.effects,
-                                              scene_.seed);
+    camera_ = std::make_unique<VirtualCamera>(scene_.schedule.scenario(), robot_surface_,
+                                              scene_.effects, scene_.seed);
   }
 }
 
@@ -108,7 +108,8 @@ void VirtualCameraNode::TakeMeshStates() {
       continue;
     }
     View& view = bench.mapped();
-    if (const Status status = FromMeshState(message, skin_.rest_m.cols(), &view); !status.ok()) {
+    if (const Status status = FromMeshState(message, robot_surface_.rest_m.cols(), &view);
+        !status.ok()) {
       Refuse(status);
       continue;
     }

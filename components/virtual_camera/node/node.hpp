@@ -19,7 +19,7 @@
 
 namespace palpate::virtual_camera {
 
-/// The scenario that the camera looks at, as the virtual robot has it, too.
+/// The scenario in front of the camera; the virtual robot runs the same.
 struct Scene {
   scenario::Schedule schedule;
   std::string scenario_sha256;
@@ -28,8 +28,8 @@ struct Scene {
   Eigen::Matrix3Xd markers_m;  ///< [3 x markers] at rest
 };
 
-/// A GigE Vision camera that looks at the virtual robot: draws each of its states and streams the
-/// pictures to whoever asks for them in the language of real cameras.
+/// A GigE Vision camera in front of the virtual robot: draws each of its states and streams the
+/// frames to any client of real cameras.
 class VirtualCameraNode {
  public:
   /// Throws InputError for bad settings, RunError where DDS or the network refuses.
@@ -62,7 +62,7 @@ class VirtualCameraNode {
   dds::Reader<idl::palpate_msgs::BenchState> bench_states_;
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   gige_vision::Device device_;
-  Skin skin_;
+  RobotSurface robot_surface_;
   std::string mesh_hash_;
   std::unique_ptr<VirtualCamera> camera_;  ///< none before the first mesh
   States benches_;                         ///< that no mesh state has come for yet

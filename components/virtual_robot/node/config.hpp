@@ -22,15 +22,15 @@ struct NodeConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("rate_hz", rate_hz, {.min = 0.0, .max = 1000.0, .min_open = true},
-      "States a second; the virtual camera takes a picture of each");
+      "States per second; the virtual camera takes one frame of each");
     v("commands", commands, {"script", "topic"},
-      "Who drives the cables: the scenario, or /robot/command (tools move by the scenario)");
+      "Source of the cable commands: script (the scenario) or topic (/robot/command)");
     v("command_timeout_s", command_timeout_s, {.min = 0.0, .min_open = true},
-      "With commands topic: without a command for so long the component reports itself stale");
-    v("repeat", repeat, "Begin the scenario again at its end, with the history kept");
+      "With commands topic: time without a command after which the status is stale, s");
+    v("repeat", repeat, "Restart the scenario at its end, with the history kept");
     v("max_step_s", max_step_s, {.min = 0.0, .min_open = true},
-      "Where the computer falls behind, the bench's time jumps by no more than this in a state; "
-      "the rest is lost, and counted as dropped");
+      "Largest step of bench time between two states, s; what a slow computer misses beyond it is "
+      "counted as dropped");
     v("threads", threads, {.min = 1, .max = 64}, "Threads of the solver");
     v("dds", dds, "DDS side");
   }

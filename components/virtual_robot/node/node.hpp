@@ -29,7 +29,7 @@ struct BenchSetup {
   std::uint64_t seed = 0;
 };
 
-/// Runs a scenario in real time and publishes what the drives say and, apart, the truth.
+/// Runs a scenario in real time and publishes the actuator readings and, apart, the truth.
 class VirtualRobotNode {
  public:
   /// Throws InputError for bad settings, RunError where DDS refuses.

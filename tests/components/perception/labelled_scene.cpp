@@ -119,10 +119,10 @@ virtual_camera::View PushedView(const scenario::Scenario& scenario, const std::s
   return view;
 }
 
-const virtual_camera::Skin& PushSkin() {
-  static const virtual_camera::Skin skin = [] {
+const virtual_camera::RobotSurface& PushSkin() {
+  static const virtual_camera::RobotSurface skin = [] {
     const robot::RobotBody body = robot::BuildRobotBody(FourLeg());
-    virtual_camera::Skin made;
+    virtual_camera::RobotSurface made;
     made.rest_m = body.mesh.nodes_m;
     made.triangles = body.boundary.DrawnTriangles();
     made.markers_m.resize(3, static_cast<Eigen::Index>(FourLeg().markers.size()));

@@ -48,7 +48,7 @@ scenario::Scenario PushScenario();
 /// The body of `scenario` at `t_s` of its recording `name`, and the tools there: [3 x nodes].
 virtual_camera::View PushedView(const scenario::Scenario& scenario, const std::string& recording,
                                 double t_s);
-const virtual_camera::Skin& PushSkin();
+const virtual_camera::RobotSurface& PushSkin();
 /// The undeformed body, no tools.
 virtual_camera::View RestView(const scenario::Scenario& scenario);
 

@@ -84,7 +84,7 @@ TEST_F(FiducialsOnTheirTopic, RenderedOnesComeOutWhereTheyAreWithinTheirSigmas) 
   config.markers.color_rgb = ConfigOf(scenario_).color_rgb;
   StartNode(config, false, MakeFramePerception);
   ASSERT_TRUE(test_.WaitFor([this] { return markers_.matched() == 1; }));
-  MarkedScene scene(FourLegSkin(), scenario_);
+  MarkedScene scene(FourLegSurface(), scenario_);
   const rgbd::RgbdFrame& frame = scene.Take(scene.Rest());
   const rgbd::RgbdCamera& camera = scenario_.camera->camera;
   SendCamera(camera, 1, 5);
@@ -110,7 +110,7 @@ TEST_F(FiducialsOnTheirTopic, RenderedOnesComeOutWhereTheyAreWithinTheirSigmas) 
 TEST_F(FiducialsOnTheirTopic, TheTopicIsLeftToOthersWhereNoColourIsTold) {
   StartNode(TestConfig(), true, MakeFramePerception);
   const rgbd::RgbdCamera& camera = scenario_.camera->camera;
-  MarkedScene scene(FourLegSkin(), scenario_);
+  MarkedScene scene(FourLegSurface(), scenario_);
   SendCamera(camera, 1, 5);
   SendFrame(10, scene.Take(scene.Rest()), camera);
   ASSERT_TRUE(WaitForAnswer(10));

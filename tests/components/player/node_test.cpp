@@ -155,7 +155,7 @@ TEST(PlayerNode, GivesUpWhereNobodyListens) {
   RunningPlayer player(config, kFast);
   TestNode bystander("bystander");
   WaitUntilFinished(player, bystander);
-  EXPECT_THAT(player.error(), testing::HasSubstr("nobody reads /perception/markers"));
+  EXPECT_THAT(player.error(), testing::HasSubstr("no reader of /perception/markers"));
 }
 
 TEST(PlayerNode, GivesUpWhereAFrameIsNotAnswered) {

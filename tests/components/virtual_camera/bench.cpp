@@ -67,12 +67,12 @@ scenario::Scenario NoisyScenario() {
   return scenario;
 }
 
-const Skin& FourLegSkin() {
-  static const Skin skin = [] {
+const RobotSurface& FourLegSurface() {
+  static const RobotSurface surface = [] {
     const auto description =
         robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
     const robot::RobotBody body = robot::BuildRobotBody(description);
-    Skin made;
+    RobotSurface made;
     made.rest_m = body.mesh.nodes_m;
     made.triangles = body.boundary.DrawnTriangles();
     made.markers_m.resize(3, static_cast<Eigen::Index>(description.markers.size()));
@@ -81,12 +81,12 @@ const Skin& FourLegSkin() {
     }
     return made;
   }();
-  return skin;
+  return surface;
 }
 
 View RestingView(const scenario::Scenario& scenario) {
   View view;
-  view.nodes_m = FourLegSkin().rest_m;
+  view.nodes_m = FourLegSurface().rest_m;
   view.T_robot_camera = scenario.camera->T_robot_camera;
   return view;
 }
@@ -114,16 +114,16 @@ WallBench FacingWall(double distance_m, double tilt_rad) {
   const double half = 40.0;
   const Eigen::Vector3d across(std::cos(tilt_rad), std::sin(tilt_rad), 0.0);
   const Eigen::Vector3d center(0.0, distance_m - 1.0, 0.0);
-  bench.skin.rest_m.resize(3, 4);
+  bench.surface.rest_m.resize(3, 4);
   for (int i = 0; i < 4; ++i) {
     const double a = i == 1 || i == 2 ? half : -half;
     const double b = i >= 2 ? half : -half;
-    bench.skin.rest_m.col(i) = center + a * across + b * Eigen::Vector3d::UnitZ();
+    bench.surface.rest_m.col(i) = center + a * across + b * Eigen::Vector3d::UnitZ();
   }
-  bench.skin.triangles.resize(3, 2);
-  bench.skin.triangles << 0, 0, 1, 2, 2, 3;
-  bench.skin.markers_m.resize(3, 0);
-  bench.view.nodes_m = bench.skin.rest_m;
+  bench.surface.triangles.resize(3, 2);
+  bench.surface.triangles << 0, 0, 1, 2, 2, 3;
+  bench.surface.markers_m.resize(3, 0);
+  bench.view.nodes_m = bench.surface.rest_m;
   bench.view.T_robot_camera = bench.scenario.camera->T_robot_camera;
   return bench;
 }

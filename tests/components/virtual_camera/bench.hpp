@@ -17,8 +17,8 @@ scenario::Scenario QuietScenario();
 /// The same with the noise that a scenario has by default.
 scenario::Scenario NoisyScenario();
 
-/// The skin of config/robots/four_leg.yaml.
-const Skin& FourLegSkin();
+/// The surface of config/robots/four_leg.yaml.
+const RobotSurface& FourLegSurface();
 
 /// The robot bent over to the east, with a sphere, a cylinder, a plate and a hand around it.
 View CrowdedView(const scenario::Scenario& scenario);
@@ -29,7 +29,7 @@ View RestingView(const scenario::Scenario& scenario);
 /// robot frame's y axis), `tilt_rad` about its vertical axis.
 struct WallBench {
   scenario::Scenario scenario;
-  Skin skin;
+  RobotSurface surface;
   View view;
 };
 WallBench FacingWall(double distance_m, double tilt_rad = 0.0);

@@ -26,9 +26,9 @@ struct Taken {
   rgbd::RangeImage truth;
 };
 
-Taken TakeOne(const scenario::Scenario& scenario, const Skin& skin, const View& view,
+Taken TakeOne(const scenario::Scenario& scenario, const RobotSurface& surface, const View& view,
               const Effects& effects, std::uint64_t seed = 4) {
-  VirtualCamera camera(scenario, skin, effects, seed);
+  VirtualCamera camera(scenario, surface, effects, seed);
   Taken taken;
   camera.Take(view, &taken.frame);
   taken.truth = camera.true_range();
@@ -46,7 +46,7 @@ WallBench QuietWall(double tilt_rad = 0.0) {
 TEST(CameraEffects, OfSizeZeroChangeNothing) {
   const scenario::Scenario scenario = NoisyScenario();
   const View view = CrowdedView(scenario);
-  const Taken healthy = TakeOne(scenario, FourLegSkin(), view, {});
+  const Taken healthy = TakeOne(scenario, FourLegSurface(), view, {});
   const Effects zero = {
       Effect("camera_moved",
              {{"translation_m", 0.0}, {"rotation_rad", 0.0}, {"from_recording", 0.0}}),
@@ -57,7 +57,7 @@ TEST(CameraEffects, OfSizeZeroChangeNothing) {
       Effect("flying_pixels", {{"ratio", 0.0}}),
       Effect("warm_up_drift", {{"amplitude_m", 0.0}, {"tau_s", 60.0}})};
   for (const scenario::ActiveEffect& effect : zero) {
-    const Taken taken = TakeOne(scenario, FourLegSkin(), view, {effect});
+    const Taken taken = TakeOne(scenario, FourLegSurface(), view, {effect});
     EXPECT_EQ(taken.frame.depth, healthy.frame.depth) << effect.id;
     EXPECT_EQ(taken.frame.color, healthy.frame.color) << effect.id;
   }
@@ -66,9 +66,9 @@ TEST(CameraEffects, OfSizeZeroChangeNothing) {
 TEST(CameraEffects, OfBodyAndDrivesDoNotActHere) {
   const scenario::Scenario scenario = NoisyScenario();
   const View view = RestingView(scenario);
-  const Taken healthy = TakeOne(scenario, FourLegSkin(), view, {});
+  const Taken healthy = TakeOne(scenario, FourLegSurface(), view, {});
   const Taken taken = TakeOne(
-      scenario, FourLegSkin(), view,
+      scenario, FourLegSurface(), view,
       {Effect("youngs_modulus", {{"factor", 1.3}}), Effect("cable_friction", {{"mu", 0.2}})});
   EXPECT_EQ(taken.frame.depth, healthy.frame.depth);
 }
@@ -86,10 +86,10 @@ TEST(CameraEffects, CameraMovedTakesThePictureFromElsewhereFromOneRecordingOn) {
     EXPECT_NEAR(by.translation().norm(), acts ? 0.012 : 0.0, 1e-12);
     EXPECT_NEAR(Eigen::AngleAxisd(by.linear()).angle(), acts ? 0.03 : 0.0, 1e-9);
     view.recording = recording;
-    const Taken taken = TakeOne(scenario, FourLegSkin(), view, {moved});
+    const Taken taken = TakeOne(scenario, FourLegSurface(), view, {moved});
     View from_there = view;
     from_there.T_robot_camera = pose;
-    const Taken wanted = TakeOne(scenario, FourLegSkin(), from_there, {});
+    const Taken wanted = TakeOne(scenario, FourLegSurface(), from_there, {});
     EXPECT_EQ(taken.frame.depth, wanted.frame.depth) << recording;
     EXPECT_EQ(taken.frame.color, wanted.frame.color) << recording;
   }
@@ -112,7 +112,7 @@ TEST(CameraEffects, CameraMovedGoesWhereTheSeedSays) {
 TEST(CameraEffects, DepthScaleActsAlongTheRay) {
   const WallBench bench = QuietWall(0.4);
   const Taken taken =
-      TakeOne(bench.scenario, bench.skin, bench.view, {Effect("depth_scale", {{"s", -0.019}})});
+      TakeOne(bench.scenario, bench.surface, bench.view, {Effect("depth_scale", {{"s", -0.019}})});
   for (int u = 10; u < 840; u += 50) {
     const double truth = static_cast<double>(*taken.truth.Pixel(u, 100));
     if (truth > 0.6) continue;
@@ -122,7 +122,7 @@ TEST(CameraEffects, DepthScaleActsAlongTheRay) {
 
 TEST(CameraEffects, EffectsOfOneKindAddUp) {
   const WallBench bench = QuietWall();
-  const Taken taken = TakeOne(bench.scenario, bench.skin, bench.view,
+  const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view,
                               {Effect("depth_scale", {{"s", 0.02}}),  //
                                Effect("depth_scale", {{"s", 0.001}})});
   EXPECT_NEAR(DepthAt(taken.frame, bench.scenario, 424, 240), 0.5 * 1.021, 6e-6);
@@ -159,7 +159,7 @@ WallBench PlateBench() {
 TEST(CameraEffects, IntrinsicsChangeWherePixelsLook) {
   const WallBench bench = PlateBench();
   const Taken taken =
-      TakeOne(bench.scenario, bench.skin, bench.view,
+      TakeOne(bench.scenario, bench.surface, bench.view,
               {Effect("intrinsics", {{"focal", 0.02}, {"cx_px", 3.0}, {"cy_px", -5.0}})});
   const double half_px = 0.15 / 0.4 * 665.0 * 1.02;
   EXPECT_NEAR(LeftEdge(taken.truth, 239), 423.7 + 3.0 - half_px, 1.0);
@@ -173,8 +173,8 @@ TEST(CameraEffects, IntrinsicsChangeWherePixelsLook) {
 
 TEST(CameraEffects, LensDistortionBendsWhereTheDataSheetHasNone) {
   const WallBench bench = PlateBench();
-  const Taken taken =
-      TakeOne(bench.scenario, bench.skin, bench.view, {Effect("lens_distortion", {{"k1", -0.1}})});
+  const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view,
+                              {Effect("lens_distortion", {{"k1", -0.1}})});
   const double x = 0.15 / 0.4;
   const double wanted = 665.0 * x * (1.0 - 0.1 * x * x);
   EXPECT_NEAR(LeftEdge(taken.truth, 239), 423.7 - wanted, 1.0);
@@ -185,7 +185,7 @@ TEST(CameraEffects, IncidenceBiasGrowsWithTheAngle) {
   const double b_m = 0.003;
   for (const double tilt_rad : {0.0, 0.5, 1.0}) {
     const WallBench bench = QuietWall(tilt_rad);
-    const Taken taken = TakeOne(bench.scenario, bench.skin, bench.view,
+    const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view,
                                 {Effect("depth_incidence_bias", {{"b_m", b_m}})});
     const Eigen::Vector3d normal(-std::sin(tilt_rad), 0.0, std::cos(tilt_rad));
     for (int u = 224; u <= 624; u += 40) {
@@ -209,7 +209,7 @@ TEST(CameraEffects, IncidenceBiasKnowsTheAngleOnABall) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = bench.view.T_robot_camera * center;
   bench.view.tools = {{"ball", pose}};
-  const Taken taken = TakeOne(bench.scenario, bench.skin, bench.view,
+  const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view,
                               {Effect("depth_incidence_bias", {{"b_m", 0.003}})});
   for (int u = 340; u < 510; u += 10) {
     const double truth = static_cast<double>(*taken.truth.Pixel(u, 239));
@@ -236,7 +236,7 @@ int CountBetween(const Taken& taken, const scenario::Scenario& scenario, double 
 TEST(CameraEffects, FlyingPixelsAreSoManyMoreAlongEdges) {
   WallBench bench = PlateBench();
   const auto flying = [&](double ratio) {
-    const Taken taken = TakeOne(bench.scenario, bench.skin, bench.view,
+    const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view,
                                 {Effect("flying_pixels", {{"ratio", ratio}})});
     return CountBetween(taken, bench.scenario, 0.401, 0.499);
   };
@@ -254,7 +254,7 @@ TEST(CameraEffects, WarmUpDriftComesAndStays) {
   const Effects drift = {Effect("warm_up_drift", {{"amplitude_m", 0.004}, {"tau_s", 300.0}})};
   for (const double t_s : {0.0, 100.0, 300.0, 3000.0}) {
     bench.view.t_s = t_s;
-    const Taken taken = TakeOne(bench.scenario, bench.skin, bench.view, drift);
+    const Taken taken = TakeOne(bench.scenario, bench.surface, bench.view, drift);
     EXPECT_NEAR(DepthAt(taken.frame, bench.scenario, 424, 240),
                 0.5 + 0.004 * (1.0 - std::exp(-t_s / 300.0)), 6e-6)
         << t_s;

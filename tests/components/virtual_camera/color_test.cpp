@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The colour picture: where things are seen in it, what sticks to the skin, light and noise.
+// The colour image: where things are seen in it, what sticks to the surface, light and noise.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 namespace palpate::virtual_camera {
 namespace {
 
-rgbd::ColorImage ColorOf(const scenario::Scenario& scenario, const Skin& skin, const View& view,
-                         std::uint64_t seed = 1) {
-  VirtualCamera camera(scenario, skin, {}, seed);
+rgbd::ColorImage ColorOf(const scenario::Scenario& scenario, const RobotSurface& surface,
+                         const View& view, std::uint64_t seed = 1) {
+  VirtualCamera camera(scenario, surface, {}, seed);
   rgbd::RgbdFrame frame;
   camera.Take(view, &frame);
   return frame.color;
@@ -64,7 +64,7 @@ TEST(Color, IsSeenFromTheColorCamerasOwnPlaceWithItsOwnLens) {
       Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).toRotationMatrix();
   for (const double k1 : {0.0, 0.15}) {
     camera.color.distortion[0] = k1;
-    const Spot spot = FindSpot(ColorOf(bench.scenario, bench.skin, bench.view), 1, 60);
+    const Spot spot = FindSpot(ColorOf(bench.scenario, bench.surface, bench.view), 1, 60);
     const Eigen::Vector2d wanted =
         rgbd::Project(camera.color, camera.T_depth_color.inverse() * center);
     EXPECT_GT(spot.pixels, 500);
@@ -78,7 +78,7 @@ TEST(Color, RegisteredIsSeenFromTheDepthCamera) {
   rgbd::RgbdCamera& camera = bench.scenario.camera->camera;
   camera.color_registered = true;
   camera.color.width_px = 640;  // of no account: colour has the depth image's pixels
-  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.skin, bench.view);
+  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.surface, bench.view);
   EXPECT_EQ(color.width_px, camera.depth.width_px);
   const Spot spot = FindSpot(color, 1, 60);
   EXPECT_NEAR((spot.center - rgbd::Project(camera.depth, center)).norm(), 0.0, 0.5);
@@ -87,27 +87,27 @@ TEST(Color, RegisteredIsSeenFromTheDepthCamera) {
 TEST(Color, WithoutAColorCameraThereIsNone) {
   WallBench bench = FacingWall(0.5);
   bench.scenario.camera->camera.color.width_px = 0;
-  EXPECT_TRUE(ColorOf(bench.scenario, bench.skin, bench.view).empty());
+  EXPECT_TRUE(ColorOf(bench.scenario, bench.surface, bench.view).empty());
 }
 
 TEST(Color, MarkersStickToTheSkin) {
   scenario::Scenario scenario = QuietScenario();
   scenario.stage.robot_color_rgb = {0.6, 0.6, 0.6};  // so that the hues begin with yellow
   scenario.tools.clear();
-  Skin skin = FourLegSkin();
+  RobotSurface surface = FourLegSurface();
   Eigen::Index marked = 0;  // the node on the south side nearest to (0, -0.0598, 0.0858)
-  (skin.rest_m.colwise() - Eigen::Vector3d(0.0, -0.0598, 0.0858))
+  (surface.rest_m.colwise() - Eigen::Vector3d(0.0, -0.0598, 0.0858))
       .colwise()
       .squaredNorm()
       .minCoeff(&marked);
-  skin.markers_m = skin.rest_m.col(marked);
+  surface.markers_m = surface.rest_m.col(marked);
   View view = RestingView(scenario);
   for (const double bend : {0.0, 1.5}) {
     for (Eigen::Index i = 0; i < view.nodes_m.cols(); ++i) {
-      view.nodes_m(0, i) = skin.rest_m(0, i) + bend * std::pow(skin.rest_m(2, i), 2);
+      view.nodes_m(0, i) = surface.rest_m(0, i) + bend * std::pow(surface.rest_m(2, i), 2);
     }
     // With a single marker its hue is halfway round from the robot's: cyan, weak in red.
-    const rgbd::ColorImage color = ColorOf(scenario, skin, view);
+    const rgbd::ColorImage color = ColorOf(scenario, surface, view);
     Spot spot;
     for (int v = 0; v < color.height_px; ++v) {
       for (int u = 0; u < color.width_px; ++u) {
@@ -129,10 +129,10 @@ TEST(Color, MarkersStickToTheSkin) {
 TEST(Color, TheDiscHasTheRadiusOfTheStage) {
   WallBench bench = FacingWall(0.4);
   bench.scenario.stage.robot_color_rgb = {0.6, 0.6, 0.6};
-  bench.skin.markers_m = Eigen::Vector3d(0.02, -0.6, 0.01);
+  bench.surface.markers_m = Eigen::Vector3d(0.02, -0.6, 0.01);
   for (const double radius_m : {0.004, 0.008}) {
     bench.scenario.stage.marker_radius_m = radius_m;
-    const rgbd::ColorImage color = ColorOf(bench.scenario, bench.skin, bench.view);
+    const rgbd::ColorImage color = ColorOf(bench.scenario, bench.surface, bench.view);
     // The disc is cyan on grey: blue less red is the light there, as far as the disc covers.
     double grey = 0.0;
     double covered = 0.0;
@@ -147,7 +147,7 @@ TEST(Color, TheDiscHasTheRadiusOfTheStage) {
     EXPECT_NEAR(covered / (M_PI * radius_px * radius_px), 1.0, 0.08) << radius_m;
   }
   bench.scenario.stage.marker_radius_m = 0.0;
-  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.skin, bench.view);
+  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.surface, bench.view);
   for (int u = 400; u < 500; ++u) EXPECT_LT(*(color.Pixel(u, 224) + 2) - *color.Pixel(u, 224), 40);
 }
 
@@ -162,10 +162,10 @@ std::vector<double> Middle(const rgbd::ColorImage& color, int du) {
 
 TEST(Color, TheTextureMovesWithTheSkin) {
   WallBench bench = FacingWall(0.4);
-  const rgbd::ColorImage before = ColorOf(bench.scenario, bench.skin, bench.view, 1);
+  const rgbd::ColorImage before = ColorOf(bench.scenario, bench.surface, bench.view, 1);
   // 10 px to the right.
   bench.view.nodes_m.row(0).array() += 10.0 * 0.4 / 640.0;
-  const rgbd::ColorImage after = ColorOf(bench.scenario, bench.skin, bench.view, 2);
+  const rgbd::ColorImage after = ColorOf(bench.scenario, bench.surface, bench.view, 2);
   EXPECT_GT(Correlation(Middle(before, 0), Middle(after, 10)), 0.9);
   EXPECT_LT(Correlation(Middle(before, 0), Middle(after, 0)), 0.7);
   EXPECT_GT(MomentsOf(Middle(before, 0)).sigma, 4.0);
@@ -173,15 +173,15 @@ TEST(Color, TheTextureMovesWithTheSkin) {
 
 TEST(Color, TheLampsBrightnessIsThatOfTheStage) {
   WallBench bench = FacingWall(0.4);
-  const double full = MomentsOf(Middle(ColorOf(bench.scenario, bench.skin, bench.view), 0)).mean;
+  const double full = MomentsOf(Middle(ColorOf(bench.scenario, bench.surface, bench.view), 0)).mean;
   bench.scenario.stage.light = 0.5;
-  const double half = MomentsOf(Middle(ColorOf(bench.scenario, bench.skin, bench.view), 0)).mean;
+  const double half = MomentsOf(Middle(ColorOf(bench.scenario, bench.surface, bench.view), 0)).mean;
   EXPECT_NEAR(half / full, 0.5, 0.02);
 }
 
 TEST(Color, NoiseIsAGreyLevelOrTwo) {
   const WallBench bench = FacingWall(0.4);
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame first;
   rgbd::RgbdFrame second;
   camera.Take(bench.view, &first);
@@ -201,7 +201,7 @@ TEST(Color, NoiseIsAGreyLevelOrTwo) {
 
 TEST(Color, CornersAreALittleDarker) {
   WallBench bench = FacingWall(0.4);
-  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.skin, bench.view);
+  const rgbd::ColorImage color = ColorOf(bench.scenario, bench.surface, bench.view);
   const auto mean = [&](int u0, int v0) {
     double sum = 0.0;
     for (int v = v0; v < v0 + 60; ++v) {
@@ -220,11 +220,11 @@ TEST(Color, TheHandHasFingersOfSkin) {
   scenario::Scenario scenario = NoisyScenario();
   View view = CrowdedView(scenario);
   view.tools.erase(view.tools.begin(), view.tools.begin() + 3);
-  const rgbd::ColorImage with = ColorOf(scenario, FourLegSkin(), view);
+  const rgbd::ColorImage with = ColorOf(scenario, FourLegSurface(), view);
   view.tools.clear();
-  const rgbd::ColorImage without = ColorOf(scenario, FourLegSkin(), view);
+  const rgbd::ColorImage without = ColorOf(scenario, FourLegSurface(), view);
   int changed = 0;
-  int of_skin = 0;
+  int of_surface = 0;
   for (std::size_t i = 0; i < with.values.size(); i += 3) {
     const int red = with.values[i];
     const int green = with.values[i + 1];
@@ -234,10 +234,10 @@ TEST(Color, TheHandHasFingersOfSkin) {
                            std::abs(blue - without.values[i + 2]);
     if (difference < 40) continue;
     ++changed;
-    of_skin += red > green && green > blue ? 1 : 0;
+    of_surface += red > green && green > blue ? 1 : 0;
   }
   EXPECT_GT(changed, 15000);
-  EXPECT_GT(of_skin, 0.95 * changed);
+  EXPECT_GT(of_surface, 0.95 * changed);
 }
 
 }  // namespace

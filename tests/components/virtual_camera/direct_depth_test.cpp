@@ -24,7 +24,7 @@ WallBench FlightWall(double distance_m, const Eigen::Vector3d& rgb, double tilt_
 
 // Standard deviation of the range (along the ray) in the middle of the picture.
 double RangeSigma(const WallBench& bench) {
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   std::vector<double> errors;
@@ -51,7 +51,7 @@ TEST(TimeOfFlight, NoiseGrowsAsLightReturnsLess) {
 TEST(TimeOfFlight, TooLittleLightMeasuresNothing) {
   WallBench bench = FlightWall(3.5, {0.0, 0.0, 0.0});
   bench.scenario.camera->camera.depth_unit_m = 1e-4;
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   EXPECT_TRUE(IsHole(frame, 424, 240));
@@ -66,7 +66,7 @@ TEST(TimeOfFlight, MixesFrontAndBackAlongEdges) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(0.0, -0.5, 0.0);
   bench.view.tools = {{"ball", pose}};
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   int flying = 0;
@@ -88,7 +88,7 @@ TEST(TimeOfFlight, MixesFrontAndBackAlongEdges) {
 TEST(WithoutNoise, DepthIsTheTruthInWholeSteps) {
   scenario::Scenario scenario = QuietScenario();
   scenario.camera->camera.depth_unit_m = 2.5e-4;
-  VirtualCamera camera(scenario, FourLegSkin(), {}, 3);
+  VirtualCamera camera(scenario, FourLegSurface(), {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(CrowdedView(scenario), &frame);
   int seen = 0;
@@ -111,7 +111,7 @@ TEST(WithoutNoise, WhatIsTooFarForTheDepthUnitIsInvalid) {
   WallBench bench = FacingWall(7.0);
   bench.scenario.camera->noise.sensor = scenario::DepthSensor::kNone;
   bench.scenario.camera->camera.invalid_value = 65535;
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   EXPECT_EQ(*frame.depth.Pixel(424, 240), 65535);

@@ -30,7 +30,7 @@ rgbd::RangeImage RangeSeenBy(const Drawing& drawing, const rgbd::CameraModel& mo
 // `from_inside`: surfaces that are cut open show their inside, as Embree has it.
 void ExpectAsEmbree(const rgbd::CameraModel& model, const View& view, int silhouette,
                     bool from_inside = false) {
-  Scenery scenery(QuietScenario(), FourLegSkin());
+  Scenery scenery(QuietScenario(), FourLegSurface());
   Drawing drawing = scenery.Update(view);
   for (DrawnMesh& mesh : drawing.meshes) mesh.closed = mesh.closed && !from_inside;
   const EmbreeOracle oracle(drawing, view.T_robot_camera);
@@ -85,7 +85,7 @@ TEST(Geometry, CutsWhatReachesBehindADistortedLens) {
 TEST(Geometry, ADistortionTooSmallToSeeIsDrawnAsNone) {
   const scenario::Scenario scenario = QuietScenario();
   const View view = CrowdedView(scenario);
-  Scenery scenery(scenario, FourLegSkin());
+  Scenery scenery(scenario, FourLegSurface());
   const Drawing& drawing = scenery.Update(view);
   rgbd::CameraModel model = scenario.camera->camera.depth;
   const rgbd::RangeImage straight = RangeSeenBy(drawing, model, view.T_robot_camera);

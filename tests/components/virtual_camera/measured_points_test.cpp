@@ -31,7 +31,7 @@ TEST(MeasuredPoints, AreThoseOfThePicture) {
       EffectOn("intrinsics", {{"focal", 0.03}, {"cx_px", 6.0}, {"cy_px", -9.0}}),
       EffectOn("lens_distortion", {{"k1", 0.08}}),
       EffectOn("warm_up_drift", {{"amplitude_m", 0.006}, {"tau_s", 50.0}})};
-  VirtualCamera taker(bench.scenario, bench.skin, effects, 4);
+  VirtualCamera taker(bench.scenario, bench.surface, effects, 4);
   rgbd::RgbdFrame frame;
   taker.Take(bench.view, &frame);
   const CameraFaults faults = FaultsFrom(effects, 4);

@@ -49,7 +49,7 @@ struct KinectBench {
 
 DepthStatistics OfTheVirtualCamera() {
   const KinectBench bench;
-  VirtualCamera camera(bench.scenario, FourLegSkin(), {}, 6);
+  VirtualCamera camera(bench.scenario, FourLegSurface(), {}, 6);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   rgbd::RangeImage range(640, 480, std::numeric_limits<float>::quiet_NaN());

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 std::vector<rgbd::RgbdFrame> TakeThree(const scenario::Scenario& scenario, std::uint64_t seed) {
-  VirtualCamera camera(scenario, FourLegSkin(), {}, seed);
+  VirtualCamera camera(scenario, FourLegSurface(), {}, seed);
   std::vector<rgbd::RgbdFrame> frames(3);
   for (rgbd::RgbdFrame& frame : frames) camera.Take(CrowdedView(scenario), &frame);
   return frames;
@@ -48,7 +48,7 @@ TEST(Repeatability, SeedsAndFramesDiffer) {
 
 TEST(Repeatability, BuffersOfAnotherFrameAreUsedAgain) {
   const scenario::Scenario scenario = NoisyScenario();
-  VirtualCamera camera(scenario, FourLegSkin(), {}, 11);
+  VirtualCamera camera(scenario, FourLegSurface(), {}, 11);
   rgbd::RgbdFrame frame;
   frame.stamp_ns = 42;
   frame.depth = rgbd::DepthImage(3, 5);
@@ -76,7 +76,7 @@ Pictures DrawWith(const kernels::Kernels& loops, scenario::Scenario scenario, do
   CameraFaults faults;
   faults.incidence_bias_m = 0.001;
   const View view = CrowdedView(scenario);
-  Scenery scenery(scenario, FourLegSkin());
+  Scenery scenery(scenario, FourLegSurface());
   SceneCamera camera(spec.camera.depth, loops);
   DepthSensor depth(spec, faults, 3, loops);
   ColorSensor color(spec.camera.depth, 3, loops);
@@ -117,39 +117,40 @@ template <typename Change>
 auto Making(const Change& change) {
   return [change] {
     scenario::Scenario scenario = NoisyScenario();
-    Skin skin = FourLegSkin();
-    change(&scenario, &skin);
-    const VirtualCamera camera(scenario, skin, {}, 1);
+    RobotSurface surface = FourLegSurface();
+    change(&scenario, &surface);
+    const VirtualCamera camera(scenario, surface, {}, 1);
   };
 }
 
 TEST(Refusals, SayWhatIsWrong) {
   using scenario::Scenario;
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera.reset(); }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera.reset(); }),
               ThrowsMessage<InputError>(HasSubstr("no camera")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->camera.depth.width_px = 0; }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->camera.depth.width_px = 0; }),
               ThrowsMessage<InputError>(HasSubstr("no size")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->camera.color.fx_px = 0.0; }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->camera.color.fx_px = 0.0; }),
               ThrowsMessage<InputError>(HasSubstr("colour camera")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->camera.baseline_m = 0.0; }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->camera.baseline_m = 0.0; }),
               ThrowsMessage<InputError>(HasSubstr("baseline_m is 0, must be > 0")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->camera.depth_unit_m = 0.0; }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->camera.depth_unit_m = 0.0; }),
               ThrowsMessage<InputError>(HasSubstr("depth_unit_m")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->noise.correlation_px = 51.0; }),
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->noise.correlation_px = 51.0; }),
               ThrowsMessage<InputError>(HasSubstr("correlation_px is 51")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->noise.temporal_correlation = 1.0; }),
-              ThrowsMessage<InputError>(HasSubstr("temporal_correlation")));
-  EXPECT_THAT(Making([](Scenario* s, Skin*) { s->camera->noise.disparity_step_px = 0.0; }),
+  EXPECT_THAT(
+      Making([](Scenario* s, RobotSurface*) { s->camera->noise.temporal_correlation = 1.0; }),
+      ThrowsMessage<InputError>(HasSubstr("temporal_correlation")));
+  EXPECT_THAT(Making([](Scenario* s, RobotSurface*) { s->camera->noise.disparity_step_px = 0.0; }),
               ThrowsMessage<InputError>(HasSubstr("disparity_step_px")));
-  EXPECT_THAT(Making([](Scenario*, Skin* k) { k->triangles(0, 0) = 1 << 20; }),
+  EXPECT_THAT(Making([](Scenario*, RobotSurface* k) { k->triangles(0, 0) = 1 << 20; }),
               ThrowsMessage<InputError>(HasSubstr("nodes that it does not have")));
-  EXPECT_THAT(Making([](Scenario*, Skin* k) { k->rest_m(0, 0) = std::nan(""); }),
+  EXPECT_THAT(Making([](Scenario*, RobotSurface* k) { k->rest_m(0, 0) = std::nan(""); }),
               ThrowsMessage<InputError>(HasSubstr("no numbers")));
 }
 
 TEST(Refusals, AToolThatTheScenarioDoesNotHave) {
   const scenario::Scenario scenario = NoisyScenario();
-  VirtualCamera camera(scenario, FourLegSkin(), {}, 1);
+  VirtualCamera camera(scenario, FourLegSurface(), {}, 1);
   View view = RestingView(scenario);
   view.tools = {{"spoon", Eigen::Isometry3d::Identity()}};
   rgbd::RgbdFrame frame;

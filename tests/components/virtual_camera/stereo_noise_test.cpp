@@ -50,7 +50,7 @@ TEST(StereoNoise, GrowsWithTheSquareOfTheDistance) {
   for (int i = 0; i < 4; ++i) {
     WallBench bench = PlainWall(distances_m[i]);
     bench.scenario.camera->noise.disparity_step_px = 1.0 / 32.0;
-    VirtualCamera camera(bench.scenario, bench.skin, {}, 5);
+    VirtualCamera camera(bench.scenario, bench.surface, {}, 5);
     rgbd::RgbdFrame frame;
     camera.Take(bench.view, &frame);
     const Moments error = MomentsOf(ErrorsOf(camera, frame, bench.scenario));
@@ -63,7 +63,7 @@ TEST(StereoNoise, IsCorrelatedOverTheLengthAskedFor) {
   for (const double length_px : {0.0, 1.5, 4.0}) {
     WallBench bench = PlainWall(0.5);
     bench.scenario.camera->noise.correlation_px = length_px;
-    VirtualCamera camera(bench.scenario, bench.skin, {}, 7);
+    VirtualCamera camera(bench.scenario, bench.surface, {}, 7);
     rgbd::RgbdFrame frame;
     camera.Take(bench.view, &frame);
     const std::vector<double> here = ErrorsOf(camera, frame, bench.scenario);
@@ -80,7 +80,7 @@ TEST(StereoNoise, IsCorrelatedOverTheLengthAskedFor) {
 
 TEST(StereoNoise, RemembersTheLastFrame) {
   const WallBench bench = PlainWall(0.5);
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 7);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 7);
   std::vector<std::vector<double>> errors;
   for (int i = 0; i < 3; ++i) {
     rgbd::RgbdFrame frame;
@@ -94,7 +94,7 @@ TEST(StereoNoise, RemembersTheLastFrame) {
 
 TEST(StereoNoise, FollowsTheNormalDistribution) {
   const WallBench bench = PlainWall(0.5);
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 9);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 9);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   const std::vector<double> errors = ErrorsOf(camera, frame, bench.scenario);
@@ -113,7 +113,7 @@ TEST(StereoNoise, FollowsTheNormalDistribution) {
 TEST(StereoNoise, RoundsDisparityAndThenDepth) {
   WallBench bench = FacingWall(0.5, 0.5);
   bench.scenario.camera->noise.low_frequency_bias = 0.0;
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   const double unit_m = bench.scenario.camera->camera.depth_unit_m;
@@ -134,7 +134,7 @@ TEST(StereoNoise, IsBiasedPeriodicallyWithinAPixelOfDisparity) {
   WallBench bench = PlainWall(0.5, 0.5);
   bench.scenario.camera->noise.subpixel_px = 0.0;
   bench.scenario.camera->noise.periodic_bias_px = 0.05;
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   double largest = 0.0;
@@ -155,7 +155,7 @@ TEST(StereoNoise, IsBiasedSmoothlyOverTheImage) {
   scenario::DepthNoise& noise = bench.scenario.camera->noise;
   noise.subpixel_px = 0.0;
   noise.low_frequency_bias = 0.004;
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   std::vector<double> shares;
@@ -211,7 +211,7 @@ struct PlateBefore {
 
 TEST(StereoHoles, TheShadowLiesToTheLeftAndIsAsWideAsTheDisparitiesDiffer) {
   const PlateBefore scene(0.08);
-  VirtualCamera camera(scene.bench.scenario, scene.bench.skin, {}, 3);
+  VirtualCamera camera(scene.bench.scenario, scene.bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(scene.bench.view, &frame);
   const int shadow = static_cast<int>(kStereoFocalBaseline / PlateBefore::kPlate_m -
@@ -224,7 +224,7 @@ TEST(StereoHoles, TheShadowLiesToTheLeftAndIsAsWideAsTheDisparitiesDiffer) {
 
 TEST(StereoHoles, BehindANarrowThingTheOtherImagerSeesOnBothSides) {
   const PlateBefore scene(0.008);  // 13 px, less than the 45 px between the two views
-  VirtualCamera camera(scene.bench.scenario, scene.bench.skin, {}, 3);
+  VirtualCamera camera(scene.bench.scenario, scene.bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(scene.bench.view, &frame);
   const int shift = static_cast<int>(kStereoFocalBaseline / PlateBefore::kPlate_m -
@@ -235,7 +235,7 @@ TEST(StereoHoles, BehindANarrowThingTheOtherImagerSeesOnBothSides) {
 
 TEST(StereoHoles, TheLeftBorderIsOutsideTheOtherImage) {
   const WallBench bench = FacingWall(0.5);
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   const int border = static_cast<int>(kStereoFocalBaseline / 0.5);  // 73 px
@@ -252,7 +252,7 @@ TEST(StereoHoles, EdgesHaveHolesAndFlyingPixelsInTheShareAskedFor) {
   int holes = 0;
   int flying = 0;
   int pixels = 0;
-  VirtualCamera camera(scene.bench.scenario, scene.bench.skin, {}, 3);
+  VirtualCamera camera(scene.bench.scenario, scene.bench.surface, {}, 3);
   for (int i = 0; i < 50; ++i) {
     rgbd::RgbdFrame frame;
     camera.Take(scene.bench.view, &frame);
@@ -275,7 +275,7 @@ TEST(StereoHoles, EdgesHaveHolesAndFlyingPixelsInTheShareAskedFor) {
 TEST(StereoHoles, GrowBeyondTheGrazingAngle) {
   // Rays meet the tilted wall at every angle from 60 degrees on.
   const WallBench bench = FacingWall(0.6, 1.35);
-  VirtualCamera camera(bench.scenario, bench.skin, {}, 3);
+  VirtualCamera camera(bench.scenario, bench.surface, {}, 3);
   rgbd::RgbdFrame frame;
   camera.Take(bench.view, &frame);
   std::array<int, 90> holes = {};

@@ -41,7 +41,7 @@ dds::Message<idl::palpate_msgs::BenchState> SecondRecording() {
 }
 
 TEST(MeshMessage, BecomesTheSkin) {
-  Skin skin;
+  RobotSurface skin;
   ASSERT_TRUE(FromMesh(*OneTriangle(), &skin).ok());
   EXPECT_EQ(skin.rest_m.cols(), 3);
   EXPECT_EQ(skin.rest_m(0, 1), 1.0);
@@ -49,7 +49,7 @@ TEST(MeshMessage, BecomesTheSkin) {
 }
 
 TEST(MeshMessage, RefusesWhatIsNoSurface) {
-  Skin skin;
+  RobotSurface skin;
   const auto refusal = [&](const auto& message) {
     const Status status = FromMesh(*message, &skin);
     EXPECT_EQ(status.code(), StatusCode::kInvalidInput);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "components/virtual_robot/drive_chain.hpp"
+#include "components/virtual_robot/actuator_chain.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/components/virtual_robot/bench_setup.hpp"
 
@@ -105,14 +105,14 @@ TEST(Cables, RoutedElsewherePullsThatWay) {
   EXPECT_LE((robot->positions_m() - expected->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
 
-TEST(Drives, BacklashIsThePlayOperator) {
-  DriveChain drives({"a"}, {Effect("backlash", {"cable:a"}, {{"play_m", 0.002}})});
+TEST(Actuators, BacklashIsThePlayOperator) {
+  ActuatorChain actuators({"a"}, {Effect("backlash", {"cable:a"}, {{"play_m", 0.002}})});
   const auto command = [](double value_m) { return Eigen::VectorXd::Constant(1, value_m); };
-  drives.Reset(0.0, command(0.0));
+  actuators.Reset(0.0, command(0.0));
   const auto at = [&](double t_s, double value_m) {
-    drives.Propose(t_s, command(value_m));
-    drives.Commit();
-    return drives.pulled_in_m()[0];
+    actuators.Propose(t_s, command(value_m));
+    actuators.Commit();
+    return actuators.pulled_in_m()[0];
   };
   EXPECT_DOUBLE_EQ(at(1.0, 0.0008), 0.0);
   EXPECT_DOUBLE_EQ(at(2.0, 0.005), 0.004);
@@ -121,18 +121,19 @@ TEST(Drives, BacklashIsThePlayOperator) {
   EXPECT_DOUBLE_EQ(at(5.0, 0.002), 0.003);
 }
 
-TEST(Drives, LagIsADelayAndAFirstOrder) {
+TEST(Actuators, LagIsADelayAndAFirstOrder) {
   constexpr double kDelay_s = 0.1;
   constexpr double kTau_s = 0.3;
-  DriveChain drives({"a"}, {Effect("lag", {"body"}, {{"delay_s", kDelay_s}, {"tau_s", kTau_s}})});
-  drives.Reset(0.0, Eigen::VectorXd::Zero(1));
+  ActuatorChain actuators({"a"},
+                          {Effect("lag", {"body"}, {{"delay_s", kDelay_s}, {"tau_s", kTau_s}})});
+  actuators.Reset(0.0, Eigen::VectorXd::Zero(1));
   for (int k = 1; k <= 100; ++k) {
     const double t_s = 0.02 * k;
-    drives.Propose(t_s, Eigen::VectorXd::Constant(1, 0.01 * t_s));
-    drives.Commit();
+    actuators.Propose(t_s, Eigen::VectorXd::Constant(1, 0.01 * t_s));
+    actuators.Commit();
     const double since_s = std::max(0.0, t_s - kDelay_s);
     const double expected_m = 0.01 * (since_s - kTau_s * (1.0 - std::exp(-since_s / kTau_s)));
-    EXPECT_NEAR(drives.pulled_in_m()[0], expected_m, 1e-12) << t_s;
+    EXPECT_NEAR(actuators.pulled_in_m()[0], expected_m, 1e-12) << t_s;
   }
 }
 

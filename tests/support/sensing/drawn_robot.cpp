@@ -7,15 +7,15 @@
 
 namespace palpate::test_support {
 
-virtual_camera::Skin SkinOf(const robot::RobotBody& body) {
-  virtual_camera::Skin skin;
-  skin.rest_m = body.mesh.nodes_m;
-  skin.triangles = body.boundary.DrawnTriangles();
-  skin.markers_m.resize(3, static_cast<Eigen::Index>(body.markers.size()));
+virtual_camera::RobotSurface SkinOf(const robot::RobotBody& body) {
+  virtual_camera::RobotSurface surface;
+  surface.rest_m = body.mesh.nodes_m;
+  surface.triangles = body.boundary.DrawnTriangles();
+  surface.markers_m.resize(3, static_cast<Eigen::Index>(body.markers.size()));
   for (std::size_t i = 0; i < body.markers.size(); ++i) {
-    skin.markers_m.col(static_cast<Eigen::Index>(i)) = body.markers[i].point.rest_m;
+    surface.markers_m.col(static_cast<Eigen::Index>(i)) = body.markers[i].point.rest_m;
   }
-  return skin;
+  return surface;
 }
 
 scenario::Scenario StereoScenario(double focal_px, double baseline_m, const Eigen::Vector3d& eye_m,
@@ -35,10 +35,10 @@ scenario::Scenario StereoScenario(double focal_px, double baseline_m, const Eige
 }
 
 virtual_camera::View ViewWithTool(const scenario::Scenario& scenario,
-                                  const virtual_camera::Skin& skin, const std::string& tool,
-                                  const Eigen::Vector3d& tool_m) {
+                                  const virtual_camera::RobotSurface& surface,
+                                  const std::string& tool, const Eigen::Vector3d& tool_m) {
   virtual_camera::View view;
-  view.nodes_m = skin.rest_m;
+  view.nodes_m = surface.rest_m;
   view.T_robot_camera = scenario.camera->T_robot_camera;
   view.tools.push_back({tool, Eigen::Isometry3d::Identity()});
   view.tools[0].T_robot_tool.translation() = tool_m;

@@ -100,8 +100,8 @@ Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth, con
   force_estimation::ObservationJacobian responses;
   Expect(responses.Add(model_, rows, state.x_m, frame.cables, state.multipliers_N));
   const auto at = [&](const Eigen::Vector3d& rest_m) -> Eigen::MatrixX3d {
-    const Eigen::Vector3d on_skin_m = map_.NearestAtRest(rest_m).rest_m;
-    return responses.To(model_.Patch(on_skin_m, shape_.contact_radius_m).weights);
+    const Eigen::Vector3d on_surface_m = map_.NearestAtRest(rest_m).rest_m;
+    return responses.To(model_.Patch(on_surface_m, shape_.contact_radius_m).weights);
   };
   const Eigen::Vector3d normal = map_.NormalNow(place);
   const Eigen::MatrixX3d here = at(place.rest_m);

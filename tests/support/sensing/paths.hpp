@@ -17,11 +17,12 @@ std::vector<SceneState> HangWeight(SensingScene& scene, const Eigen::Vector3d& p
                                    double force_N, double patch_radius_m);
 
 /// The scene's hand (a tool of that shape) comes from a random direction above the plate, fingers
-/// first, to `nearest_m` of the skin of the robot as it is, and goes away again; touches nothing.
+/// first, to `nearest_m` of the surface of the robot as it is, and goes away again; touches
+/// nothing.
 std::vector<SceneState> HandComesNear(const SensingScene& scene, double nearest_m, int frames,
                                       scenario::Random* random);
 
-/// From the hand's skin to the nearest of the nodes [3 x n], m; < 0: inside.
+/// From the hand's surface to the nearest of the nodes [3 x n], m; < 0: inside.
 double HandDistance_m(const Eigen::Isometry3d& T_robot_hand, const Eigen::Matrix3Xd& nodes_m);
 
 }  // namespace palpate::test_support

@@ -23,7 +23,7 @@ scenario::Tool Ball(const std::string& name, double radius_m, const Eigen::Vecto
   return ball;
 }
 
-virtual_camera::Skin SkinOf(const virtual_robot::VirtualRobot& robot) {
+virtual_camera::RobotSurface SkinOf(const virtual_robot::VirtualRobot& robot) {
   return {.rest_m = robot.mesh().nodes_m,
           .triangles = robot.boundary().DrawnTriangles(),
           .markers_m = robot.MarkerPositions_m()};

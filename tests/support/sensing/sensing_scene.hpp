@@ -76,7 +76,7 @@ class SensingScene {
   const Eigen::Isometry3d& T_robot_camera() const { return scenario_.camera->T_robot_camera; }
   const scenario::Scenario& scenario() const { return scenario_; }
   const virtual_robot::VirtualRobot& robot() const { return robot_; }
-  const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true skin
+  const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true surface
   Eigen::Matrix3Xd NodesInCamera_m() const;                         ///< [3 x nodes] camera frame
   /// What the estimator is told of the cables: their displacement.
   std::vector<robot::CableCommand> Cables() const;

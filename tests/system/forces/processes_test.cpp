@@ -208,7 +208,7 @@ TEST(Processes, SayWhatIsWrongAndExitWithTheAgreedCode) {
   Process lonely("palpate-player",
                  {"--data", sample.data.string(), "--set", "reader_deadline_s=0.1"}, log);
   EXPECT_EQ(lonely.Wait(seconds(20)), 1);
-  EXPECT_THAT(lonely.Output(), HasSubstr("nobody reads /perception/markers"));
+  EXPECT_THAT(lonely.Output(), HasSubstr("no reader of /perception/markers"));
 }
 
 TEST(Processes, StopCleanlyOnSigterm) {

@@ -45,7 +45,7 @@ robot::RobotDescription ManyMarkers() {
 struct Bench {
   robot::RobotDescription robot = ManyMarkers();
   std::unique_ptr<robot::RobotModel> model = calibration::Build(robot);
-  virtual_camera::Skin skin = SkinOf(robot);
+  virtual_camera::RobotSurface skin = SkinOf(robot);
   calibration::SolvedShapes solved =
       calibration::SolveMarkerShapes(*model, Eigen::Vector4d::Constant(3.5));
 };

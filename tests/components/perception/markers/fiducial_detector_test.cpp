@@ -128,7 +128,7 @@ TEST(FiducialDetector, ShadeDoesNotCount) {
 /// What is seen of it is another spot: it is given up, or its place is said to be less sure.
 TEST(FiducialDetector, AMarkerThatABallCoversInPartIsRejectedOrLessSure) {
   const Scenario scenario = MarkedScenario();
-  MarkedScene scene(FourLegSkin(), scenario);
+  MarkedScene scene(FourLegSurface(), scenario);
   FiducialDetector detector(ConfigOf(scenario));
   detector.SetCamera(scenario.camera->camera);
   scene.Take(scene.Rest());
@@ -161,7 +161,7 @@ TEST(FiducialDetector, AMarkerThatABallCoversInPartIsRejectedOrLessSure) {
 
 TEST(FiducialDetector, AToolOfTheirColorIsTooLarge) {
   const Scenario scenario = MarkedScenario();
-  MarkedScene scene(FourLegSkin(), scenario);
+  MarkedScene scene(FourLegSurface(), scenario);
   FiducialDetector detector(ConfigOf(scenario));
   detector.SetCamera(scenario.camera->camera);
   virtual_camera::View view = scene.Rest();
@@ -175,7 +175,7 @@ TEST(FiducialDetector, AToolOfTheirColorIsTooLarge) {
 
 TEST(FiducialDetector, TheSameFrameGivesTheSameBits) {
   const Scenario scenario = MarkedScenario();
-  MarkedScene scene(FourLegSkin(), scenario);
+  MarkedScene scene(FourLegSurface(), scenario);
   const rgbd::RgbdFrame& frame = scene.Take(scene.Rest());
   FiducialDetector one(ConfigOf(scenario)), other(ConfigOf(scenario));
   one.SetCamera(scenario.camera->camera);

@@ -81,7 +81,7 @@ FiducialScore DetectOn(const scenario::Scenario& scenario, const FiducialConfig&
                        int seeds) {
   FiducialScore score;
   for (int seed = 1; seed <= seeds; ++seed) {
-    MarkedScene scene(FourLegSkin(), scenario, static_cast<std::uint64_t>(seed));
+    MarkedScene scene(FourLegSurface(), scenario, static_cast<std::uint64_t>(seed));
     FiducialDetector detector(config);
     detector.SetCamera(scenario.camera->camera);
     const FiducialFrame& found = detector.Detect(scene.Take(scene.Rest()));

@@ -21,15 +21,15 @@ constexpr double kClear_px = 5.0;
 /// The skin is seen at a place where the picture's surface is no farther from it than this.
 constexpr double kSameSurface_m = 2e-3;
 
-geometry::SurfaceIndex IndexOf(const virtual_camera::Skin& skin) {
+geometry::SurfaceIndex IndexOf(const virtual_camera::RobotSurface& skin) {
   return geometry::SurfaceIndex({.vertices_m = skin.rest_m, .triangles = skin.triangles});
 }
 
 }  // namespace
 
-virtual_camera::Skin SkinOf(const robot::RobotDescription& robot) {
+virtual_camera::RobotSurface SkinOf(const robot::RobotDescription& robot) {
   const robot::RobotBody body = robot::BuildRobotBody(robot);
-  virtual_camera::Skin skin;
+  virtual_camera::RobotSurface skin;
   skin.rest_m = body.mesh.nodes_m;
   skin.triangles = body.boundary.DrawnTriangles();
   skin.markers_m.resize(3, static_cast<Eigen::Index>(robot.markers.size()));
@@ -39,8 +39,8 @@ virtual_camera::Skin SkinOf(const robot::RobotDescription& robot) {
   return skin;
 }
 
-const virtual_camera::Skin& FourLegSkin() {
-  static const virtual_camera::Skin skin = [] {
+const virtual_camera::RobotSurface& FourLegSurface() {
+  static const virtual_camera::RobotSurface skin = [] {
     auto robot =
         robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
     robot.element = fem::ElementType::kTet4;
@@ -81,8 +81,8 @@ FiducialConfig ConfigOf(const scenario::Scenario& scenario) {
   return config;
 }
 
-MarkedScene::MarkedScene(const virtual_camera::Skin& skin, const scenario::Scenario& scenario,
-                         std::uint64_t seed)
+MarkedScene::MarkedScene(const virtual_camera::RobotSurface& skin,
+                         const scenario::Scenario& scenario, std::uint64_t seed)
     : scenario_{scenario}, skin_{skin}, camera_{scenario, skin_, {}, seed} {
   const geometry::SurfaceIndex index = IndexOf(skin_);
   barycentric_.resize(3, skin_.markers_m.cols());

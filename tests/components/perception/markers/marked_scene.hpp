@@ -20,9 +20,9 @@ inline const Eigen::Vector3d kMarkerColor(0.15, 0.65, 0.30);
 
 /// The same robot with each marker moved to the nearest place on the drawn skin.
 robot::RobotDescription OnSkin(robot::RobotDescription robot);
-virtual_camera::Skin SkinOf(const robot::RobotDescription& robot);
+virtual_camera::RobotSurface SkinOf(const robot::RobotDescription& robot);
 /// Of config/robots/four_leg.yaml, markers on it.
-const virtual_camera::Skin& FourLegSkin();
+const virtual_camera::RobotSurface& FourLegSurface();
 
 /// Bench and camera of pushes.yaml, 0.45 m from the body; all discs of one colour.
 scenario::Scenario MarkedScenario();
@@ -43,7 +43,7 @@ struct TrueMarker {
 /// skin that is no farther than the radius from a marker.
 class MarkedScene {
  public:
-  MarkedScene(const virtual_camera::Skin& skin, const scenario::Scenario& scenario,
+  MarkedScene(const virtual_camera::RobotSurface& skin, const scenario::Scenario& scenario,
               std::uint64_t seed = 1);
 
   /// Undeformed, no tools.
@@ -58,7 +58,7 @@ class MarkedScene {
   bool Sees(const Eigen::Vector3d& point_m) const;
 
   scenario::Scenario scenario_;
-  virtual_camera::Skin skin_;
+  virtual_camera::RobotSurface skin_;
   std::vector<int> triangle_;     ///< [markers] that carries it
   Eigen::Matrix3Xd barycentric_;  ///< [3 x markers] there
   virtual_camera::VirtualCamera camera_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/virtual_robot/drive_chain.hpp"
+#include "components/virtual_robot/actuator_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +20,18 @@ double Between(double from, double to, double fraction) {
 
 }  // namespace
 
-DriveChain::DriveChain(const std::vector<std::string>& cable_names, const Effects& effects)
-    : cable_of_drive_(cable_names.size()) {
+ActuatorChain::ActuatorChain(const std::vector<std::string>& cable_names, const Effects& effects)
+    : cable_of_actuator_(cable_names.size()) {
   const auto count = Index(cable_names.size());
-  std::iota(cable_of_drive_.begin(), cable_of_drive_.end(), 0);
+  std::iota(cable_of_actuator_.begin(), cable_of_actuator_.end(), 0);
   coupling_ = Eigen::MatrixXd::Identity(count, count);
   gain_ = Eigen::VectorXd::Ones(count);
   offset_m_ = Eigen::VectorXd::Zero(count);
   play_m_ = Eigen::VectorXd::Zero(count);
   for (const auto* effect : OfKind(effects, "swapped_cables")) {
     const std::vector<int> two = PlacesOf(*effect, "cable", cable_names, 2);
-    std::swap(cable_of_drive_[static_cast<size_t>(two[0])],
-              cable_of_drive_[static_cast<size_t>(two[1])]);
+    std::swap(cable_of_actuator_[static_cast<size_t>(two[0])],
+              cable_of_actuator_[static_cast<size_t>(two[1])]);
   }
   for (const auto* effect : OfKind(effects, "drive_coupling")) {
     const std::vector<int> two = PlacesOf(*effect, "cable", cable_names, 2);
@@ -52,10 +52,10 @@ DriveChain::DriveChain(const std::vector<std::string>& cable_names, const Effect
   }
 }
 
-Eigen::VectorXd DriveChain::Coupled(const Eigen::VectorXd& command_m) const {
+Eigen::VectorXd ActuatorChain::Coupled(const Eigen::VectorXd& command_m) const {
   Eigen::VectorXd of_cable(command_m.size());
-  for (size_t drive = 0; drive < cable_of_drive_.size(); ++drive) {
-    of_cable[cable_of_drive_[drive]] = command_m[Index(drive)];
+  for (size_t actuator = 0; actuator < cable_of_actuator_.size(); ++actuator) {
+    of_cable[cable_of_actuator_[actuator]] = command_m[Index(actuator)];
   }
   Eigen::VectorXd coupled = coupling_.diagonal().cwiseProduct(of_cable);
   for (Eigen::Index i = 0; i < coupled.size(); ++i) {
@@ -68,51 +68,52 @@ Eigen::VectorXd DriveChain::Coupled(const Eigen::VectorXd& command_m) const {
   return coupled;
 }
 
-double DriveChain::Geared(Eigen::Index cable, double followed_m) const {
+double ActuatorChain::Geared(Eigen::Index cable, double followed_m) const {
   return gain_[cable] * followed_m + offset_m_[cable];
 }
 
-void DriveChain::Reset(double t_s, const Eigen::VectorXd& command_m) {
-  now_.told = {t_s, Coupled(command_m)};
-  now_.delayed_m = now_.told.command_m;
-  now_.followed_m = now_.told.command_m;
+void ActuatorChain::Reset(double t_s, const Eigen::VectorXd& command_m) {
+  now_.commanded = {t_s, Coupled(command_m)};
+  now_.delayed_m = now_.commanded.command_m;
+  now_.followed_m = now_.commanded.command_m;
   now_.pulled_in_m.resize(command_m.size());
   for (Eigen::Index c = 0; c < command_m.size(); ++c) {
     now_.pulled_in_m[c] = Geared(c, now_.followed_m[c]);
   }
   proposed_ = now_;
-  history_.assign(1, now_.told);
+  history_.assign(1, now_.commanded);
 }
 
-Eigen::VectorXd DriveChain::Delayed(const Told& latest) const {
+Eigen::VectorXd ActuatorChain::Delayed(const Commanded& latest) const {
   const double t_s = latest.t_s - delay_s_;
-  const Told* later = &latest;
-  for (auto told = history_.rbegin(); told != history_.rend(); ++told) {
-    if (told->t_s <= t_s) {
-      const double span_s = later->t_s - told->t_s;
-      const double fraction = span_s > 0.0 ? (t_s - told->t_s) / span_s : 1.0;
+  const Commanded* later = &latest;
+  for (auto commanded = history_.rbegin(); commanded != history_.rend(); ++commanded) {
+    if (commanded->t_s <= t_s) {
+      const double span_s = later->t_s - commanded->t_s;
+      const double fraction = span_s > 0.0 ? (t_s - commanded->t_s) / span_s : 1.0;
       Eigen::VectorXd command_m(latest.command_m.size());
       for (Eigen::Index c = 0; c < command_m.size(); ++c) {
-        command_m[c] = Between(told->command_m[c], later->command_m[c], fraction);
+        command_m[c] = Between(commanded->command_m[c], later->command_m[c], fraction);
       }
       return command_m;
     }
-    later = &*told;
+    later = &*commanded;
   }
   return later->command_m;
 }
 
 /// tau dy/dt + y = u, exactly for u that goes linearly from u0 to u1.
-double DriveChain::Follow(double from_m, double u0_m, double u1_m, double h_s) const {
+double ActuatorChain::Follow(double from_m, double u0_m, double u1_m, double h_s) const {
   if (tau_s_ == 0.0 || std::isnan(from_m) || std::isnan(u0_m)) return u1_m;
   const double behind_m = (u1_m - u0_m) / h_s * tau_s_;
   return u1_m - behind_m + (from_m - u0_m + behind_m) * std::exp(-h_s / tau_s_);
 }
 
-void DriveChain::Propose(double t_s, const Eigen::VectorXd& command_m) {
-  proposed_.told = {t_s, Coupled(command_m)};
-  proposed_.delayed_m = delay_s_ > 0.0 ? Delayed(proposed_.told) : proposed_.told.command_m;
-  const double h_s = t_s - now_.told.t_s;
+void ActuatorChain::Propose(double t_s, const Eigen::VectorXd& command_m) {
+  proposed_.commanded = {t_s, Coupled(command_m)};
+  proposed_.delayed_m =
+      delay_s_ > 0.0 ? Delayed(proposed_.commanded) : proposed_.commanded.command_m;
+  const double h_s = t_s - now_.commanded.t_s;
   for (Eigen::Index c = 0; c < command_m.size(); ++c) {
     proposed_.followed_m[c] =
         Follow(now_.followed_m[c], now_.delayed_m[c], proposed_.delayed_m[c], h_s);
@@ -125,11 +126,12 @@ void DriveChain::Propose(double t_s, const Eigen::VectorXd& command_m) {
   }
 }
 
-void DriveChain::Commit() {
+void ActuatorChain::Commit() {
   now_ = proposed_;
   if (delay_s_ == 0.0) return;
-  history_.push_back(now_.told);
-  while (history_.size() > 2 && history_[1].t_s <= now_.told.t_s - delay_s_) history_.pop_front();
+  history_.push_back(now_.commanded);
+  while (history_.size() > 2 && history_[1].t_s <= now_.commanded.t_s - delay_s_)
+    history_.pop_front();
 }
 
 }  // namespace palpate::virtual_robot

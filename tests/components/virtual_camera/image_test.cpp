@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Pictures for a person to judge, in the build folder: pictures/virtual_camera_*.png.
+// Images to judge by eye, in the build folder: pictures/virtual_camera_*.png.
 
 #include <gtest/gtest.h>
 
@@ -17,23 +17,23 @@ namespace {
 
 // Near is bright: 0.25 m white, 1.25 m black; holes are blue.
 rgbd::ColorImage PictureOf(const rgbd::DepthImage& depth, double unit_m) {
-  rgbd::ColorImage picture(depth.width_px, depth.height_px);
+  rgbd::ColorImage image(depth.width_px, depth.height_px);
   for (int v = 0; v < depth.height_px; ++v) {
     for (int u = 0; u < depth.width_px; ++u) {
       const int raw = *depth.Pixel(u, v);
       const double share = std::clamp(1.25 - raw * unit_m, 0.0, 1.0);
       const auto grey = static_cast<std::uint8_t>(255.0 * share);
-      std::uint8_t* pixel = picture.Pixel(u, v);
+      std::uint8_t* pixel = image.Pixel(u, v);
       pixel[0] = raw == 0 ? 20 : grey;
       pixel[1] = raw == 0 ? 40 : grey;
       pixel[2] = raw == 0 ? 160 : grey;
     }
   }
-  return picture;
+  return image;
 }
 
 void Draw(const std::string& name, const scenario::Scenario& scenario, const View& view) {
-  VirtualCamera camera(scenario, FourLegSkin(), {}, 1);
+  VirtualCamera camera(scenario, FourLegSurface(), {}, 1);
   rgbd::RgbdFrame frame;
   camera.Take(view, &frame);
   const std::filesystem::path folder = PALPATE_BINARY_DIR "/pictures";

@@ -12,13 +12,13 @@
 
 namespace palpate::virtual_robot {
 
-/// From what the drives are told to how much cable they take in: swapped_cables, drive_coupling,
+/// From the commands to how much cable the actuators take in: swapped_cables, drive_coupling,
 /// lag (a delay, then a first order), cable_gain, cable_offset, backlash (play operator), in this
 /// order. Drive r is the one that the robot file names like cable r. NaN: not driven.
-class DriveChain {
+class ActuatorChain {
  public:
   /// Throws InputError where an effect does not fit the cables.
-  DriveChain(const std::vector<std::string>& cable_names, const Effects& effects);
+  ActuatorChain(const std::vector<std::string>& cable_names, const Effects& effects);
 
   /// At rest at these commands [cables] since ever, the play in the middle.
   void Reset(double t_s, const Eigen::VectorXd& command_m);
@@ -29,28 +29,30 @@ class DriveChain {
 
   /// [cables] m of cable that was taken in, counted from the undeformed body.
   const Eigen::VectorXd& pulled_in_m() const { return proposed_.pulled_in_m; }
-  /// The cable that this drive pulls.
-  int CableOfDrive(int drive) const { return cable_of_drive_[static_cast<size_t>(drive)]; }
+  /// The cable that this actuator pulls.
+  int CableOfActuator(int actuator) const {
+    return cable_of_actuator_[static_cast<size_t>(actuator)];
+  }
 
  private:
-  struct Told {
+  struct Commanded {
     double t_s = 0.0;
     Eigen::VectorXd command_m;  ///< [cables] coupled
   };
-  struct Drives {
-    Told told;
+  struct Actuators {
+    Commanded commanded;
     Eigen::VectorXd delayed_m;   ///< [cables] after the delay
     Eigen::VectorXd followed_m;  ///< after the first order
     Eigen::VectorXd pulled_in_m;
   };
 
   Eigen::VectorXd Coupled(const Eigen::VectorXd& command_m) const;
-  Eigen::VectorXd Delayed(const Told& latest) const;
+  Eigen::VectorXd Delayed(const Commanded& latest) const;
   double Follow(double from_m, double u0_m, double u1_m, double h_s) const;
   /// Gain and offset, without the play.
   double Geared(Eigen::Index cable, double followed_m) const;
 
-  std::vector<int> cable_of_drive_;
+  std::vector<int> cable_of_actuator_;
   Eigen::MatrixXd coupling_;  ///< [cables x cables]
   double delay_s_ = 0.0;
   double tau_s_ = 0.0;
@@ -58,9 +60,9 @@ class DriveChain {
   Eigen::VectorXd offset_m_;
   Eigen::VectorXd play_m_;
 
-  std::deque<Told> history_;  ///< as far back as the delay reaches
-  Drives now_;
-  Drives proposed_;
+  std::deque<Commanded> history_;  ///< as far back as the delay reaches
+  Actuators now_;
+  Actuators proposed_;
 };
 
 }  // namespace palpate::virtual_robot
