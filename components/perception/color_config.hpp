@@ -26,33 +26,33 @@ struct ColorConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("robot_color_tolerance", robot_color_tolerance, {.min = 0.0, .max = 2.0, .min_open = true},
-      "A region of the robot differs so little from that colour; colours as directions, so that "
-      "shading does not count");
+      "Largest distance of a robot region from robot_color_rgb; colours are unit vectors, so that "
+      "shading has no effect");
     v("surface_distance_m", surface_distance_m, {.min = 0.0, .min_open = true},
-      "Points so near to the predicted surface lie on it");
+      "Largest distance from the predicted surface of points on it");
     v("near_robot_m", near_robot_m, {.min = 0.0, .max = 2.0, .min_open = true},
-      "What is farther from the robot is no object");
+      "Largest distance of an object from the robot");
     v("side_m", side_m, {.min = 0.0, .min_open = true},
-      "PassThrough in x and y: what is farther from the optical axis is left out");
+      "PassThrough in x and y: largest distance from the optical axis");
     v("voxel_m", voxel_m, {.min = 0.0, .max = 0.1},
-      "VoxelGrid: edge; 0: twice the distance between pixels; more where max_cloud_points asks "
-      "for it");
+      "VoxelGrid: edge length; 0: twice the distance between pixels, or what max_cloud_points "
+      "needs");
     v("outlier_radius_voxels", outlier_radius_voxels, {.min = 1.0, .max = 100.0},
       "RadiusOutlierRemoval: radius, in voxels");
     v("outlier_neighbours", outlier_neighbours, {.min = 0.0, .max = 1000.0},
-      "RadiusOutlierRemoval: points with fewer neighbours are left out");
+      "RadiusOutlierRemoval: smallest number of neighbours");
     v("region_distance_voxels", region_distance_voxels, {.min = 1.0, .max = 100.0},
-      "Region growing: points farther apart are no neighbours");
+      "Region growing: largest distance of neighbours, in voxels");
     v("point_color_threshold", point_color_threshold, {.min = 0.0, .max = 442.0},
-      "Region growing: neighbours of one region differ by less, of 255 in each channel");
+      "Region growing: largest colour difference of neighbours, of 255 per channel");
     v("region_color_threshold", region_color_threshold, {.min = 0.0, .max = 442.0},
-      "Region growing: regions whose means differ by less are one");
+      "Region growing: regions merge below this difference of mean colours, of 255 per channel");
     v("min_region_points", min_region_points, {.min = 1.0, .max = 10000.0},
-      "Region growing: smaller regions join a neighbour, or are left out");
+      "Region growing: smaller regions merge with a neighbour or are dropped");
     v("background_extent_m", background_extent_m, {.min = 0.0, .min_open = true},
-      "Flat things at least so long are table or wall");
+      "Smallest length of a plane that counts as table or wall");
     v("background_thickness_m", background_thickness_m, {.min = 0.0, .min_open = true},
-      "Points so near to the plane of a table or wall belong to it");
+      "Distance from the plane of a table or wall within which points belong to it");
   }
 };
 

@@ -36,24 +36,24 @@ struct Config {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("segmentation", segmentation, {"model", "color"},
-      "model: predicted surface, learnt colours, depth edges; color: the paper's colour-based "
+      "model: predicted surface, colour model and depth edges; color: the paper's colour-based "
       "region growing");
-    v("min_z_m", min_z_m, {.min = 0.0, .min_open = true}, "Nearer points are left out");
-    v("max_z_m", max_z_m, {.min = 0.0, .min_open = true}, "Farther points are left out");
+    v("min_z_m", min_z_m, {.min = 0.0, .min_open = true}, "Smallest z of points that are used");
+    v("max_z_m", max_z_m, {.min = 0.0, .min_open = true}, "Largest z of points that are used");
     v("robot_color_rgb", robot_color_rgb, {.min = 0.0, .max = 1.0},
-      "Red, green, blue of the robot: model starts with it and learns on, color keeps it; empty: "
-      "not known before it is learnt");
+      "Red, green, blue of the robot: model starts with it and updates it, color keeps it; empty: "
+      "estimated from the frames");
     v("max_cloud_points", max_cloud_points, {.min = 100.0, .max = 10000.0},
-      "Points of each published cloud (20 bytes each)");
+      "Largest number of points of each published cloud (20 bytes each)");
     v("depth_subpixel_px", depth_subpixel_px, {.min = 0.0, .min_open = true},
-      "Sigma of the disparity where the camera does not say it");
+      "Standard deviation of the disparity where the camera does not report it");
     v("depth_range_sigma_m", depth_range_sigma_m, {.min = 0.0, .min_open = true},
-      "Sigma of z of cameras without a baseline");
+      "Standard deviation of z of cameras without a baseline");
     v("depth_correlation_px", depth_correlation_px, {.min = 0.0, .max = 50.0},
-      "Over which neighbouring pixels err alike");
-    v("color", color, "Segmentation by colour, as the paper has it");
-    v("contacts", contacts, "Where the robot is touched");
-    v("tracking", tracking, "Names of contacts");
+      "Correlation length of the depth error over neighbouring pixels");
+    v("color", color, "Segmentation by colour, as in the paper");
+    v("contacts", contacts, "Contact location");
+    v("tracking", tracking, "Contact tracking");
     v("model", model, "Segmentation by the predicted surface");
     v("markers", markers, "Coloured discs on the robot");
   }

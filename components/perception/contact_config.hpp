@@ -18,18 +18,19 @@ struct ContactConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("r_search_m", r_search_m, {.min = 0.0, .max = 0.1},
-      "An object's point has its neighbours among the robot's within this radius; 0: from "
+      "Radius of neighbour search from object points to robot points (Algorithm 2); 0: from "
       "hidden_depth_m, the spacing and the noise of the clouds");
     v("hidden_depth_m", hidden_depth_m, {.min = 0.0, .max = 0.1},
-      "Where r_search_m is 0: an object that hides its own contact from the camera is seen so far "
-      "from it at least");
+      "Where r_search_m is 0: assumed distance of the visible part of an object from the contact "
+      "that it hides");
     v("n_neigh", n_neigh, {.min = 0.0, .max = 1000.0},
-      "A point with more neighbours than this touches; 0: a tenth of what half a disc of the "
-      "search radius holds at the robot cloud's spacing");
+      "Number of neighbours above which a point is in contact (Algorithm 2); 0: a tenth of what "
+      "half a disc of the search radius holds at the robot cloud's spacing");
     v("cluster_distance_m", cluster_distance_m, {.min = 0.0, .max = 0.1},
-      "Touching points no farther apart belong to one contact; 0: from the spacing and the "
-      "noise of the clouds");
-    v("min_points", min_points, {.min = 1.0, .max = 1000.0}, "Smaller groups are no contact");
+      "Largest distance of neighbouring points of one contact; 0: from the spacing and the noise "
+      "of the clouds");
+    v("min_points", min_points, {.min = 1.0, .max = 1000.0},
+      "Smallest number of points of a contact");
   }
 };
 
@@ -43,14 +44,14 @@ struct TrackingConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("gate_m", gate_m, {.min = 0.0, .max = 1.0, .min_open = true},
-      "A contact moves no farther than this from one frame to the next");
+      "Largest motion of a contact from one frame to the next");
     v("appear_frames", appear_frames, {.min = 1.0, .max = 1000.0},
-      "A contact is there once it was seen in so many frames in a row, or in the first frame of a "
-      "camera that was opened");
+      "Consecutive frames after which a contact is reported; one in the first frame of an opened "
+      "camera is reported at once");
     v("vanish_frames", vanish_frames, {.min = 1.0, .max = 1000.0},
-      "It is gone once it was missing in so many frames in a row");
+      "Consecutive frames without a contact after which it is dropped");
     v("smoothing", smoothing, {.min = 0.0, .max = 0.95},
-      "Share of its last place in the new one; 0: none");
+      "Weight of the last location in the new one (exponential smoothing); 0: none");
   }
 };
 

@@ -36,33 +36,34 @@ struct FiducialConfig {
   void Visit(Visitor&& v) {
     constexpr NumberRule positive{.min = 0.0, .min_open = true};
     v("color_rgb", color_rgb, {.min = 0.0, .max = 1.0},
-      "Red, green, blue of the markers; of several colours one after the other; empty: the robot "
-      "has none, and they are not looked for");
+      "Red, green, blue of the markers, one triple per colour; empty: no marker detection");
     v("names", names,
-      "The robot's marker of each of these colours, where no two have the same; empty: who is who "
-      "is told by where they are (palpate calibrate, palpate-calibration)");
+      "Marker name of each colour, where no two markers share one; empty: palpate calibrate or "
+      "palpate-calibration assigns names by position");
     v("color_tolerance", color_tolerance, {.min = 0.0, .max = 1.0, .min_open = true},
-      "A pixel differs so little from that colour; colours as directions, so that shading does "
-      "not count");
+      "Largest distance of a marker pixel from its colour; colours are unit vectors, so that "
+      "shading has no effect");
     v("min_contrast", min_contrast, {.min = 0.0, .max = 1.4},
-      "A marker differs at least so much from what is round it, likewise");
+      "Smallest colour distance of a marker from its surroundings");
     v("min_brightness", min_brightness, {.min = 0.0, .max = 1.0},
-      "Darker pixels (strongest channel) have no colour");
-    v("min_radius_m", min_radius_m, positive, "Of the smallest marker");
-    v("max_radius_m", max_radius_m, positive, "Of the largest marker");
+      "Smallest brightness (strongest channel) of pixels whose colour is used");
+    v("min_radius_m", min_radius_m, positive, "Radius of the smallest marker");
+    v("max_radius_m", max_radius_m, positive, "Radius of the largest marker");
     v("size_tolerance", size_tolerance, {.min = 0.0, .max = 1.0},
-      "Share by which a marker may look smaller or larger than that");
+      "Relative tolerance of min_radius_m and max_radius_m");
     v("shape_tolerance", shape_tolerance, {.min = 0.0, .max = 1.0},
-      "Share by which its axes may differ on the skin, and its area from their ellipse");
+      "Relative tolerance of a marker's axes on the surface, and of its area against their "
+      "ellipse");
     v("max_open_rim", max_open_rim, {.min = 0.0, .max = 1.0},
-      "Share of its rim that may border on something else than the skin it is on");
-    v("min_pixels", min_pixels, {.min = 1.0}, "Smaller spots are too small");
+      "Largest share of a marker's rim that does not border on its own surface");
+    v("min_pixels", min_pixels, {.min = 1.0}, "Smallest number of pixels of a marker");
     v("rim_sigma_px", rim_sigma_px, {.min = 0.0},
-      "Sigma of a marker's place in the image by what lens, sampling and the skin's own pattern "
-      "make of its rim, beside the noise");
+      "Standard deviation of a marker's image position by lens, sampling and texture at its rim, "
+      "beside the noise");
     v("depth_bias", depth_bias, {.min = 0.0, .max = 0.1},
-      "Sigma, as a share of z, of what all depths about a marker err by alike");
-    v("bend_radius_m", bend_radius_m, positive, "How sharply the skin bends, one sigma");
+      "Standard deviation of the common depth error about a marker, as a share of z");
+    v("bend_radius_m", bend_radius_m, positive,
+      "Radius of curvature of the surface, one standard deviation");
   }
 };
 

@@ -21,21 +21,21 @@ struct ModelConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("margin_m", margin_m, {.min = 0.0, .max = 1.0},
-      "So far round the predicted surface the frame is looked at");
+      "Width of the region of interest around the predicted surface");
     v("object_distance_m", object_distance_m, {.min = 0.0, .max = 1.0},
-      "Objects farther from the robot are left out");
+      "Largest distance of an object from the robot");
     v("surface_sigma_m", surface_sigma_m, {.min = 0.0, .min_open = true},
-      "Sigma of the predicted surface once it is fitted to the frame");
+      "Standard deviation of the predicted surface after its fit to the frame");
     v("largest_error_m", largest_error_m, {.min = 0.0, .min_open = true},
-      "Farther the predicted surface is not moved to fit the frame");
+      "Largest correction of the predicted surface by its fit to the frame");
     v("fit_spacing_m", fit_spacing_m, {.min = 0.02},
-      "Over which the error of the predicted surface changes");
+      "Correlation length of the error of the predicted surface");
     v("background_bias", background_bias, {.min = 0.0, .max = 0.1},
-      "Share of z by which the depth of a plane behind the robot may be bent");
+      "Largest depth error of a background plane, as a share of z");
     v("color_update", color_update, {.min = 0.0, .max = 1.0, .min_open = true},
-      "Share of a frame in the learnt colours");
+      "Weight of one frame in the update of the colour model");
     v("min_robot_pixels", min_robot_pixels, {.min = 1.0},
-      "With fewer pixels of it the robot is not seen");
+      "Smallest number of robot pixels; below it the status is no_robot_seen");
   }
 };
 

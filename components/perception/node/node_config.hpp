@@ -24,20 +24,20 @@ struct NodeConfig : Config {
   void Visit(Visitor&& v) {
     Config::Visit(v);
     v("camera_pose", camera_pose,
-      "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
-      "w]}\"; empty: unknown, then no predicted surface is used");
+      "Pose of the depth camera in the robot frame, \"{translation_m: [x, y, z], rotation_xyzw: "
+      "[x, y, z, "
+      "w]}\"; empty: unknown, no predicted surface is used");
     v("follow_calibration", follow_calibration,
-      "Takes the camera's pose that comes on /calibration, where it is of the robot on "
-      "/robot/mesh");
+      "Use the camera pose of /calibration where it is for the mesh of /robot/mesh");
     v("pairing_wait_s", pairing_wait_s, {.min = 0.0, .max = 10.0},
-      "How long a depth image waits for the rest of its frame set and for its camera's set-up");
+      "Longest wait of a depth image for the rest of its frame set and for its camera's set-up");
     v("max_prediction_age_s", max_prediction_age_s, {.min = 0.0},
-      "A state of the model that is older than this before the frame is not used");
+      "Largest age of the model state that predicts a frame");
     v("await_prediction_s", await_prediction_s, {.min = 0.0, .max = 600.0},
-      "How long a frame waits for the model's state of the frame before it, which then counts "
-      "whatever its age; 0: the newest state will do (live)");
+      "Longest wait of a frame for the model state of the previous frame, at any age; 0: use the "
+      "newest state (live)");
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
-      "Without depth images for so long the component reports itself stale");
+      "Time without depth images after which the status is stale");
     v("dds", dds, "DDS side");
   }
 };
