@@ -26,8 +26,8 @@ std::string SizeText(int width_px, int height_px) {
   return std::to_string(width_px) + "x" + std::to_string(height_px);
 }
 
-template <typename Picture>
-Status CheckSize(const std::string& name, const Picture& image, const rgbd::CameraModel& camera) {
+template <typename Image>
+Status CheckSize(const std::string& name, const Image& image, const rgbd::CameraModel& camera) {
   if (image.empty()) return Status(StatusCode::kInvalidInput, "the " + name + " image is empty");
   const bool fits = image.width_px == camera.width_px && image.height_px == camera.height_px;
   if (fits) return Status::Ok();

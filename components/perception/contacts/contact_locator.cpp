@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "components/perception/contacts/unseen_skin.hpp"
+#include "components/perception/contacts/hidden_surface.hpp"
 #include "libs/core/check.hpp"
 
 namespace palpate::perception {
@@ -217,7 +217,7 @@ bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::Sens
                                 DetectedContact* contact) const {
   const auto hidden = FindHiddenContact(robot, object, RimOf(members), surface, Known());
   if (!hidden) {
-    if (surface != nullptr) PlaceOnUnseenSkin(robot, members, *surface, contact);
+    if (surface != nullptr) PlaceOnHiddenSurface(robot, members, *surface, contact);
     return true;
   }
   contact->position_m = hidden->position_m;
@@ -229,17 +229,18 @@ bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::Sens
 
 /// The hidden part of the object is taken to reach as far as its rim is wide, and as far as the air
 /// between rim and robot.
-void ContactLocator::PlaceOnUnseenSkin(const rgbd::SensedCloud& robot,
-                                       const std::vector<int>& members,
-                                       const PredictedSurface& surface,
-                                       DetectedContact* contact) const {
+void ContactLocator::PlaceOnHiddenSurface(const rgbd::SensedCloud& robot,
+                                          const std::vector<int>& members,
+                                          const PredictedSurface& surface,
+                                          DetectedContact* contact) const {
   const Eigen::Matrix3Xd rim_m = touching_m_(Eigen::all, members).cast<double>();
   const Eigen::Vector3d middle_m = RimOf(members);
   const double width_m2 = 2.0 * (rim_m.colwise() - middle_m).colwise().squaredNorm().mean();
   const double air_m2 = (contact->position_m - middle_m).squaredNorm();
   const double known_m2 = thresholds_.resolution_m * thresholds_.resolution_m;
-  const auto unseen = FindUnseenSkin(surface, robot, rim_m, std::sqrt(width_m2 + air_m2 + known_m2),
-                                     0.5 * thresholds_.resolution_m);
+  const auto unseen =
+      FindHiddenSurface(surface, robot, rim_m, std::sqrt(width_m2 + air_m2 + known_m2),
+                        0.5 * thresholds_.resolution_m);
   if (!unseen) return;
   contact->position_m = unseen->middle_m;
   contact->covariance_m2 = unseen->covariance_m2 +

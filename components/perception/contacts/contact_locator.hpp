@@ -26,7 +26,7 @@ namespace palpate::perception {
 ///   robot's surface, be that in view or not (FindHiddenContact), or there is none where it does
 ///   not;
 /// - else, where the robot's surface is known, it is on that part of it near the rim that is out of
-///   view (FindUnseenSkin), and as uncertain as that part is large;
+///   view (FindHiddenSurface), and as uncertain as that part is large;
 /// - else it is at the mean of the robot's points nearest to the rim. Its covariance then has three
 ///   parts: depth noise along the view rays; the gap between rim and robot and the resolution of
 ///   the clouds; and the hidden part: where the rim is an arc of radius a about the contact's
@@ -75,8 +75,8 @@ class ContactLocator {
   bool LookBehind(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
                   const std::vector<int>& members, const PredictedSurface* surface,
                   DetectedContact* contact) const;
-  void PlaceOnUnseenSkin(const rgbd::SensedCloud& robot, const std::vector<int>& members,
-                         const PredictedSurface& surface, DetectedContact* contact) const;
+  void PlaceOnHiddenSurface(const rgbd::SensedCloud& robot, const std::vector<int>& members,
+                            const PredictedSurface& surface, DetectedContact* contact) const;
   Eigen::Vector3d RimOf(const std::vector<int>& members) const;
   Resolution Known() const;
 

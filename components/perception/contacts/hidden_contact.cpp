@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "components/perception/contacts/ball_fit.hpp"
-#include "components/perception/contacts/skin_around.hpp"
+#include "components/perception/contacts/surface_around.hpp"
 
 namespace palpate::perception {
 
@@ -39,7 +39,7 @@ constexpr double kGapSigmas = 3.0;
 /// Without the predicted surface: a round object whose far side stays farther from the robot than
 /// so many times the resolution of the clouds does not touch.
 constexpr double kLargestGap = 1.5;
-constexpr double kSkinReach_m = 0.02;
+constexpr double kSurfaceReach_m = 0.02;
 constexpr int kTouchRounds = 4;
 
 Eigen::Matrix3Xd Near(const rgbd::SensedCloud& cloud, const Eigen::Vector3d& place_m,
@@ -82,7 +82,7 @@ Plane FitPlane(const Eigen::Matrix3Xd& points_m, const Ball& ball) {
 }
 
 /// One sigma of the gap between ball and skin.
-double GapSigma_m(const Ball& ball, const NearestSkin& nearest) {
+double GapSigma_m(const Ball& ball, const NearestSurface& nearest) {
   Eigen::Vector4d gradient;
   gradient << nearest.outward, -1.0;
   return std::sqrt(gradient.dot(ball.covariance_m2 * gradient) + kSurfaceSigma_m * kSurfaceSigma_m);
@@ -91,10 +91,10 @@ double GapSigma_m(const Ball& ball, const NearestSkin& nearest) {
 /// What is known of the ball once it is taken to touch: of a small cap neither how large the ball
 /// is nor how far behind the cap its middle lies, but for the skin that stops it. Gauss-Newton from
 /// the ball as it was seen (iterated Kalman update).
-Ball Touching(const Ball& seen, const SkinAround& skin) {
+Ball Touching(const Ball& seen, const SurfaceAround& around) {
   Ball ball = seen;
   for (int round = 0; round < kTouchRounds; ++round) {
-    const NearestSkin nearest = skin.Nearest(ball.center_m);
+    const NearestSurface nearest = around.Nearest(ball.center_m);
     Eigen::Vector4d gradient;
     gradient << nearest.outward, -1.0;
     const double gap_m = nearest.height_m - ball.radius_m;
@@ -119,7 +119,7 @@ struct Place {
 /// Where a ball touches: the skin that is as near to its middle as any, to what the shape of the
 /// skin is known to, for each of the sigma points of what is known of the middle. So it is wide
 /// along a flat skin, narrow across a limb, and holds both sides of a corner that a ball lies in.
-std::optional<Place> TouchingPlace(const Ball& ball, const SkinAround& skin) {
+std::optional<Place> TouchingPlace(const Ball& ball, const SurfaceAround& around) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ball.CenterCovariance_m2());
   Place place;
   Eigen::Matrix3d squares_m2 = Eigen::Matrix3d::Zero();
@@ -127,11 +127,11 @@ std::optional<Place> TouchingPlace(const Ball& ball, const SkinAround& skin) {
     const double sigma_m = std::sqrt(3.0 * std::max(0.0, axes.eigenvalues()[k / 2]));
     const Eigen::Vector3d center_m =
         ball.center_m + (k % 2 == 0 ? sigma_m : -sigma_m) * axes.eigenvectors().col(k / 2);
-    const double least_m = std::abs(skin.Nearest(center_m).height_m);
+    const double least_m = std::abs(around.Nearest(center_m).height_m);
     double sum_m2 = 0.0;
     Eigen::Vector3d first_m = Eigen::Vector3d::Zero();
     Eigen::Matrix3d second_m2 = Eigen::Matrix3d::Zero();
-    skin.ForEachPart([&](const Eigen::Vector3d& part_m, double area_m2) {
+    around.ForEachPart([&](const Eigen::Vector3d& part_m, double area_m2) {
       const double off = ((part_m - center_m).norm() - least_m) / kShapeSigma_m;
       if (off > kFarthestInSigmas) return;
       const double weight_m2 = area_m2 * std::exp(-0.5 * off * off);
@@ -166,15 +166,15 @@ std::optional<HiddenContact> TouchOnPlane(const Ball& ball, const rgbd::SensedCl
 }
 
 std::optional<HiddenContact> TouchOnSkin(const Ball& seen, const PredictedSurface& surface) {
-  const SkinAround skin(surface, seen.center_m, seen.radius_m + kSkinReach_m);
-  if (skin.empty()) return std::nullopt;
-  const NearestSkin below = skin.Nearest(seen.center_m);
+  const SurfaceAround around(surface, seen.center_m, seen.radius_m + kSurfaceReach_m);
+  if (around.empty()) return std::nullopt;
+  const NearestSurface below = around.Nearest(seen.center_m);
   const double gap_m = below.height_m - seen.radius_m;
-  const Ball ball = Touching(seen, skin);
+  const Ball ball = Touching(seen, around);
   if (!(ball.radius_m > 0.0) || !ball.center_m.allFinite()) return std::nullopt;
-  const std::optional<Place> place = TouchingPlace(ball, skin);
+  const std::optional<Place> place = TouchingPlace(ball, around);
   if (!place) return std::nullopt;
-  const Eigen::Vector3d across_m = kSurfaceSigma_m * skin.Nearest(place->middle_m).outward;
+  const Eigen::Vector3d across_m = kSurfaceSigma_m * around.Nearest(place->middle_m).outward;
   return HiddenContact{.position_m = place->middle_m,
                        .covariance_m2 = place->covariance_m2 + across_m * across_m.transpose(),
                        .radius_m = ball.radius_m,

@@ -16,7 +16,7 @@ constexpr double kPi = 3.14159265358979323846;
 /// Of a spot's pixels so many must have a depth.
 constexpr double kLeastDepth = 0.5;
 /// The skin is fitted up to so many radii of the spot beyond its rim.
-constexpr double kSkinReach = 0.8;
+constexpr double kSurfaceReach = 0.8;
 /// Of the angle between the skin's normal and the ray; beyond it a disc is seen too much edge-on.
 constexpr double kSmallestCosine = 0.3;
 /// What lens and colour mosaic add to the second moments, px^2: a 1-2-1 blur.
@@ -39,8 +39,8 @@ FiducialClassifier::FiducialClassifier(const FiducialConfig& config,
   blur_px2_ = kBlur_px2 * scale * scale;
 }
 
-void FiducialClassifier::Judge(const ColorSpot& spot, const RegisteredFrame& frame,
-                               FiducialFrame* found) {
+void FiducialClassifier::Classify(const ColorSpot& spot, const RegisteredFrame& frame,
+                                  FiducialFrame* found) {
   Fiducial fiducial;
   const Reason reason = Measure(spot, frame, &fiducial);
   if (reason == nullptr) {
@@ -53,17 +53,17 @@ void FiducialClassifier::Judge(const ColorSpot& spot, const RegisteredFrame& fra
 FiducialClassifier::Reason FiducialClassifier::Measure(const ColorSpot& spot,
                                                        const RegisteredFrame& frame,
                                                        Fiducial* fiducial) {
-  if (const Reason reason = LookAtDepth(spot, frame)) return reason;
+  if (const Reason reason = CheckDepth(spot, frame)) return reason;
   const int reach_px =
-      std::max(kRimEnd_px, static_cast<int>(std::ceil(kSkinReach * rough_radius_px_)));
+      std::max(kRimEnd_px, static_cast<int>(std::ceil(kSurfaceReach * rough_radius_px_)));
   if (!window_.Lay(spot, reach_px, frame, registration_)) return &FiducialRejections::at_edge;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const SpotPixel& pixel : spot.pixels) middle += Eigen::Vector2d(pixel.u_px, pixel.v_px);
   middle /= static_cast<double>(spot.pixels.size());
   const Eigen::Vector3d ray = rgbd::Unproject(registration_.camera().depth, middle);
   if (!ray.allFinite()) return &FiducialRejections::at_edge;
-  BentSkin skin(ray.head<2>(), z_m_, 2.0 * rough_radius_px_ * step_.mean() * z_m_);
-  if (!FitSkin(&skin)) return &FiducialRejections::no_depth;
+  CurvedSurface surface(ray.head<2>(), z_m_, 2.0 * rough_radius_px_ * step_.mean() * z_m_);
+  if (!FitSurface(&surface)) return &FiducialRejections::no_depth;
   SpotColors colors;
   if (!Unmix(on_skin_, &window_, &colors)) return &FiducialRejections::at_edge;
   if (colors.contrast < config_.min_contrast) return &FiducialRejections::wrong_color;
@@ -72,19 +72,19 @@ FiducialClassifier::Reason FiducialClassifier::Measure(const ColorSpot& spot,
   fiducial->open_rim = OpenRim(colors);
   if (fiducial->open_rim > config_.max_open_rim) return &FiducialRejections::at_edge;
   double area_m2 = 0.0;
-  const BentSkin::Point center = CenterOn(skin, skin.coefficients(), &area_m2);
-  if (const Reason reason = CheckShape(skin, center, area_m2)) return reason;
+  const CurvedSurface::Point center = CenterOn(surface, surface.coefficients(), &area_m2);
+  if (const Reason reason = CheckShape(surface, center, area_m2)) return reason;
   fiducial->position_m = center.position_m;
   fiducial->pixel_px = rgbd::Project(registration_.camera().depth, center.position_m);
   fiducial->radius_m = std::sqrt(area_m2 / kPi);
   fiducial->radius_px = fiducial->radius_m / (center.position_m.z() * step_.mean());
-  SetCovariance(skin, colors, fiducial);
+  SetCovariance(surface, colors, fiducial);
   return nullptr;
 }
 
 /// How far away and how large the spot is, roughly.
-FiducialClassifier::Reason FiducialClassifier::LookAtDepth(const ColorSpot& spot,
-                                                           const RegisteredFrame& frame) {
+FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
+                                                          const RegisteredFrame& frame) {
   const auto pixels = static_cast<double>(spot.pixels.size());
   if (pixels < config_.min_pixels) return &FiducialRejections::too_small;
   depths_m_.clear();
@@ -110,7 +110,7 @@ FiducialClassifier::Reason FiducialClassifier::LookAtDepth(const ColorSpot& spot
 }
 
 /// Also tells which pixels of the window lie on that skin.
-bool FiducialClassifier::FitSkin(BentSkin* skin) {
+bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
   samples_.clear();
   const double near_m = 5.0 * sigma_m_ + 3.0 * rough_radius_px_ * step_.mean() * z_m_;
   for (const SpotWindow::Pixel& pixel : window_.pixels) {
@@ -122,11 +122,11 @@ bool FiducialClassifier::FitSkin(BentSkin* skin) {
   const SkinPrior prior{.sigma_m = sigma_m_,
                         .alike = count / rgbd::IndependentPixels(noise_, count),
                         .bend_radius_m = config_.bend_radius_m};
-  if (!skin->Fit(samples_, prior)) return false;
+  if (!surface->Fit(samples_, prior)) return false;
   on_skin_.clear();
   for (const SpotWindow::Pixel& pixel : window_.pixels) {
     const bool on = std::isfinite(pixel.z_m) && pixel.ray.allFinite() &&
-                    std::abs(pixel.z_m - skin->Z_m(pixel.ray)) < skin->gate_m();
+                    std::abs(pixel.z_m - surface->Z_m(pixel.ray)) < surface->gate_m();
     on_skin_.push_back(on ? 1 : 0);
   }
   return true;
@@ -148,24 +148,25 @@ double FiducialClassifier::OpenRim(const SpotColors& colors) const {
 }
 
 /// The disc's centre: the mean of its area, lifted onto the bent surface that carries it.
-BentSkin::Point FiducialClassifier::CenterOn(const BentSkin& skin,
-                                             const BentSkin::Coefficients& coefficients,
-                                             double* area_m2) const {
+CurvedSurface::Point FiducialClassifier::CenterOn(const CurvedSurface& surface,
+                                                  const CurvedSurface::Coefficients& coefficients,
+                                                  double* area_m2) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0.0;
   for (const SpotWindow::Pixel& pixel : window_.pixels) {
     if (!InSpot(pixel) || !pixel.ray.allFinite()) continue;
-    const BentSkin::Point point = skin.At(pixel.ray, coefficients);
+    const CurvedSurface::Point point = surface.At(pixel.ray, coefficients);
     const double share_m2 = pixel.share * point.AreaVector().norm() * step_.prod();
     sum += share_m2 * point.position_m;
     area += share_m2;
   }
   if (area_m2 != nullptr) *area_m2 = area;
-  return skin.Foot(sum / area, coefficients);
+  return surface.Foot(sum / area, coefficients);
 }
 
 /// Second moments of the disc in the plane that touches the skin, without the picture's blur, m^2.
-Eigen::Matrix2d FiducialClassifier::Moments(const BentSkin& skin, const BentSkin::Point& center,
+Eigen::Matrix2d FiducialClassifier::Moments(const CurvedSurface& surface,
+                                            const CurvedSurface::Point& center,
                                             double area_m2) const {
   Eigen::Matrix<double, 3, 2> axes;
   axes.col(0) = center.along_x_m.normalized();
@@ -174,7 +175,7 @@ Eigen::Matrix2d FiducialClassifier::Moments(const BentSkin& skin, const BentSkin
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (const SpotWindow::Pixel& pixel : window_.pixels) {
     if (!InSpot(pixel) || !pixel.ray.allFinite()) continue;
-    const BentSkin::Point point = skin.At(pixel.ray);
+    const CurvedSurface::Point point = surface.At(pixel.ray);
     const double weight = pixel.share * point.AreaVector().norm() * step_.prod() / area_m2;
     const Eigen::Vector2d off = axes.transpose() * (point.position_m - center.position_m);
     mean += weight * off;
@@ -187,8 +188,8 @@ Eigen::Matrix2d FiducialClassifier::Moments(const BentSkin& skin, const BentSkin
 }
 
 /// On the skin a disc is round, however it is seen.
-FiducialClassifier::Reason FiducialClassifier::CheckShape(const BentSkin& skin,
-                                                          const BentSkin::Point& center,
+FiducialClassifier::Reason FiducialClassifier::CheckShape(const CurvedSurface& surface,
+                                                          const CurvedSurface::Point& center,
                                                           double area_m2) const {
   if (!(area_m2 > 0.0)) return &FiducialRejections::too_small;
   const Eigen::Vector3d normal = center.AreaVector().normalized();
@@ -199,11 +200,12 @@ FiducialClassifier::Reason FiducialClassifier::CheckShape(const BentSkin& skin,
   if (radius_m < (1.0 - slack) * config_.min_radius_m) return &FiducialRejections::too_small;
   if (radius_m > (1.0 + slack) * config_.max_radius_m) return &FiducialRejections::too_large;
   const Eigen::Vector2d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(Moments(skin, center, area_m2)).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(Moments(surface, center, area_m2))
+          .eigenvalues();
   if (moments[0] <= 0.0) return &FiducialRejections::not_round;
   // What the skin's unknown slant makes of a disc: cos a is off by so large a share.
   const double tangent = std::sqrt(1.0 / (cosine * cosine) - 1.0);
-  const double slant = 2.0 * skin.SlopeSigma() * tangent * cosine * cosine;
+  const double slant = 2.0 * surface.SlopeSigma() * tangent * cosine * cosine;
   const double roundness = std::sqrt(moments[0] / moments[1]);
   const double fill = area_m2 / (4.0 * kPi * std::sqrt(moments[0] * moments[1]));
   const bool round = roundness > 1.0 - config_.shape_tolerance - slant &&
@@ -232,23 +234,23 @@ double FiducialClassifier::PlaceSigma_px(const SpotColors& colors, const Fiducia
                    open_px * open_px + parallax_px * parallax_px);
 }
 
-void FiducialClassifier::SetCovariance(const BentSkin& skin, const SpotColors& colors,
+void FiducialClassifier::SetCovariance(const CurvedSurface& surface, const SpotColors& colors,
                                        Fiducial* fiducial) const {
   Eigen::Matrix<double, 3, 6> J;  // derivative of the centre by the skin's coefficients
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const double step = std::sqrt(skin.covariance()(k, k));
-    const BentSkin::Coefficients change = step * BentSkin::Coefficients::Unit(k);
-    J.col(k) = (CenterOn(skin, skin.coefficients() + change, nullptr).position_m -
-                CenterOn(skin, skin.coefficients() - change, nullptr).position_m) /
+    const double step = std::sqrt(surface.covariance()(k, k));
+    const CurvedSurface::Coefficients change = step * CurvedSurface::Coefficients::Unit(k);
+    J.col(k) = (CenterOn(surface, surface.coefficients() + change, nullptr).position_m -
+                CenterOn(surface, surface.coefficients() - change, nullptr).position_m) /
                (2.0 * step);
   }
   const Eigen::Vector3d ray = fiducial->position_m / fiducial->position_m.z();
-  const BentSkin::Point center = skin.At(ray.head<2>());
+  const CurvedSurface::Point center = surface.At(ray.head<2>());
   Eigen::Matrix<double, 3, 2> per_px;
   per_px << center.along_x_m * step_.x(), center.along_y_m * step_.y();
   const double place_px = PlaceSigma_px(colors, *fiducial);
   const double bias_m = config_.depth_bias * fiducial->position_m.z();
-  fiducial->covariance_m2 = J * skin.covariance() * J.transpose() +
+  fiducial->covariance_m2 = J * surface.covariance() * J.transpose() +
                             place_px * place_px * per_px * per_px.transpose() +
                             bias_m * bias_m * ray * ray.transpose();
 }

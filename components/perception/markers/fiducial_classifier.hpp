@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "components/perception/markers/bent_skin.hpp"
 #include "components/perception/markers/color_spots.hpp"
+#include "components/perception/markers/curved_surface.hpp"
 #include "components/perception/markers/fiducial.hpp"
 #include "components/perception/markers/spot_window.hpp"
 #include "libs/rgbd/depth_noise.hpp"
@@ -20,22 +20,25 @@ class FiducialClassifier {
   FiducialClassifier(const FiducialConfig& config, const Registration& registration);
 
   /// Adds a fiducial to `found`, or one to a count of what was rejected.
-  void Judge(const ColorSpot& spot, const RegisteredFrame& frame, FiducialFrame* found);
+  void Classify(const ColorSpot& spot, const RegisteredFrame& frame, FiducialFrame* found);
 
  private:
   /// Where a rejected spot is counted; nullptr: it is a marker.
   using Reason = int FiducialRejections::*;
 
   Reason Measure(const ColorSpot& spot, const RegisteredFrame& frame, Fiducial* fiducial);
-  Reason LookAtDepth(const ColorSpot& spot, const RegisteredFrame& frame);
-  bool FitSkin(BentSkin* skin);
+  Reason CheckDepth(const ColorSpot& spot, const RegisteredFrame& frame);
+  bool FitSurface(CurvedSurface* surface);
   double OpenRim(const SpotColors& colors) const;
-  Reason CheckShape(const BentSkin& skin, const BentSkin::Point& center, double area_m2) const;
-  Eigen::Matrix2d Moments(const BentSkin& skin, const BentSkin::Point& center,
+  Reason CheckShape(const CurvedSurface& surface, const CurvedSurface::Point& center,
+                    double area_m2) const;
+  Eigen::Matrix2d Moments(const CurvedSurface& surface, const CurvedSurface::Point& center,
                           double area_m2) const;
-  void SetCovariance(const BentSkin& skin, const SpotColors& colors, Fiducial* fiducial) const;
-  BentSkin::Point CenterOn(const BentSkin& skin, const BentSkin::Coefficients& coefficients,
-                           double* area_m2) const;
+  void SetCovariance(const CurvedSurface& surface, const SpotColors& colors,
+                     Fiducial* fiducial) const;
+  CurvedSurface::Point CenterOn(const CurvedSurface& surface,
+                                const CurvedSurface::Coefficients& coefficients,
+                                double* area_m2) const;
   double PlaceSigma_px(const SpotColors& colors, const Fiducial& fiducial) const;
 
   const FiducialConfig config_;

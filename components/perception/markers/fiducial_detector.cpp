@@ -59,7 +59,7 @@ struct FiducialDetector::Parts {
   FiducialConfig config;
   ColorSpots spots;
   std::optional<Registration> registration;
-  std::optional<FiducialClassifier> judge;
+  std::optional<FiducialClassifier> classifier;
   RegisteredFrame registered;
   FiducialFrame found;
 };
@@ -74,9 +74,9 @@ FiducialDetector::FiducialDetector(const FiducialConfig& config)
 FiducialDetector::~FiducialDetector() = default;
 
 void FiducialDetector::SetCamera(const rgbd::RgbdCamera& camera) {
-  parts_->judge.reset();
+  parts_->classifier.reset();
   parts_->registration.emplace(camera);
-  parts_->judge.emplace(parts_->config, *parts_->registration);
+  parts_->classifier.emplace(parts_->config, *parts_->registration);
   parts_->registered = {};
 }
 
@@ -90,7 +90,7 @@ const FiducialFrame& FiducialDetector::Detect(const rgbd::RgbdFrame& frame) {
   found.status = parts_->registration->Register(frame, &parts_->registered);
   if (!found.status.ok()) return found;
   for (const ColorSpot& spot : parts_->spots.Find(parts_->registered)) {
-    parts_->judge->Judge(spot, parts_->registered, &found);
+    parts_->classifier->Classify(spot, parts_->registered, &found);
   }
   Name(parts_->config.names, &found.fiducials);
   return found;

@@ -89,7 +89,7 @@ ColorModel::ColorModel() {
 }
 
 void ColorModel::Forget() {
-  learnt_ = false;
+  initialised_ = false;
   robot_.assign(kBins, 0.0f);
   other_.assign(kBins, 0.0f);
   log_ratio_.assign(kBins, 0.0f);
@@ -113,25 +113,25 @@ void ColorModel::Assume(const std::array<double, 3>& rgb) {
       }
     }
   }
-  learnt_ = Normalise(&robot_) && Normalise(&other_);
+  initialised_ = Normalise(&robot_) && Normalise(&other_);
   UpdateRatios();
 }
 
-void ColorModel::Learn(Histogram robot, Histogram other, double share) {
-  const auto mix = [this, share](Histogram* learnt, Histogram* counts) {
+void ColorModel::Update(Histogram robot, Histogram other, double share) {
+  const auto mix = [this, share](Histogram* initialised, Histogram* counts) {
     if (!Normalise(counts)) return;
-    const auto part = static_cast<float>(learnt_ ? share : 1.0);
-    for (std::size_t i = 0; i < learnt->size(); ++i) {
-      (*learnt)[i] += part * ((*counts)[i] - (*learnt)[i]);
+    const auto part = static_cast<float>(initialised_ ? share : 1.0);
+    for (std::size_t i = 0; i < initialised->size(); ++i) {
+      (*initialised)[i] += part * ((*counts)[i] - (*initialised)[i]);
     }
   };
   mix(&robot_, &robot);
   mix(&other_, &other);
-  learnt_ = true;
+  initialised_ = true;
   UpdateRatios();
 }
 
-double ColorModel::Likeness(Histogram robot) const {
+double ColorModel::Similarity(Histogram robot) const {
   if (!Normalise(&robot)) return 1.0;
   double likeness = 0.0;  // Bhattacharyya's coefficient
   for (std::size_t i = 0; i < robot.size(); ++i) {

@@ -32,14 +32,14 @@ class ColorModel {
 
   ColorModel();
 
-  bool learnt() const { return learnt_; }
+  bool initialised() const { return initialised_; }
   void Forget();
   /// The robot is of the colour `rgb` [0, 1], more or less; everything else of any.
   void Assume(const std::array<double, 3>& rgb);
   /// Counts of one frame; `share` of it comes in, all of it where nothing was learnt.
-  void Learn(Histogram robot, Histogram other, double share);
+  void Update(Histogram robot, Histogram other, double share);
   /// How alike the robot's colours are to those learnt: 1 the same, 0 none in common.
-  double Likeness(Histogram robot) const;
+  double Similarity(Histogram robot) const;
 
   /// log(p(colour | robot) / p(colour | other)) in [-kMostSaid, kMostSaid]; 0: says nothing.
   float LogRatio(std::uint16_t bin) const { return log_ratio_[bin]; }
@@ -48,7 +48,7 @@ class ColorModel {
   void UpdateRatios();
 
   const std::uint16_t* table_;  ///< bins of all colours, 32 levels of each channel
-  bool learnt_ = false;
+  bool initialised_ = false;
   Histogram robot_;
   Histogram other_;
   std::vector<float> log_ratio_;

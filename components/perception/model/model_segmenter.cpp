@@ -73,7 +73,7 @@ struct ModelSegmenter::Parts {
   PredictionView prediction;
   BackgroundPlanes background;
   BackgroundPlanes::Tolerance tolerance;
-  PixelClassifier judge;
+  PixelClassifier classifier;
   PixelRegion region;
   EvidenceFilter filter;
   Patches patches;
@@ -94,7 +94,7 @@ ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& cam
       registration{camera},
       prediction{camera, settings.model},
       tolerance{.noise = noise_law, .bias = static_cast<float>(settings.model.background_bias)},
-      judge{settings, noise_law},
+      classifier{settings, noise_law},
       builder{NoiseOf(settings), settings.max_cloud_points} {}
 
 /// The paper's PassThrough: 0 for what is not measured or out of range.
@@ -165,20 +165,21 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   const auto is_foreign = [&](int u, int v, const Eigen::Vector3f& point_m) {
     return background.Holds(point_m, tolerance) ||
            (use_colors && ColorKnown(u, v) &&
-            judge.IsForeign(judge.BinOf(frame.color.Pixel(u, v))));
+            classifier.IsForeign(classifier.BinOf(frame.color.Pixel(u, v))));
   };
-  FitPrediction(predicted, {is_foreign, judge.Sigma_m(mean_z_m), config.model.largest_error_m});
+  FitPrediction(predicted,
+                {is_foreign, classifier.Sigma_m(mean_z_m), config.model.largest_error_m});
   fitted = prediction.WholeSurface();
   prediction.Measure(registration, &region);
-  judge.JudgeDistances(registration, background, &region);
-  status = judge.CheckAgreement(prediction, region);
+  classifier.ClassifyByDistance(registration, background, &region);
+  status = classifier.CheckAgreement(prediction, region);
   if (!status.ok()) return status;
-  const bool judge_colors = has_color && judge.MeetColors(frame, region, &result.notes);
-  if (judge_colors) judge.JudgeColors(frame, &region);
+  const bool classify_colors = has_color && classifier.PrepareColors(frame, region, &result.notes);
+  if (classify_colors) classifier.ClassifyByColor(frame, &region);
   filter.Smooth(&region);
   SetLabels(0.0f);
   DropSpecks(kLeastPatch_px);
-  if (judge_colors) judge.LearnColors(frame, region);
+  if (classify_colors) classifier.UpdateColors(frame, region);
   return status;
 }
 
@@ -223,7 +224,7 @@ ColorModel::Histogram ModelSegmenter::Parts::ColorsNearPrediction() const {
       const int u = region.u_begin + column, v = region.v_begin + row;
       const float z_m = region.z_m[region.At(column, row)];
       const bool is_near = prediction.Covers(u, v) && std::abs(z_m - prediction.Z_m(u, v)) < near_m;
-      if (is_near && ColorKnown(u, v)) counts[judge.BinOf(frame.color.Pixel(u, v))] += 1.0f;
+      if (is_near && ColorKnown(u, v)) counts[classifier.BinOf(frame.color.Pixel(u, v))] += 1.0f;
     }
   }
   return counts;
@@ -233,26 +234,26 @@ ColorModel::Histogram ModelSegmenter::Parts::ColorsNearPrediction() const {
 /// the light has just changed. Where none are known yet, they are guessed.
 bool ModelSegmenter::Parts::ColorsHold() {
   const ColorModel::Histogram counts = ColorsNearPrediction();
-  if (!judge.knows_colors()) judge.GuessForeign(counts);
+  if (!classifier.knows_colors()) classifier.GuessForeign(counts);
   float near = 0.0f;
   float foreign = 0.0f;
   for (std::size_t bin = 0; bin < counts.size(); ++bin) {
     near += counts[bin];
-    if (judge.IsForeign(static_cast<std::uint16_t>(bin))) foreign += counts[bin];
+    if (classifier.IsForeign(static_cast<std::uint16_t>(bin))) foreign += counts[bin];
   }
   return 2.0f * foreign < near;
 }
 
 Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
-  if (!judge.knows_colors() || registration.camera().color.width_px == 0) {
+  if (!classifier.knows_colors() || registration.camera().color.width_px == 0) {
     return Status(StatusCode::kNoRobotSeen,
                   "neither a predicted surface nor the robot's colour is known");
   }
   region.Place(0, 0, frame.z_m.width_px, frame.z_m.height_px);
   ReadRegion(raw);
   UpdateBackground(false);
-  judge.JudgeBackground(registration, background, &region);
-  judge.JudgeColors(frame, &region);
+  classifier.ClassifyBackground(registration, background, &region);
+  classifier.ClassifyByColor(frame, &region);
   filter.Smooth(&region);
   SetLabels(kColorAlone);
   patches.Find(region);

@@ -21,7 +21,7 @@ constexpr float kOnBackground = -2.5f;
 /// A distance that tells, in sigmas.
 constexpr float kSureSigmas = 1.5f;
 /// Less alike, colours were learnt in another light.
-constexpr double kLeastLikeness = 0.85;
+constexpr double kLeastSimilarity = 0.85;
 constexpr double kMostWithoutColor = 0.5;
 /// Colours are learnt from every other pixel of every other row.
 constexpr int kSampleStep_px = 2;
@@ -56,10 +56,10 @@ float PixelClassifier::Sigma_m(float z_m) const {
   return std::sqrt(surface_m * surface_m + depth_m * depth_m);
 }
 
-void PixelClassifier::JudgeDistances(const Registration& registration,
-                                     const BackgroundPlanes& background,
-                                     PixelRegion* region) const {
-  JudgeBackground(registration, background, region);
+void PixelClassifier::ClassifyByDistance(const Registration& registration,
+                                         const BackgroundPlanes& background,
+                                         PixelRegion* region) const {
+  ClassifyBackground(registration, background, region);
   for (std::size_t at = 0; at < region->size(); ++at) {
     const float z_m = region->z_m[at];
     if (z_m <= 0.0f) continue;
@@ -74,9 +74,9 @@ void PixelClassifier::JudgeDistances(const Registration& registration,
   }
 }
 
-void PixelClassifier::JudgeBackground(const Registration& registration,
-                                      const BackgroundPlanes& background,
-                                      PixelRegion* region) const {
+void PixelClassifier::ClassifyBackground(const Registration& registration,
+                                         const BackgroundPlanes& background,
+                                         PixelRegion* region) const {
   for (int row = 0; row < region->height; ++row) {
     for (int column = 0; column < region->width; ++column) {
       const std::size_t at = region->At(column, row);
@@ -142,27 +142,27 @@ void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion
   }
 }
 
-bool PixelClassifier::MeetColors(const RegisteredFrame& frame, const PixelRegion& region,
-                                 std::vector<std::string>* notes) {
+bool PixelClassifier::PrepareColors(const RegisteredFrame& frame, const PixelRegion& region,
+                                    std::vector<std::string>* notes) {
   TakeSample(frame, region, false);
-  if (sample_.robot_count < LeastCount()) return colors_.learnt();
+  if (sample_.robot_count < LeastCount()) return colors_.initialised();
   const auto without_color = static_cast<double>(sample_.robot[ColorModel::kNoColor]);
   if (without_color > kMostWithoutColor * sample_.robot_count) {
     notes->emplace_back("the robot's colour is saturated or dark: the shape alone is used");
     return false;
   }
-  if (colors_.learnt() && colors_.Likeness(sample_.robot) < kLeastLikeness) {
+  if (colors_.initialised() && colors_.Similarity(sample_.robot) < kLeastSimilarity) {
     notes->emplace_back("the light has changed: colours are learnt anew");
     colors_.Forget();
   }
-  if (!colors_.learnt()) colors_.Learn(sample_.robot, Others(), 1.0);
+  if (!colors_.initialised()) colors_.Update(sample_.robot, Others(), 1.0);
   return true;
 }
 
-void PixelClassifier::LearnColors(const RegisteredFrame& frame, const PixelRegion& region) {
+void PixelClassifier::UpdateColors(const RegisteredFrame& frame, const PixelRegion& region) {
   TakeSample(frame, region, true);
   if (sample_.robot_count >= LeastCount()) {
-    colors_.Learn(sample_.robot, Others(), config_.color_update);
+    colors_.Update(sample_.robot, Others(), config_.color_update);
   }
 }
 
@@ -186,7 +186,7 @@ double PixelClassifier::LeastCount() const {
   return static_cast<double>(config_.min_robot_pixels) / (kSampleStep_px * kSampleStep_px);
 }
 
-void PixelClassifier::JudgeColors(const RegisteredFrame& frame, PixelRegion* region) const {
+void PixelClassifier::ClassifyByColor(const RegisteredFrame& frame, PixelRegion* region) const {
   for (int row = 0; row < region->height; ++row) {
     const std::size_t first = FirstPixel(frame, *region, row);
     float* evidence = region->evidence.data() + region->At(0, row);

@@ -28,29 +28,29 @@ class PixelClassifier {
   float Sigma_m(float z_m) const;
 
   /// Sets evidence and on_background of the region from its distance_m.
-  void JudgeDistances(const Registration& registration, const BackgroundPlanes& background,
-                      PixelRegion* region) const;
+  void ClassifyByDistance(const Registration& registration, const BackgroundPlanes& background,
+                          PixelRegion* region) const;
   /// The same where no surface is predicted: the background alone tells.
-  void JudgeBackground(const Registration& registration, const BackgroundPlanes& background,
-                       PixelRegion* region) const;
+  void ClassifyBackground(const Registration& registration, const BackgroundPlanes& background,
+                          PixelRegion* region) const;
   /// kNoRobotSeen where too little of what should be seen of the robot is there.
   Status CheckAgreement(const PredictionView& prediction, const PixelRegion& region) const;
 
   /// Looks at the colours of pixels whose distance tells. False: they say nothing. Where none were
   /// learnt, or in another light, they are learnt here. Notes what a person should know.
-  bool MeetColors(const RegisteredFrame& frame, const PixelRegion& region,
-                  std::vector<std::string>* notes);
+  bool PrepareColors(const RegisteredFrame& frame, const PixelRegion& region,
+                     std::vector<std::string>* notes);
   /// Learns a little from pixels that are labelled.
-  void LearnColors(const RegisteredFrame& frame, const PixelRegion& region);
-  bool knows_colors() const { return colors_.learnt(); }
+  void UpdateColors(const RegisteredFrame& frame, const PixelRegion& region);
+  bool knows_colors() const { return colors_.initialised(); }
   /// Before colours are learnt: what few of these pixels near the robot have is taken for foreign.
   void GuessForeign(const ColorModel::Histogram& near_robot) { rare_ = RareColors(near_robot); }
   std::uint16_t BinOf(const std::uint8_t* rgb) const { return colors_.BinOf(rgb); }
   /// Of a colour that the robot does not have.
   bool IsForeign(std::uint16_t bin) const {
-    return colors_.learnt() ? colors_.LogRatio(bin) < kForeign : rare_.Hold(bin);
+    return colors_.initialised() ? colors_.LogRatio(bin) < kForeign : rare_.Hold(bin);
   }
-  void JudgeColors(const RegisteredFrame& frame, PixelRegion* region) const;
+  void ClassifyByColor(const RegisteredFrame& frame, PixelRegion* region) const;
 
  private:
   struct Sample {

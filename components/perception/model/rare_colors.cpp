@@ -12,7 +12,7 @@ namespace {
 
 /// Share of all pixels that a chromaticity of a group has: between two groups lie those of pixels
 /// on the border of their surfaces.
-constexpr float kLeastSkinShare = 0.005f;
+constexpr float kLeastSurfaceShare = 0.005f;
 /// A group of a smaller share of the largest is rare.
 constexpr float kRareShare = 0.25f;
 
@@ -50,7 +50,7 @@ RareColors::RareColors(const ColorModel::Histogram& counts) {
     of_chromaticity[bin % kChromaticities] += counts[bin];
   }
   const float least =
-      std::max(1.0f, kLeastSkinShare *
+      std::max(1.0f, kLeastSurfaceShare *
                          std::accumulate(of_chromaticity.begin(), of_chromaticity.end(), 0.0f));
   std::vector<int> group(kChromaticities, -1);
   std::vector<float> sizes;

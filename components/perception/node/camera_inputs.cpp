@@ -25,16 +25,16 @@ bool IsSameCamera(const rgbd::RgbdCamera& a, const rgbd::RgbdCamera& b) {
 }
 
 void CameraInputs::SetSetup(const idl::palpate_msgs::CameraSetup& message) {
-  Told<CameraSetup> told{dds::StampNs(message.header.stamp), {}, {}};
-  told.status = About("/camera/setup", FromCameraSetup(message, &told.value));
-  setup_ = std::move(told);
+  Received<CameraSetup> received{dds::StampNs(message.header.stamp), {}, {}};
+  received.status = About("/camera/setup", FromCameraSetup(message, &received.value));
+  setup_ = std::move(received);
   ++setups_;
 }
 
 void CameraInputs::SetLens(const idl::sensor_msgs::CameraInfo& message, Lens* lens) {
-  Told<rgbd::CameraModel> told{dds::StampNs(message.header.stamp), {}, {}};
-  told.status = FromCameraInfo(message, &told.value);
-  *lens = std::move(told);
+  Received<rgbd::CameraModel> received{dds::StampNs(message.header.stamp), {}, {}};
+  received.status = FromCameraInfo(message, &received.value);
+  *lens = std::move(received);
 }
 
 void CameraInputs::SetDepthLens(const idl::sensor_msgs::CameraInfo& message) {

@@ -36,12 +36,12 @@ class CameraInputs {
 
  private:
   template <typename T>
-  struct Told {
+  struct Received {
     std::int64_t stamp_ns = 0;
     Status status;
     T value;
   };
-  using Lens = std::optional<Told<rgbd::CameraModel>>;
+  using Lens = std::optional<Received<rgbd::CameraModel>>;
 
   void SetLens(const idl::sensor_msgs::CameraInfo& message, Lens* lens);
   bool BelongsToSetup(const Lens& lens) const {
@@ -50,7 +50,7 @@ class CameraInputs {
   Status CheckDepthLens() const;
   Status CheckColorLens() const;
 
-  std::optional<Told<CameraSetup>> setup_;
+  std::optional<Received<CameraSetup>> setup_;
   Lens depth_;
   Lens color_;
   std::uint64_t setups_ = 0;

@@ -11,29 +11,29 @@ namespace palpate::perception {
 
 Status CameraPose::Take(const idl::palpate_msgs::Calibration& message) {
   if (!message.has_camera) return Status::Ok();
-  Told told{Eigen::Isometry3d::Identity(), std::string(dds::Text(message.mesh_hash)),
-            std::string(dds::Text(message.date_utc))};
-  if (!dds::FromPose(message.camera_in_robot, &told.T_robot_camera)) {
+  Received received{Eigen::Isometry3d::Identity(), std::string(dds::Text(message.mesh_hash)),
+                    std::string(dds::Text(message.date_utc))};
+  if (!dds::FromPose(message.camera_in_robot, &received.T_robot_camera)) {
     return {StatusCode::kInvalidInput, "camera_in_robot is no pose"};
   }
-  const std::string& last = told_ ? told_->date_utc : date_utc_;
-  if (told.date_utc < last) {
+  const std::string& last = received_ ? received_->date_utc : date_utc_;
+  if (received.date_utc < last) {
     return {StatusCode::kStale,
-            "it is of " + told.date_utc + ", older than the one in use, of " + last};
+            "it is of " + received.date_utc + ", older than the one in use, of " + last};
   }
-  told_ = std::move(told);
+  received_ = std::move(received);
   return Status::Ok();
 }
 
 Status CameraPose::Adopt(const std::string& mesh_hash) {
-  if (!told_ || mesh_hash.empty()) return Status::Ok();
-  const Told told = *std::exchange(told_, std::nullopt);
-  if (told.mesh_hash != mesh_hash) {
-    return {StatusCode::kInvalidInput, "the calibration is for mesh '" + told.mesh_hash +
+  if (!received_ || mesh_hash.empty()) return Status::Ok();
+  const Received received = *std::exchange(received_, std::nullopt);
+  if (received.mesh_hash != mesh_hash) {
+    return {StatusCode::kInvalidInput, "the calibration is for mesh '" + received.mesh_hash +
                                            "', /robot/mesh is '" + mesh_hash + "'"};
   }
-  T_robot_camera_ = told.T_robot_camera;
-  date_utc_ = told.date_utc;
+  T_robot_camera_ = received.T_robot_camera;
+  date_utc_ = received.date_utc;
   return Status::Ok();
 }
 

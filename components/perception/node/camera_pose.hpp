@@ -31,14 +31,14 @@ class CameraPose {
   Status Adopt(const std::string& mesh_hash);
 
  private:
-  struct Told {
+  struct Received {
     Eigen::Isometry3d T_robot_camera;
     std::string mesh_hash, date_utc;
   };
 
   std::optional<Eigen::Isometry3d> T_robot_camera_;
-  std::optional<Told> told_;  ///< waits for the mesh
-  std::string date_utc_;      ///< of the calibration in use; empty: none
+  std::optional<Received> received_;  ///< waits for the mesh
+  std::string date_utc_;              ///< of the calibration in use; empty: none
 };
 
 }  // namespace palpate::perception

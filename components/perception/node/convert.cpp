@@ -52,12 +52,12 @@ Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t
   return Status::Ok();
 }
 
-template <typename Picture>
-Status CopyImage(const Image& message, std::string_view encoding, Picture* image) {
+template <typename Target>
+Status CopyImage(const Image& message, std::string_view encoding, Target* image) {
   constexpr std::uint32_t kPixelBytes =
-      sizeof(typename decltype(image->values)::value_type) * Picture::channels;
+      sizeof(typename decltype(image->values)::value_type) * Target::channels;
   if (Status status = CheckImage(message, encoding, kPixelBytes); !status.ok()) return status;
-  *image = Picture(static_cast<int>(message.width), static_cast<int>(message.height));
+  *image = Target(static_cast<int>(message.width), static_cast<int>(message.height));
   const std::size_t row_bytes = std::size_t{message.width} * kPixelBytes;
   auto* target = reinterpret_cast<std::uint8_t*>(image->values.data());
   for (std::size_t v = 0; v < message.height; ++v) {

@@ -284,12 +284,12 @@ PerceptionJob PerceptionNode::MakeJob(FrameSet& set, const rgbd::RgbdCamera& cam
   if (set.color) job.images.color = std::move(*set.color);
   const bool begins = BeginsSequence(set);
   if (begins || camera_.subpixel_sigma_px() != sigma_px_) {
-    job.anew = config_;
+    job.reset = config_;
     sigma_px_ = camera_.subpixel_sigma_px();
-    job.anew->depth_subpixel_px = sigma_px_.value_or(config_.depth_subpixel_px);
+    job.reset->depth_subpixel_px = sigma_px_.value_or(config_.depth_subpixel_px);
   }
   if (begins && last_stamp_ns_) predictions_.Clear();
-  if (job.anew || set_setups_ != camera_.setups() || !IsSameCamera(*set_, camera)) {
+  if (job.reset || set_setups_ != camera_.setups() || !IsSameCamera(*set_, camera)) {
     job.camera = set_ = camera;
     set_setups_ = camera_.setups();
   }

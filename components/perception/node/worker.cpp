@@ -39,7 +39,7 @@ void Worker::Run() {
 }
 
 PerceptionResult Worker::Perceive(PerceptionJob& job) {
-  if (job.anew) perception_ = maker_(*job.anew);
+  if (job.reset) perception_ = maker_(*job.reset);
   if (job.camera) perception_->SetCamera(*job.camera);
   const PredictedSurface* predicted = job.prediction ? &job.prediction->surface : nullptr;
   job.outcome.observation = perception_->Update(job.images, predicted);

@@ -21,7 +21,7 @@ struct PerceptionJob {
   FrameOutcome outcome;  ///< all but the observation
   rgbd::RgbdFrame images;
   std::optional<Prediction> prediction;
-  std::optional<Config> anew;              ///< what was learnt from earlier frames is void
+  std::optional<Config> reset;             ///< what was learnt from earlier frames is void
   std::optional<rgbd::RgbdCamera> camera;  ///< another one than before, or opened anew
   FrameSet::Time taken;
 };

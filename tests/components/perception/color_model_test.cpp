@@ -23,13 +23,13 @@ ColorModel::Histogram Of(const ColorModel& model, const std::uint8_t* rgb, float
 
 TEST(ColorModel, SaysNothingBeforeItHasLearnt) {
   const ColorModel model;
-  EXPECT_FALSE(model.learnt());
+  EXPECT_FALSE(model.initialised());
   EXPECT_EQ(model.LogRatio(model.BinOf(kRed)), 0.0f);
 }
 
 TEST(ColorModel, TellsWhatItHasLearntAndNothingOfOtherColors) {
   ColorModel model;
-  model.Learn(Of(model, kRed, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
+  model.Update(Of(model, kRed, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
   EXPECT_GT(model.LogRatio(model.BinOf(kRed)), 2.0f);
   EXPECT_LT(model.LogRatio(model.BinOf(kBrown)), -2.0f);
   EXPECT_EQ(model.LogRatio(model.BinOf(kGreen)), 0.0f);
@@ -38,10 +38,10 @@ TEST(ColorModel, TellsWhatItHasLearntAndNothingOfOtherColors) {
 
 TEST(ColorModel, LearnsSlowlyWhatIsNew) {
   ColorModel model;
-  model.Learn(Of(model, kRed, 900.0f), Of(model, kGreen, 5000.0f), 0.1);
+  model.Update(Of(model, kRed, 900.0f), Of(model, kGreen, 5000.0f), 0.1);
   float last = model.LogRatio(model.BinOf(kGreen));
   for (int frame = 0; frame < 5; ++frame) {
-    model.Learn(Of(model, kGreen, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
+    model.Update(Of(model, kGreen, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
     EXPECT_GT(model.LogRatio(model.BinOf(kGreen)), last);
     last = model.LogRatio(model.BinOf(kGreen));
   }
@@ -50,11 +50,11 @@ TEST(ColorModel, LearnsSlowlyWhatIsNew) {
 
 TEST(ColorModel, FindsAnotherLightUnlike) {
   ColorModel model;
-  model.Learn(Of(model, kRed, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
+  model.Update(Of(model, kRed, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
   EXPECT_GT(model.CanonicalCorrelation(Of(model, kRed, 10.0f)), 0.99);
   EXPECT_LT(model.CanonicalCorrelation(Of(model, kDimRed, 10.0f)), 0.5);
   model.Forget();
-  EXPECT_FALSE(model.learnt());
+  EXPECT_FALSE(model.initialised());
 }
 
 TEST(ColorModel, SeesNoColorInBlackOrWhite) {
@@ -70,7 +70,7 @@ TEST(ColorModel, SeesNoColorInBlackOrWhite) {
 TEST(ColorModel, AssumesAColorInAnyBrightness) {
   ColorModel model;
   model.Assume({0.85, 0.30, 0.25});
-  EXPECT_TRUE(model.learnt());
+  EXPECT_TRUE(model.initialised());
   EXPECT_GT(model.LogRatio(model.BinOf(kRed)), 1.0f);
   EXPECT_GT(model.LogRatio(model.BinOf(kDimRed)), 1.0f);
   EXPECT_LT(model.LogRatio(model.BinOf(kGreen)), -0.5f);

@@ -20,8 +20,8 @@ constexpr double kSameColor = 0.95;
 /// Of the tools' pixels that are nearer than object_distance_m.
 constexpr double kTools = 0.9;
 
-Score Judge(const std::string& name, const LabelledScene& scene, ModelSegmenter* segmenter,
-            const PredictedSurface& predicted) {
+Score Classify(const std::string& name, const LabelledScene& scene, ModelSegmenter* segmenter,
+               const PredictedSurface& predicted) {
   const SegmentedFrame& frame = segmenter->Segment(scene.frame(), &predicted);
   EXPECT_TRUE(frame.status.ok()) << frame.status.message();
   const Score score = Compare(scene, segmenter->region());
@@ -40,7 +40,7 @@ Score JudgeOnce(const std::string& name, const scenario::Scenario& scenario,
   ModelSegmenter segmenter((Config()));
   segmenter.SetCamera(scene.camera());
   scene.Take(view);
-  return Judge(name, scene, &segmenter, predicted);
+  return Classify(name, scene, &segmenter, predicted);
 }
 
 void ExpectRobot(const Score& score, double least) {

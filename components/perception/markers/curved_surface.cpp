@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/perception/markers/bent_skin.hpp"
+#include "components/perception/markers/curved_surface.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ constexpr double kSlope = 2.0;
 
 }  // namespace
 
-BentSkin::Coefficients BentSkin::Terms(const Eigen::Vector2d& ray) const {
+CurvedSurface::Coefficients CurvedSurface::Terms(const Eigen::Vector2d& ray) const {
   const Eigen::Vector2d at = (z_m_ / reach_m_) * (ray - center_);
   Coefficients terms;
   terms << 1.0, at.x(), at.y(), at.x() * at.x(), at.x() * at.y(), at.y() * at.y();
@@ -29,7 +29,7 @@ BentSkin::Coefficients BentSkin::Terms(const Eigen::Vector2d& ray) const {
 }
 
 /// Of a slanted surface z bends more than the surface does.
-BentSkin::Coefficients BentSkin::PriorInformation(const SkinPrior& prior) const {
+CurvedSurface::Coefficients CurvedSurface::PriorInformation(const SkinPrior& prior) const {
   const double slope_squared = coefficients_.segment<2>(1).squaredNorm() / (reach_m_ * reach_m_);
   const double bend = std::pow(1.0 + slope_squared, 1.5) / prior.bend_radius_m;
   Coefficients sigma;
@@ -38,7 +38,7 @@ BentSkin::Coefficients BentSkin::PriorInformation(const SkinPrior& prior) const 
   return sigma.array().square().inverse();
 }
 
-bool BentSkin::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior) {
+bool CurvedSurface::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior) {
   const double information = 1.0 / (prior.sigma_m * prior.sigma_m * prior.alike);
   gate_m_ = kGateSigmas * prior.sigma_m + kGateBend * reach_m_;
   coefficients_.setZero();
@@ -65,7 +65,7 @@ bool BentSkin::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prio
   return coefficients_.allFinite() && coefficients_[0] > 0.0;
 }
 
-BentSkin::Point BentSkin::At(const Eigen::Vector2d& ray, const Coefficients& c) const {
+CurvedSurface::Point CurvedSurface::At(const Eigen::Vector2d& ray, const Coefficients& c) const {
   const Eigen::Vector2d at = (z_m_ / reach_m_) * (ray - center_);
   const double z_m = Terms(ray).dot(c);
   const double per_ray = z_m_ / reach_m_;
@@ -77,7 +77,8 @@ BentSkin::Point BentSkin::At(const Eigen::Vector2d& ray, const Coefficients& c) 
           .along_y_m = z_y * direction + z_m * Eigen::Vector3d::UnitY()};
 }
 
-BentSkin::Point BentSkin::Foot(const Eigen::Vector3d& point_m, const Coefficients& c) const {
+CurvedSurface::Point CurvedSurface::Foot(const Eigen::Vector3d& point_m,
+                                         const Coefficients& c) const {
   constexpr int kSteps = 4;
   Point foot = At(point_m.head<2>() / point_m.z(), c);
   const Eigen::Vector3d normal = foot.AreaVector().normalized();
@@ -89,7 +90,7 @@ BentSkin::Point BentSkin::Foot(const Eigen::Vector3d& point_m, const Coefficient
   return foot;
 }
 
-double BentSkin::SlopeSigma() const {
+double CurvedSurface::SlopeSigma() const {
   return std::sqrt(0.5 * (covariance_(1, 1) + covariance_(2, 2))) / reach_m_;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/perception/contacts/unseen_skin.hpp"
+#include "components/perception/contacts/hidden_surface.hpp"
 
 #include <cmath>
 
 #include "components/perception/contacts/point_grid.hpp"
-#include "components/perception/contacts/skin_around.hpp"
+#include "components/perception/contacts/surface_around.hpp"
 
 namespace palpate::perception {
 
@@ -16,19 +16,19 @@ constexpr double kReaches = 2.5;  ///< beyond so many times the reach nothing co
 
 }  // namespace
 
-std::optional<UnseenSkin> FindUnseenSkin(const PredictedSurface& surface,
-                                         const rgbd::SensedCloud& robot,
-                                         const Eigen::Matrix3Xd& rim_m, double reach_m,
-                                         double resolution_m) {
+std::optional<HiddenSurface> FindHiddenSurface(const PredictedSurface& surface,
+                                               const rgbd::SensedCloud& robot,
+                                               const Eigen::Matrix3Xd& rim_m, double reach_m,
+                                               double resolution_m) {
   const Eigen::Vector3d middle_m = rim_m.rowwise().mean();
   const double rim_reach_m = (rim_m.colwise() - middle_m).colwise().norm().maxCoeff();
-  const SkinAround skin(surface, middle_m, rim_reach_m + kReaches * reach_m);
+  const SurfaceAround around(surface, middle_m, rim_reach_m + kReaches * reach_m);
   PointGrid seen;
   seen.Build(robot.points_m, static_cast<float>(resolution_m));
   double sum = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  skin.ForEachPart([&](const Eigen::Vector3d& place_m, double area_m2) {
+  around.ForEachPart([&](const Eigen::Vector3d& place_m, double area_m2) {
     const double from_rim_m2 = (rim_m.colwise() - place_m).colwise().squaredNorm().minCoeff();
     if (from_rim_m2 > kReaches * kReaches * reach_m * reach_m) return;
     bool is_seen = false;
@@ -45,8 +45,8 @@ std::optional<UnseenSkin> FindUnseenSkin(const PredictedSurface& surface,
   });
   if (!(sum > 0.0)) return std::nullopt;
   const Eigen::Vector3d mean_m = first / sum;
-  return UnseenSkin{.middle_m = middle_m + mean_m,
-                    .covariance_m2 = second / sum - mean_m * mean_m.transpose()};
+  return HiddenSurface{.middle_m = middle_m + mean_m,
+                       .covariance_m2 = second / sum - mean_m * mean_m.transpose()};
 }
 
 }  // namespace palpate::perception

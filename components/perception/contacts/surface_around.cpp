@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/perception/contacts/skin_around.hpp"
+#include "components/perception/contacts/surface_around.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr double kSameDistance_m = 1e-9;
 
 }  // namespace
 
-SkinAround::SkinAround(const PredictedSurface& surface, const Eigen::Vector3d& place_m,
-                       double radius_m) {
+SurfaceAround::SurfaceAround(const PredictedSurface& surface, const Eigen::Vector3d& place_m,
+                             double radius_m) {
   std::vector<int> near;
   for (const auto& corners : surface.triangles.colwise()) {
     const Eigen::Matrix3d triangle_m = surface.vertices_m(Eigen::all, corners);
@@ -36,9 +36,9 @@ SkinAround::SkinAround(const PredictedSurface& surface, const Eigen::Vector3d& p
 
 /// On an edge the triangle counts that the place stands over most squarely: whether a place is
 /// inside is not told by one that is seen edge-on from there.
-NearestSkin SkinAround::Nearest(const Eigen::Vector3d& place_m) const {
+NearestSurface SurfaceAround::Nearest(const Eigen::Vector3d& place_m) const {
   PALPATE_CHECK(!empty());
-  NearestSkin nearest;
+  NearestSurface nearest;
   double least_m = std::numeric_limits<double>::infinity();
   double squarest_m = 0.0;
   for (Eigen::Index t = 0; t < corners_m_.cols(); t += 3) {

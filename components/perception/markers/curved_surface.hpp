@@ -23,12 +23,12 @@ struct SkinPrior {
 };
 
 /// A small patch of a surface: z is a polynomial of second degree in x and y.
-class BentSkin {
+class CurvedSurface {
  public:
   using Coefficients = Eigen::Matrix<double, 6, 1>;
 
   /// About the ray `center` at about `z_m`; `reach_m` is about the size of the patch.
-  BentSkin(const Eigen::Vector2d& center, double z_m, double reach_m)
+  CurvedSurface(const Eigen::Vector2d& center, double z_m, double reach_m)
       : center_{center}, z_m_{z_m}, reach_m_{reach_m} {}
 
   /// Fits z to the inner samples, then to all that lie no farther than gate_m() from it. False

@@ -13,17 +13,17 @@
 namespace palpate::perception {
 
 /// A place's nearest point of the robot's surface.
-struct NearestSkin {
+struct NearestSurface {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, off the surface towards outside
   double height_m = 0.0;                              ///< of the place over it; < 0: inside
 };
 
 /// The part of a predicted surface that lies around a place, seen or not.
-class SkinAround {
+class SurfaceAround {
  public:
   /// All triangles that come within `radius_m` of `place_m`; there may be none.
-  SkinAround(const PredictedSurface& surface, const Eigen::Vector3d& place_m, double radius_m);
+  SurfaceAround(const PredictedSurface& surface, const Eigen::Vector3d& place_m, double radius_m);
 
   bool empty() const { return corners_m_.cols() == 0; }
 
@@ -32,14 +32,14 @@ class SkinAround {
   void ForEachPart(Visit&& visit) const;
 
   /// Of this part, which must not be empty.
-  NearestSkin Nearest(const Eigen::Vector3d& place_m) const;
+  NearestSurface Nearest(const Eigen::Vector3d& place_m) const;
 
  private:
   Eigen::Matrix3Xd corners_m_;  ///< [3 x 3t] three columns a triangle, anticlockwise from outside
 };
 
 template <typename Visit>
-void SkinAround::ForEachPart(Visit&& visit) const {
+void SurfaceAround::ForEachPart(Visit&& visit) const {
   constexpr double kPart_m = 2.5e-3;
   for (Eigen::Index t = 0; t < corners_m_.cols(); t += 3) {
     const Eigen::Vector3d a_m = corners_m_.col(t + 1) - corners_m_.col(t);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/perception/contacts/skin_around.hpp"
+#include "components/perception/contacts/surface_around.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,26 +17,26 @@ PredictedSurface Plate() {
   return test::PlateSeenBy({.distance_m = 0.5, .tilt_rad = 0.0, .turn_rad = 0.0}, 0.1);
 }
 
-TEST(SkinAround, TellsTheNearestPointAndWhichSideOfItAPlaceIs) {
-  const SkinAround skin(Plate(), {0.0, 0.0, 0.48}, 0.03);
-  ASSERT_TRUE(SkinAround(Plate(), {0.0, 0.0, 0.4}, 0.03).empty());
-  ASSERT_FALSE(skin.empty());
+TEST(SurfaceAround, TellsTheNearestPointAndWhichSideOfItAPlaceIs) {
+  const SurfaceAround around(Plate(), {0.0, 0.0, 0.48}, 0.03);
+  ASSERT_TRUE(SurfaceAround(Plate(), {0.0, 0.0, 0.4}, 0.03).empty());
+  ASSERT_FALSE(around.empty());
   for (const double height_m : {0.012, -0.006}) {
-    const NearestSkin nearest = skin.Nearest({0.03, -0.02, 0.5 - height_m});
+    const NearestSurface nearest = around.Nearest({0.03, -0.02, 0.5 - height_m});
     EXPECT_LT((nearest.position_m - Eigen::Vector3d(0.03, -0.02, 0.5)).norm(), 1e-9);
     EXPECT_NEAR(nearest.height_m, height_m, 1e-9);
     EXPECT_LT((nearest.outward + Eigen::Vector3d::UnitZ()).norm(), 1e-9) << "towards the camera";
   }
-  const NearestSkin beside = skin.Nearest({0.104, 0.0, 0.497});
+  const NearestSurface beside = around.Nearest({0.104, 0.0, 0.497});
   EXPECT_NEAR(beside.height_m, 0.005, 1e-9);
   EXPECT_LT((beside.position_m - Eigen::Vector3d(0.1, 0.0, 0.5)).norm(), 1e-9);
 }
 
-TEST(SkinAround, ItsPartsMakeUpItsArea) {
-  const SkinAround skin(Plate(), {0.0, 0.0, 0.49}, 0.015);  // the upper side alone
+TEST(SurfaceAround, ItsPartsMakeUpItsArea) {
+  const SurfaceAround around(Plate(), {0.0, 0.0, 0.49}, 0.015);  // the upper side alone
   double area_m2 = 0.0;
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
-  skin.ForEachPart([&](const Eigen::Vector3d& part_m, double part_m2) {
+  around.ForEachPart([&](const Eigen::Vector3d& part_m, double part_m2) {
     area_m2 += part_m2;
     middle_m += part_m2 * part_m;
   });
@@ -45,7 +45,7 @@ TEST(SkinAround, ItsPartsMakeUpItsArea) {
 }
 
 /// The far side is where contacts are that the camera does not see.
-TEST(SkinAround, TheSegmenterGivesTheWholeSurface) {
+TEST(SurfaceAround, TheSegmenterGivesTheWholeSurface) {
   const scenario::Scenario scenario = PushScenario();
   const virtual_camera::View view = RestView(scenario);
   const PredictedSurface predicted = Predict(scenario, view.nodes_m);

@@ -12,7 +12,7 @@
 namespace palpate::perception {
 
 /// Mean and covariance of the places where an object may touch.
-struct UnseenSkin {
+struct HiddenSurface {
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
@@ -21,9 +21,9 @@ struct UnseenSkin {
 /// the object's points next to the robot, the part that no point of the robot's cloud is nearer to
 /// than `resolution_m`. It counts the less the farther it lies from the rim, over `reach_m`, as
 /// far as the object's hidden part may reach. Nothing where all of the skin there is seen.
-std::optional<UnseenSkin> FindUnseenSkin(const PredictedSurface& surface,
-                                         const rgbd::SensedCloud& robot,
-                                         const Eigen::Matrix3Xd& rim_m, double reach_m,
-                                         double resolution_m);
+std::optional<HiddenSurface> FindHiddenSurface(const PredictedSurface& surface,
+                                               const rgbd::SensedCloud& robot,
+                                               const Eigen::Matrix3Xd& rim_m, double reach_m,
+                                               double resolution_m);
 
 }  // namespace palpate::perception
