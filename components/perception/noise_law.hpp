@@ -8,7 +8,7 @@
 namespace palpate::perception {
 
 /// rgbd::DepthSigma_m, quick to look up for each pixel: a little more than it, where a part that
-/// does not depend on z and one that grows with its square are alike.
+/// does not depend on z and one that grows with its square are equal.
 struct NoiseLaw {
   float constant_m = 0.0f;
   float at_1m_m = 0.0f;

@@ -13,7 +13,7 @@
 namespace palpate::perception {
 
 /// From a frame of the camera to the points of the robot and where it is touched (section V.A of
-/// the paper), and to the markers on it where their colour is told. Frames are taken one after the
+/// the paper), and to the markers on it where their colour is set. Frames are taken one after the
 /// other; colour model and contacts go on from one to the next. The same frames and predictions
 /// give the same bits.
 class Perception {
@@ -24,7 +24,7 @@ class Perception {
   Perception(const Config& config, std::unique_ptr<Segmenter> segmenter);
   ~Perception();
 
-  /// A camera, or the same one opened anew: all contacts are gone. Before the first Update.
+  /// A camera, or the same one reopened: all contacts are gone. Before the first Update.
   void SetCamera(const rgbd::RgbdCamera& camera);
 
   /// `predicted`: nullptr where the model's state is not known. The observation holds until the

@@ -15,7 +15,7 @@ namespace palpate::perception {
 
 /// Depth in metres and the colour of each depth pixel.
 struct RegisteredFrame {
-  rgbd::RangeImage z_m;    ///< NaN: no depth, or nobody knows where the pixel looks
+  rgbd::RangeImage z_m;    ///< NaN: no depth, or the ray of the pixel is unknown
   rgbd::ColorImage color;  ///< size of the depth image; black where not known
   std::vector<char>
       color_known;  ///< [pixels] 0: out of the colour camera's view, or hidden from it
@@ -47,7 +47,7 @@ class Registration {
                      RegisteredFrame* registered);
   static constexpr int kReach_px = 48;
 
-  /// (x, y, 1) that the depth pixel looks along; NaN where the lens model cannot say.
+  /// (x, y, 1) that is the ray of the depth pixel; NaN where the lens model cannot say.
   Eigen::Vector3f Ray(int u_px, int v_px) const {
     return rays_.col(static_cast<Eigen::Index>(v_px) * camera_.depth.width_px + u_px);
   }

@@ -194,7 +194,7 @@ void Registration::ProjectRow(int v, const Window& window, const float* z_m) {
     if constexpr (kDistorted) lens.Bend(&x, &y);
     const float u_color = fx * x + cx;
     const float v_color = fy * y + cy;
-    // By how much it is not in the picture; NaN where there is no depth. Without branches, so that
+    // By how much it is outside the image; NaN where there is no depth. Without branches, so that
     // the loop works on several pixels at once.
     const float u_inside = std::min(std::max(0.0f, u_color), u_last);
     const float v_inside = std::min(std::max(0.0f, v_color), v_last);

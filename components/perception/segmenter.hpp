@@ -14,7 +14,7 @@ class Segmenter {
  public:
   virtual ~Segmenter() = default;
 
-  /// A camera: what was learnt of another one's image is void.
+  /// A camera: the state of another camera is void.
   virtual void SetCamera(const rgbd::RgbdCamera& camera) = 0;
 
   /// `predicted`: nullptr where the model's state is not known. The result holds until the next

@@ -133,7 +133,7 @@ Cloud::Ptr Downsample(const Cloud::Ptr& cloud, int most_points, double* voxel_m)
   }
 }
 
-/// Without table and walls, which are looked for in a coarser cloud. Far away the noise is thicker
+/// Without table and walls, which are searched in a coarser cloud. Far away the noise is thicker
 /// than they are.
 Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const Config& config, const NoiseLaw& noise) {
   double voxel_m = std::max(config.color.background_thickness_m, SmallestVoxel_m(*cloud));

@@ -11,7 +11,7 @@ namespace palpate::perception {
 
 namespace {
 
-/// Rows and columns count from 0 here; kFree: a column that nobody has.
+/// Rows and columns count from 0 here; kFree: an unassigned column.
 constexpr int kFree = -1;
 
 /// Shortest augmenting paths with potentials (Kuhn, Munkres; Jonker and Volgenant 1987).

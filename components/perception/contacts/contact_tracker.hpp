@@ -19,7 +19,7 @@ class ContactTracker {
  public:
   explicit ContactTracker(const TrackingConfig& config) : config_(config) {}
 
-  /// `detected`: contacts of one frame, names not looked at. Gives those that are there by now, by
+  /// `detected`: contacts of one frame, names not used. Gives those that are there by now, by
   /// rising number; a contact that is missing in this frame stays where it was, with frames_seen 0,
   /// until it has vanished. Holds until the next call.
   const std::vector<DetectedContact>& Update(const std::vector<DetectedContact>& detected);

@@ -16,7 +16,7 @@ namespace palpate::perception {
 
 namespace {
 
-/// How far around the rim the object is looked at: all of a finger's tip, then a smaller thing on a
+/// How far around the rim the object is evaluated: all of a finger's tip, then a smaller thing on a
 /// stem.
 constexpr std::array kReaches_m = {0.02, 0.01};
 constexpr double kNoises = 1.5;
@@ -25,7 +25,7 @@ constexpr double kLargestSigma = 0.3;  ///< of the centre, in radii
 /// Half a ball as a camera sees it has 0.5; a narrow strip of something else can look like part of
 /// a much larger one.
 constexpr double kLeastCovered = 0.25;
-constexpr double kAround_m = 0.01;  ///< so far from the ball the robot's surface is looked at,
+constexpr double kAround_m = 0.01;  ///< so far from the ball the robot's surface is evaluated,
 constexpr double kFade_m = 0.005;   ///< the nearest points counting most
 constexpr Eigen::Index kFewestBelow = 8;
 /// The robot's surface under the ball is not seen: its normal is known to about this, rad.
@@ -81,7 +81,7 @@ Plane FitPlane(const Eigen::Matrix3Xd& points_m, const Ball& ball) {
   return plane;
 }
 
-/// One sigma of the gap between ball and skin.
+/// One sigma of the gap between ball and surface.
 double GapSigma_m(const Ball& ball, const NearestSurface& nearest) {
   Eigen::Vector4d gradient;
   gradient << nearest.outward, -1.0;
@@ -89,8 +89,8 @@ double GapSigma_m(const Ball& ball, const NearestSurface& nearest) {
 }
 
 /// What is known of the ball once it is taken to touch: of a small cap neither how large the ball
-/// is nor how far behind the cap its middle lies, but for the skin that stops it. Gauss-Newton from
-/// the ball as it was seen (iterated Kalman update).
+/// is nor how far behind the cap its middle lies, but for the surface that stops it. Gauss-Newton
+/// from the ball as it was seen (iterated Kalman update).
 Ball Touching(const Ball& seen, const SurfaceAround& around) {
   Ball ball = seen;
   for (int round = 0; round < kTouchRounds; ++round) {
@@ -116,9 +116,10 @@ struct Place {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// Where a ball touches: the skin that is as near to its middle as any, to what the shape of the
-/// skin is known to, for each of the sigma points of what is known of the middle. So it is wide
-/// along a flat skin, narrow across a limb, and holds both sides of a corner that a ball lies in.
+/// Where a ball touches: the surface that is as near to its middle as any, to what the shape of the
+/// surface is known to, for each of the sigma points of what is known of the middle. So it is wide
+/// along a flat surface, narrow across a limb, and holds both sides of a corner that a ball lies
+/// in.
 std::optional<Place> TouchingPlace(const Ball& ball, const SurfaceAround& around) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ball.CenterCovariance_m2());
   Place place;

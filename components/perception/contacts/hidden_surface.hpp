@@ -17,10 +17,10 @@ struct HiddenSurface {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// An object touches where the camera does not see the skin: of the skin around `rim_m` [3 x n],
-/// the object's points next to the robot, the part that no point of the robot's cloud is nearer to
-/// than `resolution_m`. It counts the less the farther it lies from the rim, over `reach_m`, as
-/// far as the object's hidden part may reach. Nothing where all of the skin there is seen.
+/// An object touches where the camera does not see the surface: of the surface around `rim_m` [3 x
+/// n], the object's points next to the robot, the part that no point of the robot's cloud is nearer
+/// to than `resolution_m`. It counts the less the farther it lies from the rim, over `reach_m`, as
+/// far as the object's hidden part may reach. Nothing where all of the surface there is seen.
 std::optional<HiddenSurface> FindHiddenSurface(const PredictedSurface& surface,
                                                const rgbd::SensedCloud& robot,
                                                const Eigen::Matrix3Xd& rim_m, double reach_m,

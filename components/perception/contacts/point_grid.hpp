@@ -10,7 +10,7 @@
 
 namespace palpate::perception {
 
-/// Points sorted into the cells of a regular grid, to find those near a place. Built anew for each
+/// Points sorted into the cells of a regular grid, to find those near a place. Rebuilt for each
 /// frame in linear time; buffers are used again.
 class PointGrid {
  public:

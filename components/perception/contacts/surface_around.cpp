@@ -35,7 +35,7 @@ SurfaceAround::SurfaceAround(const PredictedSurface& surface, const Eigen::Vecto
 }
 
 /// On an edge the triangle counts that the place stands over most squarely: whether a place is
-/// inside is not told by one that is seen edge-on from there.
+/// inside is not decided by one that is seen edge-on from there.
 NearestSurface SurfaceAround::Nearest(const Eigen::Vector3d& place_m) const {
   PALPATE_CHECK(!empty());
   NearestSurface nearest;

@@ -47,7 +47,7 @@ ColorSpots::ColorSpots(const FiducialConfig& config)
       tolerance_{static_cast<float>(config.color_tolerance)},
       min_level_{static_cast<int>(std::lround(255.0 * config.min_brightness))} {}
 
-void ColorSpots::Tell(const std::uint8_t* rgb, std::size_t pixel) {
+void ColorSpots::Classify(const std::uint8_t* rgb, std::size_t pixel) {
   if (std::max({rgb[0], rgb[1], rgb[2]}) < std::max(1, min_level_)) return;
   const Eigen::Vector3f direction = ColorDirection(rgb);
   Eigen::Index nearest = 0;
@@ -67,7 +67,7 @@ void ColorSpots::Mark(const RegisteredFrame& frame) {
   color_.assign(frame.color_known.size(), kNone);
   near_.assign(frame.color_known.size(), kNone);
   for (std::size_t i = 0; i < color_.size(); ++i) {
-    if (frame.color_known[i] != 0) Tell(frame.color.values.data() + 3 * i, i);
+    if (frame.color_known[i] != 0) Classify(frame.color.values.data() + 3 * i, i);
   }
 }
 

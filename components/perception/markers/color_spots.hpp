@@ -18,7 +18,7 @@ struct SpotPixel {
 };
 
 /// Neighbouring pixels of one of the markers' colours, and those next to them that come near to it:
-/// of a small marker the picture's blur leaves few that are of its colour.
+/// of a small marker the image's blur leaves few that are of its colour.
 struct ColorSpot {
   int color = 0;
   std::vector<SpotPixel> pixels;
@@ -34,14 +34,14 @@ class ColorSpots {
   /// Throws InputError where color_rgb is no list of colours.
   explicit ColorSpots(const FiducialConfig& config);
 
-  /// From the top of the picture to its bottom. Holds until the next call.
+  /// From the top of the image to its bottom. Holds until the next call.
   const std::vector<ColorSpot>& Find(const RegisteredFrame& frame);
 
  private:
   static constexpr std::int8_t kNone = -1;
 
   void Mark(const RegisteredFrame& frame);
-  void Tell(const std::uint8_t* rgb, std::size_t pixel);
+  void Classify(const std::uint8_t* rgb, std::size_t pixel);
   void Gather(int u_px, int v_px, ColorSpot* spot);
   void Take(int u_px, int v_px, ColorSpot* spot);
   std::size_t At(int u_px, int v_px) const {

@@ -39,7 +39,7 @@ CurvedSurface::Coefficients CurvedSurface::PriorInformation(const SkinPrior& pri
 }
 
 bool CurvedSurface::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior) {
-  const double information = 1.0 / (prior.sigma_m * prior.sigma_m * prior.alike);
+  const double information = 1.0 / (prior.sigma_m * prior.sigma_m * prior.correlated);
   gate_m_ = kGateSigmas * prior.sigma_m + kGateBend * reach_m_;
   coefficients_.setZero();
   coefficients_[0] = z_m_;

@@ -18,7 +18,7 @@ struct SkinSample {
 /// What is known of the samples before they are fitted.
 struct SkinPrior {
   double sigma_m = 1e-3;        ///< of each z
-  double alike = 1.0;           ///< how many neighbours count for one, >= 1
+  double correlated = 1.0;      ///< how many neighbours count for one, >= 1
   double bend_radius_m = 0.01;  ///< one sigma of the curvature is its inverse
 };
 

@@ -22,7 +22,7 @@ struct Fiducial {
   double contrast = 0.0;  ///< of its colour and that of what is round it, as directions, [0, 1.4]
   double open_rim = 0.0;  ///< share of the rim that does not border on the surface it is on
   int color = 0;          ///< which of FiducialConfig::color_rgb
-  /// The robot's marker: where FiducialConfig::names tells it by a colour that only one fiducial of
+  /// The robot's marker: where FiducialConfig::names has its colour and only one fiducial of
   /// the frame has; else empty.
   std::string name;
 };
@@ -33,7 +33,7 @@ struct FiducialRejections {
   int too_large = 0;
   int not_round = 0;    ///< also: partly covered
   int no_depth = 0;     ///< too few pixels with depth, or out of range
-  int at_edge = 0;      ///< of the picture or of the surface, seen edge-on, or something before it
+  int at_edge = 0;      ///< of the image or of the surface, seen edge-on, or something before it
   int wrong_color = 0;  ///< hardly differs from what is round it
 
   int Count() const { return too_small + too_large + not_round + no_depth + at_edge + wrong_color; }
@@ -42,7 +42,7 @@ struct FiducialRejections {
 /// What one frame shows.
 struct FiducialFrame {
   Status status;                    ///< kInvalidInput with the reason: no fiducials
-  std::vector<Fiducial> fiducials;  ///< from the top of the picture to its bottom
+  std::vector<Fiducial> fiducials;  ///< from the top of the image to its bottom
   FiducialRejections rejected;
 };
 

@@ -15,9 +15,10 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 /// Of a spot's pixels so many must have a depth.
 constexpr double kLeastDepth = 0.5;
-/// The skin is fitted up to so many radii of the spot beyond its rim.
+/// The surface is fitted up to so many radii of the spot beyond its rim.
 constexpr double kSurfaceReach = 0.8;
-/// Of the angle between the skin's normal and the ray; beyond it a disc is seen too much edge-on.
+/// Of the angle between the surface's normal and the ray; beyond it a disc is seen too much
+/// edge-on.
 constexpr double kSmallestCosine = 0.3;
 /// What lens and colour mosaic add to the second moments, px^2: a 1-2-1 blur.
 constexpr double kBlur_px2 = 0.5;  // of the colour image
@@ -109,7 +110,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
   return larger ? &FiducialRejections::too_large : nullptr;
 }
 
-/// Also tells which pixels of the window lie on that skin.
+/// Also marks the pixels of the window that lie on that surface.
 bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
   samples_.clear();
   const double near_m = 5.0 * sigma_m_ + 3.0 * rough_radius_px_ * step_.mean() * z_m_;
@@ -120,7 +121,7 @@ bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
   }
   const auto count = static_cast<double>(samples_.size());
   const SkinPrior prior{.sigma_m = sigma_m_,
-                        .alike = count / rgbd::IndependentPixels(noise_, count),
+                        .correlated = count / rgbd::IndependentPixels(noise_, count),
                         .bend_radius_m = config_.bend_radius_m};
   if (!surface->Fit(samples_, prior)) return false;
   on_skin_.clear();
@@ -132,7 +133,7 @@ bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
   return true;
 }
 
-/// Share of the rim that is something else: off the skin, without depth, of another colour.
+/// Share of the rim that is something else: off the surface, without depth, of another colour.
 double FiducialClassifier::OpenRim(const SpotColors& colors) const {
   const Eigen::Vector3d around = colors.around.normalized();
   double rim = 0.0, open = 0.0;
@@ -164,7 +165,8 @@ CurvedSurface::Point FiducialClassifier::CenterOn(const CurvedSurface& surface,
   return surface.Foot(sum / area, coefficients);
 }
 
-/// Second moments of the disc in the plane that touches the skin, without the picture's blur, m^2.
+/// Second moments of the disc in the plane that is tangent to the surface, without the image's
+/// blur, m^2.
 Eigen::Matrix2d FiducialClassifier::Moments(const CurvedSurface& surface,
                                             const CurvedSurface::Point& center,
                                             double area_m2) const {
@@ -187,7 +189,7 @@ Eigen::Matrix2d FiducialClassifier::Moments(const CurvedSurface& surface,
   return squares - mean * mean.transpose() - blur_px2_ * blur * blur.transpose();
 }
 
-/// On the skin a disc is round, however it is seen.
+/// On the surface a disc is round from any viewpoint.
 FiducialClassifier::Reason FiducialClassifier::CheckShape(const CurvedSurface& surface,
                                                           const CurvedSurface::Point& center,
                                                           double area_m2) const {
@@ -203,7 +205,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckShape(const CurvedSurface& s
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(Moments(surface, center, area_m2))
           .eigenvalues();
   if (moments[0] <= 0.0) return &FiducialRejections::not_round;
-  // What the skin's unknown slant makes of a disc: cos a is off by so large a share.
+  // What the surface's unknown slant does to a disc: cos a is off by so large a share.
   const double tangent = std::sqrt(1.0 / (cosine * cosine) - 1.0);
   const double slant = 2.0 * surface.SlopeSigma() * tangent * cosine * cosine;
   const double roundness = std::sqrt(moments[0] / moments[1]);
@@ -236,7 +238,7 @@ double FiducialClassifier::PlaceSigma_px(const SpotColors& colors, const Fiducia
 
 void FiducialClassifier::SetCovariance(const CurvedSurface& surface, const SpotColors& colors,
                                        Fiducial* fiducial) const {
-  Eigen::Matrix<double, 3, 6> J;  // derivative of the centre by the skin's coefficients
+  Eigen::Matrix<double, 3, 6> J;  // derivative of the centre by the surface's coefficients
   for (Eigen::Index k = 0; k < 6; ++k) {
     const double step = std::sqrt(surface.covariance()(k, k));
     const CurvedSurface::Coefficients change = step * CurvedSurface::Coefficients::Unit(k);

@@ -13,7 +13,7 @@
 
 namespace palpate::perception {
 
-/// Tells the markers among the spots of their colour and measures them.
+/// Classifies spots of a marker colour as markers or not, and measures them.
 class FiducialClassifier {
  public:
   /// `registration` must outlive this.

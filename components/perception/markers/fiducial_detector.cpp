@@ -41,7 +41,7 @@ void CheckNames(const FiducialConfig& config) {
   }
 }
 
-/// A colour that two spots have tells neither of them.
+/// A colour of two spots names neither of them.
 void Name(const std::vector<std::string>& names, std::vector<Fiducial>* fiducials) {
   for (std::size_t color = 0; color < names.size(); ++color) {
     const auto is_of_it = [&](const Fiducial& one) { return one.color == static_cast<int>(color); };

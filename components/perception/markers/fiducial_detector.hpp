@@ -12,10 +12,10 @@
 
 namespace palpate::perception {
 
-/// Finds coloured discs on the robot's skin: pixels whose colour points the way of a marker's make
+/// Finds coloured discs on the robot's surface: pixels whose colour direction is a marker's make
 /// spots; of each pixel the share that is marker is unmixed from the spot's colour and that of its
 /// surroundings, which gives the place to a fraction of a pixel; a bent surface fitted to the depth
-/// round it gives the place in space, the size and the shape on the skin. Each frame stands for
+/// round it gives the place in space, the size and the shape on the surface. Each frame stands for
 /// itself; the same frame gives the same bits.
 class FiducialDetector {
  public:

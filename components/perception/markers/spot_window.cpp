@@ -11,7 +11,7 @@ namespace palpate::perception {
 namespace {
 
 constexpr std::size_t kLeastRim = 4;  ///< pixels
-/// Surroundings darker than this share of the marker have no colour that could be told.
+/// Surroundings darker than this share of the marker have no colour.
 constexpr double kDark = 0.12;
 /// A pixel is said to be no less than -this, and no more than 1 + this, marker.
 constexpr double kShareSlack = 0.3;
@@ -105,7 +105,7 @@ double RimNoise(const std::vector<char>& on_skin, const SpotWindow& window) {
   return std::sqrt(squares / std::max(1.0, count));
 }
 
-/// A pixel whose colour nobody knows is as its neighbours are.
+/// A pixel of unknown colour takes that of its neighbours.
 void FillUnknown(SpotWindow* window) {
   for (SpotWindow::Pixel& pixel : window->pixels) {
     if (pixel.color_known) continue;

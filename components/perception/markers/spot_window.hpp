@@ -14,7 +14,7 @@ namespace palpate::perception {
 struct SpotWindow {
   struct Pixel {
     Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
-    Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< NaN where nobody knows
+    Eigen::Vector2d ray = Eigen::Vector2d::Zero();  ///< NaN where unknown
     double z_m = 0.0;                               ///< NaN: no depth
     Eigen::Vector3d rgb = Eigen::Vector3d::Zero();  ///< [0, 255]
     bool color_known = false;
@@ -23,8 +23,8 @@ struct SpotWindow {
   };
   std::vector<Pixel> pixels;
 
-  /// All pixels of the picture no farther than `reach_px` from the spot. False where some would
-  /// lie beyond the picture's edge.
+  /// All pixels of the image no farther than `reach_px` from the spot. False where some would
+  /// lie beyond the image's edge.
   bool Lay(const ColorSpot& spot, int reach_px, const RegisteredFrame& frame,
            const Registration& registration);
 };

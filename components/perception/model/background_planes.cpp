@@ -16,7 +16,7 @@ using Points = std::vector<Eigen::Vector3f>;
 
 constexpr int kMostLooks = 3;
 constexpr int kTrials = 120;
-/// A plane that is not known yet, or was lost, is looked for so often.
+/// A plane that is not known yet, or was lost, is searched this often.
 constexpr int kFramesBetweenSearches = 15;
 /// Of the frame's points that no other plane holds.
 constexpr double kLeastShare = 0.12;

@@ -23,7 +23,7 @@ struct Plane {
 /// What the robot stands on and what is behind it: planes that are larger than the robot and have
 /// it on the camera's side, and smaller ones, nearly half as large, that it touches besides: a base
 /// (or a plate as large that pushes the robot from behind). They are kept from frame to frame,
-/// fitted anew to each.
+/// fitted again to each.
 class BackgroundPlanes {
  public:
   struct Tolerance {

@@ -14,7 +14,7 @@ namespace {
 constexpr int kLevels = 32;  // of a channel in the table
 constexpr int kDarkest = 12;
 constexpr int kBrightest = 250;
-/// Probability of a bin that was never seen, in each histogram alike: what is in neither says
+/// Probability of a bin that was never seen, equal in both histograms: what is in neither says
 /// nothing.
 constexpr float kNeverSeen = 3e-4f;
 constexpr double kAssumedChromaSigma = 0.05;
@@ -67,7 +67,7 @@ void SpreadAlong(int stride, int length, ColorModel::Histogram* counts) {
   }
 }
 
-/// Counts to probabilities, neighbouring bins a little alike. False: nothing was counted.
+/// Counts to probabilities, smoothed over neighbouring bins. False: nothing was counted.
 bool Normalise(ColorModel::Histogram* counts) {
   (*counts)[ColorModel::kNoColor] = 0.0f;
   SpreadAlong(1, kChroma, counts);

@@ -10,13 +10,13 @@
 namespace palpate::perception {
 
 /// What colours the robot has and what colours everything else, as histograms of chromaticity and
-/// brightness. Starts with nothing learnt.
+/// brightness. Starts uninitialised.
 class ColorModel {
  public:
   static constexpr int kChromaBins = 20;      ///< of R / (R + G + B), and of G / (R + G + B)
   static constexpr int kBrightnessBins = 11;  ///< half octaves of the strongest channel
   static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins + 1;
-  /// Too dark or too bright to tell.
+  /// Too dark or too bright to have a colour.
   static constexpr std::uint16_t kNoColor = kBins - 1;
   /// No colour alone says more than this.
   static constexpr float kMostSaid = 2.5f;
@@ -36,9 +36,9 @@ class ColorModel {
   void Forget();
   /// The robot is of the colour `rgb` [0, 1], more or less; everything else of any.
   void Assume(const std::array<double, 3>& rgb);
-  /// Counts of one frame; `share` of it comes in, all of it where nothing was learnt.
+  /// Counts of one frame; `share` of it comes in, all of it while uninitialised.
   void Update(Histogram robot, Histogram other, double share);
-  /// How alike the robot's colours are to those learnt: 1 the same, 0 none in common.
+  /// Similarity of the robot's colours to the model: 1 equal, 0 disjoint.
   double Similarity(Histogram robot) const;
 
   /// log(p(colour | robot) / p(colour | other)) in [-kMostSaid, kMostSaid]; 0: says nothing.

@@ -183,9 +183,9 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   return status;
 }
 
-/// Where a sequence begins, or the surface that was predicted is seen through, the robot is looked
-/// for farther away as well, and from where it was first predicted: whatever bent it in the frame
-/// before may be gone.
+/// Where a sequence begins, or the surface that was predicted is seen through, the robot is
+/// searched for farther away as well, and from where it was first predicted: whatever bent it in
+/// the frame before may be gone.
 void ModelSegmenter::Parts::FitPrediction(const PredictedSurface& predicted,
                                           PredictionView::Fitting fitting) {
   prediction.FitTo(registration, region, fitting);
@@ -263,7 +263,7 @@ Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
   }
   DropSpecks(static_cast<std::int64_t>(kPatchShare * static_cast<double>(largest)));
   DropFarObjects();
-  result.notes.emplace_back("no predicted surface: the robot is told by its colour alone");
+  result.notes.emplace_back("no predicted surface: the robot is segmented by its colour alone");
   return Status::Ok();
 }
 

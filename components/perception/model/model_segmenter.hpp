@@ -11,11 +11,11 @@
 
 namespace palpate::perception {
 
-/// Segments by where the model predicts the robot's surface, fitted to the frame; by colours learnt
+/// Segments by where the model predicts the robot's surface, fitted to the frame; by a colour model
 /// from pixels where prediction and depth agree; and by depth edges. Geometry decides where it can:
 /// a tool of the robot's own colour stands out of the surface. Colours decide where it cannot: at
-/// the rim of a contact. They are forgotten when the light changes, and learnt anew from the same
-/// frame. Without a prediction the learnt colours, or Config::robot_color_rgb, are used
+/// the rim of a contact. The model is re-initialised when the light changes, from the same
+/// frame. Without a prediction the colour model, or Config::robot_color_rgb, are used
 /// alone.
 class ModelSegmenter : public Segmenter {
  public:

@@ -18,12 +18,12 @@ constexpr float kMostAgainst = -8.0f;
 /// Inside of the predicted surface nothing but the robot can be, pushed in more than predicted.
 constexpr float kInsideSigma = 2.0f;
 constexpr float kOnBackground = -2.5f;
-/// A distance that tells, in sigmas.
+/// Significant distance, in standard deviations.
 constexpr float kSureSigmas = 1.5f;
-/// Less alike, colours were learnt in another light.
+/// Below this similarity the light has changed.
 constexpr double kLeastSimilarity = 0.85;
 constexpr double kMostWithoutColor = 0.5;
-/// Colours are learnt from every other pixel of every other row.
+/// The colour model is updated from every other pixel of every other row.
 constexpr int kSampleStep_px = 2;
 /// Share of the largest error of the prediction: what is so far from it once it is fitted is not
 /// the robot.
@@ -152,7 +152,7 @@ bool PixelClassifier::PrepareColors(const RegisteredFrame& frame, const PixelReg
     return false;
   }
   if (colors_.initialised() && colors_.Similarity(sample_.robot) < kLeastSimilarity) {
-    notes->emplace_back("the light has changed: colours are learnt anew");
+    notes->emplace_back("the light has changed: colour model re-initialised");
     colors_.Forget();
   }
   if (!colors_.initialised()) colors_.Update(sample_.robot, Others(), 1.0);

@@ -19,7 +19,7 @@
 namespace palpate::perception {
 
 /// How likely each pixel of a region is the robot's: by its distance from the predicted surface,
-/// and by its colour, which is learnt where the distance tells.
+/// and by its colour, which is estimated where the distance decides.
 class PixelClassifier {
  public:
   PixelClassifier(const Config& config, const NoiseLaw& noise);
@@ -30,20 +30,22 @@ class PixelClassifier {
   /// Sets evidence and on_background of the region from its distance_m.
   void ClassifyByDistance(const Registration& registration, const BackgroundPlanes& background,
                           PixelRegion* region) const;
-  /// The same where no surface is predicted: the background alone tells.
+  /// The same where no surface is predicted: the background alone decides.
   void ClassifyBackground(const Registration& registration, const BackgroundPlanes& background,
                           PixelRegion* region) const;
   /// kNoRobotSeen where too little of what should be seen of the robot is there.
   Status CheckAgreement(const PredictionView& prediction, const PixelRegion& region) const;
 
-  /// Looks at the colours of pixels whose distance tells. False: they say nothing. Where none were
-  /// learnt, or in another light, they are learnt here. Notes what a person should know.
+  /// Compares the colours of pixels that the distance classifies. False: no information. Where the
+  /// model is uninitialised, or the light has changed, it is initialised here. Notes are for the
+  /// user.
   bool PrepareColors(const RegisteredFrame& frame, const PixelRegion& region,
                      std::vector<std::string>* notes);
-  /// Learns a little from pixels that are labelled.
+  /// Updates the colour model from labelled pixels.
   void UpdateColors(const RegisteredFrame& frame, const PixelRegion& region);
   bool knows_colors() const { return colors_.initialised(); }
-  /// Before colours are learnt: what few of these pixels near the robot have is taken for foreign.
+  /// While uninitialised: colours that few of these pixels near the robot have is taken for
+  /// foreign.
   void GuessForeign(const ColorModel::Histogram& near_robot) { rare_ = RareColors(near_robot); }
   std::uint16_t BinOf(const std::uint8_t* rgb) const { return colors_.BinOf(rgb); }
   /// Of a colour that the robot does not have.

@@ -16,7 +16,7 @@ enum class Label : std::uint8_t {
   kObject,
   kMixed,      ///< at a depth edge, neither the nearer nor the farther surface
   kAmbiguous,  ///< robot or object, who knows
-  kSpeck,      ///< of a patch too small to be believed
+  kSpeck,      ///< of a patch that is too small
 };
 
 /// A part of the depth image, row by row.

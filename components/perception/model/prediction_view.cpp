@@ -14,7 +14,7 @@ namespace {
 constexpr double kSampleSpacing_m = 3e-3;
 constexpr int kLeastStep_px = 2;
 constexpr int kMostStep_px = 8;
-/// So near the surface that no other part of it is looked for.
+/// So near the surface that no other part of it is searched.
 constexpr float kOnSurface_m2 = 1e-6f;
 /// Samples stand so far apart that the nearest may lie aside.
 constexpr float kAgreeSigmas = 4.0f;

@@ -23,7 +23,7 @@ class PredictionView {
   PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config);
 
   /// Draws the prediction. kInvalidInput for a surface that is none, kNoRobotSeen where nothing of
-  /// it is in the picture.
+  /// it is in the image.
   Status Look(const PredictedSurface& predicted);
   /// The part of the image round the prediction.
   void Place(PixelRegion* region) const;

@@ -154,7 +154,7 @@ void SurfaceFit::Improve(const SampleGrid& grid, const Round& round) {
 void SurfaceFit::AddSmoothness(float difference) {
   const auto largest_m = static_cast<float>(settings_.largest_error_m);
   const float keep = 1.0f / (kMoveSigma * largest_m * kMoveSigma * largest_m);
-  const float alike = 1.0f / (difference * largest_m * difference * largest_m);
+  const float coupling = 1.0f / (difference * largest_m * difference * largest_m);
   normal_matrix_.diagonal().setConstant(keep);
   const auto number = [this](int x, int y, int z) {
     if (x >= counts_.x() || y >= counts_.y() || z >= counts_.z()) return SampleGrid::kNone;
@@ -163,9 +163,9 @@ void SurfaceFit::AddSmoothness(float difference) {
   const auto tie = [&](int a, int b) {
     if (a == SampleGrid::kNone || b == SampleGrid::kNone) return;
     for (int k = 0; k < 3; ++k) {
-      normal_matrix_(3 * a + k, 3 * a + k) += alike;
-      normal_matrix_(3 * b + k, 3 * b + k) += alike;
-      normal_matrix_(3 * std::max(a, b) + k, 3 * std::min(a, b) + k) -= alike;
+      normal_matrix_(3 * a + k, 3 * a + k) += coupling;
+      normal_matrix_(3 * b + k, 3 * b + k) += coupling;
+      normal_matrix_(3 * std::max(a, b) + k, 3 * std::min(a, b) + k) -= coupling;
     }
   };
   for (int z = 0; z < counts_.z(); ++z) {

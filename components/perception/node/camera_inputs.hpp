@@ -13,7 +13,7 @@ namespace palpate::perception {
 
 bool IsSameCamera(const rgbd::RgbdCamera& a, const rgbd::RgbdCamera& b);
 
-/// The camera as its three topics tell it: set-up and two lenses. Lenses older than the set-up are
+/// The camera from its three topics: set-up and two lenses. Lenses older than the set-up are
 /// those of a camera that was there before.
 class CameraInputs {
  public:

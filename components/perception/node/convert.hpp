@@ -48,7 +48,7 @@ struct FrameOutcome {
   Observation observation;
 };
 
-/// Counter, age and latency are left to whoever sends it.
+/// Counter, age and latency are set by the sender.
 dds::Message<idl::palpate_msgs::PerceptionReport> ToReport(const FrameOutcome& outcome);
 /// Counter as above.
 dds::Message<idl::palpate_msgs::ContactArray> ToContactArray(const FrameOutcome& outcome);

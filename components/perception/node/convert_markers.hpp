@@ -13,8 +13,8 @@ namespace palpate::perception {
 
 /// /perception/markers of a frame: one valid marker for each fiducial, in their order, in the depth
 /// camera's frame, with its covariance, and its sigmas along that frame's axes. The name is empty
-/// where nobody says which of the robot's markers it is. No markers where `frame.status` is not ok.
-/// The counter is left to whoever sends it.
+/// where its marker name is unknown. No markers where `frame.status` is not ok.
+/// The counter is set by the sender.
 dds::Message<idl::palpate_msgs::MarkerArray3> ToMarkerArray(const FiducialFrame& frame,
                                                             std::int64_t stamp_ns);
 

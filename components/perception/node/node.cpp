@@ -241,7 +241,7 @@ bool PerceptionNode::MustAwaitPrediction() const {
 }
 
 /// Frames of another device, or of one that was started again from the beginning, have nothing to
-/// do with those before; those of one that was only opened anew (its epoch rose) have.
+/// do with those before; those of one that was only reopened (its epoch rose) do.
 bool PerceptionNode::BeginsSequence(const FrameSet& set) const {
   if (!last_stamp_ns_) return true;
   const bool back = set.stamp_ns <= *last_stamp_ns_;

@@ -13,8 +13,8 @@
 
 namespace palpate::perception {
 
-/// The writers of the node: both clouds, markers where they are looked for, report and contacts of
-/// each frame, in this order, under its stamp. All calls come from the node's loop.
+/// The writers of the node: both clouds, markers where their detection is on, report and contacts
+/// of each frame, in this order, under its stamp. All calls come from the node's loop.
 class Outputs {
  public:
   /// `with_markers`: without, /perception/markers is left to a motion-capture bridge.
@@ -28,7 +28,7 @@ class Outputs {
   std::uint64_t published() const { return report_writer_.sent_count(); }
   std::uint64_t failed() const { return failed_; }  ///< messages that DDS did not take
   std::uint32_t readers() const { return contact_writer_.matched(); }
-  /// From having a whole frame to publishing, s; the list starts anew with each call.
+  /// From having a whole frame to publishing, s; the list is cleared by each call.
   std::vector<double> TakeLatencies();
 
  private:

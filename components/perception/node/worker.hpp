@@ -21,8 +21,8 @@ struct PerceptionJob {
   FrameOutcome outcome;  ///< all but the observation
   rgbd::RgbdFrame images;
   std::optional<Prediction> prediction;
-  std::optional<Config> reset;             ///< what was learnt from earlier frames is void
-  std::optional<rgbd::RgbdCamera> camera;  ///< another one than before, or opened anew
+  std::optional<Config> reset;             ///< the colour model of earlier frames is void
+  std::optional<rgbd::RgbdCamera> camera;  ///< another one than before, or reopened
   FrameSet::Time taken;
 };
 

@@ -35,7 +35,7 @@ FiducialConfig ConfigOf(const scenario::Scenario& scenario);
 /// The truth of one marker.
 struct TrueMarker {
   Eigen::Vector3d position_m;  ///< centre of the disc, camera frame
-  double cosine = 0.0;         ///< of the angle between the skin's normal and the ray
+  double cosine = 0.0;         ///< of the angle between the surface's normal and the ray
   bool in_view = false;        ///< the whole disc is seen, and not too much edge-on
 };
 
