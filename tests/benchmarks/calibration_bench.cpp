@@ -14,7 +14,7 @@
 #include "libs/core/error.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/robots.hpp"
-#include "tests/support/paper_robot.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::benchmarks {
 

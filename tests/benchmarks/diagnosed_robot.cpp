@@ -13,6 +13,7 @@
 #include "components/diagnosis/inference/screening.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/system/blind/generator.hpp"
 
 namespace palpate::benchmarks {
@@ -21,14 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRobotFile = PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml";
-
 experiment::Experiment MakeExperiment() {
   constexpr int kSeed = 1;
   const fs::path folder =
       fs::temp_directory_path() / ("palpate_bench_diagnosis_" + std::to_string(getpid()));
   fs::create_directories(folder);
-  blind::Generator(kRobotFile, folder).Make({}, kSeed, folder / "exp", folder / "answer.json");
+  blind::Generator(test_support::RobotFile("four_leg"), folder)
+      .Make({}, kSeed, folder / "exp", folder / "answer.json");
   experiment::Experiment experiment = experiment::ReadExperiment(folder / "exp", app::LoadYaml);
   fs::remove_all(folder);
   return experiment;
@@ -37,7 +37,7 @@ experiment::Experiment MakeExperiment() {
 }  // namespace
 
 DiagnosedRobot::DiagnosedRobot()
-    : body_(robot::BuildRobotBody(robot::ReadRobotFile(kRobotFile, app::LoadYaml))),
+    : body_(robot::BuildRobotBody(test_support::FourLegRobot())),
       observed_(diagnosis::Observe(MakeExperiment(), body_)),
       book_(diagnosis::MakeCauses({.body = body_, .observed = observed_}, {}), {}),
       causes_(book_.All()),

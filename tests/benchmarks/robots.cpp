@@ -8,11 +8,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "libs/app/yaml.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_io/write_vtu.hpp"
 #include "libs/fem/refined_mesh.hpp"
-#include "tests/support/paper_robot.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::benchmarks {
 
@@ -70,7 +69,7 @@ NamedRobot PaperRobot(fem::ElementType element, int refinements) {
   } else {
     robot.name = "stand_in";
     robot.note = "our robot four_leg, because the paper's mesh is not in " +
-                 test_support::DataFolder().string();
+                 test_support::MeasuredDataFolder().string();
   }
   if (refinements > 0) {
     const std::string cells = std::to_string(1 << (3 * refinements));
@@ -87,13 +86,10 @@ NamedRobot PaperRobot(fem::ElementType element, int refinements) {
 }
 
 NamedRobot OwnRobot(const std::string& name, fem::ElementType element) {
-  const std::filesystem::path file =
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config" / "robots" / (name + ".yaml");
-  robot::RobotDescription description = robot::ReadRobotFile(file, app::LoadYaml);
+  robot::RobotDescription description = element == fem::ElementType::kTet4
+                                            ? test_support::LockingRobot(name)
+                                            : test_support::ReadRobot(name);
   description.element = element;
-  if (element == fem::ElementType::kTet4) {
-    description.material.volumetric = fem::Volumetric::kPointwise;
-  }
   NamedRobot robot{.name = name + "_" + ElementName(element),
                    .note = "config/robots/" + name + ".yaml",
                    .description = std::move(description)};

@@ -12,6 +12,7 @@
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
 #include "libs/core/error.hpp"
 #include "libs/robot/robot_body.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/accuracy.hpp"
 
 namespace palpate::benchmarks {
@@ -38,7 +39,7 @@ double ThreadTime_ms() {
 }
 
 robot::RobotBody BodyWith(int feature_points) {
-  robot::RobotDescription robot = test_support::FourLeg();
+  robot::RobotDescription robot = test_support::FourLegRobot();
   robot.feature_point_count = feature_points;
   return robot::BuildRobotBody(robot);
 }

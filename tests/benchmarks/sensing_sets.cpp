@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/accuracy.hpp"
 #include "tests/support/sensing/ideal_perception.hpp"
 #include "tests/support/sensing/paths.hpp"
@@ -16,7 +17,7 @@ namespace palpate::benchmarks {
 namespace {
 
 using test_support::ContactWish;
-using test_support::FourLeg;
+using test_support::FourLegRobot;
 using test_support::Median;
 using test_support::SceneState;
 using test_support::SensingChain;
@@ -51,7 +52,7 @@ double MedianSmallestForce_N(SensingChain& chain) {
 
 SensingSets::SensingSets(const SensingSize& size)
     : size_(size),
-      scene_(FourLeg(),
+      scene_(FourLegRobot(),
              size.converged_truth ? test_support::ConvergedBallScenario()
                                   : test_support::BallScenario(),
              size.seed) {}
@@ -62,7 +63,7 @@ SensingChain& SensingSets::ChainOf(Eyes eyes, bool weights_given) {
     test_support::ChainSettings settings;
     settings.eyes = eyes;
     settings.weights_given = weights_given;
-    chain = std::make_unique<SensingChain>(FourLeg(), scene_, settings, size_.seed);
+    chain = std::make_unique<SensingChain>(FourLegRobot(), scene_, settings, size_.seed);
     chain->Learn(kLearningFrames, kPostures, kLargestCable_m);
   }
   if (!scene_.Start(scene_.Nothing()).ok()) throw RunError("the virtual robot does not hang");
@@ -106,7 +107,7 @@ Watched SensingSets::FirstPictures(Eyes eyes, const ContactWish& wish, int count
 
 std::vector<test_support::ForceBound> SensingSets::Bounds(const ContactWish& wish, int count) {
   const std::vector<Path>& paths = PathsOf(wish, count);
-  robot::RobotModel model(robot::BuildRobotBody(FourLeg()));
+  robot::RobotModel model(robot::BuildRobotBody(FourLegRobot()));
   test_support::ForceBounds bounds(model, force_estimation::ShapeConfig());
   test_support::IdealPerception ideal(scene_);
   const auto take = [&] {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "components/virtual_robot/virtual_robot.hpp"
-#include "libs/app/yaml.hpp"
 #include "tests/benchmarks/lazy.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::benchmarks {
 
@@ -42,9 +42,7 @@ scenario::Scenario MakeScenario(const BodyKind& kind, scenario::MotionMode mode)
 class PressedRobot {
  public:
   PressedRobot(const BodyKind& kind, scenario::MotionMode mode)
-      : robot_(
-            robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml),
-            MakeScenario(kind, mode), {}, 1),
+      : robot_(test_support::FourLegRobot(), MakeScenario(kind, mode), {}, 1),
         status_(robot_.Start(0.0, InputsOf(0))) {}
 
   /// The next frame; false: it failed.

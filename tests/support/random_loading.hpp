@@ -10,29 +10,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "tests/support/paper_robot.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::test_support {
-
-/// Ours, of linear elements.
-inline robot::RobotDescription FourLegRobot() {
-  const std::filesystem::path file =
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml";
-  robot::RobotDescription robot = robot::ReadRobotFile(file, app::LoadYaml);
-  robot.element = fem::ElementType::kTet4;
-  robot.material.volumetric = fem::Volumetric::kPointwise;
-  return robot;
-}
 
 /// Cables pulled in by up to 20 mm, and up to 2 N on a patch of the surface, reached from rest in
 /// equal frames.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -17,15 +18,20 @@
 
 namespace palpate::test_support {
 
-/// A folder of this test alone, empty at the start and removed at the end.
+/// A folder of this test (or, made in SetUpTestSuite, of its suite) alone, empty at the start and
+/// removed at the end.
 class TestFolder {
  public:
   TestFolder() {
     static int count = 0;
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("palpate_") + test->test_suite_name() + "_" + test->name() + "_" +
-             std::to_string(getpid()) + "_" + std::to_string(count++));
+    const auto& tests = *testing::UnitTest::GetInstance();
+    const auto* test = tests.current_test_info();
+    std::string name = std::string("palpate_") + tests.current_test_suite()->name();
+    if (test != nullptr) name += std::string("_") + test->name();
+    // Parameterised suites and tests have slashes in their names.
+    std::replace(name.begin(), name.end(), '/', '_');
+    name += "_" + std::to_string(getpid()) + "_" + std::to_string(count++);
+    path_ = std::filesystem::path(testing::TempDir()) / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -37,6 +43,7 @@ class TestFolder {
   TestFolder& operator=(const TestFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
   /// Writes a file below the folder (folders on the way are made) and returns its path.
   std::filesystem::path Write(const std::string& name, const std::string& content) const {

@@ -4,7 +4,6 @@
 #include "tests/system/sample_data.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <optional>
@@ -48,18 +47,6 @@ std::vector<std::optional<Eigen::Vector3d>> MarkerPositions(robot::RobotModel& m
 }
 
 }  // namespace
-
-TestFolder::TestFolder()
-    : folder_(std::filesystem::path(testing::TempDir()) /
-              ("palpate_system_" + std::to_string(getpid()))) {
-  std::filesystem::remove_all(folder_);
-  std::filesystem::create_directories(folder_);
-}
-
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
 
 Sample WriteBeamSample(const TestFolder& folder, size_t frame_count) {
   auto experiment =

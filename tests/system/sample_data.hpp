@@ -7,21 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/test_folder.hpp"
+
 namespace palpate::system_test {
 
-/// A folder of its own for one test, removed at its end.
-class TestFolder {
- public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-
- private:
-  std::filesystem::path folder_;
-};
+using test_support::TestFolder;
 
 /// Where the sample data act on a robot of config/robots.
 struct Sample {

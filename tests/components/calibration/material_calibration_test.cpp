@@ -9,13 +9,13 @@
 #include <cmath>
 
 #include "tests/components/force_estimation/test_bodies.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::calibration {
 namespace {
 
 using force_estimation::BeamRobot;
 using force_estimation::Build;
-using force_estimation::FourLegRobot;
 using force_estimation::Kind;
 using force_estimation::LoadAt;
 using force_estimation::NormalNoise;
@@ -107,7 +107,7 @@ TEST(CalibrateMaterial, RecoversTwoModuliFromWeightAndLoad) {
 }
 
 TEST(CalibrateMaterial, RecoversTheModulusFromCablesUnderTension) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(test_support::QuickFourLegRobot());
   model->SetGravity(Eigen::Vector3d::Zero());
   const std::vector<StaticObservation> observations = {
       ObserveModel(*model, {{Kind::kTension, 2.0}, {Kind::kDisplacement, 0.002}, {}, {}}, {})};
@@ -126,7 +126,7 @@ TEST(CalibrateMaterial, RecoversTheModulusFromCablesUnderTension) {
 class ReferenceShapes : public testing::TestWithParam<ReferenceShape> {};
 
 TEST_P(ReferenceShapes, OffsetsOfTheMarkersDoNotMatter) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(test_support::QuickFourLegRobot());
   const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.004}, {}, {}, {}};
   StaticObservation observation =
       ObserveModel(*model, cables, {LoadAt(*model, {0.0, 0.0, 0.125}, 0.008, {0.3, 0.0, -0.8})});
@@ -224,7 +224,7 @@ TEST(CalibrateMaterial, CoordinatesThatWereNotSeenAreLeftOut) {
 }
 
 TEST(CalibrateMaterial, DisplacementDrivenWeightlessBodyDoesNotTellItsModulus) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(test_support::QuickFourLegRobot());
   model->SetGravity(Eigen::Vector3d::Zero());
   StaticObservation observation = ObserveModel(
       *model, {{Kind::kDisplacement, 0.006}, {Kind::kDisplacement, 0.004}, {}, {}}, {});
@@ -265,7 +265,7 @@ TEST(CalibrateMaterial, NamesThePartThatTheDataDoNotDetermine) {
 }
 
 TEST(CalibrateMaterial, FailureLeavesTheModelAlone) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(test_support::QuickFourLegRobot());
   StaticObservation observation = ObserveModel(*model, {{Kind::kTension, 1.0}, {}, {}, {}}, {});
   observation.name = "too_tight";
   observation.cables[0].value = 1000.0;

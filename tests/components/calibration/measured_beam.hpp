@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -18,6 +17,7 @@
 #include "libs/geometry/rigid_registration.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::calibration {
 
@@ -25,9 +25,7 @@ inline constexpr double kHandHeld_m = 1e-3;  ///< what the hand-held start is go
 
 /// Dubied et al., RA-L 2022 (measured data; not part of the project).
 inline std::filesystem::path BeamFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return std::filesystem::path(folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data") /
-         "silicone_beam";
+  return test_support::MeasuredDataFolder() / "silicone_beam";
 }
 
 /// Means of the tip markers in the robot frame, registered by where all six markers were while the

@@ -3,28 +3,19 @@
 
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 #include <string>
 
 #include "libs/app/yaml.hpp"
-#include "libs/core/file.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::calibration {
 
-/// An experiment folder of this test's own with one recording "hang" of two beam markers, removed
-/// at its end. Reference in its first two frames, steady in its last three.
+/// An experiment folder with one recording "hang" of two beam markers. Reference in its first two
+/// frames, steady in its last three.
 class RecordingFolder {
  public:
   RecordingFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("palpate_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_ / "recordings/hang");
     Write("experiment.yaml", "frame: robot\nmarkers_sigma_m: [1.0e-4, 2.0e-4, 3.0e-4]\n");
     Write("recordings/hang/recording.yaml",
           "kind: known_load\n"
@@ -33,17 +24,11 @@ class RecordingFolder {
     Write("recordings/hang/loads.csv",
           "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n0,0,0.015,0.03,0,0,-0.5,0.005\n");
   }
-  ~RecordingFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  RecordingFolder(const RecordingFolder&) = delete;
-  RecordingFolder& operator=(const RecordingFolder&) = delete;
 
-  void Write(const std::string& name, const std::string& text) const {
-    WriteFile(path_ / name, text);
+  void Write(const std::string& name, const std::string& text) const { folder_.Write(name, text); }
+  experiment::Experiment Read() const {
+    return experiment::ReadExperiment(folder_.path(), app::LoadYaml);
   }
-  experiment::Experiment Read() const { return experiment::ReadExperiment(path_, app::LoadYaml); }
 
   /// m0 sinks by 10 mm, 2 mm to and fro; m1 stays, and is not seen at 1.1 s.
   static std::string Markers() {
@@ -56,7 +41,7 @@ class RecordingFolder {
   }
 
  private:
-  std::filesystem::path path_;
+  test_support::TestFolder folder_;
 };
 
 }  // namespace palpate::calibration

@@ -7,17 +7,15 @@
 
 #include <Eigen/Core>
 #include <Eigen/SVD>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "components/calibration/pose/alternating_pose_calibration.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
-#include "tests/support/paper_robot.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::calibration {
 
@@ -33,19 +31,8 @@ inline geometry::RigidTransform TableOnePose() {
           Eigen::Vector3d(-0.264956, 0.263885, 0.012767)};
 }
 
-/// config/robots/four_leg.yaml as it is.
-inline robot::RobotDescription FourLegs() {
-  return robot::ReadRobotFile(
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml", app::LoadYaml);
-}
-
-/// The same of linear elements, quick to solve.
-inline robot::RobotDescription QuickFourLegs() {
-  robot::RobotDescription robot = FourLegs();
-  robot.element = fem::ElementType::kTet4;
-  robot.material.poissons_ratio = 0.4;
-  return robot;
-}
+using test_support::FourLegRobot;
+using test_support::QuickFourLegRobot;
 
 inline std::unique_ptr<robot::RobotModel> Build(const robot::RobotDescription& robot) {
   return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(robot),

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/support/not_a_number.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::diagnosis {
 
@@ -120,8 +120,7 @@ void AddForces(const robot::RobotBody& body, DiagnosisResult* result) {
 }
 
 void AddBody(DiagnosisResult* result) {
-  const robot::RobotBody body = robot::BuildRobotBody(
-      robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml));
+  const robot::RobotBody body = robot::BuildRobotBody(test_support::FourLegRobot());
   result->robot = body.name;
   result->surface_m = body.mesh.nodes_m;
   const Eigen::Matrix3Xi triangles = body.boundary.CornerTriangles();

@@ -9,9 +9,9 @@
 #include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/finer_mesh.hpp"
 #include "components/diagnosis/model/simulator.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/components/diagnosis_core/small_robot.hpp"
+#include "tests/support/robots.hpp"
 
 /// A robot file that was extended by a cause makes the robot that the cause makes.
 namespace palpate::diagnosis {
@@ -22,10 +22,8 @@ const std::filesystem::path kSource = PALPATE_SOURCE_DIR;
 class Extension : public testing::Test {
  protected:
   static robot::RobotDescription FourLeg() {
-    robot::RobotDescription robot =
-        robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml);
-    robot.mesh.file = kSource / "config/scenarios/four_leg_coarse.msh";
-    robot.element = fem::ElementType::kTet4;
+    robot::RobotDescription robot = test_support::LinearFourLegRobot();
+    robot.mesh.file = test_support::CoarseFourLegMesh();
     return robot;
   }
 

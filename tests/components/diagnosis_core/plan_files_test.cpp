@@ -11,6 +11,7 @@
 #include "libs/core/file.hpp"
 #include "libs/scenario/scenario.hpp"
 #include "tests/components/diagnosis_core/small_robot.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -19,16 +20,6 @@ namespace fs = std::filesystem;
 
 class PlanFiles : public testing::Test {
  protected:
-  PlanFiles()
-      : folder_(fs::temp_directory_path() /
-                (std::string("palpate_plan_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())),
-        body_(SmallRobot()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~PlanFiles() override { fs::remove_all(folder_); }
-
   static PlannedRecording Plan(const Proposal& proposal) {
     return {.ranked = {.proposal = proposal, .worst_rival = {}, .expected_ln_bayes_factor = 12.34},
             .name = "next_" + ToString(proposal.recording.kind),
@@ -43,7 +34,8 @@ class PlanFiles : public testing::Test {
     return scenario::ReadScenario(folder_ / "scenario.yaml", app::LoadYaml).recordings.back();
   }
 
-  fs::path folder_;
+  const test_support::TestFolder own_folder_;
+  const fs::path folder_ = own_folder_.path();
   robot::RobotBody body_;
 };
 

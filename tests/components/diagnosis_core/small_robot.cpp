@@ -6,6 +6,7 @@
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::diagnosis {
 
@@ -57,21 +58,10 @@ robot::RobotBody RobotOf(const fem::TetMesh& mesh) {
   body.boundary = fem::ExtractBoundary(body.mesh);
   const fem::Material material{fem::MaterialModel::kStableNeoHookean, fem::Volumetric::kPointwise,
                                65e3, 0.42};
-  body.materials = {material, material};
-  body.materials[1].youngs_modulus_Pa = 50e3;
+  fem::Material softer = material;
+  softer.youngs_modulus_Pa = 50e3;
+  test_support::MakeTwoMaterialBeam(material, softer, &body);
   body.nominal_poissons_ratio = material.poissons_ratio;
-  body.region_names = {"far"};
-  for (int cell = 0; cell < body.mesh.CellCount(); ++cell) {
-    double x_m = 0.0;
-    for (int a = 0; a < 4; ++a) x_m += 0.25 * body.mesh.nodes_m(0, body.mesh.cells(a, cell));
-    body.material_of_cell.push_back(x_m > 0.06 ? 1 : 0);
-  }
-  body.fixed = fem::FixedDirections::Constant(3, body.mesh.NodeCount(), false);
-  for (int node = 0; node < body.mesh.NodeCount(); ++node) {
-    if (body.mesh.nodes_m(0, node) < 1e-9) body.fixed.col(node).setConstant(true);
-  }
-  body.node_mass_kg = fem::ConsistentNodalMass_kg(
-      body.mesh, Eigen::VectorXd::Constant(body.mesh.CellCount(), 500.0));
   body.gravity_m_s2 = {0.0, 0.0, -9.81};
   const fem::PointLocator locator(body.mesh);
   AddCables(locator, &body);

@@ -15,7 +15,7 @@ const Eigen::Vector3d kForce_N(0.2, -0.1, -0.7);
 /// four_leg with a force on its hub, by a clock that the test steps: each look takes `tick_s`.
 class FrameBudget : public testing::Test {
  protected:
-  FrameBudget() : model_(Build(FourLegRobot())) {
+  FrameBudget() : model_(Build(QuickFourLegRobot())) {
     config_.frame_tolerance = 1e-9;
     config_.frame_budget_s = 0.5;
   }

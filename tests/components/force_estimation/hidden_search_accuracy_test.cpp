@@ -26,7 +26,7 @@ int Trials(int by_default) {
 }
 
 robot::RobotDescription SeenFourLeg() {
-  robot::RobotDescription robot = FourLegRobot();
+  robot::RobotDescription robot = QuickFourLegRobot();
   robot.feature_point_count = 85;  // of which the camera sees 25
   if (TrialsAskedFor() != nullptr) {
     robot.element = fem::ElementType::kTet10;

@@ -25,7 +25,7 @@ struct Drive {
 class DrivenBody : public testing::TestWithParam<Drive> {};
 
 TEST_P(DrivenBody, RecoversAForceInThreeDirections) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const Eigen::Vector3d force_N(0.3, -0.2, -0.9);
   const MarkerFrame frame =
       FrameUnder(*model, GetParam().cables, {LoadAt(*model, kKnownHub, 0.008, force_N)});
@@ -38,7 +38,7 @@ TEST_P(DrivenBody, RecoversAForceInThreeDirections) {
 }
 
 TEST_P(DrivenBody, ReportsTheCablesAsTheyAre) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const auto load = LoadAt(*model, kKnownHub, 0.008, {0.3, -0.2, -0.9});
   const fem::StaticState truth = SolveTruth(*model, GetParam().cables, {load});
   MarkerForceEstimator estimator(*model, WithContacts({kHubSite}));
@@ -133,7 +133,7 @@ TEST(MarkerForceEstimator, FitsOnlyTheSizeOfAForceWhoseDirectionIsGiven) {
 }
 
 TEST(MarkerForceEstimator, ForgetsTheFrameBefore) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<robot::CableCommand> first_cables(4, {Kind::kDisplacement, 0.002});
   const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.006},
                                                    {Kind::kDisplacement, -0.01},

@@ -18,7 +18,7 @@ const Eigen::Vector3d kTareForce_N(0.2, -0.1, -0.7);
 class MarkerTareTest : public testing::Test {
  protected:
   MarkerTareTest()
-      : model_(Build(FourLegRobot())),
+      : model_(Build(QuickFourLegRobot())),
         estimator_(*model_, WithContacts({"hub: 0, 0, 0.125, 0.008"})) {
     std::mt19937 random(4);
     for (size_t m = 0; m < model_->body().markers.size(); ++m) {

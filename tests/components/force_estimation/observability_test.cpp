@@ -149,7 +149,7 @@ TEST(Observability, WithoutAnyMarkerNothingIsEstimated) {
 }
 
 TEST(Observability, NanCommandIsRefused) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   std::vector<robot::CableCommand> cables(4, {Kind::kTension, 1.0});
   MarkerFrame frame = FrameUnder(*model, cables, {});
   frame.cables[2].value = kNaN;
@@ -162,7 +162,7 @@ TEST(Observability, NanCommandIsRefused) {
 }
 
 TEST(Observability, CableBeyondItsLimitIsRefusedInAnyFrame) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<robot::CableCommand> cables(4, {Kind::kTension, 1.0});
   const MarkerFrame good = FrameUnder(*model, cables, {});
   MarkerFrame bad = good;

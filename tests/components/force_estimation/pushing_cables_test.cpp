@@ -14,7 +14,7 @@ constexpr double kPush_N = 0.02;
 /// A fit that ends, within a coarse tolerance, where the first cable pushes: what noisy rows make
 /// of a cable that is about to become slack.
 Status FitWhereACablePushes(double most_push_N) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<robot::CableCommand> cables(4, {Kind::kDisplacement, 0.002});
   const fem::StaticState balance = SolveTruth(*model, cables, {});
   Config config;

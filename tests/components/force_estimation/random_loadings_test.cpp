@@ -8,6 +8,7 @@
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -114,7 +115,7 @@ TEST(FitOfRandomLoadings, ConvergesOnTheDiamondOrSaysThatItDidNot) {
 }
 
 TEST(FitOfRandomLoadings, ConvergesOnOurRobotOrSaysThatItDidNot) {
-  FitLoadings("four_leg", test_support::FourLegRobot(), 25);
+  FitLoadings("four_leg", test_support::LockingFourLegRobot(), 25);
 }
 
 }  // namespace

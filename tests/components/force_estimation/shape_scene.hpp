@@ -6,19 +6,18 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/correspondence/surface_features.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/rgbd/surface_view.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::force_estimation {
 
@@ -26,8 +25,7 @@ namespace palpate::force_estimation {
 /// Its shapes are made by moving its nodes; nothing is solved.
 struct ShapeScene {
   explicit ShapeScene(int feature_points) {
-    const auto folder = std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots";
-    robot::RobotDescription robot = robot::ReadRobotFile(folder / "four_leg.yaml", app::LoadYaml);
+    robot::RobotDescription robot = test_support::FourLegRobot();
     robot.feature_point_count = feature_points;
     model = std::make_unique<robot::RobotModel>(robot::BuildRobotBody(robot));
     features = std::make_unique<correspondence::SurfaceFeatures>(model->body());

@@ -10,6 +10,7 @@
 #include "tests/components/force_estimation/test_bodies.hpp"
 #include "tests/support/feature_point_targets.hpp"
 #include "tests/support/random_loading.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -133,7 +134,7 @@ TEST(ForceFitterSweep, ConvergesOnTheDiamondInFourSteps) {
 }
 
 TEST(ForceFitterSweep, ConvergesOnOurRobotInFourSteps) {
-  ExpectConvergenceInFourSteps(test_support::FourLegRobot());
+  ExpectConvergenceInFourSteps(test_support::LockingFourLegRobot());
 }
 
 TEST(ForceFitterSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
@@ -143,7 +144,7 @@ TEST(ForceFitterSweep, OneStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMil
 }
 
 TEST(ForceFitterSweep, OneStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
-  ExpectSmallErrorWithOneStepAFrame(test_support::FourLegRobot());
+  ExpectSmallErrorWithOneStepAFrame(test_support::LockingFourLegRobot());
 }
 
 }  // namespace

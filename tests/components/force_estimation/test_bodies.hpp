@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <random>
 #include <string>
@@ -14,9 +13,9 @@
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/force_estimation/marker_frame.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::force_estimation {
 
@@ -24,19 +23,12 @@ namespace palpate::force_estimation {
 /// needs, and truths that RobotModel::Solve makes for them.
 
 using Kind = robot::CableCommand::Kind;
-
-inline robot::RobotDescription ReadRobot(const std::string& name) {
-  const auto folder = std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots";
-  robot::RobotDescription robot = robot::ReadRobotFile(folder / (name + ".yaml"), app::LoadYaml);
-  robot.element = fem::ElementType::kTet4;
-  robot.material.poissons_ratio = 0.4;
-  return robot;
-}
+using test_support::QuickFourLegRobot;
 
 /// The clamped beam with twelve markers on top and sides, and without a cable: 1 N at the tip moves
 /// it by about 15 mm.
 inline robot::RobotDescription BeamRobot() {
-  robot::RobotDescription robot = ReadRobot("beam");
+  robot::RobotDescription robot = test_support::QuickRobot("beam");
   robot.markers.clear();
   for (const double x : {-0.075, -0.05, -0.025, 0.0}) {
     const std::array<Eigen::Vector3d, 3> around = {Eigen::Vector3d(x, 0.015, 0.03),
@@ -49,9 +41,6 @@ inline robot::RobotDescription BeamRobot() {
   robot.feature_point_count = 24;
   return robot;
 }
-
-/// Four legs, four cables, nine markers.
-inline robot::RobotDescription FourLegRobot() { return ReadRobot("four_leg"); }
 
 inline std::unique_ptr<robot::RobotModel> Build(const robot::RobotDescription& robot) {
   return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(robot),

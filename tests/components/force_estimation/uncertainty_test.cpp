@@ -137,7 +137,7 @@ Eigen::Vector3d ForceWithModulus(robot::RobotModel& model, const MarkerFrame& fr
 }
 
 TEST(ForceUncertainty, ModulusErrorWidensTheIntervalByTheForcesDerivative) {
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<robot::CableCommand> cables = {{Kind::kDisplacement, 0.006},
                                                    {Kind::kDisplacement, -0.02},
                                                    {Kind::kTension, 1.0},

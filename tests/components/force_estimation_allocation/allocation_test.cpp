@@ -30,7 +30,7 @@ std::vector<MarkerFrame> Motion(robot::RobotModel& model) {
 
 void ExpectNoAllocation(const std::vector<std::string>& contacts) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<MarkerFrame> frames = Motion(*model);
   MarkerForceEstimator estimator(*model, WithContacts(contacts), 0.05);
   ASSERT_TRUE(estimator.Update(frames[0]).status.ok());
@@ -61,7 +61,7 @@ TEST(ForceEstimationAllocation, FramesWithTwoGivenContactsTakeNoMemory) {
 
 TEST(ForceEstimationAllocation, FramesWithoutTimeTakeNoMemory) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<MarkerFrame> frames = Motion(*model);
   Config config = WithContacts({"a_hub_with_a_long_name: 0, 0, 0.125, 0.008"});
   config.frame_budget_s = 0.5;
@@ -92,7 +92,7 @@ RowTargets TargetsOf(const MarkerFrame& frame) {
 
 TEST(ForceEstimationAllocation, StepsWithAKeptFactorAndSecantsTakeNoMemory) {
   if (!test_support::HeapRequestsAreCounted()) GTEST_SKIP() << "a sanitizer has malloc";
-  const auto model = Build(FourLegRobot());
+  const auto model = Build(QuickFourLegRobot());
   const std::vector<MarkerFrame> frames = Motion(*model);
   std::vector<RowTargets> targets;
   for (const MarkerFrame& frame : frames) targets.push_back(TargetsOf(frame));

@@ -5,15 +5,14 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <memory>
 #include <random>
 #include <utility>
 #include <vector>
 
-#include "libs/app/yaml.hpp"
 #include "libs/rgbd/surface_view.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::force_estimation {
 namespace {
@@ -25,10 +24,8 @@ using Kind = robot::CableCommand::Kind;
 class DriftWatchTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    auto description = robot::ReadRobotFile(
-        std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml", app::LoadYaml);
-    description.element = fem::ElementType::kTet4;
-    robot_ = std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description));
+    robot_ = std::make_unique<robot::RobotModel>(
+        robot::BuildRobotBody(test_support::LinearFourLegRobot()));
     rest_ = Shape({}, 0.0);
   }
   static void TearDownTestSuite() { robot_.reset(); }

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <memory>
 #include <random>
 #include <string>
@@ -11,8 +10,8 @@
 #include <vector>
 
 #include "components/force_estimation/node/frame_estimator.hpp"
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/robots.hpp"
 
 /// The four legs with nine markers that a camera sees, turned into the robot's frame by a
 /// calibration that held once.
@@ -26,10 +25,8 @@ constexpr double kNoise_m = 3e-4;
 constexpr double kPeriod_s = 1.0 / 30.0;
 
 std::unique_ptr<robot::RobotModel> FourLegs() {
-  auto description = robot::ReadRobotFile(
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml", app::LoadYaml);
-  description.element = fem::ElementType::kTet4;
-  return std::make_unique<robot::RobotModel>(robot::BuildRobotBody(description));
+  return std::make_unique<robot::RobotModel>(
+      robot::BuildRobotBody(test_support::LinearFourLegRobot()));
 }
 
 class MarkerDriftTest : public testing::Test {

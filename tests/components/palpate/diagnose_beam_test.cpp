@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -13,17 +12,14 @@
 #include "components/palpate/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::command {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path BeamFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return fs::path(folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data") /
-         "silicone_beam";
-}
+fs::path BeamFolder() { return test_support::MeasuredDataFolder() / "silicone_beam"; }
 
 /// A measured silicone beam that sags under its own weight and under 52 g at its tip, from when it
 /// has rung down (Dubied et al., RA-L 2022; measured data, not part of the project).

@@ -5,15 +5,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <sstream>
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "tests/support/measured_data.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::command {
 namespace {
@@ -43,18 +43,12 @@ constexpr const char* kCapture =
 class ImportVerbTest : public testing::Test {
  protected:
   ImportVerbTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) /
-              ("palpate_import_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     WriteFile(folder_ / "robot.yaml", kRobot);
     WriteFile(folder_ / "capture.csv", kCapture);
     options_.file = folder_ / "capture.csv";
     options_.out = folder_ / "exp";
     options_.recording = "r1";
   }
-  ~ImportVerbTest() override { fs::remove_all(folder_); }
 
   experiment::Experiment Import() {
     EXPECT_EQ(RunImport(options_, report_), 0);
@@ -75,7 +69,7 @@ class ImportVerbTest : public testing::Test {
     return message;
   }
 
-  fs::path folder_;
+  test_support::TestFolder folder_;
   ImportOptions options_;
   std::ostringstream report_;
 };
@@ -228,9 +222,7 @@ TEST_F(ImportVerbTest, RefusesOptionsThatDoNotFitTheData) {
 }
 
 TEST_F(ImportVerbTest, TurnsTheMeasuredBeamIntoAnExperiment) {
-  const char* data = std::getenv("PALPATE_DATA_DIR");
-  const fs::path beam =
-      fs::path(data != nullptr ? data : PALPATE_SOURCE_DIR "/../shared/data") / "silicone_beam";
+  const fs::path beam = test_support::MeasuredDataFolder() / "silicone_beam";
   if (!fs::exists(beam)) GTEST_SKIP() << beam << " is not there";
   options_.file = beam / "beam_gravity_V2_a.c3d";
   options_.robot = fs::path(PALPATE_SOURCE_DIR) / "config/robots/beam.yaml";

@@ -15,21 +15,16 @@
 #include "libs/core/file.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/support/scenarios.hpp"
 
 namespace palpate::command {
 
 /// Two settings of the cables.
-inline const std::string kTwoHolds = R"(rest_between_s: 0.5
-recordings:
-  - name: a_hold
-    kind: hold
-    duration_s: 0.1
-    commands: [{t_s: 0, north.displacement_m: 0.004, west.displacement_m: 0.006, south.displacement_m: 0.008, east.displacement_m: 0.004}]
-  - name: b_hold
-    kind: hold
-    duration_s: 0.1
-    commands: [{t_s: 0, north.displacement_m: 0.008, west.displacement_m: 0.004, south.displacement_m: 0.004, east.displacement_m: 0.006}]
-)";
+inline const std::string kTwoHolds =
+    "rest_between_s: 0.5\nrecordings:\n" +
+    test_support::Hold("a_hold", 0.1, {0.004, 0.006, 0.008, 0.004}) +
+    test_support::Hold("b_hold", 0.1, {0.008, 0.004, 0.004, 0.006});
 
 /// The four legs of a coarse mesh, simulated, and `palpate calibrate --what camera` over what a
 /// camera saw of them.
@@ -45,7 +40,7 @@ class LookTest : public testing::Test {
     options_.what = "camera";
   }
 
-  static std::string Mesh() { return PALPATE_SOURCE_DIR "/config/scenarios/four_leg_coarse.msh"; }
+  static std::string Mesh() { return test_support::CoarseFourLegMesh().string(); }
 
   static void Replace(const std::string& old, const std::string& by, std::string* text) {
     ASSERT_NE(text->find(old), std::string::npos) << old;

@@ -3,11 +3,7 @@
 
 #include "tests/components/palpate/test_robot.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <array>
-#include <fstream>
 #include <sstream>
 #include <vector>
 
@@ -65,24 +61,6 @@ std::string BarVtk() {
 }
 
 }  // namespace
-
-TestFolder::TestFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  folder_ = std::filesystem::path(testing::TempDir()) /
-            ("palpate_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-  std::filesystem::remove_all(folder_);
-  std::filesystem::create_directories(folder_);
-}
-
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-std::filesystem::path TestFolder::Write(const std::string& name, const std::string& text) const {
-  std::ofstream(folder_ / name) << text;
-  return folder_ / name;
-}
 
 std::filesystem::path WriteBarRobot(const TestFolder& folder) {
   folder.Write("bar.vtk", BarVtk());

@@ -15,6 +15,7 @@
 #include "libs/rgbd/png.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::perception {
 
@@ -26,12 +27,7 @@ constexpr double kSigmas = 4.5;
 constexpr double kBias = 0.012;
 
 const robot::RobotDescription& FourLeg() {
-  static const robot::RobotDescription description = [] {
-    auto made =
-        robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
-    made.element = fem::ElementType::kTet4;
-    return made;
-  }();
+  static const robot::RobotDescription description = test_support::LinearFourLegRobot();
   return description;
 }
 

@@ -18,6 +18,7 @@
 #include "components/perception/perception.hpp"
 #include "libs/experiment/cloud/point_cloud.hpp"
 #include "libs/rgbd/png.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::perception {
 namespace {
@@ -37,11 +38,7 @@ struct RealCloud {
 
 void PrintTo(const RealCloud& cloud, std::ostream* out) { *out << cloud.name; }
 
-fs::path DataFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return fs::path(folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data") /
-         "rgbd_clouds";
-}
+fs::path CloudFolder() { return test_support::MeasuredDataFolder() / "rgbd_clouds"; }
 
 /// The Kinect's, as the points of these files have it: u = 525 x / z + 319.5.
 rgbd::RgbdCamera Kinect() {
@@ -60,7 +57,7 @@ rgbd::RgbdCamera Kinect() {
 }
 
 rgbd::RgbdFrame ReadFrame(const RealCloud& real) {
-  experiment::PointCloud cloud = experiment::ReadPointCloud(DataFolder() / (real.name + ".pcd"));
+  experiment::PointCloud cloud = experiment::ReadPointCloud(CloudFolder() / (real.name + ".pcd"));
   if (real.turned) cloud.points_m.bottomRows<2>() *= -1.0;
   return experiment::FrameFromCloud(cloud, Kinect());
 }
@@ -132,8 +129,8 @@ void Draw(const std::string& name, const rgbd::RgbdFrame& frame, const Observati
 class RealClouds : public testing::TestWithParam<RealCloud> {
  protected:
   void SetUp() override {
-    if (!fs::exists(DataFolder() / (GetParam().name + ".pcd"))) {
-      GTEST_SKIP() << "no " << DataFolder() << " (set PALPATE_DATA_DIR)";
+    if (!fs::exists(CloudFolder() / (GetParam().name + ".pcd"))) {
+      GTEST_SKIP() << "no " << CloudFolder() << " (set PALPATE_DATA_DIR)";
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/paths.hpp"
 #include "tests/support/sensing/watch.hpp"
@@ -23,7 +24,8 @@ class Forces : public testing::TestWithParam<Eyes> {
   static constexpr int kLearningFrames = 12;
   static constexpr double kDegree = std::numbers::pi / 180.0;
 
-  Forces() : scene_{FourLeg(), BallScenario(), 1}, chain_{FourLeg(), scene_, Settings(), 1} {
+  Forces()
+      : scene_{FourLegRobot(), BallScenario(), 1}, chain_{FourLegRobot(), scene_, Settings(), 1} {
     chain_.Learn(kLearningFrames);
   }
 

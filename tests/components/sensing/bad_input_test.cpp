@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
 
 /// Images and cable inputs that are wrong, on their way through perception and estimator, while a
@@ -57,8 +58,8 @@ ChainFaults WithoutDepth(double u_begin, double u_end, double v_begin, double v_
 class BadInput : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scene_ = std::make_unique<SensingScene>(FourLeg(), BallScenario(), 1);
-    chain_ = std::make_unique<SensingChain>(FourLeg(), *scene_, Settings(), 1);
+    scene_ = std::make_unique<SensingScene>(FourLegRobot(), BallScenario(), 1);
+    chain_ = std::make_unique<SensingChain>(FourLegRobot(), *scene_, Settings(), 1);
     chain_->Learn(8);
     Press(*chain_);
   }

@@ -5,6 +5,7 @@
 
 #include "libs/robot/compliance.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/sensing_scene.hpp"
 
 namespace palpate::test_support {
@@ -13,7 +14,7 @@ namespace {
 /// No next residual corrects what a frame makes of responses: rounding must be far below the
 /// model's own error (shape.model_relative_sigma, 3 %).
 TEST(SinglePrecisionResponses, ErrFarLessThanTheModel) {
-  robot::RobotModel model(robot::BuildRobotBody(FourLeg()));
+  robot::RobotModel model(robot::BuildRobotBody(FourLegRobot()));
   fem::StaticState state = model.RestState();
   std::vector<robot::CableCommand> cables(static_cast<size_t>(model.CableCount()),
                                           {robot::CableCommand::Kind::kDisplacement, 0.003});

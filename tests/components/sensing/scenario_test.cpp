@@ -11,6 +11,7 @@
 #include "libs/core/error.hpp"
 #include "libs/scenario/robot_names.hpp"
 #include "libs/scenario/schedule.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/scene_sight.hpp"
 #include "tests/support/sensing/sensing_scene.hpp"
 
@@ -40,8 +41,8 @@ class Moments {
   Moments() {
     scenario::Scenario scenario = Shipped();
     scenario.motion.time_step_s = kFrame_s;
-    const scenario::Schedule schedule(scenario, scenario::NamesOf(FourLeg()).cables);
-    SensingScene scene(FourLeg(), scenario, 1);
+    const scenario::Schedule schedule(scenario, scenario::NamesOf(FourLegRobot()).cables);
+    SensingScene scene(FourLegRobot(), scenario, 1);
     SceneSight sight(scene);
     for (int frame = 1; frame * kFrame_s <= schedule.Duration_s(); ++frame) {
       Moment& moment = moments_.emplace_back();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/ideal_perception.hpp"
 #include "tests/support/sensing/paths.hpp"
@@ -30,7 +31,7 @@ scenario::Scenario QuickestScenario() {
 
 class Scene : public testing::Test {
  protected:
-  static void SetUpTestSuite() { scene_ = new SensingScene(FourLeg(), QuickestScenario(), 1); }
+  static void SetUpTestSuite() { scene_ = new SensingScene(FourLegRobot(), QuickestScenario(), 1); }
   static void TearDownTestSuite() { delete scene_; }
 
   /// RMS of (z - true z) / sigma over the cloud, the mean taken off: the camera's depth has a bias.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/robots.hpp"
 #include "tests/support/sensing/accuracy.hpp"
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
@@ -22,8 +23,8 @@ class StaticScenes : public testing::Test {
   static constexpr std::uint64_t kSeed = 5;
 
   StaticScenes()
-      : scene_{FourLeg(), BallScenario(), kSeed},
-        chain_{FourLeg(), scene_, {.eyes = ChainSettings::Eyes::kPerception}, kSeed} {
+      : scene_{FourLegRobot(), BallScenario(), kSeed},
+        chain_{FourLegRobot(), scene_, {.eyes = ChainSettings::Eyes::kPerception}, kSeed} {
     chain_.Learn(kLearningFrames);
   }
 
@@ -60,8 +61,8 @@ TEST_F(StaticScenes, ForcesInViewAreRightInTheFirstPicture) {
 TEST(StaticScene, APushOnTheSideOfALegIsNoneOnItsTop) {
   constexpr std::uint64_t kSideSeed = 4;
   constexpr double kLargestCable_m = 0.003;
-  SensingScene scene(FourLeg(), BallScenario(), kSideSeed);
-  SensingChain chain(FourLeg(), scene, {.eyes = ChainSettings::Eyes::kPerception}, kSideSeed);
+  SensingScene scene(FourLegRobot(), BallScenario(), kSideSeed);
+  SensingChain chain(FourLegRobot(), scene, {.eyes = ChainSettings::Eyes::kPerception}, kSideSeed);
   chain.Learn(40, 4, kLargestCable_m);
   ASSERT_TRUE(scene.Start(scene.Nothing()).ok());
   ContactGenerator generator(scene, {.where = Where::kVisible, .largest_cable_m = kLargestCable_m},

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::virtual_camera {
 
@@ -69,8 +69,7 @@ scenario::Scenario NoisyScenario() {
 
 const RobotSurface& FourLegSurface() {
   static const RobotSurface surface = [] {
-    const auto description =
-        robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
+    const robot::RobotDescription description = test_support::FourLegRobot();
     const robot::RobotBody body = robot::BuildRobotBody(description);
     RobotSurface made;
     made.rest_m = body.mesh.nodes_m;

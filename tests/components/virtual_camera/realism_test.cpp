@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -14,6 +13,7 @@
 #include "tests/components/virtual_camera/depth_errors.hpp"
 #include "tests/components/virtual_camera/depth_statistics.hpp"
 #include "tests/components/virtual_camera/organised_cloud.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::virtual_camera {
 namespace {
@@ -69,9 +69,7 @@ struct Real {
 
 // Three of PALPATE_DATA_DIR/rgbd_clouds; empty: the data are not here.
 std::vector<Real> RealClouds() {
-  const char* given = std::getenv("PALPATE_DATA_DIR");
-  const std::filesystem::path data =
-      given != nullptr ? given : PALPATE_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path data = test_support::MeasuredDataFolder();
   std::vector<Real> clouds;
   for (const char* name : {"milk_cartoon_all_small_clorox.pcd", "test31.pcd", "capture0001.pcd"}) {
     const std::filesystem::path file = data / "rgbd_clouds" / name;

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include "libs/app/yaml.hpp"
 #include "libs/fem/mesh_io/write_vtu.hpp"
 
 namespace palpate::virtual_robot::test {
@@ -71,12 +70,6 @@ class MeshFiles {
 };
 
 }  // namespace
-
-robot::RobotDescription RobotNamed(const std::string& name) {
-  return robot::ReadRobotFile(
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots" / (name + ".yaml"),
-      [](const std::filesystem::path& file) { return app::LoadYaml(file); });
-}
 
 robot::RobotDescription BoxRobot(const Eigen::Array3i& cells, const Eigen::Vector3d& size_m) {
   static MeshFiles files;

@@ -17,9 +17,6 @@
 
 namespace palpate::virtual_robot::test {
 
-/// config/robots/NAME.yaml
-robot::RobotDescription RobotNamed(const std::string& name);
-
 /// A box from the origin to `size_m`, of `cells` bricks of six tetrahedra each, x = 0 clamped; no
 /// gravity, no cables, 1000 kg/m3, E = 100 kPa, nu = 0.3, tet10, stable neo-Hookean.
 robot::RobotDescription BoxRobot(const Eigen::Array3i& cells, const Eigen::Vector3d& size_m);

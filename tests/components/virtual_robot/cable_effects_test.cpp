@@ -8,15 +8,12 @@
 #include "components/virtual_robot/actuator_chain.hpp"
 #include "libs/robot/robot_model.hpp"
 #include "tests/components/virtual_robot/bench_setup.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::virtual_robot::test {
 namespace {
 
-robot::RobotDescription FourLeg() {
-  robot::RobotDescription robot = RobotNamed("four_leg");
-  robot.element = fem::ElementType::kTet4;
-  return robot;
-}
+using test_support::LinearFourLegRobot;
 
 /// Pulls cables in within a second.
 std::unique_ptr<VirtualRobot> Pulled(const robot::RobotDescription& description,
@@ -29,7 +26,7 @@ std::unique_ptr<VirtualRobot> Pulled(const robot::RobotDescription& description,
 }
 
 TEST(Cables, WithoutEffectsAreInTheBalanceThatTheStaticSolverFinds) {
-  robot::RobotModel model(robot::BuildRobotBody(FourLeg()));
+  robot::RobotModel model(robot::BuildRobotBody(LinearFourLegRobot()));
   fem::StaticState state = model.RestState();
   using Kind = robot::CableCommand::Kind;
   const std::vector<robot::CableCommand> commands = {{Kind::kDisplacement, 0.008},
@@ -37,7 +34,7 @@ TEST(Cables, WithoutEffectsAreInTheBalanceThatTheStaticSolverFinds) {
                                                      {Kind::kDisplacement, 0.004},
                                                      {Kind::kNone, 0.0}};
   ASSERT_TRUE(model.Solve(commands, {}, &state).status.ok());
-  const auto robot = Pulled(FourLeg(), {0.008, 0.0, 0.004, kNotDriven});
+  const auto robot = Pulled(LinearFourLegRobot(), {0.008, 0.0, 0.004, kNotDriven});
   EXPECT_LE((robot->positions_m() - state.x_m).cwiseAbs().maxCoeff(), 1e-6);
   for (int c = 0; c < 4; ++c) {
     EXPECT_NEAR(robot->cables()[static_cast<size_t>(c)].tension_N, state.multipliers_N[c], 1e-4);
@@ -49,8 +46,8 @@ TEST(Cables, WithoutEffectsAreInTheBalanceThatTheStaticSolverFinds) {
 /// North cable pulled by `command_m` with an effect is as pulled by `same_m` without.
 void ExpectAs(const Effects& effects, const std::vector<double>& command_m,
               const std::vector<double>& same_m) {
-  const auto robot = Pulled(FourLeg(), command_m, effects);
-  const auto healthy = Pulled(FourLeg(), same_m);
+  const auto robot = Pulled(LinearFourLegRobot(), command_m, effects);
+  const auto healthy = Pulled(LinearFourLegRobot(), same_m);
   EXPECT_LE((robot->positions_m() - healthy->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
 
@@ -77,30 +74,30 @@ TEST(Cables, CouplingMovesTheDrivenOneToo) {
 TEST(Cables, ElasticOneGivesWayByItsTensionOverItsStiffness) {
   constexpr double kStiffness_N_m = 1000.0;
   const auto robot =
-      Pulled(FourLeg(), {0.008, 0, 0, 0},
+      Pulled(LinearFourLegRobot(), {0.008, 0, 0, 0},
              {Effect("cable_elasticity", {"cable:north"}, {{"k_N_m", kStiffness_N_m}})});
   const double tension_N = robot->cables()[0].tension_N;
   EXPECT_GT(tension_N, 0.3);
-  const auto healthy = Pulled(FourLeg(), {0.008 - tension_N / kStiffness_N_m, 0, 0, 0});
+  const auto healthy = Pulled(LinearFourLegRobot(), {0.008 - tension_N / kStiffness_N_m, 0, 0, 0});
   EXPECT_LE((robot->positions_m() - healthy->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
 
 TEST(Cables, CuttingOneGivesWayAtItsKnot) {
   constexpr double kCompliance_m_N = 1e-3;
   const auto robot =
-      Pulled(FourLeg(), {0.008, 0, 0, 0},
+      Pulled(LinearFourLegRobot(), {0.008, 0, 0, 0},
              {Effect("cable_cutting", {"cable:north"}, {{"compliance_m_N", kCompliance_m_N}})});
   const double tension_N = robot->cables()[0].tension_N;
-  const auto healthy = Pulled(FourLeg(), {0.008 - tension_N * kCompliance_m_N, 0, 0, 0});
+  const auto healthy = Pulled(LinearFourLegRobot(), {0.008 - tension_N * kCompliance_m_N, 0, 0, 0});
   EXPECT_LE((robot->positions_m() - healthy->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
 
 TEST(Cables, RoutedElsewherePullsThatWay) {
-  robot::RobotDescription moved = FourLeg();
+  robot::RobotDescription moved = LinearFourLegRobot();
   moved.cables[0].path_m.col(0) += Eigen::Vector3d(0.0, 0.004, 0.002);
   const auto expected = Pulled(moved, {0.008, 0, 0, 0});
   const auto robot =
-      Pulled(FourLeg(), {0.008, 0, 0, 0},
+      Pulled(LinearFourLegRobot(), {0.008, 0, 0, 0},
              {Effect("cable_routing", {"cable:north"}, {{"dy_m", 0.004}, {"dz_m", 0.002}})});
   EXPECT_LE((robot->positions_m() - expected->positions_m()).cwiseAbs().maxCoeff(), 2e-7);
 }
@@ -139,7 +136,7 @@ TEST(Actuators, LagIsADelayAndAFirstOrder) {
 
 /// The four legs' north cable over an eyelet on the hub.
 robot::RobotDescription Routed() {
-  robot::RobotDescription robot = FourLeg();
+  robot::RobotDescription robot = LinearFourLegRobot();
   Eigen::Matrix3Xd path_m(3, 3);
   path_m.col(0) = Eigen::Vector3d(0.0, 0.062, 0.0);
   path_m.col(1) = Eigen::Vector3d(0.0, 0.031, 0.09);

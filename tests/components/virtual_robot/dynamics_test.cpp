@@ -9,6 +9,7 @@
 
 #include "libs/robot/robot_model.hpp"
 #include "tests/components/virtual_robot/bench_setup.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::virtual_robot::test {
 namespace {
@@ -31,7 +32,7 @@ double Frequency_hz(const std::vector<double>& z_m, double h_s) {
 /// The measured beam: what `palpate calibrate` finds for its own weight (280 kPa), and a tenth more
 /// for the stiffness at some Hz.
 robot::RobotDescription MeasuredBeam() {
-  robot::RobotDescription robot = RobotNamed("beam");
+  robot::RobotDescription robot = test_support::ReadRobot("beam");
   robot.material.youngs_modulus_Pa = 1.1 * 280e3;
   return robot;
 }

@@ -8,15 +8,10 @@
 
 #include "libs/core/error.hpp"
 #include "tests/components/virtual_robot/bench_setup.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::virtual_robot::test {
 namespace {
-
-robot::RobotDescription FourLegRobot() {
-  robot::RobotDescription robot = RobotNamed("four_leg");
-  robot.element = fem::ElementType::kTet4;
-  return robot;
-}
 
 scenario::Scenario WithFinger() {
   scenario::Scenario scenario = PlainScenario();
@@ -28,7 +23,7 @@ scenario::Scenario WithFinger() {
 
 void ExpectRefused(const Effects& effects, const std::string& reason) {
   try {
-    const VirtualRobot robot(FourLegRobot(), PlainScenario(), effects, 1);
+    const VirtualRobot robot(test_support::LinearFourLegRobot(), PlainScenario(), effects, 1);
     ADD_FAILURE() << reason;
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
@@ -50,7 +45,7 @@ TEST(Refusals, OfABodyThatCannotBe) {
   const auto refused = [](const std::function<void(scenario::BodyTruth*)>& change) {
     scenario::Scenario scenario = PlainScenario();
     change(&scenario.body);
-    EXPECT_THROW(VirtualRobot(FourLegRobot(), scenario, {}, 1), InputError);
+    EXPECT_THROW(VirtualRobot(test_support::LinearFourLegRobot(), scenario, {}, 1), InputError);
   };
   refused([](scenario::BodyTruth* body) { body->refine = 3; });
   refused([](scenario::BodyTruth* body) { body->element = "hex8"; });
@@ -60,7 +55,7 @@ TEST(Refusals, OfABodyThatCannotBe) {
 }
 
 TEST(Refusals, OfInputsKeepTheState) {
-  VirtualRobot robot(FourLegRobot(), WithFinger(), {}, 1);
+  VirtualRobot robot(test_support::LinearFourLegRobot(), WithFinger(), {}, 1);
   const Inputs still = Commands({0, 0, 0, 0});
   EXPECT_EQ(robot.Advance(0.1, still).code(), StatusCode::kNotRun);
   ASSERT_TRUE(robot.Start(1.0, still).ok());
@@ -92,7 +87,7 @@ TEST(Refusals, OfInputsKeepTheState) {
 }
 
 TEST(Failure, LeavesTheLastGoodState) {
-  VirtualRobot robot(FourLegRobot(), PlainScenario(), {}, 1);
+  VirtualRobot robot(test_support::LinearFourLegRobot(), PlainScenario(), {}, 1);
   ASSERT_TRUE(robot.Start(0.0, Commands({0, 0, 0, 0})).ok());
   Inputs crushed = Commands({0, 0, 0, 0});
   crushed.weights = {Weight({0, 0, 0.125}, 200.0, 0.005)};
@@ -110,7 +105,7 @@ TEST(Determinism, TheSameInputsGiveTheSameBits) {
     scenario::Scenario scenario = WithFinger();
     scenario.motion = {scenario::MotionMode::kDynamic, 1.0 / 60.0, 1.0, 1e-3};
     scenario.tools[0].friction_coefficient = 0.5;
-    VirtualRobot robot(FourLegRobot(), scenario,
+    VirtualRobot robot(test_support::LinearFourLegRobot(), scenario,
                        {Effect("viscoelastic_creep", {"body"}, {{"g", 0.2}, {"tau_s", 1.0}})}, 9);
     Inputs inputs = Commands({0, 0, 0, 0});
     inputs.tools = {At("finger", {0, 0, 0.14})};
@@ -127,14 +122,14 @@ TEST(Determinism, TheSameInputsGiveTheSameBits) {
 
 TEST(Discretisation, IsTheScenariosOwn) {
   scenario::Scenario scenario = PlainScenario();
-  const VirtualRobot coarse(FourLegRobot(), scenario, {}, 1);
+  const VirtualRobot coarse(test_support::LinearFourLegRobot(), scenario, {}, 1);
   scenario.body.refine = 1;
-  const VirtualRobot fine(FourLegRobot(), scenario, {}, 1);
+  const VirtualRobot fine(test_support::LinearFourLegRobot(), scenario, {}, 1);
   EXPECT_EQ(fine.mesh().CellCount(), 8 * coarse.mesh().CellCount());
   EXPECT_NE(fine.mesh_hash(), coarse.mesh_hash());
   scenario.body.refine = 0;
   scenario.body.element = "tet10";
-  const VirtualRobot quadratic(FourLegRobot(), scenario, {}, 1);
+  const VirtualRobot quadratic(test_support::LinearFourLegRobot(), scenario, {}, 1);
   EXPECT_EQ(quadratic.mesh().cells.rows(), 10);
 }
 

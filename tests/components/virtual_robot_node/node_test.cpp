@@ -13,6 +13,7 @@
 #include "libs/robot/robot_description.hpp"
 #include "libs/scenario/robot_names.hpp"
 #include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::virtual_robot {
 namespace {
@@ -43,7 +44,7 @@ scenario::Scenario OneRecording() {
 }
 
 BenchSetup Setup(const scenario::Scenario& scenario) {
-  const auto robot = robot::ReadRobotFile(kRobotFile, app::LoadYaml);
+  const auto robot = test_support::FourLegRobot();
   const auto names = scenario::NamesOf(robot);
   return {std::make_unique<VirtualRobot>(robot, scenario, std::vector<scenario::ActiveEffect>{}, 1),
           robot.name,

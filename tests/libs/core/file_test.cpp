@@ -4,9 +4,11 @@
 #include "libs/core/file.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
+
+#include <filesystem>
 
 #include "libs/core/error.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate {
 namespace {
@@ -14,16 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A folder of its own for each test, gone after it.
 class FileTest : public ::testing::Test {
  protected:
-  FileTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("palpate_file_test_" + std::to_string(getpid()))) {
-    std::filesystem::create_directory(folder_);
-  }
-  ~FileTest() override { std::filesystem::remove_all(folder_); }
-
   std::string FailureOfWriting(const std::filesystem::path& file) const {
     try {
       WriteFile(file, "text");
@@ -33,7 +27,8 @@ class FileTest : public ::testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_;
+  const test_support::TestFolder own_folder_;
+  const std::filesystem::path folder_ = own_folder_.path();
 };
 
 TEST_F(FileTest, ReadsBackWhatWasWritten) {

@@ -20,6 +20,7 @@
 #include "libs/dds/stamp.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.hpp"
 #include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/measured_data.hpp"
 
 /// Decodes, with our IDL, what a real ROS 2 Humble node put on the wire.
 namespace palpate::dds {
@@ -28,10 +29,7 @@ namespace {
 using Bytes = std::string;
 
 std::filesystem::path RecordingFile() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return (folder ? std::filesystem::path(folder)
-                 : std::filesystem::path(PALPATE_SOURCE_DIR) / "../shared/data") /
-         "ros2/ros2_humble_image_wrench.mcap";
+  return test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
 }
 
 Bytes ReadBytes(const std::filesystem::path& file) {

@@ -8,11 +8,14 @@
 #include "libs/core/file.hpp"
 #include "libs/experiment/captured_markers.hpp"
 #include "tests/libs/experiment/c3d_writer.hpp"
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/measured_data.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -200,7 +203,7 @@ TEST(C3d, SurvivesFlippedBits) {
 class MeasuredBeam : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(MeasuredBeam, C3dAndItsCsvHoldTheSame) {
-  const auto folder = MeasuredDataFolder() / "silicone_beam";
+  const auto folder = test_support::MeasuredDataFolder() / "silicone_beam";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   const CapturedMarkers c3d = ReadC3d(folder / GetParam().first);
   const CapturedMarkers csv = ReadCapturedCsv(folder / GetParam().second);

@@ -3,11 +3,13 @@
 
 #include "libs/experiment/captured_markers.hpp"
 
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::HasSubstr;
 
 CapturedMarkers Read(const std::string& content) {

@@ -9,12 +9,15 @@
 #include "libs/experiment/cloud/pcd.hpp"
 #include "libs/experiment/cloud/ply.hpp"
 #include "libs/experiment/cloud/point_cloud.hpp"
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/measured_data.hpp"
 #include "tests/support/not_a_number.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -289,7 +292,7 @@ struct RealCloud {
 class RealClouds : public testing::TestWithParam<RealCloud> {};
 
 TEST_P(RealClouds, HaveTheShareOfPointsThatTheirReadmeTells) {
-  const fs::path file = MeasuredDataFolder() / "rgbd_clouds" / GetParam().file;
+  const fs::path file = test_support::MeasuredDataFolder() / "rgbd_clouds" / GetParam().file;
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not here";
   const PointCloud cloud = ReadPcd(file);
   EXPECT_EQ(cloud.width, 640);

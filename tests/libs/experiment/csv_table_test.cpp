@@ -3,11 +3,13 @@
 
 #include "libs/experiment/csv_table.hpp"
 
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 

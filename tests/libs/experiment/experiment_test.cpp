@@ -7,12 +7,14 @@
 #include <numbers>
 
 #include "libs/app/yaml.hpp"
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 

@@ -8,11 +8,13 @@
 #include "libs/experiment/cloud/pcd.hpp"
 #include "libs/experiment/cloud/ply.hpp"
 #include "libs/rgbd/png.hpp"
-#include "tests/libs/experiment/test_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::experiment {
 namespace {
 
+using test_support::MessageOf;
+using test_support::TestFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "libs/robot/robot_body.hpp"
 #include "tests/libs/robot/robot_files.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -19,10 +19,7 @@ using testing::Contains;
 using testing::HasSubstr;
 
 std::filesystem::path DiamondFile() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  const std::filesystem::path data =
-      folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data";
-  return data / "diamond" / "diamond.vtu";
+  return test_support::MeasuredDataFolder() / "diamond" / "diamond.vtu";
 }
 
 RobotBody BuildDiamond(const std::string& element) {

@@ -4,7 +4,6 @@
 #include "tests/libs/robot/robot_files.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -100,19 +99,6 @@ void WriteVtk(const fem::TetMesh& mesh, const std::filesystem::path& file) {
   out << "CELL_TYPES " << mesh.CellCount() << '\n';
   const int vtk_type = mesh.element_type() == fem::ElementType::kTet4 ? 10 : 24;
   for (int cell = 0; cell < mesh.CellCount(); ++cell) out << vtk_type << '\n';
-}
-
-TestFolder::TestFolder() {
-  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-  path_ = std::filesystem::temp_directory_path() /
-          ("palpate_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-           std::to_string(getpid()));
-  std::filesystem::create_directories(path_);
-}
-
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace palpate::robot

@@ -10,8 +10,11 @@
 #include "libs/core/config_node.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::robot {
+
+using test_support::TestFolder;
 
 /// A robot file with every key, on the mesh of WriteBeam: a beam of 100 x 20 x 20 mm along x.
 std::string FullRobotText();
@@ -33,19 +36,5 @@ fem::TetMesh Beam_mm();
 
 /// Legacy VTK, ASCII.
 void WriteVtk(const fem::TetMesh& mesh, const std::filesystem::path& file);
-
-/// An empty folder of this test's own, removed at its end.
-class TestFolder {
- public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace palpate::robot

@@ -31,10 +31,6 @@ virtual_camera::RobotSurface SkinOf(const virtual_robot::VirtualRobot& robot) {
 
 }  // namespace
 
-robot::RobotDescription FourLeg() {
-  return robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
-}
-
 scenario::Scenario BallScenario() {
   scenario::Scenario scenario =
       scenario::ReadScenario(PALPATE_SOURCE_DIR "/config/scenarios/pushes.yaml", app::LoadYaml);

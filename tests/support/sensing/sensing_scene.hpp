@@ -21,9 +21,6 @@
 
 namespace palpate::test_support {
 
-/// config/robots/four_leg.yaml
-robot::RobotDescription FourLeg();
-
 /// Bench and camera of config/scenarios/pushes.yaml with the body of config/scenarios/sensing.yaml,
 /// which moves as the converged one does; balls of 8, 10 and 12 mm radius and friction 0.3 (ball_8,
 /// ball_10, ball_12), each of its own colour, and a hand (hand).

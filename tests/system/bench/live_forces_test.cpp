@@ -19,7 +19,7 @@
 #include "libs/geometry/pose_text.hpp"
 #include "libs/scenario/scenario.hpp"
 #include "tests/libs/dds/test_participant.hpp"
-#include "tests/system/small_camera.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/system/virtual_bench.hpp"
 
 /// The whole system as processes: a push from the camera's frames over GigE Vision to /forces,
@@ -32,9 +32,9 @@ using std::chrono::seconds;
 constexpr seconds kPatience{40};
 
 /// Ten frames a second, for machines that have other things to do; the ball holds to the end.
-const std::string kScenario = R"(name: held
-body: {mesh_file: four_leg_coarse.msh, refine: 0, element: tet10, material: {youngs_modulus_Pa: 96.7e3}}
-)" + kBallBeforeASmallCamera +
+const std::string kScenario = "name: held\n" +
+                              test_support::BodyOfAnotherModulus("four_leg_coarse.msh") +
+                              test_support::kBallBeforeASmallCamera +
                               R"(recordings:
   - name: press
     kind: free

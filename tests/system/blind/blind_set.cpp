@@ -14,6 +14,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/system/blind/score_table.hpp"
 #include "tests/system/blind/set_folder.hpp"
 #include "tests/system/blind/two_at_a_time.hpp"
@@ -86,13 +87,12 @@ std::vector<CaseRecord> RunBlind(const BlindSet& set, std::ostream& out) {
              set.cases, set.kind ? " (" + ToString(*set.kind) + ")" : "",
              set.measured == Measured::kPictures ? "pictures" : "markers", set.seed, set.samples);
   const SetFolder folder(set.folder);
-  const CaseRunner runner(
-      {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
-       .folder = folder.path(),
-       .keep = folder.keeps(),
-       .measured = set.measured,
-       .samples = set.samples,
-       .minutes = set.minutes});
+  const CaseRunner runner({.robot_file = test_support::RobotFile("four_leg"),
+                           .folder = folder.path(),
+                           .keep = folder.keeps(),
+                           .measured = set.measured,
+                           .samples = set.samples,
+                           .minutes = set.minutes});
   const std::vector<std::uint64_t> seeds = set.Seeds();
   std::vector<CaseRecord> records(seeds.size());
   std::mutex printing;

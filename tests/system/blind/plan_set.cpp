@@ -9,6 +9,7 @@
 #include <iterator>
 #include <mutex>
 
+#include "tests/support/robots.hpp"
 #include "tests/system/blind/blind_case.hpp"
 #include "tests/system/blind/set_folder.hpp"
 #include "tests/system/blind/two_at_a_time.hpp"
@@ -62,8 +63,7 @@ std::vector<PlanRecord> RunPlans(const BlindSet& set, std::ostream& out) {
              set.cases, set.seed);
   const SetFolder folder(set.folder);
   const PlanRunner runner(
-      {.robot_file = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml",
-       .folder = folder.path()});
+      {.robot_file = test_support::RobotFile("four_leg"), .folder = folder.path()});
   std::vector<PlanRecord> records;
   std::mutex mutex;
   TwoAtATime([&](std::size_t k) {

@@ -15,8 +15,8 @@
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/system/calibration/calibration_listener.hpp"
-#include "tests/system/small_camera.hpp"
 #include "tests/system/virtual_bench.hpp"
 
 /// palpate-calibration beside the running virtual bench, as its README has it: nobody knows where
@@ -29,25 +29,12 @@ using ::testing::HasSubstr;
 
 /// Three settings of the cables, over and over; the ball is far off. The body is of another
 /// mesh than the model's.
-const std::string kScenario = R"(name: settings
-body: {mesh_file: four_leg_coarse.msh, refine: 0, element: tet10, material: {youngs_modulus_Pa: 96.7e3}}
-effects:
-  - {id: cable_offset, where: "cable:north", offset_m: 0.0008}
-)" + kBallBeforeASmallCamera +
-                              R"(recordings:
-  - name: H1
-    kind: hold
-    duration_s: 2
-    commands: [{t_s: 0, north.displacement_m: 0.008, west.displacement_m: 0.004, south.displacement_m: 0.006, east.displacement_m: 0.007}]
-  - name: H2
-    kind: hold
-    duration_s: 2
-    commands: [{t_s: 0, north.displacement_m: 0.004, west.displacement_m: 0.009, south.displacement_m: 0.003, east.displacement_m: 0.008}]
-  - name: H3
-    kind: hold
-    duration_s: 2
-    commands: [{t_s: 0, north.displacement_m: 0.006, west.displacement_m: 0.005, south.displacement_m: 0.009, east.displacement_m: 0.004}]
-)";
+const std::string kScenario =
+    "name: settings\n" + test_support::BodyOfAnotherModulus("four_leg_coarse.msh") +
+    test_support::kOffsetOfNorth + test_support::kBallBeforeASmallCamera + "recordings:\n" +
+    test_support::Hold("H1", 2.0, {0.008, 0.004, 0.006, 0.007}) +
+    test_support::Hold("H2", 2.0, {0.004, 0.009, 0.003, 0.008}) +
+    test_support::Hold("H3", 2.0, {0.006, 0.005, 0.009, 0.004});
 
 class LiveCalibration : public testing::Test {
  protected:

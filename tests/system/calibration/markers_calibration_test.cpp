@@ -16,10 +16,10 @@
 #include "libs/core/file.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/scenario/scenario.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/system/calibration/calibration_listener.hpp"
 #include "tests/system/process.hpp"
 #include "tests/system/sample_data.hpp"
-#include "tests/system/small_camera.hpp"
 
 /// palpate-calibration beside a motion capture: what the virtual bench measured is played.
 namespace palpate::system_test {
@@ -30,24 +30,21 @@ using ::testing::HasSubstr;
 
 /// Three settings of the cables, one after the other, of a body of another mesh than the model's,
 /// which is the coarse one here: shapes of many settings are solved to tell markers apart.
-const std::string kMarkerScenario = R"(name: settings
-body: {mesh_file: four_leg.msh, refine: 0, element: tet10, material: {youngs_modulus_Pa: 96.7e3}}
-effects:
-  - {id: cable_offset, where: "cable:north", offset_m: 0.0008}
-markers: {sigma_m: 3.0e-4, rate_hz: 20}
-)" + kBallBeforeASmallCamera +
-                                    R"(recordings:
+const std::string kMarkerScenario =
+    "name: settings\n" + test_support::BodyOfAnotherModulus("four_leg.msh") +
+    test_support::kOffsetOfNorth + "markers: {sigma_m: 3.0e-4, rate_hz: 20}\n" +
+    test_support::kBallBeforeASmallCamera + R"(recordings:
   - name: settings
     kind: ramp
     duration_s: 4.4
-    commands:
-      - {t_s: 0, north.displacement_m: 0.009, west.displacement_m: 0.002, south.displacement_m: 0.003, east.displacement_m: 0.004}
-      - {t_s: 1.2, north.displacement_m: 0.009, west.displacement_m: 0.002, south.displacement_m: 0.003, east.displacement_m: 0.004}
-      - {t_s: 1.6, north.displacement_m: 0.002, west.displacement_m: 0.009, south.displacement_m: 0.002, east.displacement_m: 0.006}
-      - {t_s: 2.8, north.displacement_m: 0.002, west.displacement_m: 0.009, south.displacement_m: 0.002, east.displacement_m: 0.006}
-      - {t_s: 3.2, north.displacement_m: 0.004, west.displacement_m: 0.003, south.displacement_m: 0.008, east.displacement_m: 0.002}
-      - {t_s: 4.4, north.displacement_m: 0.004, west.displacement_m: 0.003, south.displacement_m: 0.008, east.displacement_m: 0.002}
-)";
+    commands: [
+      )" +
+    test_support::CommandAt(0.0, {0.009, 0.002, 0.003, 0.004}) + ",\n      " +
+    test_support::CommandAt(1.2, {0.009, 0.002, 0.003, 0.004}) + ",\n      " +
+    test_support::CommandAt(1.6, {0.002, 0.009, 0.002, 0.006}) + ",\n      " +
+    test_support::CommandAt(2.8, {0.002, 0.009, 0.002, 0.006}) + ",\n      " +
+    test_support::CommandAt(3.2, {0.004, 0.003, 0.008, 0.002}) + ",\n      " +
+    test_support::CommandAt(4.4, {0.004, 0.003, 0.008, 0.002}) + "]\n";
 
 /// Rows of markers.csv of one time.
 using Rows = std::vector<std::string>;

@@ -15,9 +15,9 @@
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 #include "tests/libs/dds/test_participant.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/system/process.hpp"
 #include "tests/system/sample_data.hpp"
-#include "tests/system/small_camera.hpp"
 
 /// palpate-player, palpate-perception and palpate-force-estimation on recorded images against
 /// `palpate estimate`.
@@ -31,7 +31,7 @@ constexpr auto kUntouched = "shape.untouched_frames=4";
 /// A ball that presses on the hub, in two recordings, seen by a small camera.
 const std::string kScenario = R"(name: pressed
 body: {mesh_file: four_leg_coarse.msh, refine: 0, element: tet10}
-)" + kBallBeforeASmallCamera +
+)" + test_support::kBallBeforeASmallCamera +
                               R"(recordings:
   - name: a_press
     kind: free

@@ -38,7 +38,7 @@ class CloudCalibrationTest : public ::testing::Test {
     return OffBy(truth_, turn_rad, shift_m, random_);
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   geometry::RigidTransform truth_ = TruePose();
   std::mt19937_64 random_{20261122};
 };
@@ -128,7 +128,7 @@ TEST_F(CloudCalibrationTest, StandardErrorsSayHowFarThePoseIsOff) {
 /// noise, and a camera 0.5 m away moves by 5 mm for each half degree: at the robot it must be
 /// right.
 TEST_F(CloudCalibrationTest, FindsThePoseOfARobotThatIsNotQuiteTheModel) {
-  const auto quadratic = Build(FourLegs());
+  const auto quadratic = Build(FourLegRobot());
   std::vector<CloudFrame> frames;
   for (const std::vector<double>& pulls_m : {std::vector<double>(4, 0.0), kPulls_m}) {
     frames.push_back(SeeCloud(*quadratic, truth_, "pull " + std::to_string(frames.size()), pulls_m,
@@ -148,7 +148,7 @@ TEST_F(CloudCalibrationTest, FindsThePoseOfARobotThatIsNotQuiteTheModel) {
 TEST_F(CloudCalibrationTest, RefusesARobotOfAnotherSizeAndNamesBoth) {
   for (const double scale : {1.4, 0.75, 1.15}) {
     SCOPED_TRACE(scale);
-    robot::RobotBody body = robot::BuildRobotBody(QuickFourLegs());
+    robot::RobotBody body = robot::BuildRobotBody(QuickFourLegRobot());
     robot::ScaleBody(scale, &body);
     robot::RobotModel larger(std::move(body));
     std::vector<double> pulls_m = kPulls_m;

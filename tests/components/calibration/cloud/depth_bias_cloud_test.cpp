@@ -67,7 +67,7 @@ class DepthBiasOfClouds : public ::testing::Test {
     return std::sqrt(squares_m2 / static_cast<double>(cloud.Count()));
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   geometry::RigidTransform truth_ = TruePose();
   geometry::DepthBiasMap true_bias_;
   CloudSettings settings_;

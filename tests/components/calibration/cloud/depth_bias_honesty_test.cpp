@@ -34,7 +34,7 @@ class DepthBiasOfAnotherRobot : public ::testing::Test {
   /// From a mould that is off by waves of 0.2 mm (RMS, 60 to 200 mm long), of a material that gives
   /// way by 3 % more (one sigma), with wider guides, in which cables sink in otherwise.
   std::unique_ptr<robot::RobotModel> Mould() {
-    robot::RobotDescription description = QuickFourLegs();
+    robot::RobotDescription description = QuickFourLegRobot();
     std::normal_distribution<double> normal;
     description.material.youngs_modulus_Pa *= 1.0 + 0.03 * normal(random_);
     for (robot::CableSettings& cable : description.cables) cable.guide_radius_m = 2.5e-3;
@@ -108,7 +108,7 @@ class DepthBiasOfAnotherRobot : public ::testing::Test {
     return std::sqrt(squares_m2 / count);
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   std::unique_ptr<robot::RobotModel> robot_;
   geometry::RigidTransform truth_ = TruePose();
   geometry::DepthBiasMap true_bias_;

@@ -60,7 +60,7 @@ class SkinErrorsTest : public ::testing::Test {
     return sum;
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   Eigen::VectorXd rest_m_ = model_->RestState().x_m;
   std::vector<Eigen::VectorXd> shapes_m_{2};
   std::vector<CalibrationFrame> frames_{2};

@@ -49,7 +49,7 @@ class SkinInViewTest : public ::testing::Test {
     skin_.LookFrom(truth_);
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   geometry::RigidTransform truth_ = TruePose();
   geometry::TriangleSurface surface_ = SurfaceOf(model_->body());
   SkinInView skin_{model_->body()};

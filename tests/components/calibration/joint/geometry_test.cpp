@@ -53,8 +53,8 @@ class GeometryOfOurRobot : public testing::Test {
     EXPECT_LT(found->standard_error, most_error) << name;
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
-  std::unique_ptr<robot::RobotModel> truth_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
+  std::unique_ptr<robot::RobotModel> truth_ = Build(QuickFourLegRobot());
   std::mt19937_64 random_{7};
 };
 
@@ -78,7 +78,7 @@ TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
 TEST_F(GeometryOfOurRobot, LoadsStayWhereTheyAreAsItsSizeChanges) {
   constexpr double kScale = 1.04;
   const LoadPlace place{{0.06, 0.0, 0.085}, 0.006};
-  robot::RobotBody body = robot::BuildRobotBody(QuickFourLegs());
+  robot::RobotBody body = robot::BuildRobotBody(QuickFourLegRobot());
   robot::ScaleBody(kScale, &body);
   robot::RobotModel larger(std::move(body));
   std::vector<CalibrationFrame> frames;
@@ -151,7 +151,7 @@ TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
       file.cable_routes.begin(), file.cable_routes.end(),
       [&](const robot::CalibratedRoute& one) { return one.cable == model_->CableNames()[1]; });
   ASSERT_NE(route, file.cable_routes.end());
-  const auto calibrated = Build(QuickFourLegs());
+  const auto calibrated = Build(QuickFourLegRobot());
   robot::ApplyCalibration(file, calibrated.get());
   EXPECT_LT((calibrated->cable(1).pull_point_m() - truth_->cable(1).pull_point_m()).norm(),
             4.0 * route->standard_error_m.norm());
@@ -166,10 +166,10 @@ TEST_F(GeometryOfOurRobot, EyeletsOfItsCablesShow) {
   moved.cable_routes = {{.cable = model_->CableNames()[kCable],
                          .point = 1,
                          .moved_m = 1.5e-3 * across[0].direction - 1e-3 * across[1].direction}};
-  robot::RobotBody body = robot::BuildRobotBody(QuickFourLegs());
+  robot::RobotBody body = robot::BuildRobotBody(QuickFourLegRobot());
   robot::ApplyGeometry(moved, &body);
   robot::RobotModel truth(std::move(body));
-  const auto with_room = BuildWithRoom(QuickFourLegs(), 4e-3);
+  const auto with_room = BuildWithRoom(QuickFourLegRobot(), 4e-3);
   const JointCalibration fit = CalibrateFrames(
       *with_room, See(truth), nullptr,
       {.drive_offsets = false, .cable_eyelet_sigma_m = 1e-3, .marker_placement_sigma_m = 0.0});
@@ -179,7 +179,7 @@ TEST_F(GeometryOfOurRobot, EyeletsOfItsCablesShow) {
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
   robot::CalibrationFile file = robot::DescribeForCalibration(*with_room);
   TakeFit(fit, *with_room, &file);
-  robot::RobotBody calibrated = robot::BuildRobotBody(QuickFourLegs());
+  robot::RobotBody calibrated = robot::BuildRobotBody(QuickFourLegRobot());
   robot::ApplyGeometry(file, &calibrated);
   const auto eyelet_m = [](const robot::RobotBody& of) {
     return of.cables[kCable].eyelets[0].rest_m;
@@ -198,7 +198,7 @@ TEST_F(GeometryOfOurRobot, EyeletsNeedAModelWithRoom) {
 }
 
 TEST_F(GeometryOfOurRobot, PathsArePutBackWhereNothingIsFound) {
-  const auto model = BuildWithRoom(QuickFourLegs(), 4e-3);
+  const auto model = BuildWithRoom(QuickFourLegRobot(), 4e-3);
   const Eigen::Vector3d guide_m = model->cable(0).pull_point_m();
   const Eigen::VectorXd rest_length_m = model->cable_rest_length_m();
   const std::vector<double> weights = model->cable(1).eyelets()[0].weights;

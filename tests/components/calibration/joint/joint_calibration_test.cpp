@@ -58,14 +58,14 @@ robot::RobotDescription WithMarkers(robot::RobotDescription robot, const std::ve
 
 TEST(JointTableOne, IsFoundOnTheDiamond) {
   const auto robot = DiamondWithMarkers();
-  if (!robot) GTEST_SKIP() << "no diamond.vtu in " << test_support::DataFolder();
+  if (!robot) GTEST_SKIP() << "no diamond.vtu in " << test_support::MeasuredDataFolder();
   FindTableOne(*Build(WithMarkers(*robot, kFiveMarkers)));
   FindTableOne(*Build(WithMarkers(*robot, kNineMarkers)));
 }
 
 TEST(JointTableOne, IsFoundOnOurRobot) {
-  FindTableOne(*Build(WithMarkers(QuickFourLegs(), kFiveMarkers)));
-  FindTableOne(*Build(WithMarkers(QuickFourLegs(), kNineMarkers)));
+  FindTableOne(*Build(WithMarkers(QuickFourLegRobot(), kFiveMarkers)));
+  FindTableOne(*Build(WithMarkers(QuickFourLegRobot(), kNineMarkers)));
 }
 
 class JointCalibrationOfOurRobot : public testing::Test {
@@ -73,7 +73,7 @@ class JointCalibrationOfOurRobot : public testing::Test {
   JointCalibrationOfOurRobot() : model_(Build(OfOneMaterial())) {}
 
   static robot::RobotDescription OfOneMaterial() {
-    robot::RobotDescription robot = QuickFourLegs();
+    robot::RobotDescription robot = QuickFourLegRobot();
     robot.regions.clear();
     return robot;
   }

@@ -15,7 +15,7 @@ namespace {
 class JointDerivatives : public testing::Test {
  protected:
   explicit JointDerivatives(double eyelet_room_m = 0.0)
-      : model_(BuildWithRoom(QuickFourLegs(), eyelet_room_m)) {
+      : model_(BuildWithRoom(QuickFourLegRobot(), eyelet_room_m)) {
     const auto pulled = Commands(Kind::kDisplacement, {0.012, 0.010, 0.011, 0.009});
     const auto tight = Commands(Kind::kTension, {1.2, 0.7, 1.0, 0.5});
     setup_.frames = {See(*model_, TableOnePose(), "pulled", pulled, {}, 1e-4),

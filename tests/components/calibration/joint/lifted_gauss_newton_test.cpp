@@ -87,7 +87,7 @@ class ApproachToTheSolution : public testing::Test {
     EXPECT_TRUE(lifted_gauss_newton.variables.isApprox(all_the_way.variables, 1e-4));
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
 };
 
 TEST_F(ApproachToTheSolution, EndsInBalanceWithTensionsOfWhichNothingIsKnown) {

@@ -25,9 +25,8 @@ constexpr int kSettings = 6;
 
 /// The body of the virtual bench: of another mesh and modulus than the robot file's.
 robot::RobotDescription BenchBody() {
-  robot::RobotDescription robot = FourLegs();
-  robot.mesh.file =
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/scenarios/four_leg_coarse.msh";
+  robot::RobotDescription robot = FourLegRobot();
+  robot.mesh.file = test_support::CoarseFourLegMesh();
   robot.material.youngs_modulus_Pa = 96.7e3;
   return robot;
 }
@@ -67,7 +66,7 @@ class TableTwo : public testing::Test {
   }
 
   std::unique_ptr<robot::RobotModel> bench_ = Build(BenchBody());
-  std::unique_ptr<robot::RobotModel> model_ = Build(FourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(FourLegRobot());
 };
 
 struct Worst {
@@ -167,14 +166,14 @@ MeshError Differ(robot::RobotModel& bench, robot::RobotModel& model,
 /// their guides grow; linear elements, which are too stiff, differ by several times as much.
 TEST_F(TableTwo, WhatCountsAsPlacementIsWhatTheMeshesDifferBy) {
   const auto with = [](robot::RobotDescription robot, double guide_m) {
-    robot.material = FourLegs().material;
+    robot.material = FourLegRobot().material;
     for (robot::CableSettings& cable : robot.cables) cable.guide_radius_m = guide_m;
     return Build(robot);
   };
   std::vector<double> alike_m;
   for (const double guide_m : {0.0, 0.0015, 0.004}) {
     const MeshError error =
-        Differ(*with(BenchBody(), guide_m), *with(FourLegs(), guide_m), Pulled_m);
+        Differ(*with(BenchBody(), guide_m), *with(FourLegRobot(), guide_m), Pulled_m);
     std::printf("guides of %.1f mm: %.3f mm alike in all settings, %.3f mm varying\n",
                 1e3 * guide_m, 1e3 * error.alike_m, 1e3 * error.varying_m);
     alike_m.push_back(error.alike_m);
@@ -186,7 +185,7 @@ TEST_F(TableTwo, WhatCountsAsPlacementIsWhatTheMeshesDifferBy) {
   EXPECT_GT(alike_m[0], 1.25 * alike_m[1]);
   EXPECT_LT(alike_m[2], 0.75 * alike_m[1]);
   const MeshError linear =
-      Differ(*with(QuickFourLegs(), 0.0015), *with(FourLegs(), 0.0015), Pulled_m);
+      Differ(*with(QuickFourLegRobot(), 0.0015), *with(FourLegRobot(), 0.0015), Pulled_m);
   std::printf("linear elements: %.3f mm alike, %.3f mm varying\n", 1e3 * linear.alike_m,
               1e3 * linear.varying_m);
   EXPECT_GT(linear.alike_m, 2.0 * believed_m);

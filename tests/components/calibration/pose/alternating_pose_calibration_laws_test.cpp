@@ -20,7 +20,7 @@ using Vector10d = Eigen::Matrix<double, 10, 1>;
 class Algorithm1Laws : public testing::Test {
  protected:
   Algorithm1Laws()
-      : model_(Build(QuickFourLegs())), truth_(SolveTensions(*model_, kTableOneForces_N)) {}
+      : model_(Build(QuickFourLegRobot())), truth_(SolveTensions(*model_, kTableOneForces_N)) {}
 
   std::vector<MarkerSighting> Seen(double sigma_m = 1e-4) const {
     return Sight(*model_, truth_, TableOnePose(), kNineMarkers, sigma_m);

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 class Algorithm1Refusals : public testing::Test {
  protected:
-  Algorithm1Refusals() : Algorithm1Refusals(QuickFourLegs()) {}
+  Algorithm1Refusals() : Algorithm1Refusals(QuickFourLegRobot()) {}
   explicit Algorithm1Refusals(const robot::RobotDescription& robot)
       : model_(Build(robot)), truth_(SolveTensions(*model_, kTableOneForces_N)) {}
 
@@ -181,7 +181,7 @@ TEST_F(Algorithm1Refusals, ZeroMotionIsSaid) {
 class MarkersOnTheFixedPart : public Algorithm1Refusals {
  protected:
   static robot::RobotDescription Robot() {
-    robot::RobotDescription robot = QuickFourLegs();
+    robot::RobotDescription robot = QuickFourLegRobot();
     robot.markers = {{"north", {0.0, 0.09, 0.0}, {}},
                      {"west", {-0.09, 0.0, 0.0}, {}},
                      {"south", {0.0, -0.09, 0.0}, {}},

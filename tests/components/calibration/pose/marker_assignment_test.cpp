@@ -24,7 +24,7 @@ constexpr double kMostDeformation_m = 0.020;
 
 /// Twelve markers on the four legs, no turn of which looks like another.
 robot::RobotDescription TwelveMarkers() {
-  robot::RobotDescription robot = QuickFourLegs();
+  robot::RobotDescription robot = QuickFourLegRobot();
   robot.markers.clear();
   for (const Eigen::Vector3d& position_m :
        {Eigen::Vector3d(0.004, 0.0, 0.125), Eigen::Vector3d(0.0212, 0.0212, 0.103),
@@ -162,7 +162,7 @@ TEST_F(AssignMarkersOnFourLegs, TheSamePictureGivesTheSameAssignment) {
 
 /// The four legs as they are look the same after a quarter turn.
 TEST_F(AssignMarkersOnFourLegs, AQuarterTurnThatChangesNothingIsSaidToBeAmbiguous) {
-  const auto model = Build(QuickFourLegs());
+  const auto model = Build(QuickFourLegRobot());
   const SolvedShapes solved = SolveMarkerShapes(*model, Eigen::Vector4d::Constant(2.0));
   ASSERT_TRUE(solved.status.ok()) << solved.status.message();
   const Eigen::Matrix3Xd body_m = MarkersOf(*model, SolveTensions(*model, kTableOneForces_N));

@@ -49,24 +49,24 @@ void ExpectTableOne(const robot::RobotDescription& robot, const std::vector<int>
 
 TEST(TableOne, FiveMarkersOnTheDiamond) {
   const auto robot = DiamondWithMarkers();
-  if (!robot) GTEST_SKIP() << "no diamond in " << test_support::DataFolder();
+  if (!robot) GTEST_SKIP() << "no diamond in " << test_support::MeasuredDataFolder();
   ExpectTableOne(*robot, {0, 5, 6, 7, 8});
 }
 
 TEST(TableOne, NineMarkersOnTheDiamond) {
   const auto robot = DiamondWithMarkers();
-  if (!robot) GTEST_SKIP() << "no diamond in " << test_support::DataFolder();
+  if (!robot) GTEST_SKIP() << "no diamond in " << test_support::MeasuredDataFolder();
   ExpectTableOne(*robot, kNineMarkers);
 }
 
-TEST(TableOne, FiveMarkersOnTheFourLegs) { ExpectTableOne(FourLegs(), kFiveMarkers); }
+TEST(TableOne, FiveMarkersOnTheFourLegs) { ExpectTableOne(FourLegRobot(), kFiveMarkers); }
 
-TEST(TableOne, NineMarkersOnTheFourLegs) { ExpectTableOne(FourLegs(), kNineMarkers); }
+TEST(TableOne, NineMarkersOnTheFourLegs) { ExpectTableOne(FourLegRobot(), kNineMarkers); }
 
 /// As published, with a number of iterations instead of a tolerance: more of the inner ones bring
 /// little, since the pose is held in them.
 TEST(TableOne, InnerIterationsChangeTheWayAndNotTheEnd) {
-  const auto model = Build(QuickFourLegs());
+  const auto model = Build(QuickFourLegRobot());
   const fem::StaticState truth = SolveTensions(*model, kTableOneForces_N);
   const auto sightings = Sight(*model, truth, TableOnePose(), kNineMarkers);
   const PoseAndInputs one = RunAlgorithm1(*model, sightings, {.inner_iterations = 1});
@@ -78,7 +78,7 @@ TEST(TableOne, InnerIterationsChangeTheWayAndNotTheEnd) {
 }
 
 TEST(TableOne, TheNumberOfIterationsIsKeptWithoutATolerance) {
-  const auto model = Build(QuickFourLegs());
+  const auto model = Build(QuickFourLegRobot());
   const fem::StaticState truth = SolveTensions(*model, kTableOneForces_N);
   const PoseAndInputs found =
       RunAlgorithm1(*model, Sight(*model, truth, TableOnePose(), kNineMarkers),

@@ -60,7 +60,7 @@ class FourLegsWithoutNames : public testing::Test {
     EXPECT_LT(found.joint.T_robot_camera.rotation().angularDistance(pose.rotation()), 0.02);
   }
 
-  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegs());
+  std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   std::mt19937 random_{20261122};
   std::vector<std::vector<int>> truth_;
   UnlabelledSettings settings_;

@@ -16,6 +16,7 @@
 #include "components/calibration/pose/marker_assignment.hpp"
 #include "tests/components/calibration/table_one.hpp"
 #include "tests/components/perception/markers/marked_scene.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::perception {
 namespace {
@@ -24,7 +25,7 @@ using calibration::MarkerAssignment;
 
 /// Thirteen that face upwards, no turn of which looks like another.
 robot::RobotDescription ManyMarkers() {
-  robot::RobotDescription robot = calibration::QuickFourLegs();
+  robot::RobotDescription robot = test_support::QuickFourLegRobot();
   robot.markers.clear();
   for (const Eigen::Vector3d& position_m :
        {Eigen::Vector3d(0.003, 0.002, 0.125), Eigen::Vector3d(0.003, 0.0470, 0.0980),

@@ -10,6 +10,7 @@
 #include "libs/geometry/closest_point.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "libs/scenario/scenario_sections.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::perception {
 
@@ -40,12 +41,8 @@ virtual_camera::RobotSurface SkinOf(const robot::RobotDescription& robot) {
 }
 
 const virtual_camera::RobotSurface& FourLegSurface() {
-  static const virtual_camera::RobotSurface skin = [] {
-    auto robot =
-        robot::ReadRobotFile(PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml", app::LoadYaml);
-    robot.element = fem::ElementType::kTet4;
-    return SkinOf(OnSkin(robot));
-  }();
+  static const virtual_camera::RobotSurface skin =
+      SkinOf(OnSkin(test_support::LinearFourLegRobot()));
   return skin;
 }
 

@@ -3,22 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_report.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::fem {
 namespace {
 
-std::filesystem::path DataFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data";
-}
-
 TEST(Diamond, IsReadAsItsPageSays) {
-  const auto file = DataFolder() / "diamond" / "diamond.vtu";
+  const auto file = test_support::MeasuredDataFolder() / "diamond" / "diamond.vtu";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
   const TetMesh mesh = ReadMesh(file, 1e-3);
   const MeshReport report = ReportMesh(mesh);

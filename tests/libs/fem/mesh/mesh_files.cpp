@@ -3,11 +3,8 @@
 
 #include "tests/libs/fem/mesh/mesh_files.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
@@ -76,25 +73,6 @@ std::string Replaced(std::string text, std::string_view from, std::string_view t
   const size_t start = text.find(from);
   PALPATE_CHECK(start != std::string::npos, from);
   return text.replace(start, from.size(), to);
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "palpate_mesh_XXXXXX").string();
-  PALPATE_CHECK(mkdtemp(name.data()) != nullptr, name);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::Write(const MeshFile& file) const {
-  std::ofstream stream(path_ / file.name, std::ios::binary);
-  stream.write(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
-  stream.close();
-  PALPATE_CHECK(!stream.fail(), file.name);
-  return path_ / file.name;
 }
 
 TetMesh ReadBytes(const MeshFile& file) {

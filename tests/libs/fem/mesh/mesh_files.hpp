@@ -41,22 +41,6 @@ std::string AsciiGmsh41(const TetMesh& mesh);
 /// `text` with the one occurrence of `from` replaced.
 std::string Replaced(std::string text, std::string_view from, std::string_view to);
 
-/// A folder that lives as long as the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes the file into the folder; its path.
-  std::filesystem::path Write(const MeshFile& file) const;
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Reads from memory as ReadMesh does from disk.
 TetMesh ReadBytes(const MeshFile& file);
 /// What InputError says when `file` is read; empty where it is read without one.

@@ -12,6 +12,7 @@
 #include "libs/core/error.hpp"
 #include "libs/fem/mesh_report.hpp"
 #include "tests/libs/fem/mesh/mesh_files.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::fem {
 namespace {
@@ -50,7 +51,7 @@ class EveryFormat : public testing::TestWithParam<int> {};
 TEST_P(EveryFormat, GivesBackTheMeshThatWasWritten) {
   const TetMesh tet4 = CubeMesh(2);
   const TetMesh mesh = GetParam() == 4 ? tet4 : MakeQuadratic(tet4);
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   for (const MeshFile& file : test::AllFiles(mesh, {})) {
     SCOPED_TRACE(file.name);
     std::vector<std::string> notes;
@@ -114,7 +115,7 @@ TEST(ReadMesh, TurnsAllCellsWhereTheConventionIsTheOppositeOneAndSaysSo) {
   for (const TetMesh& mesh : {CubeMesh(1), MakeQuadratic(CubeMesh(1))}) {
     TetMesh mirrored = mesh;
     mirrored.nodes_m.row(0) *= -1.0;
-    const test::TemporaryFolder folder;
+    const test_support::TestFolder folder;
     std::vector<std::string> notes;
     const TetMesh read = ReadMesh(folder.Write({"m.vtu", AsciiVtu(mirrored)}), 1.0, &notes);
     EXPECT_THAT(notes, ElementsAre(HasSubstr("were turned")));
@@ -128,14 +129,14 @@ TEST(ReadMesh, LeavesSingleInvertedCellsAsTheyAre) {
   TetMesh mesh = CubeMesh(1);
   std::swap(mesh.cells(0, 3), mesh.cells(1, 3));
   std::vector<std::string> notes;
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   const TetMesh read = ReadMesh(folder.Write({"m.vtu", AsciiVtu(mesh)}), 1.0, &notes);
   EXPECT_TRUE(test::SameMesh(read, mesh));
   EXPECT_THAT(notes, IsEmpty());
 }
 
 TEST(ReadMesh, RefusesFilesThatAreMissingEmptyOrOfUnknownEnding) {
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   EXPECT_THAT(RefusalFromDisk(folder.path() / "none.vtu"), HasSubstr("none.vtu: mesh file not"));
   EXPECT_THAT(RefusalFromDisk(folder.Write({"empty.msh", ""})), HasSubstr("is empty"));
   EXPECT_THAT(RefusalFromDisk(folder.Write({"cube.stl", "solid"})), HasSubstr(".vtu, .vtk, .msh"));
@@ -144,7 +145,7 @@ TEST(ReadMesh, RefusesFilesThatAreMissingEmptyOrOfUnknownEnding) {
 }
 
 TEST(ReadMesh, ReadsEndingsInCapitals) {
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   EXPECT_EQ(ReadMesh(folder.Write({"CUBE.VTU", AsciiVtu(CubeMesh(1))}), 1.0).CellCount(), 6);
 }
 
@@ -168,7 +169,7 @@ class GmshProgram : public testing::Test {
     return ReadMesh(folder_.path() / file, 1e-3);
   }
 
-  test::TemporaryFolder folder_;
+  test_support::TestFolder folder_;
 };
 
 TEST_F(GmshProgram, WritesTheSameMeshInEveryFormat) {

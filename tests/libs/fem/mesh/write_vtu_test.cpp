@@ -12,6 +12,7 @@
 #include "libs/core/error.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "tests/libs/fem/mesh/mesh_files.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::fem {
 namespace {
@@ -35,7 +36,7 @@ std::string FailureToWrite(const TetMesh& mesh, const std::filesystem::path& fil
 }
 
 TEST(WriteVtu, WritesWhatReadMeshReadsBackExactly) {
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   // The large one has more bytes of coordinates than one block of the compressor.
   for (const TetMesh& mesh :
        {test::CubeMesh(3), MakeQuadratic(test::CubeMesh(3)), test::CubeMesh(36)}) {
@@ -50,7 +51,7 @@ TEST(WriteVtu, WritesWhatReadMeshReadsBackExactly) {
 }
 
 TEST(WriteVtu, WritesFieldsOfNodesAndCells) {
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   const TetMesh mesh = test::CubeMesh(1);
   const VtuFields fields = {.of_nodes = {{"displacement_m", Eigen::MatrixXd::Constant(3, 8, 0.125)},
                                          {"a<b & \"c\"", Eigen::RowVectorXd::LinSpaced(8, 0, 7)}},
@@ -70,7 +71,7 @@ TEST(WriteVtu, WritesFieldsOfNodesAndCells) {
 }
 
 TEST(WriteVtu, SaysWhereItCannotWrite) {
-  const test::TemporaryFolder folder;
+  const test_support::TestFolder folder;
   EXPECT_THAT(FailureToWrite(test::CubeMesh(1), folder.path() / "none" / "out.vtu"),
               AllOf(HasSubstr("none/out.vtu: cannot be written"), HasSubstr("No such file")));
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";

@@ -12,15 +12,13 @@
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/geometry/rigid_transform.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::fem {
 namespace {
 
 std::filesystem::path DiamondFile() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  const std::filesystem::path data =
-      folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data";
-  return data / "diamond" / "diamond.vtu";
+  return test_support::MeasuredDataFolder() / "diamond" / "diamond.vtu";
 }
 
 /// As the measured data's README places it: +90 degrees about x, then 35 mm up.

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -14,15 +13,12 @@
 
 #include "libs/app/yaml.hpp"
 #include "libs/robot/robot_model.hpp"
+#include "tests/support/measured_data.hpp"
 
 namespace palpate::robot {
 namespace {
 
-std::filesystem::path DiamondFolder() {
-  const char* folder = std::getenv("PALPATE_DATA_DIR");
-  return std::filesystem::path(folder != nullptr ? folder : PALPATE_SOURCE_DIR "/../shared/data") /
-         "diamond";
-}
+std::filesystem::path DiamondFolder() { return test_support::MeasuredDataFolder() / "diamond"; }
 
 /// The robot file that a user writes after the data's README.
 std::string RobotText(const std::string& model, const std::string& element) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "tests/support/random_loading.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -89,7 +90,7 @@ Eigen::VectorXd PathOfFeaturePoints(const RobotDescription& robot,
 }
 
 TEST(FrameTracker, FollowsAlikeOnAnyNumberOfThreads) {
-  const RobotDescription robot = test_support::FourLegRobot();
+  const RobotDescription robot = test_support::LockingFourLegRobot();
   const Eigen::VectorXd alone_m = PathOfFeaturePoints(robot, {.threads = 1});
   for (const int threads : {2, 3}) {
     const Eigen::VectorXd path_m = PathOfFeaturePoints(robot, {.threads = threads});
@@ -99,7 +100,7 @@ TEST(FrameTracker, FollowsAlikeOnAnyNumberOfThreads) {
 }
 
 TEST(FrameTracker, FollowsAlikeWithEachSolver) {
-  const RobotDescription robot = test_support::FourLegRobot();
+  const RobotDescription robot = test_support::LockingFourLegRobot();
   const Eigen::VectorXd expected_m = PathOfFeaturePoints(robot, {.solver = "cholmod_simplicial"});
   for (const char* solver : {"multifrontal", "cholmod_supernodal"}) {
     const Eigen::VectorXd path_m = PathOfFeaturePoints(robot, {.solver = solver});
@@ -147,7 +148,7 @@ TEST(FrameTracker, ConvergesOnTheDiamondInFourStepsWhileACableMovesOneMillimetre
 }
 
 TEST(FrameTracker, ConvergesOnOurRobotInFourStepsWhileACableMovesOneMillimetreAFrame) {
-  ExpectConvergenceInFourSteps(test_support::FourLegRobot());
+  ExpectConvergenceInFourSteps(test_support::LockingFourLegRobot());
 }
 
 TEST(FrameTracker, OneExactStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMillimetre) {
@@ -157,11 +158,11 @@ TEST(FrameTracker, OneExactStepAFrameFollowsTheDiamondWithinThreeHundredthsOfAMi
 }
 
 TEST(FrameTracker, OneExactStepAFrameFollowsOurRobotWithinThreeHundredthsOfAMillimetre) {
-  ExpectSmallErrorWithOneStepAFrame(test_support::FourLegRobot());
+  ExpectSmallErrorWithOneStepAFrame(test_support::LockingFourLegRobot());
 }
 
 TEST(FrameTracker, KeepsTheLastGoodStateApart) {
-  Sweep sweep(test_support::FourLegRobot());
+  Sweep sweep(test_support::LockingFourLegRobot());
   FrameTracker tracker(sweep.model(), {.relative_tolerance = 1e-8, .max_exact_steps = 1});
   tracker.Start(sweep.truth());
   const Eigen::VectorXd good_m = sweep.truth().x_m;
@@ -183,7 +184,7 @@ TEST(FrameTracker, KeepsTheLastGoodStateApart) {
 }
 
 TEST(FrameTracker, SaysThatACableIsAtItsLimit) {
-  RobotDescription robot = test_support::FourLegRobot();
+  RobotDescription robot = test_support::LockingFourLegRobot();
   robot.cables[0].max_tension_N = 0.5;
   Sweep sweep(robot);
   FrameTracker tracker(sweep.model(), {.relative_tolerance = 1e-8});

@@ -5,6 +5,7 @@
 
 #include "libs/robot/frame_tracker.hpp"
 #include "tests/support/random_loading.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -96,7 +97,7 @@ TEST(RandomLoadings, EveryFrameOfTheDiamondConvergesOrSaysThatItDidNot) {
 }
 
 TEST(RandomLoadings, EveryFrameOfOurRobotConvergesOrSaysThatItDidNot) {
-  RunLoadings("four_leg", test_support::FourLegRobot(), 60);
+  RunLoadings("four_leg", test_support::LockingFourLegRobot(), 60);
 }
 
 }  // namespace

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <Eigen/Geometry>
-#include <filesystem>
 
-#include "libs/app/yaml.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "tests/libs/robot/sensitivity/robot_case.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::robot {
 namespace {
@@ -22,9 +21,7 @@ class FourLegSensitivity : public testing::TestWithParam<CaseKind> {
   static constexpr double kDensity_kg_m3 = 1070.0;
 
   FourLegSensitivity() {
-    const std::filesystem::path file =
-        std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml";
-    description_ = ReadRobotFile(file, app::LoadYaml);
+    description_ = test_support::FourLegRobot();
     description_.element = GetParam().element;
     if (GetParam().element == fem::ElementType::kTet10) {
       description_.material.volumetric = fem::Volumetric::kMeanDilatation;

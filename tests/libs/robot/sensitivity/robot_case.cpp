@@ -8,6 +8,7 @@
 #include "libs/fem/shape_functions.hpp"
 #include "libs/robot/sensitivity/point_sensitivity.hpp"
 #include "tests/libs/fem/points/meshes.hpp"
+#include "tests/support/robots.hpp"
 
 namespace palpate::robot {
 
@@ -70,20 +71,9 @@ RobotCase SoftBeam(const CaseKind& kind) {
   if (quadratic) body.mesh = fem::MakeQuadratic(body.mesh);
   const auto volumetric =
       quadratic ? fem::Volumetric::kMeanDilatation : fem::Volumetric::kPointwise;
-  body.materials = {{fem::MaterialModel::kStableNeoHookean, volumetric, 65e3, 0.45},
-                    {fem::MaterialModel::kNeoHookean, volumetric, 45e3, 0.42}};
-  body.region_names = {"far"};
-  for (int cell = 0; cell < body.mesh.CellCount(); ++cell) {
-    double x_m = 0.0;
-    for (int a = 0; a < 4; ++a) x_m += 0.25 * body.mesh.nodes_m(0, body.mesh.cells(a, cell));
-    body.material_of_cell.push_back(x_m > 0.06 ? 1 : 0);
-  }
-  body.fixed = fem::FixedDirections::Constant(3, body.mesh.NodeCount(), false);
-  for (int node = 0; node < body.mesh.NodeCount(); ++node) {
-    if (body.mesh.nodes_m(0, node) < 1e-9) body.fixed.col(node).setConstant(true);
-  }
-  body.node_mass_kg = fem::ConsistentNodalMass_kg(
-      body.mesh, Eigen::VectorXd::Constant(body.mesh.CellCount(), 500.0));
+  test_support::MakeTwoMaterialBeam({fem::MaterialModel::kStableNeoHookean, volumetric, 65e3, 0.45},
+                                    {fem::MaterialModel::kNeoHookean, volumetric, 45e3, 0.42},
+                                    &body);
   body.gravity_m_s2 = {1.0, 2.0, -9.5};
   const fem::PointLocator locator(body.mesh);
   const std::vector<Eigen::Vector3d> pull_points_m{

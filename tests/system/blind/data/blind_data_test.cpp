@@ -15,6 +15,7 @@
 #include "libs/core/file.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/robot_body.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/support/test_folder.hpp"
 #include "tests/system/blind/corruption.hpp"
 #include "tests/system/blind/generator.hpp"
@@ -38,13 +39,11 @@ const ActiveEffect kMisplaced{
     .id = "marker_misplacement", .where = {"marker:tip"}, .parameters = {{"d_m", kMisplaced_m}}};
 const ActiveEffect kLate{.id = "lag", .where = {"body"}, .parameters = {{"delay_s", 0.2}}};
 
-const fs::path kRobot = fs::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml";
-
 class BlindData : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new system_test::TestFolder;
-    generator_ = new Generator(kRobot, *folder_ / "");
+    folder_ = new TestFolder;
+    generator_ = new Generator(test_support::RobotFile("four_leg"), *folder_ / "");
     generator_->Keep({"R0_rest", "RA_north", "RB_repeat", "RZ_rest"});
     generator_->Make({kMisplaced}, kSeed, Experiment(), Answer());
     generator_->Make({kLate}, kSeed, Late(), *folder_ / "late.answer.json");
@@ -85,12 +84,12 @@ class BlindData : public testing::Test {
     return experiment::ReadExperiment(folder, app::LoadYaml);
   }
 
-  static system_test::TestFolder* folder_;
+  static TestFolder* folder_;
   static Generator* generator_;
   TestFolder copies_;
 };
 
-system_test::TestFolder* BlindData::folder_ = nullptr;
+TestFolder* BlindData::folder_ = nullptr;
 Generator* BlindData::generator_ = nullptr;
 
 TEST_F(BlindData, TheAnswerIsWhatWasHiddenWithoutClutter) {
@@ -201,7 +200,7 @@ TEST_F(BlindData, CorruptionsHitOneRecordingAndWhatTheySay) {
 }
 
 TEST_F(BlindData, TheOtherRobotIsOneThatCanBeBuilt) {
-  const robot::RobotDescription robot = robot::ReadRobotFile(kRobot, app::LoadYaml);
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   std::set<std::string> names;
   for (std::uint64_t seed = kSeed; seed < kSeed + 8; ++seed) {
     const fs::path file = OtherRobotFile(seed, robot, copies_.path());

@@ -8,6 +8,7 @@
 
 #include "libs/scenario/effect_places.hpp"
 #include "libs/scenario/robot_names.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/system/blind/cause_menu.hpp"
 #include "tests/system/blind/judge/made_up.hpp"
 
@@ -19,7 +20,7 @@ constexpr std::uint64_t kSeed = 4711;
 constexpr int kCases = 2000;
 
 TEST(BlindCase, AnyTwentySeedsInARowAreTheMix) {
-  const robot::RobotDescription robot = FourLeg();
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   for (const std::uint64_t first : {std::uint64_t{0}, std::uint64_t{13}, kSeed}) {
     std::map<CaseKind, int> kinds;
     for (std::uint64_t i = 0; i < 20; ++i) ++kinds[DrawCase(first + i, robot).kind];
@@ -32,7 +33,7 @@ TEST(BlindCase, AnyTwentySeedsInARowAreTheMix) {
 }
 
 TEST(BlindCase, FollowsFromItsSeedAlone) {
-  const robot::RobotDescription robot = FourLeg();
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   for (std::uint64_t seed = kSeed; seed < kSeed + 40; ++seed) {
     const BlindCase a = DrawCase(seed, robot);
     const BlindCase b = DrawCase(seed, robot);
@@ -55,7 +56,7 @@ TEST(BlindCase, MenuAndWhatIsLeftOutAreTheCatalogue) {
 }
 
 TEST(BlindCase, EveryCauseAndPlaceComesWithParametersThatTheBenchTakes) {
-  const robot::RobotDescription robot = FourLeg();
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   const scenario::RobotNames names = scenario::NamesOf(robot);
   std::set<std::string> seen;
   for (const CaseRecord& record : DrawnRecords(kSeed, kCases)) {
@@ -81,7 +82,7 @@ TEST(BlindCase, EveryCauseAndPlaceComesWithParametersThatTheBenchTakes) {
 }
 
 TEST(BlindCase, TwoCausesDifferInKindAndOneIsWithheldWithAllThatDoTheSame) {
-  const robot::RobotDescription robot = FourLeg();
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   std::set<Corruption> corruptions;
   bool twin = false;
   bool general = false;

@@ -5,22 +5,16 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "libs/app/yaml.hpp"
 #include "libs/robot/robot_description.hpp"
+#include "tests/support/robots.hpp"
 #include "tests/system/blind/case_runner.hpp"
 #include "tests/system/blind/parameter_errors.hpp"
 
 /// Cases as they are drawn, judged without data: the verdicts are made up.
 namespace palpate::blind {
-
-inline robot::RobotDescription FourLeg() {
-  return robot::ReadRobotFile(
-      std::filesystem::path(PALPATE_SOURCE_DIR) / "config/robots/four_leg.yaml", app::LoadYaml);
-}
 
 /// As the name of the cause, right to 1 % with intervals of 5 %.
 inline Suspect Accused(const scenario::ActiveEffect& effect, double probability = 0.97) {
@@ -48,7 +42,7 @@ inline Verdict RightVerdict(const CaseRecord& record) {
 
 /// `count` cases of seeds from `seed` on, every effect of 1 mm, without verdicts.
 inline std::vector<CaseRecord> DrawnRecords(std::uint64_t seed, int count) {
-  const robot::RobotDescription robot = FourLeg();
+  const robot::RobotDescription robot = test_support::FourLegRobot();
   std::vector<CaseRecord> records;
   for (int i = 0; i < count; ++i) {
     const BlindCase drawn = DrawCase(seed + static_cast<std::uint64_t>(i), robot);
