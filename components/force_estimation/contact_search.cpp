@@ -8,8 +8,8 @@
 #include <limits>
 #include <numeric>
 
-#include "components/force_estimation/statistics.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 

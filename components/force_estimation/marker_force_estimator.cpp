@@ -14,9 +14,9 @@
 #include "components/force_estimation/contact_search.hpp"
 #include "components/force_estimation/fit/force_fitter.hpp"
 #include "components/force_estimation/marker_offset_calibration.hpp"
-#include "components/force_estimation/statistics.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 

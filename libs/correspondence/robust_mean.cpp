@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::correspondence {
 
 namespace {
@@ -22,10 +24,7 @@ double RobustMean::MedianOf(const Eigen::Ref<const Eigen::VectorXd>& value,
   for (Eigen::Index k = 0; k < value.size(); ++k) {
     if (weight[k] > 0.0) sorted_.push_back(value[k]);
   }
-  if (sorted_.empty()) return 0.0;
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-  std::nth_element(sorted_.begin(), middle, sorted_.end());
-  return *middle;
+  return sorted_.empty() ? 0.0 : UpperMedian(sorted_);
 }
 
 void RobustMean::LowerWeights(const Eigen::Ref<const Eigen::VectorXd>& value,

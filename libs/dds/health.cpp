@@ -4,8 +4,8 @@
 #include "libs/dds/health.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "libs/core/statistics.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -19,10 +19,7 @@ double Seconds(HealthReporter::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-double Mean(const std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
+double MeanOr0(const std::vector<double>& values) { return values.empty() ? 0.0 : Mean(values); }
 
 double Max(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
@@ -81,7 +78,7 @@ Message<idl::palpate_msgs::ComponentStatus> HealthReporter::Fill(const Status& s
     message->input_rate_hz = static_cast<double>(counts.received - last_received_) / interval_s;
     message->output_rate_hz = static_cast<double>(counts.published - last_published_) / interval_s;
   }
-  message->latency_mean_s = Mean(counts.latencies_s);
+  message->latency_mean_s = MeanOr0(counts.latencies_s);
   message->latency_max_s = Max(counts.latencies_s);
   return message;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/statistics.hpp"
 #include "libs/experiment/capture_edit.hpp"
 
 namespace palpate::experiment {
@@ -46,9 +47,7 @@ std::optional<double> MedianResidual(const Residuals& residuals_m, std::size_t m
     if (frame[marker]) known_m.push_back(*frame[marker]);
   }
   if (known_m.empty()) return std::nullopt;
-  const auto middle = known_m.begin() + static_cast<std::ptrdiff_t>(known_m.size() / 2);
-  std::nth_element(known_m.begin(), middle, known_m.end());
-  return *middle;
+  return UpperMedian(known_m);
 }
 
 MarkerQuality AssessMarker(const CapturedMarkers& captured, std::size_t marker,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "libs/core/statistics.hpp"
 #include "libs/experiment/captured_markers.hpp"
 #include "libs/experiment/csv_columns.hpp"
 #include "libs/experiment/csv_table.hpp"
@@ -62,9 +63,7 @@ double MedianRate(const std::vector<MarkerFrame>& frames) {
   for (std::size_t i = 1; i < frames.size(); ++i) {
     steps_s.push_back(frames[i].t_s - frames[i - 1].t_s);
   }
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return 1.0 / *middle;
+  return 1.0 / UpperMedian(steps_s);
 }
 
 }  // namespace

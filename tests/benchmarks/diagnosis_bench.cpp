@@ -8,6 +8,7 @@
 #include <iostream>
 #include <string>
 
+#include "libs/core/statistics.hpp"
 #include "tests/benchmarks/diagnosed_robot.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/system/blind/blind_set.hpp"
@@ -42,8 +43,8 @@ void CountAll(benchmark::State& state, const blind::Score& score) {
   Count(state, "covered", score.covered);
   Count(state, "without_verdict", score.without_verdict);
   state.counters["not_made"] = score.not_made;
-  Number(state, "parameter_error_median", blind::Median(score.parameter_errors));
-  Number(state, "heldout_gain_median", blind::Median(score.heldout_gains));
+  Number(state, "parameter_error_median", Median(score.parameter_errors));
+  Number(state, "heldout_gain_median", Median(score.heldout_gains));
   state.counters["calibration_error"] = blind::CalibrationError(score.forecasts);
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/core/text.hpp"
 #include "tests/benchmarks/lazy.hpp"
 #include "tests/benchmarks/sensing_frames.hpp"
@@ -79,7 +80,7 @@ void CountAccuracy(benchmark::State& state, const test_support::Watched& watched
   Count(state, "directions", held.directions);
   Count(state, "direction_mean_deg", kDegrees * held.mean_direction_error_rad);
   Count(state, "direction_largest_deg", kDegrees * held.largest_direction_error_rad);
-  Count(state, "found_from_N", test_support::Median(watched.found_from_N));
+  Count(state, "found_from_N", Median(watched.found_from_N));
 }
 
 /// First part of the names of what these eyes see.
@@ -123,11 +124,11 @@ Benchmark OfBounds(const SharedSets& sets, const std::string& name, const Contac
                   beyond += bound.whole > kWantedError ? 1.0 : 0.0;
                 }
                 state.counters["contacts"] = static_cast<double>(bounds.size());
-                state.counters["noise_median_percent"] = test_support::Median(noise);
-                state.counters["whole_median_percent"] = test_support::Median(whole);
-                state.counters["whole_mean_percent"] = test_support::Mean(whole);
+                state.counters["noise_median_percent"] = Median(noise);
+                state.counters["whole_median_percent"] = Median(whole);
+                state.counters["whole_mean_percent"] = Mean(whole);
                 state.counters["whole_largest_percent"] = test_support::Largest(whole);
-                state.counters["at_place_median_percent"] = test_support::Median(at_place);
+                state.counters["at_place_median_percent"] = Median(at_place);
                 state.counters["beyond_10_percent"] = beyond;
               },
           .max_repetitions = 1};

@@ -11,6 +11,7 @@
 
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/robot/robot_body.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/support/sensing/accuracy.hpp"
@@ -121,13 +122,6 @@ Benchmark OfFrames(const SharedSets& sets, int feature_points) {
   });
 }
 
-/// The smallest value that no less than this share of `values` does not exceed.
-double NearestRank(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
 /// Of frames of one kind.
 struct Costs {
   std::vector<double> time_ms;
@@ -144,9 +138,9 @@ struct Costs {
     const auto mean = [&](const std::vector<double>& values) {
       return std::accumulate(values.begin(), values.end(), 0.0) / count;
     };
-    state.counters[kind + "_median_ms"] = test_support::Median(time_ms);
+    state.counters[kind + "_median_ms"] = Median(time_ms);
     state.counters[kind + "_mean_ms"] = mean(time_ms);
-    state.counters[kind + "_p99_ms"] = NearestRank(time_ms, 0.99);
+    state.counters[kind + "_p99_ms"] = Quantile(time_ms, 0.99);
     state.counters[kind + "_after_mean_ms"] = mean(after_ms);
     state.counters[kind + "_worst_ms"] = *std::max_element(time_ms.begin(), time_ms.end());
     state.counters[kind + "_linearisations"] = linearisations / count;
@@ -194,7 +188,7 @@ void MeasureCosts(benchmark::State& state, const std::vector<PhaseFrame>& frames
       state.counters["held_median_ms"] / state.counters["held_few_points_median_ms"];
   moving.Tell(state, "moving");
   jump.Tell(state, "jump");
-  state.counters["jump_frames_to_estimate"] = test_support::Median(frames_to_estimate);
+  state.counters["jump_frames_to_estimate"] = Median(frames_to_estimate);
   state.counters["jumps_without_estimate"] =
       kContactsOfCosts - static_cast<double>(frames_to_estimate.size());
 }

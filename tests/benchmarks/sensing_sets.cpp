@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/support/sensing/accuracy.hpp"
 #include "tests/support/sensing/ideal_perception.hpp"
@@ -18,7 +19,6 @@ namespace {
 
 using test_support::ContactWish;
 using test_support::FourLegRobot;
-using test_support::Median;
 using test_support::SceneState;
 using test_support::SensingChain;
 using test_support::Watched;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::calibration {
 
 namespace {
@@ -52,9 +54,7 @@ std::vector<Candidate> CandidatesOf(const SkinInView& skin, const Eigen::Matrix3
 double GateOf(const std::vector<Candidate>& candidates, const CloudSettings& settings) {
   std::vector<double> off_m;
   for (const Candidate& candidate : candidates) off_m.push_back(std::abs(candidate.height_m));
-  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
-  std::nth_element(off_m.begin(), middle, off_m.end());
-  return std::clamp(settings.gate_sigmas * *middle / 0.6745, settings.narrowest_gate_m,
+  return std::clamp(settings.gate_sigmas * UpperMedian(off_m) / 0.6745, settings.narrowest_gate_m,
                     settings.widest_gate_m);
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "libs/core/statistics.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::calibration {
@@ -29,12 +30,6 @@ constexpr double kSearchReach = 3.0;
 constexpr double kHalfway = 0.4;
 constexpr double kHopeless = 0.45;
 constexpr Eigen::Index kReturnPulls = 250;
-
-double MedianOf(Eigen::VectorXf values) {
-  const auto middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return static_cast<double>(*middle);
-}
 
 Eigen::Vector3d MeanOf(const std::vector<ThinCloud>& clouds) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
@@ -146,7 +141,8 @@ double Step(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds
 
 ThinCloud Thin(const rgbd::SensedCloud& cloud, double spacing_m) {
   if (cloud.Count() == 0) return {};
-  const double cell = spacing_m / MedianOf(cloud.points_m.row(2));
+  Eigen::VectorXf z_m = cloud.points_m.row(2);
+  const double cell = spacing_m / static_cast<double>(UpperMedian(z_m));
   struct Nearest {
     Eigen::Index point;
     double off;

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/calibration/joint/robust_loss.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::calibration {
-
-double HuberWeight(double norm, double threshold) {
-  return threshold > 0.0 && norm > threshold ? threshold / norm : 1.0;
-}
 
 RobustLoss LossOf(const Eigen::VectorXd& residual, const std::vector<RobustBlock>& blocks,
                   double huber_threshold) {

@@ -10,11 +10,7 @@
 
 namespace palpate::calibration {
 
-/// Huber's weight of a block whose residual has this norm: 1 up to `threshold`, then falling; 1
-/// where the threshold is not above 0.
-double HuberWeight(double norm, double threshold);
-
-/// What residuals cost.
+/// What residuals cost where blocks of them have Huber's loss (HuberWeight of their norms).
 struct RobustLoss {
   double objective = 0.0;   ///< LeastSquaresProblem's
   Eigen::VectorXd weights;  ///< [rows] gradient J' w r, Gauss-Newton's Hessian J' w J

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -90,7 +92,7 @@ void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
     Motion pull = -seen->information * seen->motion;
     for (const Row& row : rows) {
       const double left = std::abs(row.distance - row.direction.dot(change));
-      const double weight = left > kHuber ? kHuber / left : 1.0;
+      const double weight = HuberWeight(left, kHuber);
       seen->information += weight * row.direction * row.direction.transpose();
       pull += weight * row.distance * row.direction;
     }

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/temporal_correlation.hpp"
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 

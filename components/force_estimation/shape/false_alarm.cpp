@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 

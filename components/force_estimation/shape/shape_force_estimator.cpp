@@ -13,8 +13,8 @@
 #include "components/force_estimation/shape/depth_bias.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
-#include "components/force_estimation/statistics.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -77,7 +79,7 @@ bool ShapeTargets::Reweight(const Eigen::VectorXd& residual_m) {
   bool changed = false;
   for (Eigen::Index r = 0; r < residual_m.size(); ++r) {
     const double off = std::abs(residual_m[r]) / sigma_m_[r];
-    const double share = off > config_.robust_threshold ? config_.robust_threshold / off : 1.0;
+    const double share = HuberWeight(off, config_.robust_threshold);
     const double weight = share * full_weight_[r];
     changed = changed || std::abs(weight - targets_.weight[r]) > kMuchOfAWeight * full_weight_[r];
     targets_.weight[r] = weight;

@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/shape/point_matching.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/correspondence/moving_surface.hpp"
 #include "libs/correspondence/patch_matching.hpp"
 #include "libs/correspondence/predicted_view.hpp"
@@ -31,12 +32,6 @@ void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_no
   PALPATE_CHECK(x_m.size() > 3 * last_node + 2 && x_m.allFinite(), x_m.size(), last_node);
 }
 
-double MedianOf(std::vector<float>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return static_cast<double>(*middle);
-}
-
 /// Median distance to the nearest neighbour, of points spread over the cloud, m.
 double Spacing_m(const Eigen::Matrix3Xf& points_m) {
   if (points_m.cols() < 2) return 0.0;
@@ -52,7 +47,7 @@ double Spacing_m(const Eigen::Matrix3Xf& points_m) {
     }
     squared_m2.push_back(least_m2);
   }
-  return std::sqrt(MedianOf(&squared_m2));
+  return std::sqrt(static_cast<double>(UpperMedian(squared_m2)));
 }
 
 correspondence::MatchDistances ChooseDistances(const ShapeConfig& config,
@@ -61,7 +56,7 @@ correspondence::MatchDistances ChooseDistances(const ShapeConfig& config,
   if (distances.hidden_m == 0.0) distances.hidden_m = 2.0 * Spacing_m(cloud.points_m);
   if (distances.outlier_m == 0.0) {
     std::vector<float> sigmas_m(cloud.sigma_m.data(), cloud.sigma_m.data() + cloud.sigma_m.size());
-    distances.outlier_m = kMotion_m + 3.0 * MedianOf(&sigmas_m);
+    distances.outlier_m = kMotion_m + 3.0 * static_cast<double>(UpperMedian(sigmas_m));
   }
   return distances;
 }

@@ -12,6 +12,7 @@
 #include "components/palpate/calibrate/picture_projection.hpp"
 #include "components/view/color.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/plot/label_layout.hpp"
 #include "libs/plot/svg_document.hpp"
 #include "libs/rgbd/png.hpp"
@@ -28,8 +29,6 @@ using plot::SvgText;
 constexpr int kMostColumns = 3;
 constexpr double kWidth_px = 470.0, kHeight_px = 350.0, kGap_px = 16.0, kTitle_px = 22.0;
 constexpr double kHead_px = 58.0, kLegend_px = 96.0;
-/// Of a two-dimensional normal distribution this many sigmas hold 95 %.
-constexpr double kSigmas95 = 2.4477;
 
 const view::Color kPoint = view::palette::kMarker;
 const view::Color kModel = view::palette::kTruth;
@@ -52,7 +51,7 @@ double ChooseEnlargement(const std::vector<AssignmentPanel>& panels, const Plain
       const Eigen::Vector3d off_m = panel.model_m.col(point.marker) - point.position_m;
       const double sigma_px =
           std::sqrt((derivative * point.covariance_m2 * derivative.transpose()).trace());
-      largest_px = std::max({largest_px, (derivative * off_m).norm(), kSigmas95 * sigma_px});
+      largest_px = std::max({largest_px, (derivative * off_m).norm(), kSigmas95InPlane * sigma_px});
     }
   }
   double enlargement = 1.0;
@@ -200,7 +199,7 @@ class PanelDrawing {
     const Eigen::Matrix2d covariance_px2 =
         derivative * point.covariance_m2 * derivative.transpose();
     const Eigen::Matrix2d root = covariance_px2.llt().matrixL();
-    svg_->Polyline(Ring(at, enlargement_ * kSigmas95 * root), {kPoint, 1.5});
+    svg_->Polyline(Ring(at, enlargement_ * kSigmas95InPlane * root), {kPoint, 1.5});
     svg_->Dot(at, 2.5, kPoint);
     const Eigen::Vector3d off_m = panel_.model_m.col(point.marker) - point.position_m;
     const Eigen::Vector2d off_px = enlargement_ * (derivative * off_m);
@@ -208,7 +207,8 @@ class PanelDrawing {
     svg_->Line(at, model, {kModel, 2.0});
     Circle(model, 3.5, {kModel, 2.0}, svg_);
     taken_.push_back(Around(model, 3.5));
-    const double ring_px = enlargement_ * kSigmas95 * std::sqrt(0.5 * covariance_px2.trace());
+    const double ring_px =
+        enlargement_ * kSigmas95InPlane * std::sqrt(0.5 * covariance_px2.trace());
     AddNote(at, std::clamp(ring_px - 4.0, 4.0, 14.0),
             fmt::format("{} {:.2f} mm", names[static_cast<std::size_t>(point.marker)],
                         1e3 * Residual_m(panel_, point)),

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "components/palpate/compare/sample_statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::command {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/palpate/compare/sample_statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::command {
 

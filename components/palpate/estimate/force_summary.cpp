@@ -10,19 +10,13 @@
 #include <utility>
 
 #include "components/palpate/compare/force_comparison.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::command {
 
 namespace {
 
-double Median(std::vector<double> values) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double MedianOr0(std::vector<double> values) { return values.empty() ? 0.0 : UpperMedian(values); }
 
 std::string MostFrequent(const std::map<std::string, int>& counts) {
   const auto most =
@@ -72,9 +66,9 @@ ForceSummary::Contact ForceSummary::MedianOf(const std::string& contact) const {
   }
   const Samples& samples = found->second;
   return {.count = static_cast<int>(samples.magnitude_N.size()),
-          .force_N = {Median(samples.x_N), Median(samples.y_N), Median(samples.z_N)},
-          .magnitude_N = Median(samples.magnitude_N),
-          .ci95_N = Median(samples.ci95_N),
+          .force_N = {MedianOr0(samples.x_N), MedianOr0(samples.y_N), MedianOr0(samples.z_N)},
+          .magnitude_N = MedianOr0(samples.magnitude_N),
+          .ci95_N = MedianOr0(samples.ci95_N),
           .status = MostFrequent(samples.statuses)};
 }
 

@@ -10,6 +10,7 @@
 #include "components/perception/contacts/point_grid.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/statistics.hpp"
 #include "libs/rgbd/depth_noise.hpp"
 
 namespace palpate::perception {
@@ -120,11 +121,7 @@ void ColorSegmenter::LearnColor(const VoxelCloud& cloud) {
   }
   if (channels[0].size() < kFewestToLearnFrom) return;
   Eigen::Vector3d median;
-  for (int k = 0; k < 3; ++k) {
-    const auto middle = channels[k].begin() + static_cast<std::ptrdiff_t>(channels[k].size() / 2);
-    std::nth_element(channels[k].begin(), middle, channels[k].end());
-    median[k] = *middle;
-  }
+  for (int k = 0; k < 3; ++k) median[k] = UpperMedian(channels[k]);
   robot_color_ = median.normalized();
 }
 

@@ -17,6 +17,7 @@
 #include "components/perception/color/large_planes.hpp"
 #include "components/perception/noise_law.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
 
@@ -113,9 +114,7 @@ double PixelPitch_m(const Cloud& cloud, double focal_px) {
   std::vector<float> z_m;
   z_m.reserve(cloud.size());
   for (const Point& point : cloud) z_m.push_back(point.z);
-  const auto middle = z_m.begin() + static_cast<std::ptrdiff_t>(z_m.size() / 2);
-  std::nth_element(z_m.begin(), middle, z_m.end());
-  return static_cast<double>(*middle) / focal_px;
+  return static_cast<double>(UpperMedian(z_m)) / focal_px;
 }
 
 /// The voxels, and the edge that it took.

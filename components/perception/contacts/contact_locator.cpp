@@ -12,6 +12,7 @@
 
 #include "components/perception/contacts/hidden_surface.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
 
@@ -31,9 +32,7 @@ constexpr double kOfGap = 1.0 / 3.0;
 
 double MedianSigma_m(const Eigen::VectorXf& sigma_m, std::vector<float>* buffer) {
   buffer->assign(sigma_m.begin(), sigma_m.end());
-  const auto middle = buffer->begin() + static_cast<std::ptrdiff_t>(buffer->size() / 2);
-  std::nth_element(buffer->begin(), middle, buffer->end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(UpperMedian(*buffer));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -96,9 +98,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
   if (static_cast<double>(depths_m_.size()) < kLeastDepth * pixels) {
     return &FiducialRejections::no_depth;
   }
-  const auto middle = depths_m_.begin() + static_cast<std::ptrdiff_t>(depths_m_.size() / 2);
-  std::nth_element(depths_m_.begin(), middle, depths_m_.end());
-  z_m_ = *middle;
+  z_m_ = UpperMedian(depths_m_);
   if (z_m_ < config_.min_z_m || z_m_ > config_.max_z_m) return &FiducialRejections::no_depth;
   sigma_m_ = rgbd::DepthSigma_m(registration_.camera(), noise_, z_m_);
   const double largest_px = (1.0 + config_.size_tolerance) * config_.max_radius_m / z_m_;

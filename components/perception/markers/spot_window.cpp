@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -16,12 +18,6 @@ constexpr double kDark = 0.12;
 /// A pixel is said to be no less than -this, and no more than 1 + this, marker.
 constexpr double kShareSlack = 0.3;
 constexpr double kPure = 0.85;  ///< of the largest shares: the marker's own colour
-
-double MedianOf(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 Eigen::Vector3d Direction(const Eigen::Vector3d& color) { return color.stableNormalized(); }
 
@@ -53,7 +49,7 @@ bool LookAround(const std::vector<char>& on_skin, const SpotWindow& window,
     for (int k = 0; k < 3; ++k) channel[k].push_back(pixel.rgb[k]);
   }
   if (channel[0].size() < kLeastRim) return false;
-  for (int k = 0; k < 3; ++k) (*around)[k] = MedianOf(&channel[k]);
+  for (int k = 0; k < 3; ++k) (*around)[k] = UpperMedian(channel[k]);
   return true;
 }
 

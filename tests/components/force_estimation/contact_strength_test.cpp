@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/contact_report.hpp"
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "components/force_estimation/shape/false_alarm.hpp"
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
 namespace {

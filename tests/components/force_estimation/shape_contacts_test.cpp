@@ -11,7 +11,7 @@
 #include "components/force_estimation/shape/hidden_contacts.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
 #include "components/force_estimation/shape/shape_force_estimator.hpp"
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 #include "tests/components/force_estimation/shape_scene.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 

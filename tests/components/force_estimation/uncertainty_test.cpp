@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 #include "tests/components/force_estimation/test_bodies.hpp"
 
 namespace palpate::force_estimation {

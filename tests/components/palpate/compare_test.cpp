@@ -10,7 +10,6 @@
 #include "components/palpate/compare/comparison_summary.hpp"
 #include "components/palpate/compare/force_tracks.hpp"
 #include "components/palpate/compare/live_line.hpp"
-#include "components/palpate/compare/sample_statistics.hpp"
 
 namespace palpate::command {
 namespace {
@@ -198,14 +197,6 @@ TEST(ComparisonSummary, MeasuresTheAngleBetweenTheForces) {
   force.estimate->force_N = {0.0, std::sin(0.2), -std::cos(0.2)};
   summary.Add({force});
   EXPECT_NEAR(summary.Seen().mean_direction_error_rad, 0.2, 1e-9);
-}
-
-TEST(SampleStatistics, QuantilesAreValuesOfTheSample) {
-  EXPECT_EQ(Quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
-  EXPECT_EQ(Quantile({1.0, 2.0, 3.0, 4.0}, 1.0), 4.0);
-  EXPECT_EQ(Quantile({5.0}, 0.99), 5.0);
-  EXPECT_TRUE(std::isnan(Quantile({}, 0.5)));
-  EXPECT_TRUE(std::isnan(Mean({})));
 }
 
 TEST(LiveLine, SaysWhatIsFoundAndWhatIsTrue) {

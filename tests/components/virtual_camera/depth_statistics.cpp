@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::virtual_camera {
 
 namespace {
@@ -17,12 +19,7 @@ constexpr double kEdge_px = 1.0;
 constexpr double kStep_px = 8.0;
 constexpr double kFlat_px = 0.35;  // patches whose residuals reach farther are no planes
 
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double MedianOf(std::vector<double> values) { return values.empty() ? 0.0 : UpperMedian(values); }
 
 // Disparities, 0 where nothing is seen.
 rgbd::Image<double, 1> DisparitiesOf(const rgbd::RangeImage& range, double focal_baseline_px_m) {

@@ -21,8 +21,6 @@ namespace {
 using dds::TestNode;
 using ::testing::HasSubstr;
 
-constexpr const char* kRobotFile = PALPATE_SOURCE_DIR "/config/robots/four_leg.yaml";
-
 /// One recording without end, in which north is pulled by 2 mm and a ball stands aside.
 scenario::Scenario OneRecording() {
   scenario::Scenario scenario;

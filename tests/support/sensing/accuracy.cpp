@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "libs/core/statistics.hpp"
 
 namespace palpate::test_support {
 
@@ -79,19 +80,6 @@ std::vector<double> Collect(const std::vector<ForceScore>& scores, Condition con
 }
 
 }  // namespace
-
-double Mean(const std::vector<double>& values) {
-  if (values.empty()) return kNothing;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return kNothing;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 double Largest(const std::vector<double>& values) {
   return values.empty() ? kNothing : *std::max_element(values.begin(), values.end());

@@ -64,8 +64,6 @@ class Accuracy {
   int failed_frames_ = 0;
 };
 
-double Mean(const std::vector<double>& values);     ///< NaN: none
-double Median(std::vector<double> values);          ///< NaN: none
 double Largest(const std::vector<double>& values);  ///< NaN: none
 
 }  // namespace palpate::test_support

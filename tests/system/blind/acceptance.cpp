@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::blind {
 
 namespace {

@@ -58,7 +58,4 @@ Score Judge(const std::vector<CaseRecord>& records, const Limits& limits = {});
 /// How a single case came out, for people: "named", "accused", "missed", ...
 std::string Outcome(const CaseRecord& record, const Limits& limits = {});
 
-/// NaN where there is none.
-double Median(std::vector<double> values);
-
 }  // namespace palpate::blind

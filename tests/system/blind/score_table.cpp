@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
+
 namespace palpate::blind {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr int kNameWidth = 44;
 
 /// E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
 std::string Interval(const Share& share) {
-  constexpr double kZ = 1.959964;
+  constexpr double kZ = kSigmas95;
   const double n = share.count;
   const double p = share.value();
   const double middle = (p + kZ * kZ / (2.0 * n)) / (1.0 + kZ * kZ / n);

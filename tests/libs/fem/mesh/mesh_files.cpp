@@ -75,6 +75,10 @@ std::string Replaced(std::string text, std::string_view from, std::string_view t
   return text.replace(start, from.size(), to);
 }
 
+std::filesystem::path Write(const test_support::TestFolder& folder, const MeshFile& file) {
+  return folder.Write(file.name, file.bytes);
+}
+
 TetMesh ReadBytes(const MeshFile& file) {
   mesh_io::MeshBuilder builder(file.name);
   if (file.name.ends_with(".vtu")) mesh_io::ReadVtu(file.bytes, &builder);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/fem/tet_mesh.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::fem::test {
 
@@ -40,6 +41,9 @@ std::string AsciiGmsh41(const TetMesh& mesh);
 
 /// `text` with the one occurrence of `from` replaced.
 std::string Replaced(std::string text, std::string_view from, std::string_view to);
+
+/// Writes the file into the folder; its path.
+std::filesystem::path Write(const test_support::TestFolder& folder, const MeshFile& file);
 
 /// Reads from memory as ReadMesh does from disk.
 TetMesh ReadBytes(const MeshFile& file);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/statistics.hpp"
 #include "tests/support/random_loading.hpp"
 #include "tests/support/robots.hpp"
 
@@ -58,9 +59,7 @@ class Sweep {
       errors_m.push_back(
           (point.weights.Position(state.x_m) - point.weights.Position(truth_.x_m)).norm());
     }
-    const auto middle = errors_m.begin() + static_cast<std::ptrdiff_t>(errors_m.size() / 2);
-    std::nth_element(errors_m.begin(), middle, errors_m.end());
-    return *middle;
+    return UpperMedian(errors_m);
   }
 
   RobotModel& model() { return model_; }

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 
-#include "libs/core/check.hpp"
-
-namespace palpate::force_estimation {
+namespace palpate {
 
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// What rounding made 0 or 1, as 1 - 1e-17, counts as the nearest number that is neither.
 constexpr double kNearestToZero = std::numeric_limits<double>::min();
 constexpr double kNearestToOne = 1.0 - 0.5 * std::numeric_limits<double>::epsilon();
@@ -49,6 +50,27 @@ double Centre(double q) {
 
 }  // namespace
 
+double Mean(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return kNone;
+  const double upper = UpperMedian(values);
+  if (values.size() % 2 == 1) return upper;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  return 0.5 * (upper + *std::max_element(values.begin(), middle));
+}
+
+double Quantile(std::vector<double> values, double share) {
+  if (values.empty()) return kNone;
+  const auto count = static_cast<double>(values.size());
+  const auto index = static_cast<std::ptrdiff_t>(std::clamp(share * count, 0.0, count - 1.0));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
+}
+
 double NormalQuantile(double probability) {
   PALPATE_CHECK(probability >= 0.0 && probability <= 1.0, probability);
   probability = std::clamp(probability, kNearestToZero, kNearestToOne);
@@ -69,4 +91,4 @@ double ChiSquaredQuantile(double probability, int degrees) {
   return degrees * root * root * root;
 }
 
-}  // namespace palpate::force_estimation
+}  // namespace palpate

@@ -1,15 +1,59 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/statistics.hpp"
+#include "libs/core/statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
-namespace palpate::force_estimation {
+namespace palpate {
 namespace {
+
+TEST(Statistics, TheMedianOfAnEvenNumberIsTheMeanOfTheMiddleTwo) {
+  EXPECT_EQ(Median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(Median({4.0, 1.0, 3.0, 2.0}), 2.5);
+  EXPECT_EQ(Median({2.0, 2.0}), 2.0);
+  EXPECT_TRUE(std::isnan(Median({})));
+}
+
+TEST(Statistics, TheUpperMedianIsAValueOfTheSample) {
+  std::vector<double> four = {4.0, 1.0, 3.0, 2.0};
+  EXPECT_EQ(UpperMedian(four), 3.0);
+  std::vector<float> three = {3.0f, 1.0f, 2.0f};
+  EXPECT_EQ(UpperMedian(three), 2.0f);
+  std::vector<int> many = {9, 0, 7, 5, 9};
+  EXPECT_EQ(UpperMedian(std::span(many).first(3)), 7);
+}
+
+/// Of 1, 2, ... n the quantile is floor(share n) + 1, at most n.
+TEST(Statistics, QuantilesAreValuesOfTheSample) {
+  EXPECT_EQ(Quantile({4.0, 1.0, 3.0, 2.0}, 0.0), 1.0);
+  EXPECT_EQ(Quantile({4.0, 1.0, 3.0, 2.0}, 0.24), 1.0);
+  EXPECT_EQ(Quantile({4.0, 1.0, 3.0, 2.0}, 0.25), 2.0);
+  EXPECT_EQ(Quantile({4.0, 1.0, 3.0, 2.0}, 0.5), 3.0);
+  EXPECT_EQ(Quantile({4.0, 1.0, 3.0, 2.0}, 1.0), 4.0);
+  EXPECT_EQ(Quantile({5.0}, 0.99), 5.0);
+  EXPECT_TRUE(std::isnan(Quantile({}, 0.5)));
+}
+
+TEST(Statistics, TheMeanOfNothingIsNotANumber) {
+  EXPECT_EQ(Mean({1.0, 2.0, 6.0}), 3.0);
+  EXPECT_TRUE(std::isnan(Mean({})));
+}
+
+/// The weight times the residual is the derivative of Huber's loss: r, then the threshold.
+TEST(Statistics, HubersWeightBoundsTheInfluenceOfAResidual) {
+  EXPECT_EQ(HuberWeight(0.0, 2.0), 1.0);
+  EXPECT_EQ(HuberWeight(2.0, 2.0), 1.0);
+  for (const double norm : {2.1, 5.0, 1e6}) EXPECT_DOUBLE_EQ(HuberWeight(norm, 2.0) * norm, 2.0);
+  EXPECT_EQ(HuberWeight(1e6, 0.0), 1.0);
+  EXPECT_EQ(HuberWeight(std::numeric_limits<double>::infinity(), 2.0), 0.0);
+}
 
 TEST(Statistics, NormalQuantileInvertsTheDistribution) {
   for (const double z :
@@ -19,6 +63,7 @@ TEST(Statistics, NormalQuantileInvertsTheDistribution) {
   }
   EXPECT_NEAR(NormalQuantile(0.975), kSigmas95, 1e-8);
   EXPECT_NEAR(NormalQuantile(0.025), -kSigmas95, 1e-8);
+  EXPECT_DOUBLE_EQ(kSigmas95InPlane, std::sqrt(ChiSquaredQuantile(0.95, 2)));
 }
 
 /// Chances that the settings permit, of which 1 - chance is 1.
@@ -65,4 +110,4 @@ TEST(Statistics, ChiSquaredQuantileIsGoodToTwoPerCent) {
 }
 
 }  // namespace
-}  // namespace palpate::force_estimation
+}  // namespace palpate
