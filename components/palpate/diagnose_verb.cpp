@@ -27,6 +27,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/names.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/utc_text.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
@@ -190,8 +191,7 @@ int Diagnose(const DiagnoseOptions& options) {
                                options.without.empty() ? "" : " --without ", options.without,
                                options.from == "all" ? "" : " --from ",
                                options.from == "all" ? "" : options.from);
-  result.duration_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.duration_s = SecondsSince(begin);
   Write(options.out, &diagnosis);
   fmt::print("{}\n", VerdictParagraph(result));
   for (const std::string& words : diagnosis.not_in_files) {

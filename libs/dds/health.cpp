@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "libs/core/seconds.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
@@ -14,10 +15,6 @@ namespace palpate::dds {
 namespace {
 
 using KeysAndValues = std::vector<std::pair<std::string, std::string>>;
-
-double Seconds(HealthReporter::Clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
 
 double MeanOr0(const std::vector<double>& values) { return values.empty() ? 0.0 : Mean(values); }
 
@@ -68,12 +65,12 @@ Message<idl::palpate_msgs::ComponentStatus> HealthReporter::Fill(const Status& s
   SetText(message->component_name, component_name_);
   SetText(message->status, ToString(status.code()));
   SetText(message->reason, status.message());
-  message->uptime_s = Seconds(now - start_);
+  message->uptime_s = ToSeconds(now - start_);
   message->received = counts.received;
   message->published = counts.published;
   message->dropped = counts.dropped;
   message->refused = counts.refused;
-  const double interval_s = Seconds(now - last_report_);
+  const double interval_s = ToSeconds(now - last_report_);
   if (interval_s > 0.0) {
     message->input_rate_hz = static_cast<double>(counts.received - last_received_) / interval_s;
     message->output_rate_hz = static_cast<double>(counts.published - last_published_) / interval_s;

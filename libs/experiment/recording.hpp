@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/experiment/actuation.hpp"
 #include "libs/experiment/loads.hpp"
 #include "libs/experiment/markers.hpp"
@@ -61,7 +62,7 @@ struct StampedFile {
   std::int64_t t_ns = 0;  ///< on the clock of t_s
   std::filesystem::path file;
 
-  double t_s() const { return 1e-9 * static_cast<double>(t_ns); }
+  double t_s() const { return NsToSeconds(t_ns); }
 };
 
 /// One folder of recordings/: recording.yaml and the tables beside it. Missing tables are nullopt

@@ -5,10 +5,10 @@
 
 #include <chrono>
 
+#include "libs/core/seconds.hpp"
+
 namespace palpate::fem {
 
-double SteadySeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double SteadySeconds() { return ToSeconds(std::chrono::steady_clock::now().time_since_epoch()); }
 
 }  // namespace palpate::fem

@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::calibration {
@@ -90,8 +91,7 @@ void FrameCollector::Look(Seen seen) {
 bool FrameCollector::IsNew(const Setting& setting) const {
   return std::all_of(settings_taken_.begin(), settings_taken_.end(), [&](const Setting& taken) {
     if (cable_names_.empty()) {
-      return std::abs(1e-9 * static_cast<double>(setting.stamp_ns - taken.stamp_ns)) >=
-             settings_.rest.still_s;
+      return std::abs(NsToSeconds(setting.stamp_ns - taken.stamp_ns)) >= settings_.rest.still_s;
     }
     for (std::size_t c = 0; c < cable_names_.size(); ++c) {
       const robot::CableCommand& now = setting.cables[c];

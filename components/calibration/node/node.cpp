@@ -10,6 +10,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/joint_states.hpp"
 #include "libs/dds/stamp.hpp"
@@ -348,7 +349,7 @@ void CalibrationNode::Tick() {
   if (progress_.state != "collecting") return;
   const std::string& obstacle = cable_obstacle_.empty() ? obstacle_ : cable_obstacle_;
   progress_.reason = obstacle.empty() ? collector_.waits_for() : obstacle;
-  const double waited_s = std::chrono::duration<double>(Clock::now() - last_step_).count();
+  const double waited_s = SecondsSince(last_step_);
   if (waited_s > config_.patience_s) {
     return End("failed", NotOk(StatusCode::kStale, "no further frame within " +
                                                        FormatNumber(config_.patience_s) +

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::capture {
@@ -16,8 +17,6 @@ constexpr double kPeriodsUntilStale = 5.0;
 constexpr double kAccessRetry_s = 0.2;
 
 std::int64_t Ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
-double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
 }  // namespace
 
 double Connection::StaleAfter_s() const {
@@ -43,12 +42,12 @@ Step Connection::Next(std::int64_t now_ns) {
 
 void Connection::WatchFrames(std::int64_t now_ns) {
   if (state_ == SourceState::kStream) {
-    if (Seconds(now_ns - last_frame_ns_) < StaleAfter_s()) return;
+    if (NsToSeconds(now_ns - last_frame_ns_) < StaleAfter_s()) return;
     state_ = SourceState::kStale;
     stale_since_ns_ = last_answer_ns_ = now_ns;
     reason_ = "no frame for " + FormatNumber(StaleAfter_s()) + " s";
   }
-  if (Seconds(now_ns - stale_since_ns_) >= times_.lost_s) {
+  if (NsToSeconds(now_ns - stale_since_ns_) >= times_.lost_s) {
     Lose(now_ns, frame_seen_ ? "frames stopped though the camera answers"
                              : "the camera is open but not one frame came: is its trigger on, or "
                                "do its packets not get through?");
@@ -78,7 +77,7 @@ void Connection::OnFailed(std::int64_t now_ns, std::string reason) {
 
 void Connection::OnAccessDenied(std::int64_t now_ns) {
   if (denied_since_ns_ < 0) denied_since_ns_ = now_ns;
-  if (Seconds(now_ns - denied_since_ns_) >= times_.access_denied_s) {
+  if (NsToSeconds(now_ns - denied_since_ns_) >= times_.access_denied_s) {
     Lose(now_ns, "another program controls the camera");
     return;
   }
@@ -108,7 +107,7 @@ void Connection::OnProbe(std::int64_t now_ns, Probe probe) {
     Lose(now_ns, "the camera has been off and on again");
   } else if (probe == Probe::kControlled) {
     last_answer_ns_ = now_ns;
-  } else if (Seconds(now_ns - last_answer_ns_) >= times_.silent_s) {
+  } else if (NsToSeconds(now_ns - last_answer_ns_) >= times_.silent_s) {
     Lose(now_ns, "the camera does not answer");
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libs/core/clock.hpp"
+#include "libs/core/seconds.hpp"
 
 namespace palpate::capture {
 
@@ -86,7 +87,7 @@ void CaptureNode::PublishOne(const SourceFrame& frame) {
   if (step_ && !publisher_.WaitUntilReceived(kLastMessagesWait)) {
     log_.Write(Severity::kWarning, "a reader has not confirmed a frame");
   }
-  const double latency_s = 1e-9 * static_cast<double>(WallNow_ns() - frame.facts.stamp_host_ns);
+  const double latency_s = NsToSeconds(WallNow_ns() - frame.facts.stamp_host_ns);
   const std::lock_guard lock(mutex_);
   ++(sent ? counts_.published : counts_.dropped);
   if (frame.facts.clock_source != ClockSource::kReplay) counts_.latencies_s.push_back(latency_s);

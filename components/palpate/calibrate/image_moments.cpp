@@ -8,20 +8,19 @@
 #include "components/calibration/recording_phase.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::command {
 
 namespace {
 
-double Seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
-
 /// Pictures to take, into `images.frames`.
 std::vector<std::size_t> Choose(const experiment::Recording& recording,
                                 const experiment::RgbdSequence& images, std::size_t most) {
   std::vector<std::size_t> in_window;
   for (std::size_t k = 0; k < images.frames.size(); ++k) {
-    const double t_s = Seconds(images.frames[k].t_ns);
+    const double t_s = NsToSeconds(images.frames[k].t_ns);
     const auto& window = recording.steady_window_s;
     if (!window || (t_s >= window->begin_s && t_s <= window->end_s)) in_window.push_back(k);
   }
@@ -50,7 +49,7 @@ std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
   const std::vector<std::size_t> chosen = Choose(recording, images, most);
   std::vector<ImageMoment> moments;
   for (const std::size_t index : chosen) {
-    const double t_s = Seconds(images.frames[index].t_ns);
+    const double t_s = NsToSeconds(images.frames[index].t_ns);
     moments.push_back(
         {.images = &images,
          .index = index,

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/seconds.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::command {
@@ -91,8 +92,7 @@ std::string StageTimes::ToCsv() const {
       "t_s,picture_ms,capture_ms,to_perception_ms,perception_ms,to_estimation_ms,estimation_ms,"
       "to_listener_ms,sum_ms\n";
   for (std::size_t frame = 0; frame < ages_s_.size(); ++frame) {
-    text +=
-        fmt::format("{:.3f}", 1e-9 * static_cast<double>(stamps_ns_[frame] - stamps_ns_.front()));
+    text += fmt::format("{:.3f}", NsToSeconds(stamps_ns_[frame] - stamps_ns_.front()));
     double before_s = 0.0;
     for (const double age_s : ages_s_[frame]) {
       text += fmt::format(",{:.3f}", 1e3 * (age_s - before_s));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -15,15 +16,6 @@ namespace palpate::perception {
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-
-dds::WaitSet::Clock::duration Seconds(double seconds) {
-  return std::chrono::duration_cast<dds::WaitSet::Clock::duration>(
-      std::chrono::duration<double>(seconds));
-}
-
-double SecondsSince(dds::WaitSet::Clock::time_point then) {
-  return std::chrono::duration<double>(dds::WaitSet::Clock::now() - then).count();
-}
 
 template <typename Image>
 bool HasSizeOf(const Image& image, const rgbd::CameraModel& camera) {
@@ -62,7 +54,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
       outputs_{participant_, !config.markers.color_rgb.empty()},
-      pairing_{Seconds(config.pairing_wait_s)},
+      pairing_{FromSeconds(config.pairing_wait_s)},
       worker_{config, std::move(maker), [this] { loop_.Wake(); }} {
   AttachReaders();
   loop_.OnWake([this] { PublishResults(); });
@@ -227,7 +219,7 @@ void PerceptionNode::SetAlarm() {
 }
 
 PerceptionNode::Clock::time_point PerceptionNode::PredictionOverdue() const {
-  return published_at_ + Seconds(config_.await_prediction_s);
+  return published_at_ + FromSeconds(config_.await_prediction_s);
 }
 
 bool PerceptionNode::MustAwaitPrediction() const {

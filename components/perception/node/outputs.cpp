@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "components/perception/node/convert_markers.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -29,9 +30,8 @@ void Outputs::Publish(const FrameOutcome& outcome, FrameSet::Time taken) {
   report_ = ToReport(outcome);
   contacts_ = ToContactArray(outcome);
   last_stamp_ns_ = outcome.stamp_ns;
-  report_->age_s = 1e-9 * static_cast<double>(dds::WallClockNs() - outcome.stamp_ns);
-  report_->latency_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - taken).count();
+  report_->age_s = NsToSeconds(dds::WallClockNs() - outcome.stamp_ns);
+  report_->latency_s = SecondsSince(taken);
   latencies_s_.push_back(report_->latency_s);
   Send();
 }

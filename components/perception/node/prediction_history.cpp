@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/perception/predicted_surface.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -55,7 +56,7 @@ std::optional<Prediction> PredictionHistory::Before(std::int64_t stamp_ns, doubl
     if (!newest || state.stamp_ns >= newest->stamp_ns) newest = &state;
   }
   if (!newest) return std::nullopt;
-  const double age_s = 1e-9 * static_cast<double>(stamp_ns - newest->stamp_ns);
+  const double age_s = NsToSeconds(stamp_ns - newest->stamp_ns);
   if (age_s > max_age_s) return std::nullopt;
   return PredictionOf(*newest, T_robot_camera);
 }

@@ -7,6 +7,7 @@
 
 #include "components/player/node/convert.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -15,10 +16,6 @@ namespace palpate::player {
 namespace {
 
 using Clock = dds::WaitSet::Clock;
-
-Clock::duration Seconds(double seconds) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr auto kLastMessagesWait = std::chrono::seconds(2);
@@ -62,7 +59,7 @@ void PlayerNode::Run() {
 void PlayerNode::WaitForReaders() {
   const std::string topic = images_ ? "/camera/depth/image_raw" : "/perception/markers";
   log_.Write(Severity::kInfo, "waiting for readers of " + topic);
-  const Clock::time_point deadline = Clock::now() + Seconds(config_.reader_deadline_s);
+  const Clock::time_point deadline = Clock::now() + FromSeconds(config_.reader_deadline_s);
   if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
   if (loop_.stopped()) return;
   throw RunError("no reader of " + topic +
@@ -100,10 +97,10 @@ void PlayerNode::Play(const Event& event) {
 
 void PlayerNode::WaitForAnswer(const Event& event) {
   if (!event.has_frame()) return;
-  const Clock::time_point deadline = Clock::now() + Seconds(config_.step_deadline_s);
+  const Clock::time_point deadline = Clock::now() + FromSeconds(config_.step_deadline_s);
   const auto done = [&] { return Answered(event) || NewEstimator(); };
   while (Clock::now() < deadline) {
-    const auto resend = std::min(deadline, Clock::now() + Seconds(config_.resend_s));
+    const auto resend = std::min(deadline, Clock::now() + FromSeconds(config_.resend_s));
     if (loop_.DispatchUntil(done, resend) || loop_.stopped()) return;
     Publish(event);
   }

@@ -9,6 +9,7 @@
 #include "components/virtual_camera/node/convert.hpp"
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -128,7 +129,7 @@ void VirtualCameraNode::TakePicture(std::int64_t stamp_ns, const View& view) {
   frame_.stamp_ns = stamp_ns;
   device_.Send(frame_);
   ++counts_.published;
-  counts_.latencies_s.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  counts_.latencies_s.push_back(SecondsSince(start));
 }
 
 void VirtualCameraNode::Refuse(const Status& status) {
@@ -139,7 +140,7 @@ void VirtualCameraNode::Refuse(const Status& status) {
 }
 
 Status VirtualCameraNode::StatusNow() const {
-  const double silent_s = 1e-9 * static_cast<double>(MonotonicNow_ns() - last_state_ns_);
+  const double silent_s = NsToSeconds(MonotonicNow_ns() - last_state_ns_);
   if (silent_s <= silence_s_) return Status::Ok();
   return {StatusCode::kStale, "no state of the virtual robot for " + FormatNumber(silent_s) + " s" +
                                   (last_refusal_.empty() ? std::string() : ": " + last_refusal_)};

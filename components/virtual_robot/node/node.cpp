@@ -8,6 +8,7 @@
 
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
@@ -20,14 +21,9 @@ using Clock = dds::WaitSet::Clock;
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 
-double Seconds(Clock::time_point time) {
-  return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
+double Seconds(Clock::time_point time) { return ToSeconds(time.time_since_epoch()); }
 
-Clock::time_point TimePoint(double seconds) {
-  return Clock::time_point(
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
-}
+Clock::time_point TimePoint(double seconds) { return Clock::time_point(FromSeconds(seconds)); }
 
 Eigen::VectorXd NothingDriven(size_t cables) {
   return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cables),
@@ -147,7 +143,7 @@ void VirtualRobotNode::TakeCommands() {
 
 Status VirtualRobotNode::StatusNow() const {
   if (!physics_.ok()) return physics_;
-  const double silent_s = 1e-9 * static_cast<double>(MonotonicNow_ns() - last_command_ns_);
+  const double silent_s = NsToSeconds(MonotonicNow_ns() - last_command_ns_);
   if (config_.commands == "topic" && silent_s > config_.command_timeout_s) {
     return {StatusCode::kStale, "no command on /robot/command for " + FormatNumber(silent_s) +
                                     " s: the last one holds"};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "libs/core/clock.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/gige_vision/camera_state.hpp"
 #include "libs/gige_vision/description_faults.hpp"
 #include "tests/libs/gige_vision/aravis_client.hpp"
@@ -131,8 +132,7 @@ TEST_F(AravisFeatures, LatchedTimeIsTheHostsToTheNanosecond) {
   client.Set("PtpEnable", std::int64_t{1});
   EXPECT_EQ(client.Text("PtpStatus"), "Slave");
   client.Run("TimestampLatch");
-  const double tai_from_utc_s =
-      1e-9 * static_cast<double>(client.Integer("TimestampLatchValue") - WallNow_ns());
+  const double tai_from_utc_s = NsToSeconds(client.Integer("TimestampLatchValue") - WallNow_ns());
   EXPECT_NEAR(tai_from_utc_s, 37.0, 5.0);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/seconds.hpp"
+
 namespace palpate::test_support {
 
 namespace {
@@ -125,7 +127,7 @@ std::vector<force_estimation::SeenContact> IdealPerception::Contacts(double sigm
 force_estimation::ShapeFrame IdealPerception::Frame(
     std::vector<force_estimation::SeenContact> contacts) {
   force_estimation::ShapeFrame frame;
-  frame.t_s = 1e-9 * static_cast<double>(scene_.frame().stamp_ns);
+  frame.t_s = NsToSeconds(scene_.frame().stamp_ns);
   frame.cloud = Cloud();
   frame.T_robot_camera = scene_.T_robot_camera();
   frame.contacts = std::move(contacts);

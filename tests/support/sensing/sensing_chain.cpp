@@ -7,6 +7,7 @@
 
 #include "components/perception/predicted_surface.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/seconds.hpp"
 
 namespace palpate::test_support {
 
@@ -112,7 +113,7 @@ const force_estimation::ForceEstimate& SensingChain::Take(bool untouched) {
   } else {
     frame_ = Perceive();
   }
-  frame_.t_s = 1e-9 * static_cast<double>(scene_.frame().stamp_ns);
+  frame_.t_s = NsToSeconds(scene_.frame().stamp_ns);
   frame_.cables = scene_.Cables();
   if (faults_.cables) faults_.cables(&frame_.cables);
   frame_.untouched = untouched;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "components/palpate/node/demo/demo_messages.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -14,9 +15,6 @@ namespace palpate::command {
 namespace {
 
 constexpr auto kLivePollPeriod = std::chrono::milliseconds(50);
-constexpr double kSecondsPerNs = 1e-9;
-
-double Seconds(std::int64_t ns) { return static_cast<double>(ns) * kSecondsPerNs; }
 
 }  // namespace
 
@@ -56,7 +54,7 @@ void LiveListener::TakeForces() {
     const force_estimation::ForceEstimate estimate = ToEstimate(message);
     std::optional<double> latency_s;
     if (bench_) {
-      latency_s = Seconds(dds::WallClockNs() - stamp_ns);
+      latency_s = NsToSeconds(dds::WallClockNs() - stamp_ns);
       if (HasResult(estimate.status)) PassEstimated(message, *latency_s);
     }
     comparison_.AddEstimate(estimate, latency_s);
@@ -79,8 +77,8 @@ void LiveListener::TakePictures() {
   for (auto message = messages.begin(); message != messages.end(); ++message) {
     const idl::palpate_msgs::FrameInfo& info = *message;
     const std::int64_t stamp_ns = dds::StampNs(info.header.stamp);
-    stages_.Pass(stamp_ns, Milestone::kReceived, Seconds(info.stamp_receive_ns - stamp_ns));
-    stages_.Pass(stamp_ns, Milestone::kPublished, Seconds(message.sent_ns() - stamp_ns));
+    stages_.Pass(stamp_ns, Milestone::kReceived, NsToSeconds(info.stamp_receive_ns - stamp_ns));
+    stages_.Pass(stamp_ns, Milestone::kPublished, NsToSeconds(message.sent_ns() - stamp_ns));
   }
 }
 
@@ -95,7 +93,7 @@ void LiveListener::TakePerceived() {
 void LiveListener::TakeTruth() {
   for (const idl::palpate_msgs::ForceArray& message : bench_->truth.Take()) {
     stages_.AddState(dds::StampNs(message.header.stamp));
-    comparison_.AddTruth(Seconds(dds::StampNs(message.header.stamp)), ToTruth(message));
+    comparison_.AddTruth(NsToSeconds(dds::StampNs(message.header.stamp)), ToTruth(message));
   }
   comparison_.Advance(take_);
 }
@@ -103,7 +101,7 @@ void LiveListener::TakeTruth() {
 void LiveListener::TakeMeshStates() {
   for (const idl::palpate_msgs::MeshState& message : mesh_states_.Take()) {
     if (auto nodes_m = ToNodes(message)) {
-      comparison_.AddNodes(Seconds(dds::StampNs(message.header.stamp)), std::move(*nodes_m));
+      comparison_.AddNodes(NsToSeconds(dds::StampNs(message.header.stamp)), std::move(*nodes_m));
     }
   }
 }

@@ -75,7 +75,7 @@ std::string Replaced(std::string text, std::string_view from, std::string_view t
   return text.replace(start, from.size(), to);
 }
 
-std::filesystem::path Write(const test_support::TestFolder& folder, const MeshFile& file) {
+std::filesystem::path WriteMeshFile(const test_support::TestFolder& folder, const MeshFile& file) {
   return folder.Write(file.name, file.bytes);
 }
 

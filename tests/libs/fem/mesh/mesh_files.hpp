@@ -43,7 +43,7 @@ std::string AsciiGmsh41(const TetMesh& mesh);
 std::string Replaced(std::string text, std::string_view from, std::string_view to);
 
 /// Writes the file into the folder; its path.
-std::filesystem::path Write(const test_support::TestFolder& folder, const MeshFile& file);
+std::filesystem::path WriteMeshFile(const test_support::TestFolder& folder, const MeshFile& file);
 
 /// Reads from memory as ReadMesh does from disk.
 TetMesh ReadBytes(const MeshFile& file);

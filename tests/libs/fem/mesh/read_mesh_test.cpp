@@ -55,7 +55,7 @@ TEST_P(EveryFormat, GivesBackTheMeshThatWasWritten) {
   for (const MeshFile& file : test::AllFiles(mesh, {})) {
     SCOPED_TRACE(file.name);
     std::vector<std::string> notes;
-    const TetMesh read = ReadMesh(test::Write(folder, file), 1e-3, &notes);
+    const TetMesh read = ReadMesh(test::WriteMeshFile(folder, file), 1e-3, &notes);
     TetMesh expected = Repeated(mesh, file.name.find("two_pieces") == std::string::npos ? 1 : 2);
     expected.nodes_m *= 1e-3;
     EXPECT_TRUE(test::SameMesh(read, expected));
@@ -117,7 +117,8 @@ TEST(ReadMesh, TurnsAllCellsWhereTheConventionIsTheOppositeOneAndSaysSo) {
     mirrored.nodes_m.row(0) *= -1.0;
     const test_support::TestFolder folder;
     std::vector<std::string> notes;
-    const TetMesh read = ReadMesh(test::Write(folder, {"m.vtu", AsciiVtu(mirrored)}), 1.0, &notes);
+    const TetMesh read =
+        ReadMesh(test::WriteMeshFile(folder, {"m.vtu", AsciiVtu(mirrored)}), 1.0, &notes);
     EXPECT_THAT(notes, ElementsAre(HasSubstr("were turned")));
     const MeshReport report = ReportMesh(read);
     EXPECT_THAT(report.inverted_cells, IsEmpty());
@@ -130,7 +131,8 @@ TEST(ReadMesh, LeavesSingleInvertedCellsAsTheyAre) {
   std::swap(mesh.cells(0, 3), mesh.cells(1, 3));
   std::vector<std::string> notes;
   const test_support::TestFolder folder;
-  const TetMesh read = ReadMesh(test::Write(folder, {"m.vtu", AsciiVtu(mesh)}), 1.0, &notes);
+  const TetMesh read =
+      ReadMesh(test::WriteMeshFile(folder, {"m.vtu", AsciiVtu(mesh)}), 1.0, &notes);
   EXPECT_TRUE(test::SameMesh(read, mesh));
   EXPECT_THAT(notes, IsEmpty());
 }
@@ -138,8 +140,9 @@ TEST(ReadMesh, LeavesSingleInvertedCellsAsTheyAre) {
 TEST(ReadMesh, RefusesFilesThatAreMissingEmptyOrOfUnknownEnding) {
   const test_support::TestFolder folder;
   EXPECT_THAT(RefusalFromDisk(folder.path() / "none.vtu"), HasSubstr("none.vtu: mesh file not"));
-  EXPECT_THAT(RefusalFromDisk(test::Write(folder, {"empty.msh", ""})), HasSubstr("is empty"));
-  EXPECT_THAT(RefusalFromDisk(test::Write(folder, {"cube.stl", "solid"})),
+  EXPECT_THAT(RefusalFromDisk(test::WriteMeshFile(folder, {"empty.msh", ""})),
+              HasSubstr("is empty"));
+  EXPECT_THAT(RefusalFromDisk(test::WriteMeshFile(folder, {"cube.stl", "solid"})),
               HasSubstr(".vtu, .vtk, .msh"));
   std::filesystem::create_directory(folder.path() / "folder.vtu");
   EXPECT_THAT(RefusalFromDisk(folder.path() / "folder.vtu"), HasSubstr("not a regular file"));
@@ -147,7 +150,9 @@ TEST(ReadMesh, RefusesFilesThatAreMissingEmptyOrOfUnknownEnding) {
 
 TEST(ReadMesh, ReadsEndingsInCapitals) {
   const test_support::TestFolder folder;
-  EXPECT_EQ(ReadMesh(test::Write(folder, {"CUBE.VTU", AsciiVtu(CubeMesh(1))}), 1.0).CellCount(), 6);
+  EXPECT_EQ(
+      ReadMesh(test::WriteMeshFile(folder, {"CUBE.VTU", AsciiVtu(CubeMesh(1))}), 1.0).CellCount(),
+      6);
 }
 
 /// Files of Gmsh itself: an independent writer.
@@ -155,13 +160,13 @@ class GmshProgram : public testing::Test {
  protected:
   void SetUp() override {
     if (std::system("gmsh -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh not installed";
-    test::Write(folder_,
-                {"two.geo",
-                 "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, 30,30,50};\n"
-                 "Box(2) = {0,0,50, 30,30,50};\n"
-                 "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
-                 "Physical Volume(\"lower part\") = {1}; Physical Volume(\"upper\") = {2};\n"
-                 "Physical Surface(\"skin\") = {1,2,3}; Mesh.MeshSizeMax = 15;\n"});
+    test::WriteMeshFile(
+        folder_, {"two.geo",
+                  "SetFactory(\"OpenCASCADE\"); Box(1) = {0,0,0, 30,30,50};\n"
+                  "Box(2) = {0,0,50, 30,30,50};\n"
+                  "BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n"
+                  "Physical Volume(\"lower part\") = {1}; Physical Volume(\"upper\") = {2};\n"
+                  "Physical Surface(\"skin\") = {1,2,3}; Mesh.MeshSizeMax = 15;\n"});
   }
 
   TetMesh MeshedBy(const std::string& options, const std::string& file) {
