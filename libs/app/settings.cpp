@@ -3,6 +3,7 @@
 
 #include "libs/app/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -88,8 +89,9 @@ std::vector<std::string> KeysBelow(const std::string& prefix,
   std::vector<std::string> keys;
   for (const Setting& setting : settings) {
     if (!setting.key.starts_with(prefix)) continue;
-    keys.push_back(
-        setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) - prefix.size()));
+    std::string key =
+        setting.key.substr(prefix.size(), setting.key.find('.', prefix.size()) - prefix.size());
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
   }
   return keys;
 }
@@ -104,8 +106,10 @@ void LoadMap(const ConfigNode& map, const std::string& prefix,
     } else if (IsGroup(full_key, settings)) {
       LoadMap(entry, full_key + ".", settings);
     } else {
-      throw InputError(entry.key_where, "unknown key '" + full_key + "'" +
-                                            DidYouMean(key, KeysBelow(prefix, settings)));
+      const std::vector<std::string> allowed = KeysBelow(prefix, settings);
+      throw InputError(entry.key_where, "unknown key '" + Excerpt(full_key) + "'" +
+                                            DidYouMean(key, allowed) +
+                                            "; allowed: " + Listed(allowed));
     }
   }
 }
@@ -133,7 +137,8 @@ void ApplyOverride(const std::string& assignment, const std::vector<Setting>& se
   if (setting == nullptr) {
     std::vector<std::string> keys;
     for (const Setting& known : settings) keys.push_back(known.key);
-    throw InputError("--set " + assignment + ": unknown key '" + key + "'" + DidYouMean(key, keys));
+    throw InputError("--set " + assignment + ": unknown key '" + key + "'" + DidYouMean(key, keys) +
+                     "; allowed: " + Listed(keys));
   }
   ConfigNode node = ParseYaml(assignment.substr(equals + 1), "--set " + assignment);
   node.where = {"--set " + assignment};

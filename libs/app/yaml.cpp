@@ -12,6 +12,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
 
 namespace palpate::app {
 
@@ -72,7 +73,7 @@ class TreeBuilder : public YAML::EventHandler {
     const SourceLocation where = Locate(file_, mark);
     if (anchor != YAML::NullAnchor) throw InputError(where, "anchors (&name) are not read");
     if (!tag.empty() && tag != "?" && tag != "!") {
-      throw InputError(where, "tags (" + tag + ") are not read");
+      throw InputError(where, "tags (" + Excerpt(tag) + ") are not read");
     }
   }
 
@@ -80,7 +81,8 @@ class TreeBuilder : public YAML::EventHandler {
                const std::string& key) {
     RefuseExtras(mark, tag, anchor);
     if (open_.back()->Find(key) != nullptr) {
-      throw InputError(Locate(file_, mark), "key '" + ChildPath(key) + "' is given twice, first " +
+      throw InputError(Locate(file_, mark), "key '" + Excerpt(ChildPath(key)) +
+                                                "' is given twice, first " +
                                                 open_.back()->Find(key)->key_where.ToString());
     }
     key_ = key;
@@ -124,6 +126,18 @@ class TreeBuilder : public YAML::EventHandler {
   SourceLocation key_where_;
 };
 
+/// The first line (from 1) whose indentation holds a tab; 0: none.
+int FindTabIndent(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t content = line.find_first_not_of(" \t");
+    const std::size_t tab = line.find('\t');
+    if (content != std::string::npos && tab < content) return number;
+  }
+  return 0;
+}
+
 }  // namespace
 
 ConfigNode ParseYaml(const std::string& text, const std::string& name) {
@@ -137,13 +151,36 @@ ConfigNode ParseYaml(const std::string& text, const std::string& name) {
       throw InputError(second.TakeRoot().where, "only one YAML document is read from a file");
     }
   } catch (const YAML::Exception& error) {
-    throw InputError(Locate(name, error.mark), "not valid YAML: " + error.msg);
+    const int tab_line = FindTabIndent(text);
+    const bool tab_before = tab_line > 0 && tab_line <= error.mark.line + 1;
+    if (tab_before) {
+      throw InputError({name, tab_line, 1},
+                       "not valid YAML: the line is indented by a tab; "
+                       "YAML wants blanks");
+    }
+    throw InputError(Locate(name, error.mark), "not valid YAML: " + Excerpt(error.msg));
   }
   return builder.TakeRoot();
 }
 
 ConfigNode LoadYaml(const std::filesystem::path& file) {
-  return ParseYaml(ReadFile(file), file.string());
+  const std::string text = ReadFile(file);
+  const std::string extension = file.extension().string();
+  const bool is_named_yaml = extension == ".yaml" || extension == ".yml";
+  const std::string name_hint =
+      is_named_yaml ? "" : "; a YAML file is expected here, whose name ends in .yaml";
+  if (text.find('\0') != std::string::npos) {
+    throw InputError(SourceLocation{file.string()}, "is a binary file, not YAML" + name_hint);
+  }
+  try {
+    ConfigNode root = ParseYaml(text, file.string());
+    if (root.kind != ConfigNode::Kind::kScalar) return root;
+    throw InputError(root.where, "is no file of settings (key: value), it begins with '" +
+                                     Excerpt(root.text) + "'");
+  } catch (const InputError& error) {
+    if (is_named_yaml) throw;
+    throw InputError(error.what() + name_hint);
+  }
 }
 
 }  // namespace palpate::app

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "libs/core/check.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate {
@@ -20,7 +21,8 @@ using Kind = ConfigNode::Kind;
 std::string Describe(const ConfigNode& node) {
   switch (node.kind) {
     case Kind::kNull: return "nothing";
-    case Kind::kScalar: return node.quoted ? "the text '" + node.text + "'" : "'" + node.text + "'";
+    case Kind::kScalar:
+      return node.quoted ? "the text '" + Excerpt(node.text) + "'" : "'" + Excerpt(node.text) + "'";
     case Kind::kList: return "a list of " + std::to_string(node.items.size());
     case Kind::kMap: return "a map";
   }
@@ -57,16 +59,17 @@ bool LooksOctal(std::string_view text) {
 
 void RequirePlainNumber(const ConfigNode& node, const std::string& wanted) {
   if (node.kind != Kind::kScalar || node.quoted) RefuseType(node, wanted);
-  if (IsNotFiniteWord(node.text)) Refuse(node, "must be finite, not '" + node.text + "'");
+  if (IsNotFiniteWord(node.text)) Refuse(node, "must be finite, not '" + Excerpt(node.text) + "'");
   if (LooksOctal(node.text)) {
-    Refuse(node, "'" + node.text + "' may mean octal or decimal: write it without the leading 0");
+    Refuse(node, "'" + Excerpt(node.text) +
+                     "' may mean octal or decimal: write it without the leading 0");
   }
 }
 
 void CheckRule(const ConfigNode& node, double value, const NumberRule& rule) {
   const bool low = rule.min_open ? value <= rule.min : value < rule.min;
   const bool high = rule.max_open ? value >= rule.max : value > rule.max;
-  if (low || high) Refuse(node, "must be " + DescribeRule(rule) + ", not " + node.text);
+  if (low || high) Refuse(node, "must be " + DescribeRule(rule) + ", not " + Excerpt(node.text));
 }
 
 }  // namespace
@@ -82,7 +85,8 @@ std::string DescribeRule(const NumberRule& rule) {
 }
 
 void Refuse(const ConfigNode& node, const std::string& message) {
-  throw InputError(node.where, node.path.empty() ? message : "key '" + node.path + "': " + message);
+  throw InputError(node.where,
+                   node.path.empty() ? message : "key '" + Excerpt(node.path) + "': " + message);
 }
 
 double ReadNumber(const ConfigNode& node, const NumberRule& rule) {
@@ -103,8 +107,8 @@ int ReadInteger(const ConfigNode& node, int min, int max) {
     RefuseType(node, "a whole number");
   }
   if (too_big || value < min || value > max) {
-    Refuse(node,
-           "must be " + std::to_string(min) + " to " + std::to_string(max) + ", not " + node.text);
+    Refuse(node, "must be " + std::to_string(min) + " to " + std::to_string(max) + ", not " +
+                     Excerpt(node.text));
   }
   return value;
 }
@@ -123,8 +127,8 @@ std::string ReadText(const ConfigNode& node) {
   const bool ambiguous =
       IsBooleanWord(node.text) || IsNotFiniteWord(node.text) || ParseFinite(node.text, &number);
   if (!node.quoted && ambiguous) {
-    Refuse(node, "must be text, and YAML reads " + node.text + " as something else: write \"" +
-                     node.text + "\"");
+    Refuse(node, "must be text, and YAML reads " + Excerpt(node.text) +
+                     " as something else: write \"" + Excerpt(node.text) + "\"");
   }
   return node.text;
 }
@@ -132,10 +136,8 @@ std::string ReadText(const ConfigNode& node) {
 std::string ReadChoice(const ConfigNode& node, const std::vector<std::string>& choices) {
   if (node.kind != Kind::kScalar) RefuseType(node, "text");
   if (std::find(choices.begin(), choices.end(), node.text) != choices.end()) return node.text;
-  std::string list;
-  for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-  Refuse(node,
-         "must be one of " + list + ", not '" + node.text + "'" + DidYouMean(node.text, choices));
+  Refuse(node, "must be one of " + Listed(choices) + ", not '" + Excerpt(node.text) + "'" +
+                   DidYouMean(node.text, choices));
 }
 
 Eigen::Vector3d ReadVector3(const ConfigNode& node, const NumberRule& rule) {
@@ -171,6 +173,11 @@ MapReader::MapReader(const ConfigNode& node) : node_(node) {
   }
 }
 
+MapReader::MapReader(const ConfigNode& node, const KeyTable& keys) : MapReader(node) {
+  keys_ = &keys;
+  RefuseForeignUnits(node, keys);
+}
+
 const ConfigNode& MapReader::Require(const std::string& key) {
   const ConfigNode* entry = Optional(key);
   if (entry != nullptr) return *entry;
@@ -187,7 +194,9 @@ const ConfigNode& MapReader::Require(const std::string& key) {
 }
 
 const ConfigNode* MapReader::Optional(const std::string& key) {
-  known_keys_.push_back(key);
+  PALPATE_CHECK(keys_ == nullptr || keys_->Find(key) != nullptr, key, "is not in the table");
+  const bool first = std::find(known_keys_.begin(), known_keys_.end(), key) == known_keys_.end();
+  if (first) known_keys_.push_back(key);
   const ConfigNode* entry = node_.Find(key);
   return entry == nullptr || entry->kind == Kind::kNull ? nullptr : entry;
 }
@@ -195,8 +204,9 @@ const ConfigNode* MapReader::Optional(const std::string& key) {
 void MapReader::Finish() const {
   for (const auto& [key, entry] : node_.entries) {
     if (std::find(known_keys_.begin(), known_keys_.end(), key) == known_keys_.end()) {
-      throw InputError(entry.key_where,
-                       "unknown key '" + entry.path + "'" + DidYouMean(key, known_keys_));
+      throw InputError(entry.key_where, "unknown key '" + Excerpt(entry.path) + "'" +
+                                            DidYouMean(key, known_keys_) +
+                                            "; allowed: " + Listed(known_keys_));
     }
   }
 }
@@ -204,6 +214,59 @@ void MapReader::Finish() const {
 double MapReader::Number(const std::string& key, double fallback, const NumberRule& rule) {
   const ConfigNode* entry = Optional(key);
   return entry == nullptr ? fallback : ReadNumber(*entry, rule);
+}
+
+const Key& MapReader::KeyOf(const std::string& key) const {
+  PALPATE_CHECK(keys_ != nullptr && keys_->Find(key) != nullptr, key, "is not in the table");
+  return *keys_->Find(key);
+}
+
+const ConfigNode* MapReader::Entry(const std::string& key) {
+  const bool optional = KeyOf(key).presence.kind == Presence::Kind::kOptional;
+  return optional ? Optional(key) : &Require(key);
+}
+
+void MapReader::Read(const std::string& key, bool* value) {
+  if (const ConfigNode* entry = Entry(key)) *value = ReadBool(*entry);
+}
+
+void MapReader::Read(const std::string& key, int* value) {
+  const NumberRule& rule = KeyOf(key).type.rule;
+  const ConfigNode* entry = Entry(key);
+  if (entry == nullptr) return;
+  *value = ReadInteger(*entry, static_cast<int>(rule.min), static_cast<int>(rule.max));
+}
+
+void MapReader::Read(const std::string& key, double* value) {
+  if (const ConfigNode* entry = Entry(key)) *value = ReadNumber(*entry, KeyOf(key).type.rule);
+}
+
+void MapReader::Read(const std::string& key, std::string* value) {
+  const std::vector<std::string>& choices = KeyOf(key).type.choices;
+  const ConfigNode* entry = Entry(key);
+  if (entry == nullptr) return;
+  *value = choices.empty() ? ReadText(*entry) : ReadChoice(*entry, choices);
+}
+
+void MapReader::Read(const std::string& key, Eigen::Vector3d* value) {
+  const ConfigNode* entry = Entry(key);
+  if (entry != nullptr) *value = ReadVector3(*entry, KeyOf(key).type.parts.at(0).rule);
+}
+
+void MapReader::Read(const std::string& key, std::optional<double>* value) {
+  if (const ConfigNode* entry = Entry(key)) *value = ReadNumber(*entry, KeyOf(key).type.rule);
+}
+
+void MapReader::Read(const std::string& key, std::optional<Eigen::Vector3d>* value) {
+  const ConfigNode* entry = Entry(key);
+  if (entry != nullptr) *value = ReadVector3(*entry, KeyOf(key).type.parts.at(0).rule);
+}
+
+void MapReader::Read(const std::string& key, std::filesystem::path* value) {
+  const ConfigNode* entry = Entry(key);
+  if (entry == nullptr) return;
+  const std::filesystem::path folder = std::filesystem::path(entry->where.file).parent_path();
+  *value = (folder / ReadText(*entry)).lexically_normal();
 }
 
 }  // namespace palpate

@@ -47,6 +47,28 @@ std::string DidYouMean(std::string_view word, const std::vector<std::string>& ca
   return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
 }
 
+std::string Listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+std::string Excerpt(std::string_view text) {
+  constexpr size_t kLongest = 80;
+  constexpr std::string_view kDots = "...";
+  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; };
+  size_t length = text.size();
+  if (length > kLongest) {
+    length = kLongest - kDots.size();
+    while (length > 0 && !begins_character(text[length])) --length;
+  }
+  std::string excerpt(text.substr(0, length));
+  for (char& c : excerpt) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return length < text.size() ? excerpt.append(kDots) : excerpt;
+}
+
 bool ParseFinite(std::string_view text, double* value) {
   if (text.starts_with('+')) {
     text.remove_prefix(1);

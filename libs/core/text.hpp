@@ -18,6 +18,13 @@ std::string Nearest(std::string_view word, const std::vector<std::string>& candi
 /// " (did you mean 'x'?)" for the candidate nearest to `word`, empty where none is near.
 std::string DidYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "a, b, c"
+std::string Listed(const std::vector<std::string>& words);
+
+/// What a message may show of an input of any length: at most 80 characters on one line, the rest
+/// replaced by "..."; control characters become blanks.
+std::string Excerpt(std::string_view text);
+
 /// The whole of `text` as a finite number, C locale. Returns false for anything else
 /// ("1e3 ", "nan", "inf", "", "1,5").
 bool ParseFinite(std::string_view text, double* value);

@@ -75,6 +75,12 @@ CsvTable CsvTable::Read(const std::filesystem::path& file) {
 }
 
 void CsvTable::ParseHeader(std::string_view line) {
+  if (line.find(',') == std::string_view::npos && line.find(';') != std::string_view::npos) {
+    const int column = static_cast<int>(line.find(';')) + 1;
+    throw InputError(SourceLocation{file_, 1, column},
+                     "fields are separated by ';'; separate them by ',' and write numbers with a "
+                     "decimal point");
+  }
   FieldSplitter fields(line);
   for (std::string_view field; fields.Next(field);) {
     const std::string name(WithoutQuotes(WithoutBlanks(field)));
@@ -140,7 +146,7 @@ SourceLocation CsvTable::HeaderWhere(std::size_t column) const {
 
 void CsvTable::Refuse(std::size_t row, std::size_t column, const std::string& message) const {
   throw InputError(Where(row, column),
-                   header_[column] + " '" + std::string(Text(row, column)) + "': " + message);
+                   header_[column] + " '" + Excerpt(Text(row, column)) + "': " + message);
 }
 
 }  // namespace palpate::experiment

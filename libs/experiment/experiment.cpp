@@ -19,45 +19,74 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The causes of DIAGNOSIS.md, and the tolerances that belong to no single cause.
-const std::vector<std::string> kToleranceKeys = {"youngs_modulus",
-                                                 "regional_stiffness",
-                                                 "poissons_ratio",
-                                                 "stiffening",
-                                                 "density",
-                                                 "viscoelastic_creep",
-                                                 "mullins",
-                                                 "plastic_set",
-                                                 "geometry_scale",
-                                                 "temperature",
-                                                 "rest_twist",
-                                                 "base_compliance",
-                                                 "gravity_direction",
-                                                 "payload",
-                                                 "permanent_force",
-                                                 "hidden_obstacle",
-                                                 "cable_friction",
-                                                 "cable_elasticity",
-                                                 "cable_cutting",
-                                                 "cable_gain",
-                                                 "cable_offset",
-                                                 "backlash",
-                                                 "cable_routing",
-                                                 "swapped_cables",
-                                                 "drive_coupling",
-                                                 "lag",
-                                                 "camera_moved",
-                                                 "depth_scale",
-                                                 "depth_incidence_bias",
-                                                 "intrinsics",
-                                                 "lens_distortion",
-                                                 "flying_pixels",
-                                                 "warm_up_drift",
-                                                 "marker_misplacement",
-                                                 "discretisation",
-                                                 "extrinsics_m",
-                                                 "extrinsics_rad",
-                                                 "marker_bias_m"};
+const KeyTable& DepthNoiseKeys() {
+  static const KeyTable keys{
+      .title = "depth noise",
+      .about = "Noise of the depth camera.",
+      .keys = {{"subpixel_px", value::Number(kNonNegative), kRequired,
+                "Standard deviation of the disparity of a stereo camera. 0: unknown, or not a "
+                "stereo camera."},
+               {"unit_m", value::Number(kNonNegative), kRequired, "One step of the depth value."}}};
+  return keys;
+}
+
+/// The causes of the catalogue of diagnosis, and the tolerances that belong to no single cause.
+const KeyTable& ToleranceKeys() {
+  static const KeyTable keys = [] {
+    const std::vector<std::string> causes = {"youngs_modulus",
+                                             "regional_stiffness",
+                                             "poissons_ratio",
+                                             "stiffening",
+                                             "density",
+                                             "viscoelastic_creep",
+                                             "mullins",
+                                             "plastic_set",
+                                             "geometry_scale",
+                                             "temperature",
+                                             "rest_twist",
+                                             "base_compliance",
+                                             "gravity_direction",
+                                             "payload",
+                                             "permanent_force",
+                                             "hidden_obstacle",
+                                             "cable_friction",
+                                             "cable_elasticity",
+                                             "cable_cutting",
+                                             "cable_gain",
+                                             "cable_offset",
+                                             "backlash",
+                                             "cable_routing",
+                                             "swapped_cables",
+                                             "drive_coupling",
+                                             "lag",
+                                             "camera_moved",
+                                             "depth_scale",
+                                             "depth_incidence_bias",
+                                             "intrinsics",
+                                             "lens_distortion",
+                                             "flying_pixels",
+                                             "warm_up_drift",
+                                             "marker_misplacement",
+                                             "discretisation"};
+    KeyTable table{
+        .title = "tolerances",
+        .about =
+            "Manufacturing tolerances (one standard deviation) that replace those of the "
+            "catalogue of diagnosis; each in the unit of the first parameter of its cause."};
+    for (const std::string& cause : causes) {
+      table.keys.push_back(
+          {cause, value::Number(kPositive), kOptional, "Tolerance of the cause `" + cause + "`."});
+    }
+    table.keys.push_back({"extrinsics_m", value::Number(kPositive), kOptional,
+                          "Standard error of the translation of `T_robot_camera`."});
+    table.keys.push_back({"extrinsics_rad", value::Number(kPositive), kOptional,
+                          "Standard error of the rotation of `T_robot_camera`."});
+    table.keys.push_back({"marker_bias_m", value::Number(kPositive), kOptional,
+                          "Standard deviation of the constant offset of a marker."});
+    return table;
+  }();
+  return keys;
+}
 
 Eigen::Vector3d ReadSigma(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::kList) return ReadVector3(node, kPositive);
@@ -65,21 +94,19 @@ Eigen::Vector3d ReadSigma(const ConfigNode& node) {
 }
 
 DepthNoise ReadDepthNoise(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, DepthNoiseKeys());
   DepthNoise noise;
-  noise.subpixel_px = ReadNumber(reader.Require("subpixel_px"), kNonNegative);
-  noise.unit_m = ReadNumber(reader.Require("unit_m"), kNonNegative);
+  reader.Read("subpixel_px", &noise.subpixel_px);
+  reader.Read("unit_m", &noise.unit_m);
   reader.Finish();
   return noise;
 }
 
 std::map<std::string, double> ReadTolerances(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, ToleranceKeys());
   std::map<std::string, double> tolerances;
-  for (const std::string& key : kToleranceKeys) {
-    if (const ConfigNode* entry = reader.Optional(key)) {
-      tolerances[key] = ReadNumber(*entry, kPositive);
-    }
+  for (const Key& key : ToleranceKeys().keys) {
+    if (reader.Optional(key.name) != nullptr) reader.Read(key.name, &tolerances[key.name]);
   }
   reader.Finish();
   return tolerances;
@@ -94,10 +121,6 @@ std::string ReadSha256(const ConfigNode& node) {
   return text;
 }
 
-fs::path Resolve(const fs::path& file, const std::string& named) {
-  return (file.parent_path() / named).lexically_normal();
-}
-
 std::string FormatTolerances(const std::map<std::string, double>& tolerances) {
   std::string text = "tolerances:\n";
   for (const auto& [key, value] : tolerances)
@@ -107,14 +130,39 @@ std::string FormatTolerances(const std::map<std::string, double>& tolerances) {
 
 }  // namespace
 
+const KeyTable& ExperimentKeys() {
+  static const KeyTable keys{
+      .title = "experiment.yaml",
+      .about = "What holds for all recordings of an experiment.",
+      .keys = {
+          {"robot", value::File(), kOptional, "Robot file of the robot that was measured."},
+          {"frame", value::Choice({"robot", "camera"}), Default("robot"),
+           "Measurement frame of markers: the robot frame, or the optical frame of the depth "
+           "camera. Images and clouds are always in the camera's."},
+          {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+           "Pose of the depth camera: p_robot = T p_camera. Absent: unknown."},
+          {"markers_sigma_m", value::Either({value::Number(kPositive), value::Vector3(kPositive)}),
+           kOptional,
+           "Standard deviation of the noise of a marker: one number, or `[x, y, z]` in the "
+           "measurement frame."},
+          {"depth_noise", value::Map(DepthNoiseKeys()), kOptional, "Noise of the depth camera."},
+          {"tolerances", value::Map(ToleranceKeys()), kOptional,
+           "Manufacturing tolerances that replace those of diagnosis."},
+          {"rest_between_s", value::Number(kNonNegative), kOptional,
+           "Rest before each recording, commands at zero. Absent: unknown."},
+          {"notes", value::Text(), kOptional, "For people."},
+          {"answer_sha256", value::Text(), kOptional,
+           "SHA-256 of the answer file of a blind test (`palpate simulate`): 64 digits of 0-9 "
+           "and a-f."}}};
+  return keys;
+}
+
 Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load) {
   const ConfigNode root = load(file);
-  MapReader reader(root);
+  MapReader reader(root, ExperimentKeys());
   Experiment experiment;
   experiment.folder = file.parent_path();
-  if (const ConfigNode* node = reader.Optional("robot")) {
-    experiment.robot = Resolve(file, ReadText(*node));
-  }
+  if (reader.Optional("robot") != nullptr) reader.Read("robot", &experiment.robot.emplace());
   if (const ConfigNode* node = reader.Optional("frame")) {
     experiment.frame = ParseMeasurementFrame(ReadText(*node), node->where);
   }
@@ -130,10 +178,8 @@ Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load
   if (const ConfigNode* node = reader.Optional("tolerances")) {
     experiment.tolerances = ReadTolerances(*node);
   }
-  if (const ConfigNode* node = reader.Optional("rest_between_s")) {
-    experiment.rest_between_s = ReadNumber(*node, kNonNegative);
-  }
-  if (const ConfigNode* node = reader.Optional("notes")) experiment.notes = ReadText(*node);
+  reader.Read("rest_between_s", &experiment.rest_between_s);
+  reader.Read("notes", &experiment.notes);
   if (const ConfigNode* node = reader.Optional("answer_sha256")) {
     experiment.answer_sha256 = ReadSha256(*node);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/key_table.hpp"
 #include "libs/experiment/recording.hpp"
 
 namespace palpate::experiment {
@@ -22,8 +23,8 @@ struct DepthNoise {
   double unit_m = 0.0;       ///< >= 0, one step of the depth value
 };
 
-/// A folder of measured data (format: ARCHITECTURE, "Measured data"): experiment.yaml and its
-/// recordings. One clock for all of them; they were made in the order of their names.
+/// A folder of measured data (format: docs/experiment.md): experiment.yaml and its recordings. One
+/// clock for all of them; they were made in the order of their names.
 struct Experiment {
   std::filesystem::path folder;
   std::optional<std::filesystem::path> robot;  ///< resolved against experiment.yaml
@@ -46,6 +47,9 @@ struct Experiment {
 /// Throws InputError with file:line:column at the first thing that is wrong: unknown key (with "did
 /// you mean"), NaN, unsorted time, a sample given twice, wrong units, ... Nothing is half-read.
 Experiment ReadExperiment(const std::filesystem::path& folder, const ConfigLoader& load);
+
+/// The keys of experiment.yaml.
+const KeyTable& ExperimentKeys();
 
 /// experiment.yaml alone; `recordings` stays empty.
 Experiment ReadExperimentSettings(const std::filesystem::path& file, const ConfigLoader& load);

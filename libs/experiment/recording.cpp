@@ -47,32 +47,30 @@ template <typename Table>
 auto ValueOf(const Table& table, const std::string& word, const SourceLocation& where,
              const std::string& what) {
   std::vector<std::string> words;
-  std::string list;
   for (const auto& [value, known] : table) {
     if (known == word) return value;
     words.emplace_back(known);
-    list += (list.empty() ? "" : ", ") + words.back();
   }
-  throw InputError(where, what + " '" + word + "' is not known" + DidYouMean(word, words) +
-                              "; it is one of " + list);
-}
-
-std::string Listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
+  throw InputError(where, what + " '" + Excerpt(word) + "' is not known" + DidYouMean(word, words) +
+                              "; it is one of " + Listed(words));
 }
 
 void CheckName(const std::string& name, const SourceLocation& where, const std::string& what,
                const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw InputError(where, "the robot has no " + what + " '" + name + "'" + DidYouMean(name, names) +
-                              "; it has " + Listed(names));
+                              "; it has " + (names.empty() ? "none" : Listed(names)));
 }
 
 }  // namespace
 
 std::string ToString(RecordingKind kind) { return WordOf(kKinds, kind); }
+
+std::vector<std::string> RecordingKindWords() {
+  std::vector<std::string> words;
+  for (const auto& [kind, word] : kKinds) words.emplace_back(word);
+  return words;
+}
 
 std::string ToString(MeasurementFrame frame) { return WordOf(kFrames, frame); }
 

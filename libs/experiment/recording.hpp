@@ -42,6 +42,7 @@ enum class RecordingKind {
 /// The words of recording.yaml, e.g. "known_load", and "robot" | "camera".
 std::string ToString(RecordingKind kind);
 std::string ToString(MeasurementFrame frame);
+std::vector<std::string> RecordingKindWords();
 RecordingKind ParseRecordingKind(const std::string& word, const SourceLocation& where);
 MeasurementFrame ParseMeasurementFrame(const std::string& word, const SourceLocation& where);
 

@@ -20,11 +20,23 @@ Eigen::Vector2d ReadTilt(const ConfigNode& node) {
   return {angles_deg[0], angles_deg[1]};
 }
 
+const KeyTable& ReferenceKeys() {
+  static const KeyTable keys{
+      .title = "reference",
+      .about = "Marker displacements of the recording count from their mean over this window.",
+      .keys = {{"window_s", value::Numbers({}, 2, 2), kRequired, "`[begin, end]`, begin < end."},
+               {"shape", value::Choice({"undeformed", "equilibrium"}), kRequired,
+                "Shape of the body during the window. `undeformed`: held in its undeformed shape. "
+                "`equilibrium`: at rest under its weight and cables, without contact."}}};
+  return keys;
+}
+
 Reference ReadReference(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, ReferenceKeys());
   Reference reference;
   reference.window_s = ReadWindow(reader.Require("window_s"));
-  const std::string shape = ReadChoice(reader.Require("shape"), {"undeformed", "equilibrium"});
+  std::string shape;
+  reader.Read("shape", &shape);
   reference.shape =
       shape == "undeformed" ? ReferenceShape::kUndeformed : ReferenceShape::kEquilibrium;
   reader.Finish();
@@ -33,10 +45,34 @@ Reference ReadReference(const ConfigNode& node) {
 
 }  // namespace
 
+const KeyTable& RecordingKeys() {
+  static const KeyTable keys{
+      .title = "recording.yaml",
+      .about = "What was done in one recording, and what differs from experiment.yaml.",
+      .keys = {{"kind", value::Choice(RecordingKindWords()), kRequired,
+                "What was done, see the kinds of recordings."},
+               {"frame", value::Choice({"robot", "camera"}), kOptional,
+                "Measurement frame of markers. Absent: that of experiment.yaml."},
+               {"base_tilt_deg", value::Numbers(kTiltRule, 2, 2), kOptional,
+                "`[a, b]`: the base was turned by R = Ry(b) Rx(a). The robot frame is fixed to the "
+                "base, so that gravity in it becomes R' g. Absent: not tilted."},
+               {"camera_on_base", value::Boolean(), Default(Recording{}.camera_on_base),
+                "The camera moves with a tilted base."},
+               {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+                "Pose of the depth camera during this recording. Absent: that of experiment.yaml, "
+                "or unknown for `kind: camera_moved`."},
+               {"reference", value::Map(ReferenceKeys()), kOptional,
+                "Window from which marker displacements count. Absent: markers are positions."},
+               {"steady_window_s", value::Numbers({}, 2, 2), kOptional,
+                "`[begin, end]`: the static phase, begin < end. Absent: the whole recording."},
+               {"notes", value::Text(), kOptional, "For people."}}};
+  return keys;
+}
+
 void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader& load,
                            Recording& recording) {
   const ConfigNode root = load(file);
-  MapReader reader(root);
+  MapReader reader(root, RecordingKeys());
   const ConfigNode& kind = reader.Require("kind");
   recording.kind = ParseRecordingKind(ReadText(kind), kind.where);
   if (const ConfigNode* node = reader.Optional("frame")) {
@@ -45,9 +81,7 @@ void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader
   if (const ConfigNode* node = reader.Optional("base_tilt_deg")) {
     recording.base_tilt_deg = ReadTilt(*node);
   }
-  if (const ConfigNode* node = reader.Optional("camera_on_base")) {
-    recording.camera_on_base = ReadBool(*node);
-  }
+  reader.Read("camera_on_base", &recording.camera_on_base);
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
     recording.T_robot_camera = geometry::ReadPose(*node);
   }
@@ -57,7 +91,7 @@ void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader
   if (const ConfigNode* node = reader.Optional("steady_window_s")) {
     recording.steady_window_s = ReadWindow(*node);
   }
-  if (const ConfigNode* node = reader.Optional("notes")) recording.notes = ReadText(*node);
+  reader.Read("notes", &recording.notes);
   reader.Finish();
 }
 

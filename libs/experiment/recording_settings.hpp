@@ -7,9 +7,13 @@
 #include <string>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/key_table.hpp"
 #include "libs/experiment/recording.hpp"
 
 namespace palpate::experiment {
+
+/// The keys of recording.yaml.
+const KeyTable& RecordingKeys();
 
 /// Reads recording.yaml strictly into the settings of `recording`; the tables are left alone.
 /// Throws InputError with file:line:column.

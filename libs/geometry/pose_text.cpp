@@ -15,6 +15,16 @@ namespace {
 
 constexpr double kNormTolerance = 1e-3;
 
+const KeyTable& QuaternionKeys() {
+  static const KeyTable keys{.title = "quaternion",
+                             .about = "A rotation as a unit quaternion.",
+                             .keys = {{"x", value::Number(), kRequired, "Component x."},
+                                      {"y", value::Number(), kRequired, "Component y."},
+                                      {"z", value::Number(), kRequired, "Component z."},
+                                      {"w", value::Number(), kRequired, "Scalar component."}}};
+  return keys;
+}
+
 Eigen::Quaterniond ReadQuaternion(const ConfigNode& node) {
   Eigen::Quaterniond rotation;
   if (node.kind == ConfigNode::Kind::kList) {
@@ -22,11 +32,11 @@ Eigen::Quaterniond ReadQuaternion(const ConfigNode& node) {
     if (xyzw.size() != 4) Refuse(node, "must be [x, y, z, w] or {x, y, z, w}");
     rotation = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   } else {
-    MapReader reader(node);
-    rotation.x() = ReadNumber(reader.Require("x"));
-    rotation.y() = ReadNumber(reader.Require("y"));
-    rotation.z() = ReadNumber(reader.Require("z"));
-    rotation.w() = ReadNumber(reader.Require("w"));
+    MapReader reader(node, QuaternionKeys());
+    reader.Read("x", &rotation.x());
+    reader.Read("y", &rotation.y());
+    reader.Read("z", &rotation.z());
+    reader.Read("w", &rotation.w());
     reader.Finish();
   }
   if (std::abs(rotation.norm() - 1.0) > kNormTolerance) {
@@ -37,9 +47,23 @@ Eigen::Quaterniond ReadQuaternion(const ConfigNode& node) {
 
 }  // namespace
 
+const KeyTable& PoseKeys() {
+  static const KeyTable keys{
+      .title = "pose",
+      .about = "`T_target_source`: p_target = T p_source.",
+      .keys = {
+          {"translation_m", value::Vector3(), kRequired,
+           "Origin of the source frame, in the target frame."},
+          {"rotation_xyzw", value::Either({value::Numbers({}, 4, 4), value::Map(QuaternionKeys())}),
+           kRequired,
+           "Unit quaternion `[x, y, z, w]` or `{x, y, z, w}`. Its norm may be off 1 by 0.001."}}};
+  return keys;
+}
+
 Eigen::Isometry3d ReadPose(const ConfigNode& node) {
-  MapReader reader(node);
-  const Eigen::Vector3d translation_m = ReadVector3(reader.Require("translation_m"));
+  MapReader reader(node, PoseKeys());
+  Eigen::Vector3d translation_m;
+  reader.Read("translation_m", &translation_m);
   const Eigen::Quaterniond rotation = ReadQuaternion(reader.Require("rotation_xyzw"));
   reader.Finish();
   return Eigen::Translation3d(translation_m) * rotation;

@@ -8,8 +8,12 @@
 #include <string>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/key_table.hpp"
 
 namespace palpate::geometry {
+
+/// The keys of a pose in a file.
+const KeyTable& PoseKeys();
 
 /// `{translation_m: [x, y, z], rotation_xyzw: {x, y, z, w}}`; the rotation may also be a list
 /// [x, y, z, w]. Throws InputError where its norm is off 1 by more than 1e-3; normalises.

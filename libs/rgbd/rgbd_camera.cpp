@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kLargestSize_px = 16384;
 constexpr int kLargestDepthValue = 65535;
+constexpr int kLongestDistortion = 5;
 constexpr std::size_t kWithoutK3 = 4;
 // A unit of 1 is one that was meant in millimetres, a baseline of 50 as well.
 constexpr NumberRule kUnitRule{.min = 0.0, .max = 0.1, .min_open = true};
@@ -32,14 +33,62 @@ std::array<double, 5> ReadDistortion(const ConfigNode& node) {
   return distortion;
 }
 
+std::vector<Key> ModelKeys() {
+  return {{"width_px", value::Integer(1, kLargestSize_px), kRequired, "Width of the image."},
+          {"height_px", value::Integer(1, kLargestSize_px), kRequired, "Height of the image."},
+          {"fx_px", value::Number(kPositive), kRequired, "Focal length along u."},
+          {"fy_px", value::Number(kPositive), kRequired, "Focal length along v."},
+          {"cx_px", value::Number(), kRequired,
+           "Principal point, u. The centre of pixel (0, 0) is at u = v = 0."},
+          {"cy_px", value::Number(), kRequired, "Principal point, v."},
+          {"distortion", value::Numbers({}, 0, kLongestDistortion), kOptional,
+           "Lens distortion `[k1, k2, p1, p2]` or `[k1, k2, p1, p2, k3]` in OpenCV's order. `[]` "
+           "or absent: none."}};
+}
+
+const KeyTable& DepthKeys() {
+  static const KeyTable keys = [] {
+    const RgbdCamera defaults;
+    KeyTable table{.title = "depth camera",
+                   .about =
+                       "Pinhole model of the depth camera. Its optical frame: x right, y down, "
+                       "z forward.",
+                   .keys = ModelKeys()};
+    table.keys.push_back(
+        {"unit_m", value::Number(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
+    table.keys.push_back({"invalid_value", value::Integer(0, kLargestDepthValue),
+                          Default(defaults.invalid_value), "Value of a pixel without depth."});
+    table.keys.push_back({"baseline_m", value::Number(kBaselineRule), Default(defaults.baseline_m),
+                          "Baseline of a stereo camera. 0: unknown, or not a stereo camera."});
+    return table;
+  }();
+  return keys;
+}
+
+const KeyTable& ColorKeys() {
+  static const KeyTable keys = [] {
+    KeyTable table{.title = "colour camera",
+                   .about = "Pinhole model of the colour camera.",
+                   .keys = ModelKeys()};
+    table.keys.push_back(
+        {"registered_to_depth", value::Boolean(), Default(RgbdCamera{}.color_registered),
+         "Pixels are those of the depth image. The model must be that of `depth`."});
+    table.keys.push_back({"T_depth_color", value::Map(geometry::PoseKeys()), kOptional,
+                          "Pose of the colour camera: p_depth = T p_color. Required unless "
+                          "`registered_to_depth`."});
+    return table;
+  }();
+  return keys;
+}
+
 CameraModel ReadModel(MapReader& reader) {
   CameraModel model;
-  model.width_px = ReadInteger(reader.Require("width_px"), 1, kLargestSize_px);
-  model.height_px = ReadInteger(reader.Require("height_px"), 1, kLargestSize_px);
-  model.fx_px = ReadNumber(reader.Require("fx_px"), kPositive);
-  model.fy_px = ReadNumber(reader.Require("fy_px"), kPositive);
-  model.cx_px = ReadNumber(reader.Require("cx_px"));
-  model.cy_px = ReadNumber(reader.Require("cy_px"));
+  reader.Read("width_px", &model.width_px);
+  reader.Read("height_px", &model.height_px);
+  reader.Read("fx_px", &model.fx_px);
+  reader.Read("fy_px", &model.fy_px);
+  reader.Read("cx_px", &model.cx_px);
+  reader.Read("cy_px", &model.cy_px);
   if (const ConfigNode* node = reader.Optional("distortion")) {
     model.distortion = ReadDistortion(*node);
   }
@@ -47,22 +96,18 @@ CameraModel ReadModel(MapReader& reader) {
 }
 
 void ReadDepthCamera(const ConfigNode& node, RgbdCamera* camera) {
-  MapReader reader(node);
+  MapReader reader(node, DepthKeys());
   camera->depth = ReadModel(reader);
-  camera->depth_unit_m = ReadNumber(reader.Require("unit_m"), kUnitRule);
-  if (const ConfigNode* value = reader.Optional("invalid_value")) {
-    camera->invalid_value = ReadInteger(*value, 0, kLargestDepthValue);
-  }
-  camera->baseline_m = reader.Number("baseline_m", 0.0, kBaselineRule);
+  reader.Read("unit_m", &camera->depth_unit_m);
+  reader.Read("invalid_value", &camera->invalid_value);
+  reader.Read("baseline_m", &camera->baseline_m);
   reader.Finish();
 }
 
 void ReadColorCamera(const ConfigNode& node, RgbdCamera* camera) {
-  MapReader reader(node);
+  MapReader reader(node, ColorKeys());
   camera->color = ReadModel(reader);
-  if (const ConfigNode* value = reader.Optional("registered_to_depth")) {
-    camera->color_registered = ReadBool(*value);
-  }
+  reader.Read("registered_to_depth", &camera->color_registered);
   const ConfigNode* pose = reader.Optional("T_depth_color");
   if (pose != nullptr) {
     camera->T_depth_color = geometry::ReadPose(*pose);
@@ -95,6 +140,15 @@ bool RgbdCamera::operator==(const RgbdCamera& other) const {
          T_depth_color.matrix() == other.T_depth_color.matrix();
 }
 
+const KeyTable& CameraFileKeys() {
+  static const KeyTable keys{
+      .title = "camera.yaml",
+      .about = "A depth camera and the colour camera beside it.",
+      .keys = {{"depth", value::Map(DepthKeys()), kRequired, "The depth camera."},
+               {"color", value::Map(ColorKeys()), kOptional, "The colour camera. Absent: none."}}};
+  return keys;
+}
+
 RgbdCamera ReadCamera(MapReader& reader) {
   RgbdCamera camera;
   ReadDepthCamera(reader.Require("depth"), &camera);
@@ -103,7 +157,7 @@ RgbdCamera ReadCamera(MapReader& reader) {
 }
 
 RgbdCamera ReadCamera(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, CameraFileKeys());
   RgbdCamera camera = ReadCamera(reader);
   reader.Finish();
   return camera;

@@ -13,8 +13,8 @@
 
 namespace palpate::rgbd {
 
-/// A depth camera and the colour camera beside it: camera.yaml of a recording (ARCHITECTURE,
-/// "Measured data").
+/// A depth camera and the colour camera beside it: camera.yaml of a recording
+/// (docs/experiment.md).
 struct RgbdCamera {
   CameraModel depth;
   double depth_unit_m = 1e-4;     ///< metres in one step of the depth image, > 0
@@ -28,6 +28,9 @@ struct RgbdCamera {
   bool operator==(const RgbdCamera& other) const;
 };
 
+/// The keys of camera.yaml.
+const KeyTable& CameraFileKeys();
+
 /// Reads camera.yaml strictly; throws InputError with file:line:column. These may be missing:
 /// `color`, `distortion` (none; else k1, k2, p1, p2 and, where it is not 0, k3), `invalid_value`
 /// (0), `baseline_m` (0), `registered_to_depth` (false); `T_depth_color` of a registered image
@@ -35,7 +38,8 @@ struct RgbdCamera {
 RgbdCamera ReadCameraFile(const std::filesystem::path& file, const ConfigLoader& load);
 /// The same from a tree that stands inside another file.
 RgbdCamera ReadCamera(const ConfigNode& node);
-/// The same from the keys `depth` and `color` of a map that has other keys as well.
+/// The same from the keys `depth` and `color` of a map that has other keys as well; its table, if
+/// it has one, must hold these two.
 RgbdCamera ReadCamera(MapReader& reader);
 /// The text that ReadCameraFile reads back exactly (a rotation to the last bit or two).
 std::string FormatCameraFile(const RgbdCamera& camera);

@@ -20,15 +20,28 @@ constexpr int kPoseRows = 6;
 constexpr int kMostPixels = 1 << 16;
 constexpr int kHighestOrder = 4;
 
+const KeyTable& PictureKeys() {
+  static const KeyTable keys{
+      .title = "image of the depth bias",
+      .about = "The depth images that the bias belongs to.",
+      .keys = {{"width_px", value::Integer(1, kMostPixels), kRequired, "Width."},
+               {"height_px", value::Integer(1, kMostPixels), kRequired, "Height."},
+               {"fx_px", value::Number(kPositive), kRequired, "Focal length along u."},
+               {"fy_px", value::Number(kPositive), kRequired, "Focal length along v."},
+               {"cx_px", value::Number(), kRequired, "Principal point, u."},
+               {"cy_px", value::Number(), kRequired, "Principal point, v."}}};
+  return keys;
+}
+
 DepthPicture ReadPicture(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, PictureKeys());
   DepthPicture picture;
-  picture.width_px = ReadInteger(map.Require("width_px"), 1, kMostPixels);
-  picture.height_px = ReadInteger(map.Require("height_px"), 1, kMostPixels);
-  picture.fx_px = ReadNumber(map.Require("fx_px"), kPositive);
-  picture.fy_px = ReadNumber(map.Require("fy_px"), kPositive);
-  picture.cx_px = ReadNumber(map.Require("cx_px"));
-  picture.cy_px = ReadNumber(map.Require("cy_px"));
+  map.Read("width_px", &picture.width_px);
+  map.Read("height_px", &picture.height_px);
+  map.Read("fx_px", &picture.fx_px);
+  map.Read("fy_px", &picture.fy_px);
+  map.Read("cx_px", &picture.cx_px);
+  map.Read("cy_px", &picture.cy_px);
   map.Finish();
   return picture;
 }
@@ -74,13 +87,31 @@ Eigen::MatrixXd ReadCovariance(const ConfigNode& node, int rows) {
 
 }  // namespace
 
+const KeyTable& DepthBiasKeys() {
+  static const KeyTable keys{
+      .title = "depth bias",
+      .about =
+          "A point that is measured at p is at (1 + b) p, camera frame. b is a polynomial in "
+          "x / (z span) and y / (z span).",
+      .keys = {{"image", value::Map(PictureKeys()), kRequired, "The images that it belongs to."},
+               {"order", value::Integer(0, kHighestOrder), kRequired, "Order of the polynomial."},
+               {"span", value::Number(kPositive), kRequired,
+                "Tangent of the angle to the optical axis at which a monomial is 1."},
+               {"coefficients", value::Numbers(), kRequired,
+                "Coefficients of the monomials: (order + 1)(order + 2) / 2 numbers."},
+               {"covariance", value::List(value::Numbers()), kRequired,
+                "Lower triangle, one row each: rotation (rad) and translation (m) of "
+                "`T_robot_camera`, then the coefficients."}}};
+  return keys;
+}
+
 CalibratedDepthBias ReadDepthBias(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, DepthBiasKeys());
   CalibratedDepthBias bias;
   bias.picture = ReadPicture(reader.Require("image"));
   geometry::DepthBiasMap& map = bias.map;
-  map.basis.order = ReadInteger(reader.Require("order"), 0, kHighestOrder);
-  map.basis.span = ReadNumber(reader.Require("span"), kPositive);
+  reader.Read("order", &map.basis.order);
+  reader.Read("span", &map.basis.span);
   const ConfigNode& coefficients = reader.Require("coefficients");
   const std::vector<double> numbers = ReadNumbers(coefficients);
   const int count = geometry::CountOf(map.basis);

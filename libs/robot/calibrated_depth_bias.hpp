@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/key_table.hpp"
 #include "libs/core/status.hpp"
 #include "libs/geometry/depth_bias_map.hpp"
 #include "libs/geometry/depth_picture.hpp"
@@ -18,6 +19,9 @@ struct CalibratedDepthBias {
   geometry::DepthPicture picture;
   geometry::DepthBiasMap map;
 };
+
+/// The keys of the block `depth_bias:`.
+const KeyTable& DepthBiasKeys();
 
 /// The block `depth_bias:` of a calibration file. Throws InputError with file:line:column, also
 /// where the covariance is none (not [6 + k] rows of a lower triangle, or not positive

@@ -24,25 +24,46 @@ void ScalePoint(double scale, fem::BodyPoint* point) {
 
 }  // namespace
 
+const KeyTable& GeometryScaleKeys() {
+  static const KeyTable keys{
+      .title = "geometry scale",
+      .about = "Size of the robot over that in its file, about the origin of the robot frame.",
+      .keys = {{"scale", value::Number({.min = kSmallestScale, .max = kLargestScale}), kRequired,
+                "Ratio of lengths."},
+               {"standard_error", value::Number(kNonNegative), kRequired, "Its standard error."}}};
+  return keys;
+}
+
+const KeyTable& CableRouteKeys() {
+  static const KeyTable keys{
+      .title = "cable route",
+      .about = "Offset of a point of a cable's route from its place in the robot file.",
+      .keys = {{"cable", value::Text(), kRequired, "Name of the cable."},
+               {"point", value::Integer(0, kMostPoints), Default(CalibratedRoute{}.point),
+                "Index into `path_m`. 0: the point that the cable is pulled from."},
+               {"moved_m", value::Vector3({.min = -kFarthestOff_m, .max = kFarthestOff_m}),
+                kRequired, "Offset, robot frame."},
+               {"standard_error_m", value::Vector3(kNonNegative), kRequired,
+                "Its standard error along each axis."}}};
+  return keys;
+}
+
 CalibratedScale ReadGeometryScale(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, GeometryScaleKeys());
   CalibratedScale scale;
-  scale.scale = ReadNumber(map.Require("scale"), {.min = kSmallestScale, .max = kLargestScale});
-  scale.standard_error = ReadNumber(map.Require("standard_error"), kNonNegative);
+  map.Read("scale", &scale.scale);
+  map.Read("standard_error", &scale.standard_error);
   map.Finish();
   return scale;
 }
 
 CalibratedRoute ReadCableRoute(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, CableRouteKeys());
   CalibratedRoute route;
-  route.cable = ReadText(map.Require("cable"));
-  if (const ConfigNode* point = map.Optional("point")) {
-    route.point = ReadInteger(*point, 0, kMostPoints);
-  }
-  route.moved_m =
-      ReadVector3(map.Require("moved_m"), {.min = -kFarthestOff_m, .max = kFarthestOff_m});
-  route.standard_error_m = ReadVector3(map.Require("standard_error_m"), kNonNegative);
+  map.Read("cable", &route.cable);
+  map.Read("point", &route.point);
+  map.Read("moved_m", &route.moved_m);
+  map.Read("standard_error_m", &route.standard_error_m);
   map.Finish();
   return route;
 }

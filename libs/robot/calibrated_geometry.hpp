@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/key_table.hpp"
 #include "libs/core/status.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -36,6 +37,10 @@ struct CalibratedRoute {
   Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d standard_error_m = Eigen::Vector3d::Zero();
 };
+
+/// The keys of `geometry_scale`, and of an item of `cable_routes`.
+const KeyTable& GeometryScaleKeys();
+const KeyTable& CableRouteKeys();
 
 /// Throw InputError with file:line:column for what is none.
 CalibratedScale ReadGeometryScale(const ConfigNode& node);

@@ -8,28 +8,28 @@
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
+#include "libs/robot/calibration_keys.hpp"
 
 namespace palpate::robot {
 
 namespace {
 
 CalibratedModulus ReadModulus(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, ModulusKeys());
   CalibratedModulus modulus;
-  modulus.part = ReadText(map.Require("part"));
-  modulus.youngs_modulus_Pa = ReadNumber(map.Require("youngs_modulus_Pa"), kPositive);
-  modulus.standard_error_Pa = ReadNumber(map.Require("standard_error_Pa"), kNonNegative);
+  map.Read("part", &modulus.part);
+  map.Read("youngs_modulus_Pa", &modulus.youngs_modulus_Pa);
+  map.Read("standard_error_Pa", &modulus.standard_error_Pa);
   map.Finish();
   return modulus;
 }
 
 CalibratedPoissonsRatio ReadFoundPoissonsRatio(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, PoissonsRatioKeys());
   CalibratedPoissonsRatio poissons;
-  poissons.part = ReadText(map.Require("part"));
-  poissons.poissons_ratio =
-      ReadNumber(map.Require("poissons_ratio"), {.min = -1.0, .max = 0.5, .max_open = true});
-  poissons.standard_error = ReadNumber(map.Require("standard_error"), kNonNegative);
+  map.Read("part", &poissons.part);
+  map.Read("poissons_ratio", &poissons.poissons_ratio);
+  map.Read("standard_error", &poissons.standard_error);
   map.Finish();
   return poissons;
 }
@@ -37,37 +37,47 @@ CalibratedPoissonsRatio ReadFoundPoissonsRatio(const ConfigNode& node) {
 CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode& error_node) {
   CalibratedPose pose;
   pose.T_robot_camera = geometry::ReadPose(pose_node);
-  MapReader errors(error_node);
-  pose.rotation_error_rad = ReadVector3(errors.Require("rotation_rad"), kNonNegative);
-  pose.translation_error_m = ReadVector3(errors.Require("translation_m"), kNonNegative);
+  MapReader errors(error_node, PoseErrorKeys());
+  errors.Read("rotation_rad", &pose.rotation_error_rad);
+  errors.Read("translation_m", &pose.translation_error_m);
   errors.Finish();
   return pose;
 }
 
-CalibratedGravity ReadGravity(const ConfigNode& gravity, const ConfigNode& error) {
-  return {.gravity_m_s2 = ReadVector3(gravity),
-          .standard_error_m_s2 = ReadVector3(error, kNonNegative)};
-}
-
 CalibratedDrive ReadDrive(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, ActuatorKeys());
   CalibratedDrive drive;
-  drive.cable = ReadText(map.Require("cable"));
-  drive.drive.offset_m = ReadNumber(map.Require("offset_m"), {});
-  drive.standard_error.offset_m = ReadNumber(map.Require("offset_standard_error_m"), kNonNegative);
-  drive.drive.gain = ReadNumber(map.Require("gain"), {});
-  drive.standard_error.gain = ReadNumber(map.Require("gain_standard_error"), kNonNegative);
+  map.Read("cable", &drive.cable);
+  map.Read("offset_m", &drive.drive.offset_m);
+  map.Read("offset_standard_error_m", &drive.standard_error.offset_m);
+  map.Read("gain", &drive.drive.gain);
+  map.Read("gain_standard_error", &drive.standard_error.gain);
   map.Finish();
   return drive;
 }
 
 Undetermined ReadUndetermined(const ConfigNode& node) {
-  MapReader map(node);
+  MapReader map(node, UndeterminedKeys());
   Undetermined undetermined;
-  undetermined.name = ReadText(map.Require("name"));
-  undetermined.what_would_tell = ReadText(map.Require("what_would_tell"));
+  map.Read("name", &undetermined.name);
+  map.Read("what_would_tell", &undetermined.what_would_tell);
   map.Finish();
   return undetermined;
+}
+
+/// What the robot and the fit are that the calibration was made with.
+void ReadHead(MapReader* map, CalibrationFile* calibration) {
+  map->Read("robot", &calibration->robot);
+  map->Read("mesh_hash", &calibration->mesh_hash);
+  map->Read("element", &calibration->element);
+  map->Read("model", &calibration->model);
+  map->Read("poissons_ratio", &calibration->poissons_ratio);
+  map->Read("volumetric", &calibration->volumetric);
+  map->Read("c20_over_c10", &calibration->c20_over_c10);
+  map->Read("c30_over_c10", &calibration->c30_over_c10);
+  map->Read("date_utc", &calibration->date_utc);
+  map->Read("data", &calibration->data);
+  map->Read("data_hash", &calibration->data_hash);
 }
 
 /// The items of an optional list.
@@ -137,26 +147,15 @@ std::string FormatUndetermined(const std::vector<Undetermined>& undetermined) {
 
 CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const ConfigLoader& load) {
   const ConfigNode root = load(file);
-  MapReader map(root);
+  MapReader map(root, CalibrationFileKeys());
   CalibrationFile calibration;
-  calibration.robot = ReadText(map.Require("robot"));
-  calibration.mesh_hash = ReadText(map.Require("mesh_hash"));
-  calibration.element = ReadChoice(map.Require("element"), {"tet4", "tet10"});
-  calibration.model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
-  calibration.poissons_ratio =
-      ReadNumber(map.Require("poissons_ratio"), {.min = -1.0, .max = 0.5, .max_open = true});
-  if (const ConfigNode* volumetric = map.Optional("volumetric")) {
-    calibration.volumetric = ReadChoice(*volumetric, {"pointwise", "mean_dilatation"});
-  }
-  calibration.c20_over_c10 = map.Number("c20_over_c10", calibration.c20_over_c10);
-  calibration.c30_over_c10 = map.Number("c30_over_c10", calibration.c30_over_c10);
-  calibration.date_utc = ReadText(map.Require("date_utc"));
-  calibration.data = ReadText(map.Require("data"));
-  calibration.data_hash = ReadText(map.Require("data_hash"));
+  ReadHead(&map, &calibration);
   calibration.moduli = ReadItems(&map, "moduli", ReadModulus);
   calibration.poissons_ratios = ReadItems(&map, "poissons_ratios", ReadFoundPoissonsRatio);
-  if (const ConfigNode* gravity = map.Optional("gravity_m_s2")) {
-    calibration.gravity = ReadGravity(*gravity, map.Require("gravity_standard_error_m_s2"));
+  if (map.Optional("gravity_m_s2") != nullptr) {
+    calibration.gravity.emplace();
+    map.Read("gravity_m_s2", &calibration.gravity->gravity_m_s2);
+    map.Read("gravity_standard_error_m_s2", &calibration.gravity->standard_error_m_s2);
   }
   if (const ConfigNode* pose = map.Optional("T_robot_camera")) {
     calibration.pose = ReadCalibratedPose(*pose, map.Require("T_robot_camera_standard_error"));
@@ -179,9 +178,9 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
         "must hold moduli, poissons_ratios, gravity_m_s2, T_robot_camera, drives, geometry_scale "
         "or cable_routes: what was calibrated");
   }
-  calibration.residual_rms_m = ReadNumber(map.Require("residual_rms_m"), kNonNegative);
-  calibration.chi_squared = ReadNumber(map.Require("chi_squared"), kNonNegative);
-  calibration.degrees_of_freedom = ReadInteger(map.Require("degrees_of_freedom"), 0, 1 << 30);
+  map.Read("residual_rms_m", &calibration.residual_rms_m);
+  map.Read("chi_squared", &calibration.chi_squared);
+  map.Read("degrees_of_freedom", &calibration.degrees_of_freedom);
   map.Finish();
   return calibration;
 }

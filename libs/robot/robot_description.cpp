@@ -10,14 +10,11 @@
 #include "libs/core/config_reader.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/kernels/kernel.hpp"
-#include "libs/robot/unit_keys.hpp"
+#include "libs/robot/robot_file_keys.hpp"
 
 namespace palpate::robot {
 
 namespace {
-
-constexpr int kMaxFeaturePoints = 100000;
-constexpr NumberRule kPoissonsRatio{.min = -1.0, .max = kLargestPoissonsRatio, .min_open = true};
 
 /// Names become columns of CSV files and parts of topic names.
 std::string ReadName(const ConfigNode& node) {
@@ -58,25 +55,23 @@ Box ReadBox(const ConfigNode& node) {
   return {corners_m.col(0), corners_m.col(1)};
 }
 
-MeshSettings ReadMeshSettings(const ConfigNode& node, const std::filesystem::path& folder) {
+MeshSettings ReadMeshSettings(const ConfigNode& node) {
   static const std::map<std::string, double> units{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}};
-  MapReader map(node);
+  MapReader map(node, MeshKeys());
   MeshSettings mesh;
-  const ConfigNode& file = map.Require("file");
-  mesh.file = (folder / ReadText(file)).lexically_normal();
-  mesh.where = file.where;
-  mesh.metres_per_unit = units.at(ReadChoice(map.Require("unit"), {"m", "cm", "mm"}));
-  if (const ConfigNode* angles = map.Optional("rotate_xyz_deg")) {
-    mesh.rotate_xyz_deg = ReadVector3(*angles);
-  }
+  map.Read("file", &mesh.file);
+  mesh.where = map.Require("file").where;
+  std::string unit;
+  map.Read("unit", &unit);
+  mesh.metres_per_unit = units.at(unit);
+  map.Read("rotate_xyz_deg", &mesh.rotate_xyz_deg);
   const ConfigNode* metres = map.Optional("translate_m");
   const ConfigNode* millimetres = map.Optional("translate_mm");
   if (metres != nullptr && millimetres != nullptr) {
     Refuse(*millimetres, "translate_m is given too: give one of them");
   }
-  RefuseForeignUnits(node, {"translate_m", "translate_mm", "rotate_xyz_deg"});
   map.Finish();
-  if (metres != nullptr) mesh.translate_m = ReadVector3(*metres);
+  map.Read("translate_m", &mesh.translate_m);
   if (millimetres != nullptr) mesh.translate_m = ReadVector3(*millimetres) / 1000.0;
   return mesh;
 }
@@ -91,13 +86,15 @@ double ReadPoissonsRatio(const ConfigNode& node) {
   return ReadNumber(node, kPoissonsRatio);
 }
 
-fem::Volumetric ReadVolumetric(const ConfigNode* node, fem::ElementType element,
+fem::Volumetric ReadVolumetric(MapReader* map, fem::ElementType element,
                                const fem::Material& material) {
   const bool can_average = fem::kernels::SupportsMeanDilatation(material.model);
   bool average = can_average && element == fem::ElementType::kTet10 &&
                  material.poissons_ratio >= kNearlyIncompressible;
-  if (node != nullptr) {
-    average = ReadChoice(*node, {"pointwise", "mean_dilatation"}) == "mean_dilatation";
+  if (const ConfigNode* node = map->Optional("volumetric")) {
+    std::string volumetric;
+    map->Read("volumetric", &volumetric);
+    average = volumetric == "mean_dilatation";
     if (average && !can_average) {
       Refuse(*node, "material '" + std::string(fem::ToString(material.model)) +
                         "' has no volumetric energy of its own to average: give pointwise, or "
@@ -118,54 +115,50 @@ void ReadYeohRatios(MapReader* map, fem::Material* material) {
     }
     return;
   }
-  material->c20_over_c10 = ReadNumber(map->Require("c20_over_c10"));
-  const ConfigNode& c30_over_c10 = map->Require("c30_over_c10");
-  material->c30_over_c10 = ReadNumber(c30_over_c10, kNonNegative);
+  map->Read("c20_over_c10", &material->c20_over_c10);
+  map->Read("c30_over_c10", &material->c30_over_c10);
   if (!fem::IsYeohMonotone(material->c20_over_c10, material->c30_over_c10)) {
-    Refuse(c30_over_c10,
+    Refuse(map->Require("c30_over_c10"),
            "must be more than a third of the square of a negative c20_over_c10: the "
            "material would lose its stiffness at large strains");
   }
 }
 
 fem::Material ReadMaterial(const ConfigNode& node, fem::ElementType element) {
-  RefuseForeignUnits(node, {"youngs_modulus_Pa"});
-  MapReader map(node);
+  MapReader map(node, MaterialKeys());
   fem::Material material;
-  const std::string model = ReadChoice(map.Require("model"), fem::MaterialModelNames());
+  std::string model;
+  map.Read("model", &model);
   fem::ParseMaterialModel(model, &material.model);
-  material.youngs_modulus_Pa = ReadNumber(map.Require("youngs_modulus_Pa"), kPositive);
+  map.Read("youngs_modulus_Pa", &material.youngs_modulus_Pa);
   material.poissons_ratio = ReadPoissonsRatio(map.Require("poissons_ratio"));
-  material.volumetric = ReadVolumetric(map.Optional("volumetric"), element, material);
+  material.volumetric = ReadVolumetric(&map, element, material);
   ReadYeohRatios(&map, &material);
   map.Finish();
   return material;
 }
 
 MassSettings ReadMass(const ConfigNode& node) {
-  RefuseForeignUnits(node, {"total_kg", "density_kg_m3"});
-  MapReader map(node);
+  MapReader map(node, MassKeys());
   MassSettings mass;
   const ConfigNode* total = map.Optional("total_kg");
   const ConfigNode* density = map.Optional("density_kg_m3");
   if (total != nullptr && density != nullptr) {
     Refuse(*density, "total_kg is given too: give one of them");
   }
-  if (const ConfigNode* distribution = map.Optional("distribution")) {
-    const bool per_node = ReadChoice(*distribution, {"volume", "per_node"}) == "per_node";
-    mass.distribution = per_node ? MassDistribution::kPerNode : MassDistribution::kVolume;
-  }
+  std::string distribution;
+  map.Read("distribution", &distribution);
+  if (distribution == "per_node") mass.distribution = MassDistribution::kPerNode;
   map.Finish();
   if (total == nullptr && density == nullptr) Refuse(node, "needs total_kg or density_kg_m3");
-  if (total != nullptr) mass.total_kg = ReadNumber(*total, kPositive);
-  if (density != nullptr) mass.density_kg_m3 = ReadNumber(*density, kPositive);
+  map.Read("total_kg", &mass.total_kg);
+  map.Read("density_kg_m3", &mass.density_kg_m3);
   return mass;
 }
 
 void ReadFixed(const ConfigNode& node, RobotDescription* robot) {
   for (const ConfigNode& item : Items(node, "boxes")) {
-    RefuseForeignUnits(item, {"box_m"});
-    MapReader map(item);
+    MapReader map(item, FixedKeys());
     const ConfigNode& box = map.Require("box_m");
     map.Finish();
     robot->fixed.push_back(ReadBox(box));
@@ -192,41 +185,35 @@ Eigen::Matrix3Xd ReadCablePath(const ConfigNode& node) {
 }
 
 CableSettings ReadCable(const ConfigNode& node, std::set<std::string>* names) {
-  RefuseForeignUnits(node, {"path_m", "max_tension_N", "guide_radius_m"});
-  MapReader map(node);
+  MapReader map(node, CableKeys());
   CableSettings cable;
   cable.where = node.where;
   cable.name = ReadUniqueName(map.Require("name"), names);
   cable.path_m = ReadCablePath(map.Require("path_m"));
-  cable.max_tension_N = map.Number("max_tension_N", cable.max_tension_N, kPositive);
-  cable.guide_radius_m = map.Number("guide_radius_m", cable.guide_radius_m, kNonNegative);
-  cable.friction_coefficient =
-      map.Number("friction_coefficient", cable.friction_coefficient, kNonNegative);
+  map.Read("max_tension_N", &cable.max_tension_N);
+  map.Read("guide_radius_m", &cable.guide_radius_m);
+  map.Read("friction_coefficient", &cable.friction_coefficient);
   map.Finish();
   return cable;
 }
 
 RegionSettings ReadRegion(const ConfigNode& node, std::set<std::string>* names) {
-  RefuseForeignUnits(node, {"box_m", "youngs_modulus_Pa"});
-  MapReader map(node);
+  MapReader map(node, RegionKeys());
   RegionSettings region;
   region.where = node.where;
   region.name = ReadUniqueName(map.Require("name"), names);
   region.box = ReadBox(map.Require("box_m"));
-  if (const ConfigNode* modulus = map.Optional("youngs_modulus_Pa")) {
-    region.youngs_modulus_Pa = ReadNumber(*modulus, kPositive);
-  }
+  map.Read("youngs_modulus_Pa", &region.youngs_modulus_Pa);
   map.Finish();
   return region;
 }
 
 MarkerSettings ReadMarker(const ConfigNode& node, std::set<std::string>* names) {
-  RefuseForeignUnits(node, {"position_m"});
-  MapReader map(node);
+  MapReader map(node, MarkerKeys());
   MarkerSettings marker;
   marker.where = node.where;
   marker.name = ReadUniqueName(map.Require("name"), names);
-  marker.position_m = ReadVector3(map.Require("position_m"));
+  map.Read("position_m", &marker.position_m);
   map.Finish();
   return marker;
 }
@@ -235,15 +222,14 @@ void ReadFeaturePoints(const ConfigNode& node, RobotDescription* robot) {
   robot->feature_points_where = node.where;
   const ConfigNode* positions = &node;
   if (node.kind == ConfigNode::Kind::kMap) {
-    RefuseForeignUnits(node, {"positions_m"});
-    MapReader map(node);
+    MapReader map(node, FeaturePointKeys());
     const ConfigNode* count = map.Optional("count");
     positions = map.Optional("positions_m");
     map.Finish();
     if ((count == nullptr) == (positions == nullptr)) {
       Refuse(node, "needs either count or positions_m");
     }
-    if (count != nullptr) robot->feature_point_count = ReadInteger(*count, 1, kMaxFeaturePoints);
+    map.Read("count", &robot->feature_point_count);
   }
   if (positions == nullptr) return;
   robot->feature_points_m = ReadPoints(*positions);
@@ -266,21 +252,17 @@ std::vector<Item> ReadList(MapReader* map, const std::string& key, ReadItem read
 
 RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load) {
   const ConfigNode root = load(file);
-  RefuseForeignUnits(root, {"gravity_m_s2"});
-  MapReader map(root);
+  MapReader map(root, RobotFileKeys());
   RobotDescription robot;
   robot.file = file;
   robot.name = ReadName(map.Require("name"));
-  robot.mesh = ReadMeshSettings(map.Require("mesh"), file.parent_path());
-  if (const ConfigNode* element = map.Optional("element")) {
-    const bool linear = ReadChoice(*element, {"tet4", "tet10"}) == "tet4";
-    robot.element = linear ? fem::ElementType::kTet4 : fem::ElementType::kTet10;
-  }
+  robot.mesh = ReadMeshSettings(map.Require("mesh"));
+  std::string element;
+  map.Read("element", &element);
+  if (element == "tet4") robot.element = fem::ElementType::kTet4;
   robot.material = ReadMaterial(map.Require("material"), robot.element);
   robot.mass = ReadMass(map.Require("mass"));
-  if (const ConfigNode* gravity = map.Optional("gravity_m_s2")) {
-    robot.gravity_m_s2 = ReadVector3(*gravity);
-  }
+  map.Read("gravity_m_s2", &robot.gravity_m_s2);
   ReadFixed(map.Require("fixed"), &robot);
   robot.cables = ReadList<CableSettings>(&map, "cables", ReadCable);
   robot.regions = ReadList<RegionSettings>(&map, "regions", ReadRegion);

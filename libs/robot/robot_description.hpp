@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libs/core/config_node.hpp"
+#include "libs/core/number_rule.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/geometry/box.hpp"
@@ -61,7 +62,7 @@ struct MarkerSettings {
   SourceLocation where;
 };
 
-/// The robot file (config/robots/*.yaml; format: ARCHITECTURE, "Robot file"), as it was written.
+/// The robot file (config/robots/*.yaml; format: docs/robot_file.md), as it was written.
 struct RobotDescription {
   std::filesystem::path file;
   std::string name;
@@ -96,6 +97,9 @@ inline constexpr double kNearlyIncompressible = 0.48;
 /// Beyond it displacements change by less than 0.01 %, while rounding and Newton iterations grow
 /// tenfold with each further digit (docs/near_incompressibility.md).
 inline constexpr double kLargestPoissonsRatio = 0.4999;
+inline constexpr NumberRule kPoissonsRatio{
+    .min = -1.0, .max = kLargestPoissonsRatio, .min_open = true};
+inline constexpr int kMaxFeaturePoints = 100000;
 
 /// The description as the text of a robot file that lies in `folder`: the path of the mesh is
 /// written relative to it. Reading it back gives the same description.

@@ -9,34 +9,27 @@ namespace palpate::scenario {
 
 namespace {
 
-constexpr NumberRule kLength{.min = 0.0, .max = 2.0, .min_open = true};
-
-ToolShape ReadShape(const ConfigNode& node) {
-  const std::string word = ReadChoice(node, {"sphere", "cylinder", "plate", "hand"});
+ToolShape ReadShape(MapReader& reader) {
+  std::string word;
+  reader.Read("shape", &word);
   if (word == "sphere") return ToolShape::kSphere;
   if (word == "cylinder") return ToolShape::kCylinder;
   return word == "plate" ? ToolShape::kPlate : ToolShape::kHand;
 }
 
 Tool ReadTool(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, ToolKeys());
   Tool tool;
-  tool.name = ReadText(reader.Require("name"));
-  tool.shape = ReadShape(reader.Require("shape"));
-  if (tool.shape == ToolShape::kSphere || tool.shape == ToolShape::kCylinder) {
-    tool.radius_m = ReadNumber(reader.Require("radius_m"), kLength);
-  }
-  if (tool.shape == ToolShape::kCylinder) {
-    tool.length_m = ReadNumber(reader.Require("length_m"), kLength);
-  }
-  if (tool.shape == ToolShape::kPlate) {
-    tool.size_m = ReadVector3(reader.Require("size_m"), kLength);
-  }
+  reader.Read("name", &tool.name);
+  tool.shape = ReadShape(reader);
+  const bool is_cylinder = tool.shape == ToolShape::kCylinder;
+  if (tool.shape == ToolShape::kSphere || is_cylinder) reader.Read("radius_m", &tool.radius_m);
+  if (is_cylinder) reader.Read("length_m", &tool.length_m);
+  if (tool.shape == ToolShape::kPlate) reader.Read("size_m", &tool.size_m);
   if (tool.shape != ToolShape::kHand) {
-    tool.friction_coefficient =
-        reader.Number("friction_coefficient", 0.0, {.min = 0.0, .max = 10.0});
+    reader.Read("friction_coefficient", &tool.friction_coefficient);
   }
-  if (const ConfigNode* color = reader.Optional("color_rgb")) tool.color_rgb = ReadColor(*color);
+  reader.Read("color_rgb", &tool.color_rgb);
   reader.Finish();
   return tool;
 }
@@ -62,25 +55,19 @@ std::vector<Tool> ReadTools(const ConfigNode& node) {
 }
 
 Stage ReadStage(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, StageKeys());
   Stage stage;
-  const auto color = [&](const char* key, Eigen::Vector3d* value) {
-    if (const ConfigNode* entry = reader.Optional(key)) *value = ReadColor(*entry);
-  };
-  stage.table_height_m = reader.Number("table_height_m", stage.table_height_m);
+  reader.Read("table_height_m", &stage.table_height_m);
   if (const ConfigNode* size = reader.Optional("table_size_m")) {
     stage.table_size_m = ReadSize(*size);
   }
-  color("table_color_rgb", &stage.table_color_rgb);
-  stage.background_distance_m =
-      reader.Number("background_distance_m", stage.background_distance_m, kNonNegative);
-  color("background_color_rgb", &stage.background_color_rgb);
-  color("robot_color_rgb", &stage.robot_color_rgb);
-  stage.marker_radius_m = reader.Number("marker_radius_m", stage.marker_radius_m, kNonNegative);
-  if (const ConfigNode* entry = reader.Optional("marker_color_rgb")) {
-    stage.marker_color_rgb = ReadColor(*entry);
-  }
-  stage.light = reader.Number("light", stage.light, {.min = 0.0, .max = 10.0, .min_open = true});
+  reader.Read("table_color_rgb", &stage.table_color_rgb);
+  reader.Read("background_distance_m", &stage.background_distance_m);
+  reader.Read("background_color_rgb", &stage.background_color_rgb);
+  reader.Read("robot_color_rgb", &stage.robot_color_rgb);
+  reader.Read("marker_radius_m", &stage.marker_radius_m);
+  reader.Read("marker_color_rgb", &stage.marker_color_rgb);
+  reader.Read("light", &stage.light);
   reader.Finish();
   return stage;
 }

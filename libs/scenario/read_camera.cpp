@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <Eigen/Dense>
-#include <numbers>
 
 #include "libs/geometry/pose_text.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
@@ -12,15 +11,12 @@ namespace palpate::scenario {
 
 namespace {
 
-constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
-constexpr NumberRule kCorrelation{.min = 0.0, .max = 1.0, .max_open = true};
-constexpr NumberRule kGrazing{.min = 0.0, .max = std::numbers::pi / 2.0, .min_open = true};
-constexpr NumberRule kFrameRateRule{.min = 0.0, .max = 1000.0, .min_open = true};
 /// Nearer than this the eye sits in its target.
 constexpr double kNearest_m = 1e-6;
 
-DepthSensor ReadSensor(const ConfigNode& node) {
-  const std::string word = ReadChoice(node, {"none", "stereo", "time_of_flight"});
+DepthSensor ReadSensor(MapReader& reader) {
+  std::string word = "stereo";
+  reader.Read("sensor", &word);
   if (word == "none") return DepthSensor::kNone;
   return word == "stereo" ? DepthSensor::kStereo : DepthSensor::kTimeOfFlight;
 }
@@ -61,39 +57,37 @@ std::optional<Eigen::Isometry3d> ReadCameraPose(MapReader& reader) {
 }
 
 DepthNoise ReadDepthNoise(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, DepthNoiseKeys());
   DepthNoise noise;
-  const auto read = [&](const char* key, double* value, const NumberRule& rule) {
-    *value = reader.Number(key, *value, rule);
-  };
-  if (const ConfigNode* sensor = reader.Optional("sensor")) noise.sensor = ReadSensor(*sensor);
-  read("subpixel_px", &noise.subpixel_px, kNonNegative);
-  read("correlation_px", &noise.correlation_px, {.min = 0.0, .max = 100.0});
-  read("temporal_correlation", &noise.temporal_correlation, kCorrelation);
-  read("disparity_step_px", &noise.disparity_step_px, kNonNegative);
-  read("periodic_bias_px", &noise.periodic_bias_px, kNonNegative);
-  read("low_frequency_bias", &noise.low_frequency_bias, {.min = 0.0, .max = 0.5});
-  read("edge_hole_ratio", &noise.edge_hole_ratio, kShare);
-  read("flying_pixel_ratio", &noise.flying_pixel_ratio, kShare);
-  read("grazing_angle_rad", &noise.grazing_angle_rad, kGrazing);
-  read("range_sigma_m", &noise.range_sigma_m, kNonNegative);
+  noise.sensor = ReadSensor(reader);
+  reader.Read("subpixel_px", &noise.subpixel_px);
+  reader.Read("correlation_px", &noise.correlation_px);
+  reader.Read("temporal_correlation", &noise.temporal_correlation);
+  reader.Read("disparity_step_px", &noise.disparity_step_px);
+  reader.Read("periodic_bias_px", &noise.periodic_bias_px);
+  reader.Read("low_frequency_bias", &noise.low_frequency_bias);
+  reader.Read("edge_hole_ratio", &noise.edge_hole_ratio);
+  reader.Read("flying_pixel_ratio", &noise.flying_pixel_ratio);
+  reader.Read("grazing_angle_rad", &noise.grazing_angle_rad);
+  reader.Read("range_sigma_m", &noise.range_sigma_m);
   reader.Finish();
   return noise;
 }
 
-CameraSpec ReadCameraSpec(const ConfigNode& node, const std::filesystem::path& folder,
-                          const ConfigLoader& load) {
-  MapReader reader(node);
+CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load) {
+  MapReader reader(node, CameraSpecKeys());
   CameraSpec spec;
-  if (const ConfigNode* file = reader.Optional("file")) {
-    spec.camera = rgbd::ReadCameraFile((folder / ReadText(*file)).lexically_normal(), load);
+  std::filesystem::path file;
+  reader.Read("file", &file);
+  if (!file.empty()) {
+    spec.camera = rgbd::ReadCameraFile(file, load);
   } else {
     spec.camera = rgbd::ReadCamera(reader);
   }
   const std::optional<Eigen::Isometry3d> pose = ReadCameraPose(reader);
   if (!pose) Refuse(node, "where is the camera? 'T_robot_camera', or 'eye_m' and 'target_m'");
   spec.T_robot_camera = *pose;
-  spec.rate_hz = reader.Number("rate_hz", spec.rate_hz, kFrameRateRule);
+  reader.Read("rate_hz", &spec.rate_hz);
   if (const ConfigNode* noise = reader.Optional("noise")) spec.noise = ReadDepthNoise(*noise);
   reader.Finish();
   if (spec.noise.sensor == DepthSensor::kStereo && spec.camera.baseline_m == 0.0) {

@@ -97,11 +97,12 @@ void CheckNormal(const ConfigNode& node, const Effect& effect) {
 }
 
 Effect ReadEffect(const ConfigNode& node) {
-  MapReader reader(node);
   Effect effect;
   effect.location = node.where;
-  effect.id = ReadId(reader.Require("id"));
+  effect.id = ReadId(MapReader(node).Require("id"));
   const EffectKind& kind = *FindEffect(effect.id);
+  MapReader reader(node, EffectKeys(kind));
+  reader.Require("id");
   if (const ConfigNode* where = reader.Optional("where")) effect.where = ReadPlace(*where, kind);
   ReadParameters(node, reader, kind, &effect);
   reader.Finish();

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::string_view kDisplacement = ".displacement_m";
 constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
-constexpr NumberRule kDuration{.min = 0.0, .max = 86400.0, .min_open = true};
-constexpr NumberRule kCommand{.min = -0.5, .max = 0.5};
-constexpr NumberRule kMass{.min = 0.0, .max = 10.0};
-constexpr NumberRule kPatchRadius{.min = 0.0, .max = 1.0};
-constexpr NumberRule kTilt{.min = -180.0, .max = 180.0};
-
-const std::vector<std::string> kKinds = {
-    "rest",           "ramp",         "hold",         "known_load", "base_tilted",
-    "co_contraction", "camera_moved", "second_speed", "repeat",     "free"};
 
 /// `t_s` of an entry of a list: within the recording, and later than that of the entry before it
 /// (`last_s`), or as late where `may_equal`.
@@ -51,7 +42,7 @@ std::vector<std::string> CablesOf(const ConfigNode& row) {
 
 CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>& cables,
                           double duration_s, double last_s) {
-  MapReader reader(node);
+  MapReader reader(node, CommandRowKeys());
   CommandRow row;
   row.t_s = ReadTime(reader, duration_s, last_s);
   row.displacement_m.resize(static_cast<Eigen::Index>(cables.size()));
@@ -62,7 +53,9 @@ CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>
       Refuse(node, "'" + key + "' is missing: every row names the cables of the first (a cable " +
                        "that is not driven has the value ~)");
     }
-    row.displacement_m[static_cast<Eigen::Index>(i)] = reader.Number(key, kNotDriven, kCommand);
+    double& displacement_m = row.displacement_m[static_cast<Eigen::Index>(i)];
+    displacement_m = kNotDriven;
+    reader.Read(key, &displacement_m);
   }
   reader.Finish();
   return row;
@@ -82,10 +75,12 @@ CommandScript ReadCommands(const ConfigNode& node, double duration_s) {
 }
 
 Waypoint ReadWaypoint(const ConfigNode& node, double duration_s, double last_s) {
-  MapReader reader(node);
+  MapReader reader(node, WaypointKeys());
   Waypoint waypoint;
   waypoint.t_s = ReadTime(reader, duration_s, last_s);
-  waypoint.T_robot_tool.translation() = ReadVector3(reader.Require("position_m"));
+  Eigen::Vector3d position_m;
+  reader.Read("position_m", &position_m);
+  waypoint.T_robot_tool.translation() = position_m;
   if (const ConfigNode* angles = reader.Optional("rotation_xyz_deg")) {
     waypoint.T_robot_tool.linear() = geometry::RotationFromFixedXyz_deg(ReadVector3(*angles));
   }
@@ -94,7 +89,7 @@ Waypoint ReadWaypoint(const ConfigNode& node, double duration_s, double last_s) 
 }
 
 ToolPath ReadToolPath(const ConfigNode& node, const std::vector<Tool>& tools, double duration_s) {
-  MapReader reader(node);
+  MapReader reader(node, ToolPathKeys());
   ToolPath path;
   std::vector<std::string> names;
   for (const Tool& tool : tools) names.push_back(tool.name);
@@ -131,12 +126,12 @@ std::vector<HungWeight> ReadWeights(const ConfigNode& node, double duration_s) {
   std::vector<HungWeight> weights;
   double last_s = 0.0;
   for (const ConfigNode& item : ReadList(node, "{t_s, position_m, mass_kg}")) {
-    MapReader reader(item);
+    MapReader reader(item, HungWeightKeys());
     HungWeight weight;
     weight.t_s = ReadTime(reader, duration_s, last_s, /*may_equal=*/true);
-    weight.position_m = ReadVector3(reader.Require("position_m"));
-    weight.mass_kg = ReadNumber(reader.Require("mass_kg"), kMass);
-    weight.patch_radius_m = reader.Number("patch_radius_m", 0.0, kPatchRadius);
+    reader.Read("position_m", &weight.position_m);
+    reader.Read("mass_kg", &weight.mass_kg);
+    reader.Read("patch_radius_m", &weight.patch_radius_m);
     reader.Finish();
     last_s = weight.t_s;
     weights.push_back(weight);
@@ -145,7 +140,8 @@ std::vector<HungWeight> ReadWeights(const ConfigNode& node, double duration_s) {
 }
 
 Eigen::Vector2d ReadTilt(const ConfigNode& node) {
-  const std::vector<double> angles_deg = ReadNumbers(node, kTilt);
+  const NumberRule& rule = RecordingPlanKeys().Find("base_tilt_deg")->type.parts[0].rule;
+  const std::vector<double> angles_deg = ReadNumbers(node, rule);
   if (angles_deg.size() != 2) Refuse(node, "must be [about x, about y] in degrees");
   return {angles_deg[0], angles_deg[1]};
 }
@@ -166,12 +162,12 @@ std::string ReadName(const ConfigNode& node) {
 }
 
 RecordingPlan ReadRecording(const ConfigNode& node, const Scenario& scenario) {
-  MapReader reader(node);
+  MapReader reader(node, RecordingPlanKeys());
   RecordingPlan plan;
   plan.location = node.where;
   plan.name = ReadName(reader.Require("name"));
-  if (const ConfigNode* kind = reader.Optional("kind")) plan.kind = ReadChoice(*kind, kKinds);
-  plan.duration_s = ReadNumber(reader.Require("duration_s"), kDuration);
+  reader.Read("kind", &plan.kind);
+  reader.Read("duration_s", &plan.duration_s);
   if (const ConfigNode* commands = reader.Optional("commands")) {
     plan.commands = ReadCommands(*commands, plan.duration_s);
   }
@@ -185,7 +181,7 @@ RecordingPlan ReadRecording(const ConfigNode& node, const Scenario& scenario) {
     plan.base_tilt_deg = ReadTilt(*tilt);
   plan.T_robot_camera = ReadCameraPose(reader);
   if (plan.T_robot_camera && !scenario.camera) Refuse(node, "the scenario has no camera to move");
-  if (const ConfigNode* notes = reader.Optional("notes")) plan.notes = ReadText(*notes);
+  reader.Read("notes", &plan.notes);
   reader.Finish();
   return plan;
 }

@@ -14,26 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kMaterialModels = {
-    "linear", "corotational", "neo_hookean", "st_venant_kirchhoff", "yeoh", "stable_neo_hookean"};
-constexpr NumberRule kPoissonRule{.min = 0.0, .max = 0.4999};
-constexpr NumberRule kRateRule{.min = 0.0, .max = 1000.0, .min_open = true};
-constexpr NumberRule kTimeStepRule{.min = 0.0, .max = 1.0, .min_open = true};
-
 void ReadMaterial(const ConfigNode& node, BodyTruth* body) {
-  MapReader reader(node);
-  if (const ConfigNode* model = reader.Optional("model")) {
-    body->material_model = ReadChoice(*model, kMaterialModels);
-  }
-  if (const ConfigNode* modulus = reader.Optional("youngs_modulus_Pa")) {
-    body->youngs_modulus_Pa = ReadNumber(*modulus, kPositive);
-  }
-  if (const ConfigNode* ratio = reader.Optional("poissons_ratio")) {
-    body->poissons_ratio = ReadNumber(*ratio, kPoissonRule);
-  }
+  MapReader reader(node, BodyMaterialKeys());
+  reader.Read("model", &body->material_model);
+  reader.Read("youngs_modulus_Pa", &body->youngs_modulus_Pa);
+  reader.Read("poissons_ratio", &body->poissons_ratio);
   if (body->material_model == "yeoh") {
-    body->c20_over_c10 = reader.Number("c20_over_c10", 0.0);
-    body->c30_over_c10 = reader.Number("c30_over_c10", 0.0);
+    reader.Read("c20_over_c10", &body->c20_over_c10);
+    reader.Read("c30_over_c10", &body->c30_over_c10);
   } else if (node.Find("c20_over_c10") != nullptr || node.Find("c30_over_c10") != nullptr) {
     Refuse(node, "c20_over_c10 and c30_over_c10 go with 'model: yeoh'");
   }
@@ -43,30 +31,27 @@ void ReadMaterial(const ConfigNode& node, BodyTruth* body) {
 std::vector<PronyTerm> ReadProny(const ConfigNode& node) {
   std::vector<PronyTerm> terms;
   for (const ConfigNode& item : ReadList(node, "{g, tau_s}")) {
-    MapReader reader(item);
+    MapReader reader(item, PronyKeys());
     PronyTerm term;
-    term.g = ReadNumber(reader.Require("g"), kPositive);
-    term.tau_s = ReadNumber(reader.Require("tau_s"), kPositive);
+    reader.Read("g", &term.g);
+    reader.Read("tau_s", &term.tau_s);
     reader.Finish();
     terms.push_back(term);
   }
   return terms;
 }
 
-BodyTruth ReadBody(const ConfigNode& node, const fs::path& folder) {
-  MapReader reader(node);
+BodyTruth ReadBody(const ConfigNode& node) {
+  MapReader reader(node, BodyKeys());
   BodyTruth body;
   if (const ConfigNode* file = reader.Optional("mesh_file")) {
-    body.mesh_file = (folder / ReadText(*file)).lexically_normal();
+    reader.Read("mesh_file", &body.mesh_file);
     if (!fs::is_regular_file(body.mesh_file)) {
       Refuse(*file, "there is no file " + body.mesh_file.string());
     }
   }
-  if (const ConfigNode* refine = reader.Optional("refine"))
-    body.refine = ReadInteger(*refine, 0, 2);
-  if (const ConfigNode* element = reader.Optional("element")) {
-    body.element = ReadChoice(*element, {"tet4", "tet10"});
-  }
+  reader.Read("refine", &body.refine);
+  reader.Read("element", &body.element);
   if (const ConfigNode* material = reader.Optional("material")) ReadMaterial(*material, &body);
   if (const ConfigNode* prony = reader.Optional("prony")) body.prony = ReadProny(*prony);
   reader.Finish();
@@ -74,28 +59,26 @@ BodyTruth ReadBody(const ConfigNode& node, const fs::path& folder) {
 }
 
 Motion ReadMotion(const ConfigNode& node) {
-  MapReader reader(node);
+  MapReader reader(node, MotionKeys());
   Motion motion;
-  if (const ConfigNode* mode = reader.Optional("mode")) {
-    motion.mode = ReadChoice(*mode, {"quasi_static", "dynamic"}) == "dynamic"
-                      ? MotionMode::kDynamic
-                      : MotionMode::kQuasiStatic;
-  }
-  motion.time_step_s = reader.Number("time_step_s", motion.time_step_s, kTimeStepRule);
-  motion.rayleigh_mass_1_s =
-      reader.Number("rayleigh_mass_1_s", motion.rayleigh_mass_1_s, kNonNegative);
-  motion.rayleigh_stiffness_s =
-      reader.Number("rayleigh_stiffness_s", motion.rayleigh_stiffness_s, kNonNegative);
+  std::string mode;
+  reader.Read("mode", &mode);
+  if (mode == "dynamic") motion.mode = MotionMode::kDynamic;
+  reader.Read("time_step_s", &motion.time_step_s);
+  reader.Read("rayleigh_mass_1_s", &motion.rayleigh_mass_1_s);
+  reader.Read("rayleigh_stiffness_s", &motion.rayleigh_stiffness_s);
   reader.Finish();
   return motion;
 }
 
 /// `camera`: whether the scenario has one.
 MarkerSpec ReadMarkers(const ConfigNode& node, bool camera) {
-  MapReader reader(node);
+  MapReader reader(node, MarkerSpecKeys());
   MarkerSpec markers;
+  std::string frame_word;
+  reader.Read("frame", &frame_word);
+  markers.by_depth_camera = frame_word == "camera";
   if (const ConfigNode* frame = reader.Optional("frame")) {
-    markers.by_depth_camera = ReadChoice(*frame, {"camera"}) == "camera";
     if (!camera) Refuse(*frame, "the scenario has no camera that could measure them");
   }
   if (const ConfigNode* sigma = reader.Optional("sigma_m")) {
@@ -103,7 +86,7 @@ MarkerSpec ReadMarkers(const ConfigNode& node, bool camera) {
                           ? ReadVector3(*sigma, kPositive)
                           : Eigen::Vector3d::Constant(ReadNumber(*sigma, kPositive));
   }
-  markers.rate_hz = reader.Number("rate_hz", markers.rate_hz, kRateRule);
+  reader.Read("rate_hz", &markers.rate_hz);
   reader.Finish();
   return markers;
 }
@@ -133,30 +116,25 @@ const std::vector<ConfigNode>& ReadList(const ConfigNode& node, const std::strin
   return node.items;
 }
 
-Eigen::Vector3d ReadColor(const ConfigNode& node) {
-  return ReadVector3(node, {.min = 0.0, .max = 1.0});
-}
-
 Scenario ReadScenario(const fs::path& file, const ConfigLoader& load) {
   const ConfigNode root = load(file);
-  const fs::path folder = file.parent_path();
-  MapReader reader(root);
+  MapReader reader(root, ScenarioKeys());
   Scenario scenario;
   scenario.file = file;
-  scenario.name = ReadText(reader.Require("name"));
-  if (const ConfigNode* node = reader.Optional("body")) scenario.body = ReadBody(*node, folder);
+  reader.Read("name", &scenario.name);
+  if (const ConfigNode* node = reader.Optional("body")) scenario.body = ReadBody(*node);
   if (const ConfigNode* node = reader.Optional("motion")) scenario.motion = ReadMotion(*node);
   if (const ConfigNode* node = reader.Optional("effects")) scenario.effects = ReadEffects(*node);
-  scenario.clutter = reader.Number("clutter", 0.0, {.min = 0.0, .max = 10.0});
+  reader.Read("clutter", &scenario.clutter);
   if (const ConfigNode* node = reader.Optional("tools")) scenario.tools = ReadTools(*node);
   if (const ConfigNode* node = reader.Optional("camera")) {
-    scenario.camera = ReadCameraSpec(*node, folder, load);
+    scenario.camera = ReadCameraSpec(*node, load);
   }
   if (const ConfigNode* node = reader.Optional("stage")) scenario.stage = ReadStage(*node);
   if (const ConfigNode* node = reader.Optional("markers")) {
     scenario.markers = ReadMarkers(*node, scenario.camera.has_value());
   }
-  scenario.rest_between_s = reader.Number("rest_between_s", scenario.rest_between_s, kNonNegative);
+  reader.Read("rest_between_s", &scenario.rest_between_s);
   scenario.recordings = ReadRecordings(reader.Require("recordings"), scenario);
   reader.Finish();
   CheckEffectsFit(scenario);

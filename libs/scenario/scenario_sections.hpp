@@ -11,6 +11,7 @@
 
 #include "libs/core/config_reader.hpp"
 #include "libs/scenario/scenario.hpp"
+#include "libs/scenario/scenario_keys.hpp"
 
 namespace palpate::scenario {
 
@@ -20,9 +21,8 @@ std::vector<Effect> ReadEffects(const ConfigNode& node);
 std::vector<Tool> ReadTools(const ConfigNode& node);
 Stage ReadStage(const ConfigNode& node);
 
-/// `file` in it is relative to `folder`.
-CameraSpec ReadCameraSpec(const ConfigNode& node, const std::filesystem::path& folder,
-                          const ConfigLoader& load);
+/// A `file` in it is read by `load`.
+CameraSpec ReadCameraSpec(const ConfigNode& node, const ConfigLoader& load);
 DepthNoise ReadDepthNoise(const ConfigNode& node);
 
 /// Where a camera is: `T_robot_camera`, or `eye_m` and `target_m`, of the map. Nothing: neither.
@@ -37,6 +37,5 @@ std::vector<RecordingPlan> ReadRecordings(const ConfigNode& node, const Scenario
 
 /// The items of a list; throws InputError for anything else.
 const std::vector<ConfigNode>& ReadList(const ConfigNode& node, const std::string& of_what);
-Eigen::Vector3d ReadColor(const ConfigNode& node);
 
 }  // namespace palpate::scenario

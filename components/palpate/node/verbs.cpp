@@ -10,6 +10,7 @@
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
+#include "components/palpate/reference_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
 #include "components/palpate/solve_verb.hpp"
 #include "libs/app/verbs.hpp"
@@ -17,9 +18,9 @@
 namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
-  const std::vector<app::Verb> verbs = {DemoVerb(),      SolveVerb(),    SimulateVerb(),
-                                        CalibrateVerb(), EstimateVerb(), DiagnoseVerb(),
-                                        ImportVerb(),    CaptureVerb(),  InfoVerb()};
+  const std::vector<app::Verb> verbs = {
+      DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
+      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  InfoVerb(),      ReferenceVerb()};
   return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
 }
 

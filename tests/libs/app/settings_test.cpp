@@ -16,6 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 struct ContactSettings {
   double radius_m = 0.005;
@@ -131,12 +132,14 @@ TEST(Settings, RefusalsNameFilePlaceKeyValueAndRule) {
 
 TEST(Settings, UnknownKeysAreRefusedWithDidYouMean) {
   SettingsConfig config;
-  EXPECT_EQ(SettingsRefusal([&] { Load("loop: true\nyoung_modulus_Pa: 5\n", &config); }),
-            "conf/a.yaml:2:1: unknown key 'young_modulus_Pa' (did you mean 'youngs_modulus_Pa'?)");
+  EXPECT_THAT(SettingsRefusal([&] { Load("loop: true\nyoung_modulus_Pa: 5\n", &config); }),
+              StartsWith("conf/a.yaml:2:1: unknown key 'young_modulus_Pa' (did you mean "
+                         "'youngs_modulus_Pa'?); allowed: "));
   EXPECT_EQ(SettingsRefusal([&] { Load("contact: {radius: 5}\n", &config); }),
-            "conf/a.yaml:1:11: unknown key 'contact.radius' (did you mean 'radius_m'?)");
-  EXPECT_EQ(SettingsRefusal([&] { Load("contcat: {radius_m: 5}\n", &config); }),
-            "conf/a.yaml:1:1: unknown key 'contcat' (did you mean 'contact'?)");
+            "conf/a.yaml:1:11: unknown key 'contact.radius' (did you mean 'radius_m'?); allowed: "
+            "radius_m");
+  EXPECT_THAT(SettingsRefusal([&] { Load("contcat: {radius_m: 5}\n", &config); }),
+              StartsWith("conf/a.yaml:1:1: unknown key 'contcat' (did you mean 'contact'?)"));
 }
 
 TEST(Settings, OverridesAreReadAsInAFile) {

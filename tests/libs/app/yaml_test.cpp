@@ -12,7 +12,9 @@
 namespace palpate::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Kind = ConfigNode::Kind;
 
@@ -109,6 +111,43 @@ TEST(LoadYaml, ReadsAFile) {
   const ConfigNode root = LoadYaml(file);
   std::filesystem::remove(file);
   EXPECT_EQ(root.Find("a")->where.ToString(), file.string() + ":1:4");
+}
+
+/// What LoadYaml says of a file of this name and content.
+std::string LoadRefusal(const std::string& name, const std::string& content) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("palpate_yaml_test_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  WriteFile(folder / name, content);
+  std::string message;
+  try {
+    LoadYaml(folder / name);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  std::filesystem::remove_all(folder);
+  const std::string prefix = folder.string() + "/";
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
+TEST(LoadYaml, SaysThatAFileOfAnotherKindIsNone) {
+  const std::string numbers = "-1 2411 " + std::string(400000, '7') + "\n";
+  EXPECT_THAT(
+      LoadRefusal("finger.unv", numbers),
+      AllOf(StartsWith("finger.unv:1:1: is no file of settings"), HasSubstr("name ends in .yaml")));
+  EXPECT_LT(LoadRefusal("finger.unv", numbers).size(), 300u);
+  EXPECT_THAT(LoadRefusal("finger.stl", "solid Created by Gmsh\nfacet normal 1 0 0\n"),
+              HasSubstr("it begins with 'solid Created by Gmsh"));
+  EXPECT_THAT(LoadRefusal("finger.inp", "*NODE\n1, 0, 0, 0\n"), HasSubstr("name ends in .yaml"));
+  EXPECT_THAT(LoadRefusal("finger.stl", std::string("solid\0\0", 7)),
+              StartsWith("finger.stl: is a binary file, not YAML"));
+  EXPECT_THAT(LoadRefusal("a.yaml", "just a text\n"), Not(HasSubstr("name ends in")));
+}
+
+TEST(LoadYaml, NamesTheTabThatIndents) {
+  EXPECT_EQ(LoadRefusal("a.yaml", "mesh:\n\tfile: a.msh\n\tunit: mm\n"),
+            "a.yaml:2:1: not valid YAML: the line is indented by a tab; YAML wants blanks");
+  EXPECT_EQ(LoadRefusal("a.yaml", "a: 1\t# a tab that does no harm\n"), "");
 }
 
 }  // namespace

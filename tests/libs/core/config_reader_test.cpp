@@ -157,6 +157,12 @@ TEST(ReadPoints, MakesOneColumnOfEachPoint) {
   EXPECT_THAT(Refusal([] { ReadPoints(List({"1"})); }), HasSubstr("a list of 3 numbers"));
 }
 
+TEST(ReadNumber, ShowsNoMoreThanEightyCharactersOfTheInput) {
+  const std::string message = Refusal([] { ReadNumber(Scalar(std::string(400000, 'x'))); });
+  EXPECT_THAT(message, HasSubstr("must be a number, not 'xxx"));
+  EXPECT_LT(message.size(), 200u);
+}
+
 TEST(ReadNumbers, AppliesTheRuleToEach) {
   EXPECT_THAT(ReadNumbers(List({"1", "2"})), ::testing::ElementsAre(1.0, 2.0));
   EXPECT_THAT(Refusal([] { ReadNumbers(List({"1", "-2"}), kPositive); }), HasSubstr("> 0"));
@@ -168,7 +174,8 @@ TEST(MapReader, RefusesUnknownKeyWithDidYouMean) {
   reader.Require("mesh");
   reader.Optional("gravity_m_s2");
   EXPECT_EQ(Refusal([&] { reader.Finish(); }),
-            "robot.yaml:7:1: unknown key 'gravity_ms2' (did you mean 'gravity_m_s2'?)");
+            "robot.yaml:7:1: unknown key 'gravity_ms2' (did you mean 'gravity_m_s2'?); allowed: "
+            "mesh, gravity_m_s2");
 }
 
 TEST(MapReader, FinishesWhereEveryKeyWasAskedFor) {

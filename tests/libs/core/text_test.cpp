@@ -31,6 +31,15 @@ TEST(Quoted, EscapesQuotesBackslashesAndControlCharacters) {
   EXPECT_EQ(Quoted("a\nb"), "\"a\\u000ab\"");
 }
 
+TEST(Excerpt, IsOneLineOfEightyCharactersAtMost) {
+  EXPECT_EQ(Excerpt("short"), "short");
+  EXPECT_EQ(Excerpt("two\nlines\t."), "two lines .");
+  EXPECT_EQ(Excerpt(std::string(80, 'x')), std::string(80, 'x'));
+  EXPECT_EQ(Excerpt(std::string(81, 'x')), std::string(77, 'x') + "...");
+  EXPECT_EQ(Excerpt(std::string(76, 'x') + "\u00e9" + std::string(9, 'x')),
+            std::string(76, 'x') + "...");
+}
+
 TEST(EditDistance, CountsSingleEdits) {
   EXPECT_EQ(EditDistance("cable", "cable"), 0);
   EXPECT_EQ(EditDistance("cable", "cables"), 1);

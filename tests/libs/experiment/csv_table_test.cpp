@@ -51,6 +51,11 @@ TEST(CsvTable, RefusesQuotesThatItCannotTakeApart) {
   EXPECT_THAT(MessageOf([] { ParseTable("a,b\n\"1,5\",2\n"); }), HasSubstr("t.csv:2:1"));
 }
 
+TEST(CsvTable, NamesSemicolonsBetweenFields) {
+  EXPECT_THAT(MessageOf([] { ParseTable("t_s;x_m\n0;1,5\n"); }),
+              AllOf(HasSubstr("t.csv:1:4"), HasSubstr("separated by ';'")));
+}
+
 TEST(CsvTable, RefusesAFolder) {
   const TestFolder folder;
   EXPECT_THAT(MessageOf([&] { CsvTable::Read(folder.path()); }), HasSubstr("cannot be read"));

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/robot/robot_file_keys.hpp"
+
+#include "libs/robot/robot_description.hpp"
+
+namespace palpate::robot {
+
+const KeyTable& MeshKeys() {
+  static const KeyTable keys{
+      .title = "mesh",
+      .about = "The tetrahedral mesh of the undeformed body, and its place in the robot frame.",
+      .keys = {{"file", value::File(), kRequired,
+                "Mesh: `.msh` (Gmsh 2.2 or 4.1), `.vtk` or `.vtu`; 4-node or 10-node tetrahedra."},
+               {"unit", value::Choice({"m", "cm", "mm"}), kRequired,
+                "Unit of the coordinates in the mesh file."},
+               {"rotate_xyz_deg", value::Vector3(), Default(MeshSettings{}.rotate_xyz_deg),
+                "Rotation about the fixed x axis, then y, then z."},
+               {"translate_m", value::Vector3(), Default(MeshSettings{}.translate_m),
+                "Translation after the rotation."},
+               {"translate_mm", value::Vector3(), kOptional, "The same in millimetres."}},
+      .at_most_one = {{"translate_m", "translate_mm"}}};
+  return keys;
+}
+
+const KeyTable& MaterialKeys() {
+  const Presence yeoh = RequiredFor("`model: yeoh`");
+  static const KeyTable keys{
+      .title = "material",
+      .about = "Elasticity of the body. Regions may have a Young's modulus of their own.",
+      .keys = {{"model", value::Choice(fem::MaterialModelNames()), kRequired,
+                "Constitutive law, see the table of material models."},
+               {"youngs_modulus_Pa", value::Number(kPositive), kRequired,
+                "Young's modulus at small strain."},
+               {"poissons_ratio", value::Number(kPoissonsRatio), kRequired,
+                "Poisson's ratio. Give 0.4999 for an incompressible body."},
+               {"volumetric", value::Choice({"pointwise", "mean_dilatation"}), kOptional,
+                "How an element sees its change of volume. `mean_dilatation` averages it over the "
+                "element, against locking. Absent: `mean_dilatation` for `tet10` from a Poisson's "
+                "ratio of 0.48 on where the model has it, else `pointwise`."},
+               {"c20_over_c10", value::Number(), yeoh, "Ratio of Yeoh's constants C20 and C10."},
+               {"c30_over_c10", value::Number(kNonNegative), yeoh,
+                "Ratio of Yeoh's constants C30 and C10. It must exceed a third of the square of a "
+                "negative `c20_over_c10`."}}};
+  return keys;
+}
+
+const KeyTable& MassKeys() {
+  static const KeyTable keys{
+      .title = "mass",
+      .about = "The mass of the body, on which gravity acts.",
+      .keys = {{"total_kg", value::Number(kPositive), kOptional, "Mass of the whole body."},
+               {"density_kg_m3", value::Number(kPositive), kOptional, "Density of the body."},
+               {"distribution", value::Choice({"volume", "per_node"}), Default("volume"),
+                "`volume`: in proportion to the volume of the elements. `per_node`: every node of "
+                "the mesh has the same mass."}},
+      .exactly_one = {{"total_kg", "density_kg_m3"}}};
+  return keys;
+}
+
+const KeyTable& FixedKeys() {
+  static const KeyTable keys{
+      .title = "fixed region",
+      .about = "Nodes that do not move: all that lie in the box, bounds included.",
+      .keys = {{"box_m", value::Points(2, 2), kRequired,
+                "Lower and upper corner `[[x, y, z], [x, y, z]]`, robot frame. At least one node "
+                "must lie in it."}}};
+  return keys;
+}
+
+const KeyTable& CableKeys() {
+  static const KeyTable keys{
+      .title = "cable",
+      .about = "A cable that an actuator pulls in. It slides through eyelets on the body.",
+      .keys = {
+          {"name", value::Text(), kRequired,
+           "Unique name, as in `actuation.csv`. No commas, semicolons, quotes or blanks at the "
+           "ends."},
+          {"path_m", value::Points(2), kRequired,
+           "Route at rest, robot frame. First point: where the cable is pulled from, fixed to the "
+           "ground. Others: eyelets on the body. The cable is attached to the last one."},
+          {"max_tension_N", value::Number(kPositive), Default(CableSettings{}.max_tension_N),
+           "Largest tension of the actuator."},
+          {"guide_radius_m", value::Number(kNonNegative), Default(CableSettings{}.guide_radius_m),
+           "Radius over which the force of an eyelet is spread. 0: the point alone."},
+          {"friction_coefficient", value::Number(kNonNegative),
+           Default(CableSettings{}.friction_coefficient),
+           "Coulomb friction of the cable in its eyelets while the actuator pulls it in."}}};
+  return keys;
+}
+
+const KeyTable& RegionKeys() {
+  static const KeyTable keys{
+      .title = "region",
+      .about =
+          "A named part of the body: the elements whose centroid lies in the box. A later "
+          "region wins over an earlier one.",
+      .keys = {{"name", value::Text(), kRequired, "Unique name."},
+               {"box_m", value::Points(2, 2), kRequired,
+                "Lower and upper corner `[[x, y, z], [x, y, z]]`, robot frame."},
+               {"youngs_modulus_Pa", value::Number(kPositive), kOptional,
+                "Young's modulus of this region. Absent: that of the body."}}};
+  return keys;
+}
+
+const KeyTable& MarkerKeys() {
+  static const KeyTable keys{
+      .title = "marker",
+      .about = "A point that motion capture measures, or the centre of a fiducial.",
+      .keys = {{"name", value::Text(), kRequired, "Unique name, as in `markers.csv`."},
+               {"position_m", value::Vector3(), kRequired,
+                "Position on the undeformed body, before gravity acts; robot frame. It may stand "
+                "off the surface."}}};
+  return keys;
+}
+
+const KeyTable& FeaturePointKeys() {
+  static const KeyTable keys{.title = "feature points",
+                             .about = "Points of the surface at which contacts are searched.",
+                             .keys = {{"count", value::Integer(1, kMaxFeaturePoints), kOptional,
+                                       "Number of points, spread evenly over the surface."},
+                                      {"positions_m", value::Points(1), kOptional,
+                                       "The points themselves, robot frame, undeformed body."}},
+                             .exactly_one = {{"count", "positions_m"}}};
+  return keys;
+}
+
+const KeyTable& RobotFileKeys() {
+  const RobotDescription defaults;
+  static const KeyTable keys{
+      .title = "robot file",
+      .about = "Description of a cable-driven soft robot. Lengths are in the robot frame.",
+      .keys = {{"name", value::Text(), kRequired,
+                "Name of the robot. No commas, semicolons, quotes or blanks at the ends."},
+               {"mesh", value::Map(MeshKeys()), kRequired, "Mesh of the undeformed body."},
+               {"element", value::Choice({"tet4", "tet10"}), Default("tet10"),
+                "Finite element. `tet10` makes 10-node elements of a 4-node mesh."},
+               {"material", value::Map(MaterialKeys()), kRequired, "Elasticity of the body."},
+               {"mass", value::Map(MassKeys()), kRequired, "Mass of the body."},
+               {"gravity_m_s2", value::Vector3(), Default(defaults.gravity_m_s2),
+                "Acceleration of gravity, robot frame."},
+               {"fixed", value::ListOfMaps(FixedKeys(), 1), kRequired,
+                "Regions that do not move. Each connected piece of the mesh needs three fixed "
+                "nodes that span a triangle."},
+               {"cables", value::ListOfMaps(CableKeys()), kOptional, "Cables. Absent: none."},
+               {"regions", value::ListOfMaps(RegionKeys()), kOptional,
+                "Named parts of the body. Absent: none."},
+               {"markers", value::ListOfMaps(MarkerKeys()), kOptional, "Markers. Absent: none."},
+               {"feature_points", value::Either({value::Map(FeaturePointKeys()), value::Points(1)}),
+                kOptional,
+                "Where contacts are searched: a map, or the list of the points. Absent: " +
+                    std::to_string(defaults.feature_point_count) + " points."}}};
+  return keys;
+}
+
+}  // namespace palpate::robot
