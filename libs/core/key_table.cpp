@@ -78,7 +78,7 @@ ValueType Integer(int min, int max) {
                  {.min = static_cast<double>(min), .max = static_cast<double>(max)});
 }
 
-ValueType Number(const NumberRule& rule) { return Numeric(ValueKind::kNumber, rule); }
+ValueType Real(const NumberRule& rule) { return Numeric(ValueKind::kNumber, rule); }
 
 ValueType Text() { return {}; }
 
@@ -93,7 +93,7 @@ ValueType File() { return {.kind = ValueKind::kFile}; }
 ValueType Vector3(const NumberRule& rule) { return Numbers(rule, 3, 3); }
 
 ValueType Numbers(const NumberRule& rule, int min_items, int max_items) {
-  ValueType type = List(Number(rule), min_items);
+  ValueType type = List(Real(rule), min_items);
   type.max_items = max_items;
   return type;
 }

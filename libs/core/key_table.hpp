@@ -20,10 +20,10 @@ struct ValueType {
   enum class Kind { kBoolean, kInteger, kNumber, kText, kFile, kList, kMap, kEither };
 
   Kind kind = Kind::kText;
-  NumberRule rule;                   ///< of a kInteger or kNumber
-  std::vector<std::string> choices;  ///< of a kText; empty: any text
-  std::vector<ValueType> parts;      ///< kList: the type of an item; kEither: the alternatives
-  int min_items = 0;                 ///< of a kList
+  NumberRule rule{};                   ///< of a kInteger or kNumber
+  std::vector<std::string> choices{};  ///< of a kText; empty: any text
+  std::vector<ValueType> parts{};      ///< kList: the type of an item; kEither: the alternatives
+  int min_items = 0;                   ///< of a kList
   int max_items = kUnlimited;
   const KeyTable* keys = nullptr;  ///< of a kMap; lives as long as the program
   bool may_be_null = false;        ///< `~` is a value with a meaning of its own
@@ -35,7 +35,7 @@ namespace value {
 
 ValueType Boolean();
 ValueType Integer(int min, int max);  ///< both included
-ValueType Number(const NumberRule& rule = kAnyNumber);
+ValueType Real(const NumberRule& rule = kAnyNumber);
 ValueType Text();
 ValueType Choice(std::vector<std::string> choices);
 /// A path; a relative one counts from the folder of the file that names it.

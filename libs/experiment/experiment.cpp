@@ -23,10 +23,10 @@ const KeyTable& DepthNoiseKeys() {
   static const KeyTable keys{
       .title = "depth noise",
       .about = "Noise of the depth camera.",
-      .keys = {{"subpixel_px", value::Number(kNonNegative), kRequired,
+      .keys = {{"subpixel_px", value::Real(kNonNegative), kRequired,
                 "Standard deviation of the disparity of a stereo camera. 0: unknown, or not a "
                 "stereo camera."},
-               {"unit_m", value::Number(kNonNegative), kRequired, "One step of the depth value."}}};
+               {"unit_m", value::Real(kNonNegative), kRequired, "One step of the depth value."}}};
   return keys;
 }
 
@@ -75,13 +75,13 @@ const KeyTable& ToleranceKeys() {
             "catalogue of diagnosis; each in the unit of the first parameter of its cause."};
     for (const std::string& cause : causes) {
       table.keys.push_back(
-          {cause, value::Number(kPositive), kOptional, "Tolerance of the cause `" + cause + "`."});
+          {cause, value::Real(kPositive), kOptional, "Tolerance of the cause `" + cause + "`."});
     }
-    table.keys.push_back({"extrinsics_m", value::Number(kPositive), kOptional,
+    table.keys.push_back({"extrinsics_m", value::Real(kPositive), kOptional,
                           "Standard error of the translation of `T_robot_camera`."});
-    table.keys.push_back({"extrinsics_rad", value::Number(kPositive), kOptional,
+    table.keys.push_back({"extrinsics_rad", value::Real(kPositive), kOptional,
                           "Standard error of the rotation of `T_robot_camera`."});
-    table.keys.push_back({"marker_bias_m", value::Number(kPositive), kOptional,
+    table.keys.push_back({"marker_bias_m", value::Real(kPositive), kOptional,
                           "Standard deviation of the constant offset of a marker."});
     return table;
   }();
@@ -141,14 +141,14 @@ const KeyTable& ExperimentKeys() {
            "camera. Images and clouds are always in the camera's."},
           {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
            "Pose of the depth camera: p_robot = T p_camera. Absent: unknown."},
-          {"markers_sigma_m", value::Either({value::Number(kPositive), value::Vector3(kPositive)}),
+          {"markers_sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
            kOptional,
            "Standard deviation of the noise of a marker: one number, or `[x, y, z]` in the "
            "measurement frame."},
           {"depth_noise", value::Map(DepthNoiseKeys()), kOptional, "Noise of the depth camera."},
           {"tolerances", value::Map(ToleranceKeys()), kOptional,
            "Manufacturing tolerances that replace those of diagnosis."},
-          {"rest_between_s", value::Number(kNonNegative), kOptional,
+          {"rest_between_s", value::Real(kNonNegative), kOptional,
            "Rest before each recording, commands at zero. Absent: unknown."},
           {"notes", value::Text(), kOptional, "For people."},
           {"answer_sha256", value::Text(), kOptional,

@@ -18,10 +18,10 @@ constexpr double kNormTolerance = 1e-3;
 const KeyTable& QuaternionKeys() {
   static const KeyTable keys{.title = "quaternion",
                              .about = "A rotation as a unit quaternion.",
-                             .keys = {{"x", value::Number(), kRequired, "Component x."},
-                                      {"y", value::Number(), kRequired, "Component y."},
-                                      {"z", value::Number(), kRequired, "Component z."},
-                                      {"w", value::Number(), kRequired, "Scalar component."}}};
+                             .keys = {{"x", value::Real(), kRequired, "Component x."},
+                                      {"y", value::Real(), kRequired, "Component y."},
+                                      {"z", value::Real(), kRequired, "Component z."},
+                                      {"w", value::Real(), kRequired, "Scalar component."}}};
   return keys;
 }
 

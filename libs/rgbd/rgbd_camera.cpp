@@ -36,11 +36,11 @@ std::array<double, 5> ReadDistortion(const ConfigNode& node) {
 std::vector<Key> ModelKeys() {
   return {{"width_px", value::Integer(1, kLargestSize_px), kRequired, "Width of the image."},
           {"height_px", value::Integer(1, kLargestSize_px), kRequired, "Height of the image."},
-          {"fx_px", value::Number(kPositive), kRequired, "Focal length along u."},
-          {"fy_px", value::Number(kPositive), kRequired, "Focal length along v."},
-          {"cx_px", value::Number(), kRequired,
+          {"fx_px", value::Real(kPositive), kRequired, "Focal length along u."},
+          {"fy_px", value::Real(kPositive), kRequired, "Focal length along v."},
+          {"cx_px", value::Real(), kRequired,
            "Principal point, u. The centre of pixel (0, 0) is at u = v = 0."},
-          {"cy_px", value::Number(), kRequired, "Principal point, v."},
+          {"cy_px", value::Real(), kRequired, "Principal point, v."},
           {"distortion", value::Numbers({}, 0, kLongestDistortion), kOptional,
            "Lens distortion `[k1, k2, p1, p2]` or `[k1, k2, p1, p2, k3]` in OpenCV's order. `[]` "
            "or absent: none."}};
@@ -55,10 +55,10 @@ const KeyTable& DepthKeys() {
                        "z forward.",
                    .keys = ModelKeys()};
     table.keys.push_back(
-        {"unit_m", value::Number(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
+        {"unit_m", value::Real(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
     table.keys.push_back({"invalid_value", value::Integer(0, kLargestDepthValue),
                           Default(defaults.invalid_value), "Value of a pixel without depth."});
-    table.keys.push_back({"baseline_m", value::Number(kBaselineRule), Default(defaults.baseline_m),
+    table.keys.push_back({"baseline_m", value::Real(kBaselineRule), Default(defaults.baseline_m),
                           "Baseline of a stereo camera. 0: unknown, or not a stereo camera."});
     return table;
   }();

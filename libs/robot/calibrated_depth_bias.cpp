@@ -26,10 +26,10 @@ const KeyTable& PictureKeys() {
       .about = "The depth images that the bias belongs to.",
       .keys = {{"width_px", value::Integer(1, kMostPixels), kRequired, "Width."},
                {"height_px", value::Integer(1, kMostPixels), kRequired, "Height."},
-               {"fx_px", value::Number(kPositive), kRequired, "Focal length along u."},
-               {"fy_px", value::Number(kPositive), kRequired, "Focal length along v."},
-               {"cx_px", value::Number(), kRequired, "Principal point, u."},
-               {"cy_px", value::Number(), kRequired, "Principal point, v."}}};
+               {"fx_px", value::Real(kPositive), kRequired, "Focal length along u."},
+               {"fy_px", value::Real(kPositive), kRequired, "Focal length along v."},
+               {"cx_px", value::Real(), kRequired, "Principal point, u."},
+               {"cy_px", value::Real(), kRequired, "Principal point, v."}}};
   return keys;
 }
 
@@ -95,7 +95,7 @@ const KeyTable& DepthBiasKeys() {
           "x / (z span) and y / (z span).",
       .keys = {{"image", value::Map(PictureKeys()), kRequired, "The images that it belongs to."},
                {"order", value::Integer(0, kHighestOrder), kRequired, "Order of the polynomial."},
-               {"span", value::Number(kPositive), kRequired,
+               {"span", value::Real(kPositive), kRequired,
                 "Tangent of the angle to the optical axis at which a monomial is 1."},
                {"coefficients", value::Numbers(), kRequired,
                 "Coefficients of the monomials: (order + 1)(order + 2) / 2 numbers."},

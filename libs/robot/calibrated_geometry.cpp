@@ -28,9 +28,9 @@ const KeyTable& GeometryScaleKeys() {
   static const KeyTable keys{
       .title = "geometry scale",
       .about = "Size of the robot over that in its file, about the origin of the robot frame.",
-      .keys = {{"scale", value::Number({.min = kSmallestScale, .max = kLargestScale}), kRequired,
+      .keys = {{"scale", value::Real({.min = kSmallestScale, .max = kLargestScale}), kRequired,
                 "Ratio of lengths."},
-               {"standard_error", value::Number(kNonNegative), kRequired, "Its standard error."}}};
+               {"standard_error", value::Real(kNonNegative), kRequired, "Its standard error."}}};
   return keys;
 }
 

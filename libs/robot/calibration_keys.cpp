@@ -20,10 +20,9 @@ const KeyTable& ModulusKeys() {
   static const KeyTable keys{
       .title = "modulus",
       .about = "An estimated Young's modulus.",
-      .keys = {
-          {"part", value::Text(), kRequired, "`body`, or the name of a region."},
-          {"youngs_modulus_Pa", value::Number(kPositive), kRequired, "Young's modulus."},
-          {"standard_error_Pa", value::Number(kNonNegative), kRequired, "Its standard error."}}};
+      .keys = {{"part", value::Text(), kRequired, "`body`, or the name of a region."},
+               {"youngs_modulus_Pa", value::Real(kPositive), kRequired, "Young's modulus."},
+               {"standard_error_Pa", value::Real(kNonNegative), kRequired, "Its standard error."}}};
   return keys;
 }
 
@@ -32,8 +31,8 @@ const KeyTable& PoissonsRatioKeys() {
       .title = "Poisson's ratio",
       .about = "An estimated Poisson's ratio.",
       .keys = {{"part", value::Text(), kRequired, "`body`, or the name of a region."},
-               {"poissons_ratio", value::Number(kPoissonsRatioRule), kRequired, "Poisson's ratio."},
-               {"standard_error", value::Number(kNonNegative), kRequired, "Its standard error."}}};
+               {"poissons_ratio", value::Real(kPoissonsRatioRule), kRequired, "Poisson's ratio."},
+               {"standard_error", value::Real(kNonNegative), kRequired, "Its standard error."}}};
   return keys;
 }
 
@@ -54,11 +53,11 @@ const KeyTable& ActuatorKeys() {
           "How the displacement of an actuator is read: pulled length = (1 + `gain`) x "
           "displacement + `offset_m`.",
       .keys = {{"cable", value::Text(), kRequired, "Name of the cable."},
-               {"offset_m", value::Number(), kRequired, "Zero offset."},
-               {"offset_standard_error_m", value::Number(kNonNegative), kRequired,
+               {"offset_m", value::Real(), kRequired, "Zero offset."},
+               {"offset_standard_error_m", value::Real(kNonNegative), kRequired,
                 "Standard error of the offset."},
-               {"gain", value::Number(), kRequired, "Relative error of the gain; 0: none."},
-               {"gain_standard_error", value::Number(kNonNegative), kRequired,
+               {"gain", value::Real(), kRequired, "Relative error of the gain; 0: none."},
+               {"gain_standard_error", value::Real(kNonNegative), kRequired,
                 "Standard error of the gain."}}};
   return keys;
 }
@@ -82,48 +81,47 @@ const KeyTable& CalibrationFileKeys() {
           "What `palpate calibrate` writes, and `palpate estimate` and the processes read. "
           "At least one of `moduli`, `poissons_ratios`, `gravity_m_s2`, `T_robot_camera`, "
           "`drives`, `geometry_scale` and `cable_routes` is there.",
-      .keys = {
-          {"robot", value::Text(), kRequired, "Name of the robot."},
-          {"mesh_hash", value::Text(), kRequired,
-           "Hash of mesh and element. Another mesh is refused: moduli hold for one mesh."},
-          {"element", value::Choice({"tet4", "tet10"}), kRequired, "Finite element."},
-          {"model", value::Choice(fem::MaterialModelNames()), kRequired, "Constitutive law."},
-          {"poissons_ratio", value::Number(kPoissonsRatioRule), kRequired,
-           "Poisson's ratio of the robot file."},
-          {"volumetric", value::Choice({"pointwise", "mean_dilatation"}), kOptional,
-           "As in the robot file. Absent: not compared."},
-          {"c20_over_c10", value::Number(), Default(0.0), "Yeoh's ratio, as in the robot file."},
-          {"c30_over_c10", value::Number(), Default(0.0), "Yeoh's ratio, as in the robot file."},
-          {"date_utc", value::Text(), kRequired, "When it was made, `2026-01-31T12:00:00Z`."},
-          {"data", value::Text(), kRequired, "The data that were used, for people."},
-          {"data_hash", value::Text(), kRequired, "SHA-256 of these data."},
-          {"moduli", value::ListOfMaps(ModulusKeys()), kOptional,
-           "Young's moduli. Absent: those of the robot file."},
-          {"poissons_ratios", value::ListOfMaps(PoissonsRatioKeys()), kOptional,
-           "Poisson's ratios. Absent: those of the robot file."},
-          {"gravity_m_s2", value::Vector3(), kOptional,
-           "Gravity, robot frame. Absent: that of the robot file."},
-          {"gravity_standard_error_m_s2", value::Vector3(kNonNegative),
-           RequiredFor("`gravity_m_s2`"), "Its standard error along each axis."},
-          {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
-           "Pose of the depth camera: p_robot = T p_camera."},
-          {"T_robot_camera_standard_error", value::Map(PoseErrorKeys()),
-           RequiredFor("`T_robot_camera`"), "Its standard errors."},
-          {"depth_bias", value::Map(DepthBiasKeys()), OnlyFor("`T_robot_camera`"),
-           "Systematic error of the depth, estimated together with the pose."},
-          {"drives", value::ListOfMaps(ActuatorKeys()), kOptional,
-           "Offset and gain of the actuators."},
-          {"geometry_scale", value::Map(GeometryScaleKeys()), kOptional,
-           "Size of the robot. Absent: as in the robot file."},
-          {"cable_routes", value::ListOfMaps(CableRouteKeys()), kOptional,
-           "Points of cable routes that are elsewhere than in the robot file."},
-          {"undetermined", value::ListOfMaps(UndeterminedKeys()), kOptional,
-           "Parameters that the data do not determine."},
-          {"residual_rms_m", value::Number(kNonNegative), kRequired,
-           "RMS of measured minus computed."},
-          {"chi_squared", value::Number(kNonNegative), kRequired, "Chi-squared of the fit."},
-          {"degrees_of_freedom", value::Integer(0, 1 << 30), kRequired,
-           "Degrees of freedom of the fit."}}};
+      .keys = {{"robot", value::Text(), kRequired, "Name of the robot."},
+               {"mesh_hash", value::Text(), kRequired,
+                "Hash of mesh and element. Another mesh is refused: moduli hold for one mesh."},
+               {"element", value::Choice({"tet4", "tet10"}), kRequired, "Finite element."},
+               {"model", value::Choice(fem::MaterialModelNames()), kRequired, "Constitutive law."},
+               {"poissons_ratio", value::Real(kPoissonsRatioRule), kRequired,
+                "Poisson's ratio of the robot file."},
+               {"volumetric", value::Choice({"pointwise", "mean_dilatation"}), kOptional,
+                "As in the robot file. Absent: not compared."},
+               {"c20_over_c10", value::Real(), Default(0.0), "Yeoh's ratio, as in the robot file."},
+               {"c30_over_c10", value::Real(), Default(0.0), "Yeoh's ratio, as in the robot file."},
+               {"date_utc", value::Text(), kRequired, "When it was made, `2026-01-31T12:00:00Z`."},
+               {"data", value::Text(), kRequired, "The data that were used, for people."},
+               {"data_hash", value::Text(), kRequired, "SHA-256 of these data."},
+               {"moduli", value::ListOfMaps(ModulusKeys()), kOptional,
+                "Young's moduli. Absent: those of the robot file."},
+               {"poissons_ratios", value::ListOfMaps(PoissonsRatioKeys()), kOptional,
+                "Poisson's ratios. Absent: those of the robot file."},
+               {"gravity_m_s2", value::Vector3(), kOptional,
+                "Gravity, robot frame. Absent: that of the robot file."},
+               {"gravity_standard_error_m_s2", value::Vector3(kNonNegative),
+                RequiredFor("`gravity_m_s2`"), "Its standard error along each axis."},
+               {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+                "Pose of the depth camera: p_robot = T p_camera."},
+               {"T_robot_camera_standard_error", value::Map(PoseErrorKeys()),
+                RequiredFor("`T_robot_camera`"), "Its standard errors."},
+               {"depth_bias", value::Map(DepthBiasKeys()), OnlyFor("`T_robot_camera`"),
+                "Systematic error of the depth, estimated together with the pose."},
+               {"drives", value::ListOfMaps(ActuatorKeys()), kOptional,
+                "Offset and gain of the actuators."},
+               {"geometry_scale", value::Map(GeometryScaleKeys()), kOptional,
+                "Size of the robot. Absent: as in the robot file."},
+               {"cable_routes", value::ListOfMaps(CableRouteKeys()), kOptional,
+                "Points of cable routes that are elsewhere than in the robot file."},
+               {"undetermined", value::ListOfMaps(UndeterminedKeys()), kOptional,
+                "Parameters that the data do not determine."},
+               {"residual_rms_m", value::Real(kNonNegative), kRequired,
+                "RMS of measured minus computed."},
+               {"chi_squared", value::Real(kNonNegative), kRequired, "Chi-squared of the fit."},
+               {"degrees_of_freedom", value::Integer(0, 1 << 30), kRequired,
+                "Degrees of freedom of the fit."}}};
   return keys;
 }
 

@@ -31,16 +31,16 @@ const KeyTable& MaterialKeys() {
       .about = "Elasticity of the body. Regions may have a Young's modulus of their own.",
       .keys = {{"model", value::Choice(fem::MaterialModelNames()), kRequired,
                 "Constitutive law, see the table of material models."},
-               {"youngs_modulus_Pa", value::Number(kPositive), kRequired,
+               {"youngs_modulus_Pa", value::Real(kPositive), kRequired,
                 "Young's modulus at small strain."},
-               {"poissons_ratio", value::Number(kPoissonsRatio), kRequired,
+               {"poissons_ratio", value::Real(kPoissonsRatio), kRequired,
                 "Poisson's ratio. Give 0.4999 for an incompressible body."},
                {"volumetric", value::Choice({"pointwise", "mean_dilatation"}), kOptional,
                 "How an element sees its change of volume. `mean_dilatation` averages it over the "
                 "element, against locking. Absent: `mean_dilatation` for `tet10` from a Poisson's "
                 "ratio of 0.48 on where the model has it, else `pointwise`."},
-               {"c20_over_c10", value::Number(), yeoh, "Ratio of Yeoh's constants C20 and C10."},
-               {"c30_over_c10", value::Number(kNonNegative), yeoh,
+               {"c20_over_c10", value::Real(), yeoh, "Ratio of Yeoh's constants C20 and C10."},
+               {"c30_over_c10", value::Real(kNonNegative), yeoh,
                 "Ratio of Yeoh's constants C30 and C10. It must exceed a third of the square of a "
                 "negative `c20_over_c10`."}}};
   return keys;
@@ -50,8 +50,8 @@ const KeyTable& MassKeys() {
   static const KeyTable keys{
       .title = "mass",
       .about = "The mass of the body, on which gravity acts.",
-      .keys = {{"total_kg", value::Number(kPositive), kOptional, "Mass of the whole body."},
-               {"density_kg_m3", value::Number(kPositive), kOptional, "Density of the body."},
+      .keys = {{"total_kg", value::Real(kPositive), kOptional, "Mass of the whole body."},
+               {"density_kg_m3", value::Real(kPositive), kOptional, "Density of the body."},
                {"distribution", value::Choice({"volume", "per_node"}), Default("volume"),
                 "`volume`: in proportion to the volume of the elements. `per_node`: every node of "
                 "the mesh has the same mass."}},
@@ -80,11 +80,11 @@ const KeyTable& CableKeys() {
           {"path_m", value::Points(2), kRequired,
            "Route at rest, robot frame. First point: where the cable is pulled from, fixed to the "
            "ground. Others: eyelets on the body. The cable is attached to the last one."},
-          {"max_tension_N", value::Number(kPositive), Default(CableSettings{}.max_tension_N),
+          {"max_tension_N", value::Real(kPositive), Default(CableSettings{}.max_tension_N),
            "Largest tension of the actuator."},
-          {"guide_radius_m", value::Number(kNonNegative), Default(CableSettings{}.guide_radius_m),
+          {"guide_radius_m", value::Real(kNonNegative), Default(CableSettings{}.guide_radius_m),
            "Radius over which the force of an eyelet is spread. 0: the point alone."},
-          {"friction_coefficient", value::Number(kNonNegative),
+          {"friction_coefficient", value::Real(kNonNegative),
            Default(CableSettings{}.friction_coefficient),
            "Coulomb friction of the cable in its eyelets while the actuator pulls it in."}}};
   return keys;
@@ -99,7 +99,7 @@ const KeyTable& RegionKeys() {
       .keys = {{"name", value::Text(), kRequired, "Unique name."},
                {"box_m", value::Points(2, 2), kRequired,
                 "Lower and upper corner `[[x, y, z], [x, y, z]]`, robot frame."},
-               {"youngs_modulus_Pa", value::Number(kPositive), kOptional,
+               {"youngs_modulus_Pa", value::Real(kPositive), kOptional,
                 "Young's modulus of this region. Absent: that of the body."}}};
   return keys;
 }

@@ -74,7 +74,8 @@ std::vector<EffectKind> ShapeEffects() {
        body,
        kBody,
        {{"tip_m", 0.0, 2e-4, -0.05, 0.05}},
-       "the rest shape is bent: what moves most (the tip) moves by tip_m, where to by the seed"},
+       "the rest shape is bent; the point that moves most (the tip) moves by tip_m, in a direction "
+       "drawn by the seed"},
       {"geometry_scale",
        body,
        kBody,
@@ -84,13 +85,14 @@ std::vector<EffectKind> ShapeEffects() {
        body,
        kBody,
        {{"relative_E_change_at_end", 0.0, 0.0, -0.5, 1.0}},
-       "the modulus goes linearly from nominal at the start of the experiment to 1 + this at the "
-       "end"},
+       "the modulus changes linearly in time, to (1 + this) times the nominal one at the end of "
+       "the "
+       "experiment"},
       {"rest_twist",
        body,
        kBody,
        {{"rate_rad_m", 0.0, 0.0, -20.0, 20.0}},
-       "the rest shape is twisted about its length, from the fixed end on"},
+       "the rest shape is twisted about its long axis, starting at the fixed end"},
   };
 }
 
@@ -102,23 +104,23 @@ std::vector<EffectKind> BaseEffects() {
        base,
        kBase,
        {{"compliance_rad_Nm", 0.0, 0.0, 0.0, 100.0}},
-       "the base turns by this per N m of the moment on it"},
+       "the base turns by this per N m of moment"},
       {"gravity_direction",
        base,
        kBase,
        {Component("theta_x_deg", 30.0, 0.3), Component("theta_y_deg", 30.0, 0.3)},
-       "the base stands askew by R = Ry(theta_y) Rx(theta_x), beside any base_tilt_deg"},
+       "the base is tilted by R = Ry(theta_y) Rx(theta_x), in addition to base_tilt_deg"},
       {"payload",
        Side::kBody,
        kBody,
        {{"mass_kg", 0.0, 0.0, 0.0, 1.0}, Coordinate("x_m"), Coordinate("y_m"), Coordinate("z_m")},
-       "a mass nobody knows of sits at this point of the undeformed body"},
+       "an undeclared mass at this point of the undeformed body"},
       {"permanent_force",
        Side::kBody,
        kBody,
        {Component("fx_N", 20.0), Component("fy_N", 20.0), Component("fz_N", 20.0),
         Coordinate("x_m"), Coordinate("y_m"), Coordinate("z_m")},
-       "a force, fixed in the world, acts at this point of the undeformed body"},
+       "a constant force in the world frame at this point of the undeformed body"},
       {"hidden_obstacle",
        Side::kBody,
        kBody,
@@ -126,9 +128,9 @@ std::vector<EffectKind> BaseEffects() {
         {"nx", 0.0, 0.0, -1.0, 1.0},
         {"ny", 0.0, 0.0, -1.0, 1.0},
         {"nz", 0.0, 0.0, -1.0, 1.0}},
-       "a wall at rest: n = (nx, ny, nz) points from it to the body, gap_m is how far the "
-       "undeformed "
-       "body is from it"},
+       "a rigid half-space; its normal n = (nx, ny, nz) points to the body, gap_m is the distance "
+       "of "
+       "the undeformed body"},
   };
 }
 
@@ -140,7 +142,7 @@ std::vector<EffectKind> CableEffects() {
        drive,
        kCable,
        {{"mu", 0.0, 0.02, 0.0, 2.0}},
-       "capstan friction in the eyelets, with stick, against either direction"},
+       "capstan friction in the eyelets, with sticking, in both directions"},
       {"cable_elasticity",
        drive,
        kCable,
@@ -150,39 +152,39 @@ std::vector<EffectKind> CableEffects() {
        drive,
        kCable,
        {{"compliance_m_N", 0.0, 0.0, 0.0, 0.1}},
-       "the eyelets give way by this per N of tension"},
+       "compliance of the eyelets: displacement per N of tension"},
       {"cable_gain",
        drive,
        kCable,
        {{"g", 0.0, 0.005, -0.5, 0.5}},
-       "the drive pulls 1 + g times what it is told"},
+       "the actuator pulls (1 + g) times the commanded displacement"},
       {"cable_offset",
        drive,
        kCable,
        {{"offset_m", 0.0, 3e-4, -0.05, 0.05}},
-       "the drive pulls so much more than it is told; negative: slack"},
+       "the actuator pulls this much more than commanded; negative: slack"},
       {"backlash",
        drive,
        kCable,
        {{"play_m", 0.0, 1e-4, 0.0, 0.05}},
-       "play of this full width between drive and cable"},
+       "play of this full width between actuator and cable"},
       {"cable_routing",
        drive,
        kCable,
        {Component("dy_m", 0.02, 3e-4), Component("dz_m", 0.02, 3e-4)},
-       "the guide that it is pulled from sits displaced by (0, dy, dz), robot frame"},
-      {"swapped_cables", drive, kTwoCables, {}, "two cables are plugged in for each other"},
+       "the point that the cable is pulled from is displaced by (0, dy, dz), robot frame"},
+      {"swapped_cables", drive, kTwoCables, {}, "two cables are exchanged"},
       {"drive_coupling",
        drive,
        kTwoCables,
        {{"coupling", 0.0, 0.0, -1.0, 1.0}},
-       "the first cable moves along by this share of the second's command"},
+       "the first cable moves by this share of the second cable's command"},
       {"lag",
        drive,
        kBody,
        {{.name = "delay_s", .tolerance = 0.01, .max = 5.0, .required = false},
         {.name = "tau_s", .max = 5.0, .required = false}},
-       "all drives follow their commands late: dead time and first order"},
+       "all actuators follow their commands with a dead time and a first-order lag"},
   };
 }
 
@@ -196,7 +198,8 @@ std::vector<EffectKind> CameraEffects() {
        {{.name = "translation_m", .max = 0.5, .required = false},
         {.name = "rotation_rad", .max = 1.0, .required = false},
         {.name = "from_recording", .max = 1e6, .whole = true}},
-       "from this recording on (the first is 0) the camera stands elsewhere; directions by the "
+       "the camera pose changes from this recording on (the first is 0), in directions drawn by "
+       "the "
        "seed"},
       {"depth_scale",
        camera,
@@ -207,24 +210,25 @@ std::vector<EffectKind> CameraEffects() {
        camera,
        kCamera,
        {{"b_m", 0.0, 0.0, -0.05, 0.05}},
-       "a surface seen at the angle a to its normal seems farther by b (1 / cos a - 1)"},
+       "depth of a surface seen at the angle a to its normal is too large by b (1 / cos a - 1)"},
       {"intrinsics",
        camera,
        kCamera,
        {Component("focal", 0.1, 0.002), Component("cx_px", 50.0, 1.0),
         Component("cy_px", 50.0, 1.0)},
-       "the depth camera's focal length is 1 + focal times that of its data sheet, its centre is "
-       "off by (cx, cy)"},
+       "the focal length of the depth camera is (1 + focal) times that of camera.yaml; the "
+       "principal "
+       "point is off by (cx, cy)"},
       {"lens_distortion",
        camera,
        kCamera,
        {{"k1", 0.0, 0.0, -0.3, 0.3}},
-       "k1 of the lens is so much more than in its data sheet"},
+       "k1 of the lens exceeds that of camera.yaml by this"},
       {"flying_pixels",
        camera,
        kCamera,
        {{"ratio", 0.0, 0.0, 0.0, 1.0}},
-       "so many more of the pixels along depth edges lie between front and back"},
+       "additional share of pixels along depth edges that lie between front and back"},
       {"warm_up_drift",
        camera,
        kCamera,
@@ -234,7 +238,7 @@ std::vector<EffectKind> CameraEffects() {
        Side::kBody,
        kMarker,
        {{"d_m", 0.0, 1e-3, 0.0, 0.1}},
-       "the marker sits so far from where the robot file has it; direction by the seed"},
+       "distance of the marker from its place in the robot file, in a direction drawn by the seed"},
   };
 }
 

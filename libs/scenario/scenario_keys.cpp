@@ -60,7 +60,7 @@ KeyTable MakeEffectKeys(const EffectKind& kind) {
   for (const EffectParameter& parameter : kind.parameters) {
     const NumberRule rule{.min = parameter.min, .max = parameter.max};
     table.keys.push_back({std::string(parameter.name),
-                          value::Either({value::Number(rule), value::Numbers(rule, 2, 2)}),
+                          value::Either({value::Real(rule), value::Numbers(rule, 2, 2)}),
                           parameter.required ? kRequired : Default(parameter.healthy),
                           "A number, or a range `[lower, upper]` from which the seed draws."});
   }
@@ -83,11 +83,11 @@ const KeyTable& BodyMaterialKeys() {
                 value::Choice({"linear", "corotational", "neo_hookean", "st_venant_kirchhoff",
                                "yeoh", "stable_neo_hookean"}),
                 kOfRobotFile, "Constitutive law."},
-               {"youngs_modulus_Pa", value::Number(kPositive), kOfRobotFile, "Young's modulus."},
-               {"poissons_ratio", value::Number(kPoisson), kOfRobotFile, "Poisson's ratio."},
-               {"c20_over_c10", value::Number(), OnlyFor("`model: yeoh`"),
+               {"youngs_modulus_Pa", value::Real(kPositive), kOfRobotFile, "Young's modulus."},
+               {"poissons_ratio", value::Real(kPoisson), kOfRobotFile, "Poisson's ratio."},
+               {"c20_over_c10", value::Real(), OnlyFor("`model: yeoh`"),
                 "Ratio of Yeoh's constants C20 and C10. Absent: 0."},
-               {"c30_over_c10", value::Number(), OnlyFor("`model: yeoh`"),
+               {"c30_over_c10", value::Real(), OnlyFor("`model: yeoh`"),
                 "Ratio of Yeoh's constants C30 and C10. Absent: 0."}}};
   return keys;
 }
@@ -98,8 +98,8 @@ const KeyTable& PronyKeys() {
       .about =
           "One term of linear viscoelasticity. The instantaneous modulus is (1 + sum of g) "
           "times the nominal, long-term one.",
-      .keys = {{"g", value::Number(kPositive), kRequired, "Relative modulus of the term."},
-               {"tau_s", value::Number(kPositive), kRequired, "Relaxation time."}}};
+      .keys = {{"g", value::Real(kPositive), kRequired, "Relative modulus of the term."},
+               {"tau_s", value::Real(kPositive), kRequired, "Relaxation time."}}};
   return keys;
 }
 
@@ -125,11 +125,11 @@ const KeyTable& MotionKeys() {
       .about = "How the virtual robot moves. Damping is Rayleigh's: C = alpha M + beta K.",
       .keys = {{"mode", value::Choice({"quasi_static", "dynamic"}), Default("quasi_static"),
                 "`quasi_static` leaves inertia and damping out."},
-               {"time_step_s", value::Number(kTimeStep), Default(defaults.time_step_s),
+               {"time_step_s", value::Real(kTimeStep), Default(defaults.time_step_s),
                 "Largest time step."},
-               {"rayleigh_mass_1_s", value::Number(kNonNegative),
-                Default(defaults.rayleigh_mass_1_s), "alpha."},
-               {"rayleigh_stiffness_s", value::Number(kNonNegative),
+               {"rayleigh_mass_1_s", value::Real(kNonNegative), Default(defaults.rayleigh_mass_1_s),
+                "alpha."},
+               {"rayleigh_stiffness_s", value::Real(kNonNegative),
                 Default(defaults.rayleigh_stiffness_s), "beta."}}};
   return keys;
 }
@@ -154,10 +154,10 @@ const KeyTable& ToolKeys() {
           {"name", value::Text(), kRequired, "Unique name."},
           {"shape", value::Choice({"sphere", "cylinder", "plate", "hand"}), kRequired,
            "The axis of a cylinder is z. A hand is only seen, it touches nothing."},
-          {"radius_m", value::Number(kToolLength), RequiredFor("sphere, cylinder"), "Radius."},
-          {"length_m", value::Number(kToolLength), RequiredFor("cylinder"), "Length."},
+          {"radius_m", value::Real(kToolLength), RequiredFor("sphere, cylinder"), "Radius."},
+          {"length_m", value::Real(kToolLength), RequiredFor("cylinder"), "Length."},
           {"size_m", value::Vector3(kToolLength), RequiredFor("plate"), "Edges along x, y, z."},
-          {"friction_coefficient", value::Number(kFriction), Default(defaults.friction_coefficient),
+          {"friction_coefficient", value::Real(kFriction), Default(defaults.friction_coefficient),
            "Coulomb friction on the robot. Not for a hand."},
           ColorKey("color_rgb", Default(defaults.color_rgb), "Colour")}};
   return keys;
@@ -171,26 +171,26 @@ const KeyTable& DepthNoiseKeys() {
       .keys = {
           {"sensor", value::Choice({"none", "stereo", "time_of_flight"}), Default("stereo"),
            "Kind of camera. Stereo needs `depth.baseline_m`."},
-          {"subpixel_px", value::Number(kNonNegative), Default(defaults.subpixel_px),
+          {"subpixel_px", value::Real(kNonNegative), Default(defaults.subpixel_px),
            "Standard deviation of the disparity."},
-          {"correlation_px", value::Number({.min = 0.0, .max = 100.0}),
+          {"correlation_px", value::Real({.min = 0.0, .max = 100.0}),
            Default(defaults.correlation_px), "Correlation length of that noise in the image."},
-          {"temporal_correlation", value::Number(kCorrelation),
+          {"temporal_correlation", value::Real(kCorrelation),
            Default(defaults.temporal_correlation), "Its correlation between frames."},
-          {"disparity_step_px", value::Number(kNonNegative), Default(defaults.disparity_step_px),
+          {"disparity_step_px", value::Real(kNonNegative), Default(defaults.disparity_step_px),
            "Step of the disparity."},
-          {"periodic_bias_px", value::Number(kNonNegative), Default(defaults.periodic_bias_px),
+          {"periodic_bias_px", value::Real(kNonNegative), Default(defaults.periodic_bias_px),
            "Amplitude of the bias of sub-pixel interpolation."},
-          {"low_frequency_bias", value::Number({.min = 0.0, .max = 0.5}),
+          {"low_frequency_bias", value::Real({.min = 0.0, .max = 0.5}),
            Default(defaults.low_frequency_bias),
            "Smooth relative bias of the depth over the image, RMS."},
-          {"edge_hole_ratio", value::Number(kShare), Default(defaults.edge_hole_ratio),
+          {"edge_hole_ratio", value::Real(kShare), Default(defaults.edge_hole_ratio),
            "Share of pixels along depth edges without depth."},
-          {"flying_pixel_ratio", value::Number(kShare), Default(defaults.flying_pixel_ratio),
+          {"flying_pixel_ratio", value::Real(kShare), Default(defaults.flying_pixel_ratio),
            "Share of pixels along depth edges between front and back."},
-          {"grazing_angle_rad", value::Number(kGrazing), Default(defaults.grazing_angle_rad),
+          {"grazing_angle_rad", value::Real(kGrazing), Default(defaults.grazing_angle_rad),
            "Angle to the normal of the surface beyond which holes grow."},
-          {"range_sigma_m", value::Number(kNonNegative), Default(defaults.range_sigma_m),
+          {"range_sigma_m", value::Real(kNonNegative), Default(defaults.range_sigma_m),
            "Time of flight: standard deviation at 1 m on white. It grows with 1 / amplitude."}}};
   return keys;
 }
@@ -207,7 +207,7 @@ const KeyTable& CameraSpecKeys() {
     }
     AddPoseKeys(&table.keys, "Pose, required unless `eye_m` is given.");
     table.keys.push_back(
-        {"rate_hz", value::Number(kRate), Default(CameraSpec{}.rate_hz), "Rate of the frames."});
+        {"rate_hz", value::Real(kRate), Default(CameraSpec{}.rate_hz), "Rate of the frames."});
     table.keys.push_back({"noise", value::Map(DepthNoiseKeys()), kOptional,
                           "Noise of the depth image. Absent: the defaults of its keys."});
     return table;
@@ -221,21 +221,21 @@ const KeyTable& StageKeys() {
       .title = "stage",
       .about = "What is drawn besides robot and tools.",
       .keys = {
-          {"table_height_m", value::Number(), Default(defaults.table_height_m),
+          {"table_height_m", value::Real(), Default(defaults.table_height_m),
            "Top of the table, robot frame, z up."},
           {"table_size_m", value::Numbers(kPositive, 2, 2), Default(defaults.table_size_m),
            "`[along x, along y]`."},
           ColorKey("table_color_rgb", Default(defaults.table_color_rgb), "Table"),
-          {"background_distance_m", value::Number(kNonNegative),
+          {"background_distance_m", value::Real(kNonNegative),
            Default(defaults.background_distance_m),
            "Distance of the wall behind from the axis of the robot. 0: no wall."},
           ColorKey("background_color_rgb", Default(defaults.background_color_rgb), "Wall"),
           ColorKey("robot_color_rgb", Default(defaults.robot_color_rgb), "Robot"),
-          {"marker_radius_m", value::Number(kNonNegative), Default(defaults.marker_radius_m),
+          {"marker_radius_m", value::Real(kNonNegative), Default(defaults.marker_radius_m),
            "Radius of the fiducials at the markers of the robot. 0: none."},
           ColorKey("marker_color_rgb", kOptional,
                    "All fiducials. Absent: a hue for each, as far apart as possible."),
-          {"light", value::Number(kLight), Default(defaults.light), "Brightness of the lamps."}}};
+          {"light", value::Real(kLight), Default(defaults.light), "Brightness of the lamps."}}};
   return keys;
 }
 
@@ -250,9 +250,9 @@ const KeyTable& MarkerSpecKeys() {
                 "The depth camera measures the markers, with its errors, in its frame. It sees "
                 "those whose surface it sees at rest from less than `grazing_angle_rad`. It takes "
                 "no images then."},
-               {"sigma_m", value::Either({value::Number(kPositive), value::Vector3(kPositive)}),
+               {"sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
                 Default(defaults.sigma_m), "Standard deviation: one number, or `[x, y, z]`."},
-               {"rate_hz", value::Number(kRate), Default(defaults.rate_hz), "Rate."}}};
+               {"rate_hz", value::Real(kRate), Default(defaults.rate_hz), "Rate."}}};
   return keys;
 }
 
@@ -262,9 +262,9 @@ const KeyTable& CommandRowKeys() {
       .about =
           "Commanded displacements at one time: linear between rows, held outside. Each row "
           "names the cables of the first. A cable in no row is free.",
-      .keys = {{"t_s", value::Number(kNonNegative), kRequired,
+      .keys = {{"t_s", value::Real(kNonNegative), kRequired,
                 "Time from the beginning of the recording. It must rise, up to `duration_s`."}},
-      .open_keys = {{"<cable>.displacement_m", value::OrNull(value::Number(kCommand)), kOptional,
+      .open_keys = {{"<cable>.displacement_m", value::OrNull(value::Real(kCommand)), kOptional,
                      "Displacement of the actuator. `~`: the cable is free."}}};
   return keys;
 }
@@ -275,7 +275,7 @@ const KeyTable& WaypointKeys() {
       .about =
           "Pose of a tool at one time: straight and by the shortest arc between waypoints, "
           "held outside.",
-      .keys = {{"t_s", value::Number(kNonNegative), kRequired,
+      .keys = {{"t_s", value::Real(kNonNegative), kRequired,
                 "Time from the beginning of the recording. It must rise, up to `duration_s`."},
                {"position_m", value::Vector3(), kRequired, "Centre of the tool, robot frame."},
                {"rotation_xyz_deg", value::Vector3(), Default(Eigen::Vector3d::Zero().eval()),
@@ -297,11 +297,11 @@ const KeyTable& HungWeightKeys() {
       .title = "weight",
       .about = "A known weight that hangs on the body. It goes into loads.csv.",
       .keys = {
-          {"t_s", value::Number(kNonNegative), kRequired,
+          {"t_s", value::Real(kNonNegative), kRequired,
            "It hangs from this time to the next time that is named for any weight."},
           {"position_m", value::Vector3(), kRequired, "Point of the undeformed body, robot frame."},
-          {"mass_kg", value::Number(kMass), kRequired, "Mass. 0 takes all weights off."},
-          {"patch_radius_m", value::Number(kPatchRadius), Default(HungWeight{}.patch_radius_m),
+          {"mass_kg", value::Real(kMass), kRequired, "Mass. 0 takes all weights off."},
+          {"patch_radius_m", value::Real(kPatchRadius), Default(HungWeight{}.patch_radius_m),
            "Radius of the patch of surface that carries it. 0: the point alone."}}};
   return keys;
 }
@@ -320,7 +320,7 @@ const KeyTable& RecordingPlanKeys() {
              value::Choice({"rest", "ramp", "hold", "known_load", "base_tilted", "co_contraction",
                             "camera_moved", "second_speed", "repeat", "free"}),
              Default("free"), "As in recording.yaml (docs/experiment.md)."},
-            {"duration_s", value::Number(kDuration), kRequired, "Duration."},
+            {"duration_s", value::Real(kDuration), kRequired, "Duration."},
             {"commands", value::ListOfMaps(CommandRowKeys()), kOptional,
              "Commands. Absent: all cables are free."},
             {"tools", value::ListOfMaps(ToolPathKeys()), kOptional, "Paths of tools."},
@@ -345,14 +345,14 @@ const KeyTable& ScenarioKeys() {
            "The virtual robot's body where it differs from the robot file."},
           {"motion", value::Map(MotionKeys()), kOptional, "How it moves."},
           {"effects", value::List(AnyEffect()), kOptional, "Hidden effects. Absent: none."},
-          {"clutter", value::Number(kClutter), Default(defaults.clutter),
+          {"clutter", value::Real(kClutter), Default(defaults.clutter),
            "Manufacturing tolerances: the standard deviation of each parameter of the "
            "catalogue, in its tolerances. 0: exactly as the robot file says."},
           {"tools", value::ListOfMaps(ToolKeys()), kOptional, "Tools. Absent: none."},
           {"camera", value::Map(CameraSpecKeys()), kOptional, "Camera. Absent: no images."},
           {"stage", value::Map(StageKeys()), kOptional, "What is drawn besides the robot."},
           {"markers", value::Map(MarkerSpecKeys()), kOptional, "Measured markers. Absent: none."},
-          {"rest_between_s", value::Number(kNonNegative), Default(defaults.rest_between_s),
+          {"rest_between_s", value::Real(kNonNegative), Default(defaults.rest_between_s),
            "Rest before each recording: commands go to zero, no tool, no weight."},
           {"recordings", value::ListOfMaps(RecordingPlanKeys(), 1), kRequired, "What is done."}}};
   return keys;

@@ -22,12 +22,12 @@ const KeyTable& BodyKeys() {
   static const KeyTable keys{
       .title = "body",
       .about = "A body.",
-      .keys = {{"mass_kg", value::Number(kPositive), kOptional, "Its mass."},
-               {"density_kg_m3", value::Number(kPositive), kOptional, "Its density."},
+      .keys = {{"mass_kg", value::Real(kPositive), kOptional, "Its mass."},
+               {"density_kg_m3", value::Real(kPositive), kOptional, "Its density."},
                {"element", value::Choice({"tet4", "tet10"}), Default("tet10"), "Element."},
                {"first", value::Map(PointKeys()), kRequired, "One point."},
                {"points", value::ListOfMaps(PointKeys(), 1), kOptional, "More of them."}},
-      .open_keys = {{"<cable>.pull_N", value::OrNull(value::Number()), kOptional, "A pull."}},
+      .open_keys = {{"<cable>.pull_N", value::OrNull(value::Real()), kOptional, "A pull."}},
       .exactly_one = {{"mass_kg", "density_kg_m3"}}};
   return keys;
 }

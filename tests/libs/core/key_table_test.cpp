@@ -20,9 +20,9 @@ const KeyTable& CablesOfTheTest() {
       .title = "cable",
       .about = "A cable.",
       .keys = {{"name", value::Text(), kRequired, "Its name."},
-               {"limit_N", value::Number(kPositive), Default(20.0), "Its limit."},
+               {"limit_N", value::Real(kPositive), Default(20.0), "Its limit."},
                {"turns", value::Integer(1, 4), RequiredFor("`kind: wound`"), "Its turns."}},
-      .open_keys = {{"<drive>.offset_m", value::Number(), kOptional, "An offset."}}};
+      .open_keys = {{"<drive>.offset_m", value::Real(), kOptional, "An offset."}}};
   return keys;
 }
 
