@@ -62,7 +62,7 @@ void CheckSample(const CsvTable& table, std::size_t row, std::size_t index, Cabl
   }
 }
 
-/// Nothing where every field is empty: nobody measured this.
+/// nullopt where every field is empty: it was not measured.
 std::optional<CableColumn> ReadColumn(const CsvTable& table, std::size_t index) {
   CableColumn column = ParseHeaderField(table, index);
   column.samples.reserve(table.rows());

@@ -28,7 +28,7 @@ struct UnitFactor {
 };
 UnitFactor ToSi(std::string_view unit);
 
-/// Where the columns of a table stand, found by exact name: Require/Optional name them, Finish()
+/// Indices of the columns of a table, found by exact name: Require/Optional name them, Finish()
 /// refuses the rest with "did you mean", or, for a known name in another unit, with the unit that
 /// is expected. Any order of columns will do.
 class ColumnFinder {
@@ -38,7 +38,7 @@ class ColumnFinder {
   /// Throws InputError where the column is missing.
   std::size_t Require(const std::string& name);
   std::optional<std::size_t> Optional(const std::string& name);
-  /// Throws InputError at the first column that nobody asked for.
+  /// Throws InputError at the first unknown column.
   void Finish() const;
 
  private:

@@ -35,7 +35,7 @@ std::string_view TakeLine(std::string_view& rest) {
   return line;
 }
 
-// Hands out the fields of a line as they stand, quotes and blanks included.
+// Splits a line into its fields, quotes and blanks included.
 class FieldSplitter {
  public:
   explicit FieldSplitter(std::string_view line) : line_(line) {}

@@ -17,7 +17,7 @@ namespace palpate::experiment {
 
 /// A comma-separated table with one header line, kept as text until a field is asked for.
 /// Blanks around a field and quotes about a whole field are dropped; CR LF and a byte order mark
-/// are understood; empty lines may stand at the end only.
+/// are understood; empty lines are allowed at the end only.
 class CsvTable {
  public:
   /// Throws InputError with file:line:column where the file cannot be read, is empty, has a row

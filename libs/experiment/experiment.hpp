@@ -64,20 +64,20 @@ void WriteExperimentSettings(const Experiment& experiment, const std::filesystem
 /// The frame in which the recording was measured.
 MeasurementFrame FrameOf(const Experiment& experiment, const Recording& recording);
 
-/// Measured in the camera's frame, and nobody says where the camera was.
+/// Measured in the camera frame, and the camera pose is unknown.
 struct NeedsCalibration {
   std::string reason;
 };
 
 /// T_robot_measurement, the map from the recording's measured coordinates to the robot frame:
 /// identity for `frame: robot`; for `frame: camera` the recording's T_robot_camera, else the
-/// experiment's (turned along where the base was tilted under a camera that stood still). A
+/// experiment's (turned along where the base was tilted and the camera was not on the base). A
 /// `camera_moved` recording without a pose of its own needs calibration; never identity instead.
 std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromMarkers(const Experiment& experiment,
                                                                    const Recording& recording);
 
-/// T_robot_camera of a recording's images, which are in the camera's frame whatever `frame` says of
-/// its markers: as RobotFromMarkers finds it for `frame: camera`.
+/// T_robot_camera of a recording's images, which are in the camera frame whatever the `frame` of
+/// its markers is: as RobotFromMarkers finds it for `frame: camera`.
 std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experiment& experiment,
                                                                   const Recording& recording);
 

@@ -24,7 +24,7 @@ struct TimeWindow {
   bool Contains(double t_s) const { return t_s >= begin_s && t_s <= end_s; }
 };
 
-/// What was seen of the markers at one time.
+/// Positions of the markers at one time.
 struct MarkerFrame {
   double t_s = 0.0;
   /// One for each of MarkerTracks::names, in that order; m, measurement frame (experiment.hpp,
@@ -33,15 +33,15 @@ struct MarkerFrame {
   int line = 0;  ///< of the file where the frame begins; 0 where it is from no text file
 };
 
-/// What points without a name are called, followed by a number; no marker of a robot is.
+/// Prefix of the names of points without a name, followed by a number; no marker has such a name.
 inline constexpr std::string_view kUnlabelledPrefix = "unlabelled_";
 
-/// Whether nobody says which of the robot's markers this is.
+/// Whether the point has no name, so that its marker is unknown.
 inline bool IsUnlabelled(std::string_view name) { return name.starts_with(kUnlabelledPrefix); }
 
 /// Named markers over time (markers.csv).
 struct MarkerTracks {
-  std::vector<std::string> names;           ///< in the order of their first rows, no two alike
+  std::vector<std::string> names;           ///< in the order of their first rows, all different
   std::vector<SourceLocation> names_where;  ///< where each was named first
   std::vector<MarkerFrame> frames;          ///< time strictly rising, at least one
 

@@ -25,7 +25,8 @@ enum class MeasurementFrame {
   kCamera,  ///< the depth camera's optical frame
 };
 
-/// What was done, never what happened by itself.
+/// What was done in a recording. All kinds but kFree are contact-free but for known loads
+/// (docs/experiment.md).
 enum class RecordingKind {
   kRest,
   kRamp,
@@ -46,7 +47,7 @@ std::vector<std::string> RecordingKindWords();
 RecordingKind ParseRecordingKind(const std::string& word, const SourceLocation& where);
 MeasurementFrame ParseMeasurementFrame(const std::string& word, const SourceLocation& where);
 
-/// The shape in which the body was during a reference window.
+/// Shape of the body during a reference window.
 enum class ReferenceShape {
   kUndeformed,   ///< held in its undeformed shape
   kEquilibrium,  ///< at rest under its own weight and cables, without contact
@@ -72,11 +73,11 @@ struct Recording {
   std::string name;  ///< of the folder
   std::filesystem::path folder;
   RecordingKind kind = RecordingKind::kFree;
-  std::optional<MeasurementFrame> frame;  ///< `frame`; where given, wins over the experiment's
+  std::optional<MeasurementFrame> frame;  ///< `frame`; overrides that of the experiment
   /// `base_tilt_deg: [a, b]`: the base was turned by R = Ry(b) Rx(a).
   std::optional<Eigen::Vector2d> base_tilt_deg;
-  bool camera_on_base = true;  ///< `camera_on_base`: a tilt moves the camera along
-  std::optional<Eigen::Isometry3d> T_robot_camera;  ///< wins over the experiment's
+  bool camera_on_base = true;                       ///< the camera moves with a tilted base
+  std::optional<Eigen::Isometry3d> T_robot_camera;  ///< overrides that of the experiment
   std::optional<Reference> reference;
   std::optional<TimeWindow> steady_window_s;  ///< the static phase; absent: the whole recording
   std::string notes;

@@ -23,7 +23,7 @@ const std::vector<std::string> kKnownEntries = {"recording.yaml", "actuation.csv
                                                 "loads.csv",      "camera.yaml",   "depth",
                                                 "color",          "clouds"};
 
-// A misspelt table would otherwise be taken for an absent one. Other files are nobody's business.
+// A misspelt table would otherwise be taken for an absent one. Other files are ignored.
 void RefuseMisspeltEntries(const fs::path& folder) {
   for (const fs::path& entry : EntriesOf(folder)) {
     const std::string name = entry.filename().string();

@@ -14,8 +14,8 @@ namespace palpate::experiment {
 /// The marker tracks of a recording. Throws InputError where it has no markers.csv.
 const MarkerTracks& RequireMarkers(const Recording& recording);
 
-/// T_robot_measurement (RobotFromMarkers). Throws InputError where nobody says where the camera
-/// was.
+/// T_robot_measurement (RobotFromMarkers). Throws InputError where the camera pose is
+/// unknown.
 Eigen::Isometry3d RequireRobotFromMarkers(const Experiment& experiment, const Recording& recording);
 
 /// The input of a cable at time `t_s` (Actuation::ValueAt), m or N; nullopt where the recording has

@@ -53,9 +53,9 @@ std::string Printed(const char* format, double value) {
 
 std::string Summary(const fem::MeshReport& report, const std::string& file) {
   return "mesh " + file + ": " + std::to_string(report.node_count) + " nodes, " +
-         std::to_string(report.cell_count) + " cells of " + std::to_string(report.nodes_per_cell) +
+         std::to_string(report.cell_count) + " elements of " + std::to_string(report.nodes_per_cell) +
          " nodes, volume " + Printed("%.6g", report.volume_m3 * 1e6) + " cm3, worst quality " +
-         Printed("%.3g", report.worst_quality) + " (cell " + std::to_string(report.worst_cell) +
+         Printed("%.3g", report.worst_quality) + " (element " + std::to_string(report.worst_cell) +
          ")";
 }
 
@@ -70,11 +70,11 @@ void AddReportNotes(const fem::MeshReport& report, const std::string& file,
   }
   if (!report.unused_nodes.empty()) {
     notes->push_back("mesh " + file + ": " + std::to_string(report.unused_nodes.size()) +
-                     " nodes that no cell uses, held fixed");
+                     " nodes that no element uses, held fixed");
   }
 }
 
-/// Nodes with the same number hang together through cells.
+/// Nodes with the same number hang together through elements.
 class PieceOfNode {
  public:
   explicit PieceOfNode(const fem::TetMesh& mesh) : parent_(static_cast<size_t>(mesh.NodeCount())) {
@@ -141,8 +141,8 @@ fem::TetMesh ReadChecked(const RobotDescription& robot, std::vector<std::string>
   const fem::MeshReport report = fem::ReportMesh(mesh);
   fem::CheckSolvable(mesh, report, file, fem::Pieces::kSeveralAllowed);
   if (robot.element == fem::ElementType::kTet4 && mesh.element_type() != robot.element) {
-    throw InputError(robot.mesh.where, "element tet4 needs a mesh of 4-node cells, " + file +
-                                           " has cells of 10 nodes");
+    throw InputError(robot.mesh.where, "element tet4 needs a mesh of 4-node elements, " + file +
+                                           " has elements of 10 nodes");
   }
   AddReportNotes(report, robot.mesh.file.filename().string(), notes);
   return mesh;

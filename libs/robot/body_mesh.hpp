@@ -16,7 +16,7 @@ namespace palpate::robot {
 struct BodyMesh {
   fem::TetMesh mesh;       ///< placed in the robot frame, of the robot's element
   std::string hash;        ///< see RobotBody::mesh_hash
-  std::vector<bool> used;  ///< [n] whether a cell names the node
+  std::vector<bool> used;  ///< [n] whether an element names the node
 };
 
 /// Reads, checks, places and, for tet10, refines the mesh. Appends to `notes`. Throws InputError.

@@ -15,7 +15,7 @@ namespace palpate::robot {
 
 namespace {
 
-/// The fraction of the drive's tension in one piece after the other, from the drive on.
+/// The fraction of the actuator's tension in one piece after the other, from the actuator on.
 class TensionAlong {
  public:
   explicit TensionAlong(const CableFriction& friction) : friction_(friction) {}

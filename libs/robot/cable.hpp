@@ -13,8 +13,8 @@
 namespace palpate::robot {
 
 /// A cable: from a pull point fixed to the ground through eyelets on the body, in which it slides,
-/// to the last one, where it is attached. Its value is its length outside the drive, m; its
-/// multiplier the tension at the drive, N: without friction the same all along. A cable cannot
+/// to the last one, where it is attached. Its value is its length outside the actuator, m; its
+/// multiplier the tension at the actuator, N: without friction the same all along. A cable cannot
 /// push.
 class Cable final : public fem::ScalarConstraint {
  public:
@@ -32,12 +32,12 @@ class Cable final : public fem::ScalarConstraint {
   void SetEyelet(int eyelet, const std::vector<double>& weights, const Eigen::VectorXd& rest_x_m);
   const CableFriction& friction() const { return friction_; }
   void SetFriction(const CableFriction& friction);
-  /// By how much more of it is outside the drive for each N at the drive, m/N; 0 at first. Negative
-  /// where the body gives way less than its mesh does where the cable ends.
+  /// Elastic compliance: length that leaves the actuator per N of tension, m/N; 0 at first. It is
+  /// negative where the mesh is softer than the body at the end of the cable.
   double compliance_m_N() const { return compliance_m_N_; }
   void SetCompliance(double compliance_m_N) { compliance_m_N_ = compliance_m_N; }
-  /// Displacement delta_a: how much cable the drive has taken in, counted from the undeformed body;
-  /// of one that stretches, what is left of that.
+  /// Displacement delta_a: length that the actuator has pulled in, counted from the undeformed
+  /// body; for an elastic cable minus its elongation.
   double Displacement_m(const Eigen::VectorXd& x_m) const { return rest_length_m_ - Value(x_m); }
   /// [3 x eyelets + 1], pull point first.
   Eigen::Matrix3Xd Path_m(const Eigen::VectorXd& x_m) const;
@@ -45,8 +45,8 @@ class Cable final : public fem::ScalarConstraint {
   void FindPath(const Eigen::VectorXd& x_m, Eigen::Matrix3Xd* path_m) const;
 
   double Value(const Eigen::VectorXd& x_m) const override;
-  /// The forces of the tension: of dlength/dx, each piece's part times the fraction of the drive's
-  /// tension that reaches it. Without friction the gradient of the length.
+  /// The forces of the tension: of dlength/dx, each piece's part times the fraction of the
+  /// actuator's tension that reaches it. Without friction the gradient of the length.
   void AddGradient(const Eigen::VectorXd& x_m, double factor,
                    Eigen::VectorXd& nodal) const override;
   fem::NodePairs CoupledPairs() const override;

@@ -9,9 +9,9 @@
 namespace palpate::robot {
 
 /// Coulomb friction of a cable in its eyelets (capstan, Euler-Eytelwein): where it turns by theta,
-/// the tension changes by exp(-mu s theta) from the drive on. While the cable slides there towards
-/// the drive s is 1, and the tension falls; while it slides out of the drive s is -1, and it rises.
-/// Where it sticks s is what balance asks for, in between.
+/// the tension changes by exp(-mu s theta) from the actuator on. While the cable slides there
+/// towards the actuator s is 1, and the tension falls; while it slides out of the actuator s is -1,
+/// and it rises. Where it sticks s is what balance asks for, in between.
 struct CableFriction {
   double coefficient = 0.0;          ///< mu >= 0; 0: none
   std::vector<double> sliding = {};  ///< [eyelets] s in [-1, 1], or one for all of them; none: 1

@@ -27,7 +27,7 @@ class CablePath {
   Eigen::Index PieceCount() const { return direction_.cols(); }
   /// [3 x points] derivative of the length with respect to the points.
   const Eigen::Matrix3Xd& length_gradient() const { return length_gradient_; }
-  /// [3 x points] force on each point for a tension of 1 N at the drive.
+  /// [3 x points] force on each point for a tension of 1 N at the actuator.
   const Eigen::Matrix3Xd& force() const { return force_; }
 
   /// Derivative of the length, and of `force`, along a motion of the points [3 x points].
@@ -64,8 +64,8 @@ class CablePath {
   double friction_ = 0.0;           ///< coefficient
   Eigen::Matrix3Xd direction_;      ///< [3 x pieces] unit, or 0
   Eigen::VectorXd inverse_length_;  ///< [pieces] 1/m, or 0
-  Eigen::VectorXd turned_;          ///< [pieces] rad from the drive on, each turn times its s
-  Eigen::VectorXd fraction_;        ///< [pieces] of the drive's tension
+  Eigen::VectorXd turned_;          ///< [pieces] rad from the actuator on, each turn times its s
+  Eigen::VectorXd fraction_;        ///< [pieces] of the actuator's tension
   Eigen::Matrix3Xd length_gradient_;
   Eigen::Matrix3Xd force_;
   std::vector<TurnData> turns_;

@@ -13,8 +13,8 @@
 
 namespace palpate::robot {
 
-/// How a depth image errs, found together with the camera's pose; it holds for images of that
-/// camera in that size.
+/// Systematic error of the depth, estimated together with the camera pose. It holds for images of
+/// that camera at that size.
 struct CalibratedDepthBias {
   geometry::DepthPicture picture;
   geometry::DepthBiasMap map;

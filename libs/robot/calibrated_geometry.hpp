@@ -15,25 +15,25 @@
 
 namespace palpate::robot {
 
-/// A robot that differs more from its file is another one.
+/// Range of a calibrated scale; beyond it the robot file is of another robot.
 inline constexpr double kSmallestScale = 0.5;
 inline constexpr double kLargestScale = 2.0;
-/// The same along any axis of a point of a cable's path.
+/// Largest calibrated offset of a point of a cable's route along any axis.
 inline constexpr double kFarthestOff_m = 0.05;
 
-/// How much larger the robot is than its file says, guides of its cables and all, about the robot
-/// frame's origin, at the file's density.
+/// Size of the robot over that in its file, pull points included, about the origin of the robot
+/// frame, at the density of the file.
 struct CalibratedScale {
   double scale = 1.0;
   double standard_error = 0.0;
 };
 
-/// How far a point of a cable's path sits off its place in the robot file: the guide that it is
-/// pulled from, or an eyelet on the body; robot frame, of a robot of scale 1. Along the cable
-/// nothing, or little, shows of it.
+/// Offset of a point of a cable's route from its place in the robot file: the pull point, or an
+/// eyelet on the body; robot frame, for a robot of scale 1. The data hardly determine it along the
+/// cable.
 struct CalibratedRoute {
   std::string cable;
-  int point = 0;  ///< of path_m in the robot file; 0: the guide
+  int point = 0;  ///< of path_m in the robot file; 0: the pull point
   Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d standard_error_m = Eigen::Vector3d::Zero();
 };
@@ -42,7 +42,7 @@ struct CalibratedRoute {
 const KeyTable& GeometryScaleKeys();
 const KeyTable& CableRouteKeys();
 
-/// Throw InputError with file:line:column for what is none.
+/// Read the map strictly; throw InputError with file:line:column.
 CalibratedScale ReadGeometryScale(const ConfigNode& node);
 CalibratedRoute ReadCableRoute(const ConfigNode& node);
 /// As ReadGeometryScale and ReadCableRoute read it: the keys `geometry_scale` and `cable_routes`

@@ -18,14 +18,14 @@
 
 namespace palpate::robot {
 
-/// A modulus found from data. `part` is "body" or the name of a region.
+/// A modulus estimated from data. `part` is "body" or the name of a region.
 struct CalibratedModulus {
   std::string part;
   double youngs_modulus_Pa = 0.0;
   double standard_error_Pa = 0.0;
 };
 
-/// Where the camera stands.
+/// Pose of the depth camera.
 struct CalibratedPose {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   /// About and along the robot's axes.
@@ -33,7 +33,7 @@ struct CalibratedPose {
   Eigen::Vector3d translation_error_m = Eigen::Vector3d::Zero();
 };
 
-/// Poisson's ratio found from data. `part` as of a modulus.
+/// Poisson's ratio estimated from data. `part` as of a modulus.
 struct CalibratedPoissonsRatio {
   std::string part;
   double poissons_ratio = 0.0;
@@ -46,34 +46,34 @@ struct CalibratedGravity {
   Eigen::Vector3d standard_error_m_s2 = Eigen::Vector3d::Zero();
 };
 
-/// How a cable's displacement is read (RobotModel::SetDrive).
+/// Offset and gain of the actuator of a cable (RobotModel::SetDrive).
 struct CalibratedDrive {
   std::string cable;
   DriveCalibration drive;
   DriveCalibration standard_error;
 };
 
-/// A number that was asked for and that the data did not tell; it stayed where it was believed.
+/// A parameter that was to be estimated and that the data do not determine; it kept its prior mean.
 struct Undetermined {
   std::string name;
   std::string what_would_tell;  ///< the recording that determines it
 };
 
-/// What `palpate calibrate` finds and `palpate estimate` and the processes use. A modulus is bound
-/// to the mesh and element it was found with: coarse linear meshes are too stiff, and the fit makes
-/// up for it.
+/// What `palpate calibrate` estimates, and `palpate estimate` and the processes use; format:
+/// docs/experiment.md. A modulus is bound to the mesh and element that it was estimated with:
+/// coarse linear meshes are too stiff, and the fit compensates for it.
 struct CalibrationFile {
   std::string robot;            ///< name in the robot file
   std::string mesh_hash;        ///< RobotBody::mesh_hash: mesh and element
   std::string element;          ///< "tet4" | "tet10"
   std::string model;            ///< material model
   double poissons_ratio = 0.0;  ///< of the robot file
-  /// "pointwise" | "mean_dilatation"; empty: not said, and not compared
+  /// "pointwise" | "mean_dilatation"; empty: unknown, and not compared
   std::string volumetric;
   double c20_over_c10 = 0.0;  ///< of the Yeoh material, as c30_over_c10
   double c30_over_c10 = 0.0;
   std::string date_utc;  ///< "2026-01-31T12:00:00Z"
-  std::string data;      ///< what it was fitted to, for people
+  std::string data;      ///< the data that were used, for people
   std::string data_hash;
   std::vector<CalibratedModulus> moduli;  ///< empty: those of the robot file hold
   std::vector<CalibratedPoissonsRatio> poissons_ratios;
@@ -92,7 +92,7 @@ struct CalibrationFile {
 /// The file's head for this robot, without moduli and fit.
 CalibrationFile DescribeForCalibration(const RobotModel& model);
 
-/// Throws InputError with file:line:column for what is no calibration file.
+/// Reads a calibration file strictly. Throws InputError with file:line:column.
 CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const ConfigLoader& load);
 
 /// Throws RunError where it cannot be written.
@@ -102,18 +102,17 @@ void WriteCalibrationFile(const CalibrationFile& calibration, const std::filesys
 /// element's or material's than `present` (DescribeForCalibration) says.
 Status CheckCalibrated(const CalibrationFile& calibration, const CalibrationFile& present);
 
-/// Makes a body, which is as the robot file has it, as large as the calibration found it, with the
-/// cables' eyelets where it found them; to be done before a model is made of it. What the robot
-/// does not have is left to CheckCalibration.
+/// Applies the calibrated scale and cable routes to a body that is as the robot file has it, before
+/// a model is made of it. CheckCalibration refuses what the robot does not have.
 void ApplyGeometry(const CalibrationFile& calibration, RobotBody* body);
 
-/// The same, and where it names a region, a cable or a point of it that the robot does not have, or
-/// found another size or other places of eyelets than the model's (ApplyGeometry).
+/// The same; also kInvalidInput where the calibration names a region, a cable or a point of a cable
+/// that the robot does not have, or has another scale or other routes than the model
+/// (ApplyGeometry).
 Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& model);
 
-/// Gives the model the calibrated moduli, Poisson's ratios, gravity, drives and guides of the
-/// cables; where the camera stands is the caller's business. Throws InputError where
-/// CheckCalibration is not ok.
+/// Applies the calibrated moduli, Poisson's ratios, gravity, actuators and pull points to the
+/// model. The caller applies the camera pose. Throws InputError where CheckCalibration is not ok.
 void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model);
 
 /// Largest relative standard error of the moduli; 0 without moduli.

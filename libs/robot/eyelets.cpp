@@ -14,7 +14,7 @@ namespace {
 
 using AxisBox = Eigen::AlignedBox3d;
 
-/// Of cells that a point in the box may lie in.
+/// Of elements that a point in the box may lie in.
 void AddNodesOfCells(const fem::TetMesh& mesh, const AxisBox& box, std::set<int>* nodes) {
   for (const auto& cell : mesh.cells.colwise()) {
     AxisBox of_cell;
@@ -23,7 +23,7 @@ void AddNodesOfCells(const fem::TetMesh& mesh, const AxisBox& box, std::set<int>
   }
 }
 
-/// Of cells that points in the box are extrapolated from.
+/// Of elements that points in the box are extrapolated from.
 void AddNodesOfPoints(const fem::PointLocator& locator, const AxisBox& box, std::set<int>* nodes) {
   constexpr int kPoints = 9;
   for (int k = 0; k < kPoints * kPoints * kPoints; ++k) {

@@ -19,7 +19,7 @@ namespace palpate::robot {
 /// cable's rest length. Nothing is allocated after the first frame.
 class FrameTracker final : private fem::NewtonProblem {
  public:
-  /// `model` must outlive the tracker; nobody else may use its linearisation within Follow.
+  /// `model` must outlive the tracker; no other code may use its linearisation during Follow.
   FrameTracker(RobotModel& model, const fem::FrameSettings& settings);
 
   /// Goes on from `state`, an equilibrium (RobotModel::Solve).

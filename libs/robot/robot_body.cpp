@@ -68,7 +68,7 @@ class PointPlacer {
   void NoteDistance(const std::string& name, const fem::BodyPoint& point) const {
     if (point.distance_m <= 0.0) return;
     notes_->push_back(name + " " + Millimetres(point.distance_m) +
-                      " outside the mesh, extrapolated in cell " + std::to_string(point.cell));
+                      " outside the mesh, extrapolated in element " + std::to_string(point.cell));
   }
 
   const fem::PointLocator& locator_;
@@ -76,7 +76,7 @@ class PointPlacer {
   double diagonal_m_;
 };
 
-/// Says so where cells lock: docs/near_incompressibility.md.
+/// Adds a note where elements lock (docs/near_incompressibility.md).
 void NoteLocking(const RobotDescription& robot, std::vector<std::string>* notes) {
   const fem::Material& material = robot.material;
   if (material.poissons_ratio < kNearlyIncompressible) return;
@@ -120,7 +120,7 @@ void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
     if (std::find(of_cell.begin(), of_cell.end(), static_cast<int>(k) + 1) == of_cell.end()) {
       throw InputError(robot.regions[k].where,
                        "region '" + robot.regions[k].name +
-                           "' has no cell: no centroid lies in its box, or later regions take all");
+                           "' has no element: no centroid lies in its box, or later regions take all");
     }
   }
 }

@@ -40,20 +40,20 @@ struct RobotBody {
   fem::BoundarySurface boundary;  ///< of `mesh`
 
   /// Name of the mesh as it lies in the file, and of the element: 64-bit FNV-1a over the nodes (in
-  /// metres, before the placement), the cells and the number of nodes per cell, as
+  /// metres, before the placement), the elements and the number of nodes per element, as
   /// "fnv1a-<16 hex digits>". A calibrated modulus holds for one mesh and element only.
   std::string mesh_hash;
 
   std::vector<fem::Material> materials;  ///< 0: the body's; k + 1: of region k
   /// Of the body in the robot file: calibrations name it, whatever they make of `materials`.
   double nominal_poissons_ratio = 0.0;
-  std::vector<int> material_of_cell;      ///< [cells] index into materials
+  std::vector<int> material_of_cell;      ///< [elements] index into materials
   std::vector<std::string> region_names;  ///< in the order of the robot file
 
-  /// [3 x n] directions that are held; nodes that no cell uses are held too.
+  /// [3 x n] directions that are held; nodes that no element uses are held too.
   Eigen::Matrix<bool, 3, Eigen::Dynamic> fixed;
   /// [n] Share of each node in the weight. By volume: integral of rho N_i, for tet10 negative on
-  /// most corners. Per node: the total mass shared equally by the nodes that cells use.
+  /// most corners. Per node: the total mass shared equally by the nodes that elements use.
   Eigen::VectorXd node_mass_kg;
   Eigen::Vector3d gravity_m_s2;
 
@@ -70,9 +70,9 @@ struct RobotBody {
 
 /// Reads the mesh that `robot` names, places it and puts everything on it. Throws InputError: a
 /// mesh that cannot be read or solved, or is of another element; a fixed box without a node; a
-/// piece of the mesh that is not held against every rigid motion; a region without a cell; a point
-/// of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less; a
-/// marker or a given feature point farther from it than that diagonal.
+/// piece of the mesh that is not held against every rigid motion; a region without an element; a
+/// point of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less;
+/// a marker or a given feature point farther from it than that diagonal.
 RobotBody BuildRobotBody(const RobotDescription& robot);
 
 }  // namespace palpate::robot

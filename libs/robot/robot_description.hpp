@@ -36,14 +36,14 @@ struct MassSettings {
   MassDistribution distribution = MassDistribution::kVolume;
 };
 
-/// First point: where the cable is pulled from, fixed to the ground. The rest are eyelets on the
-/// body through which it slides; to the last it is attached.
+/// A cable. First point of its route: the pull point, fixed to the ground. The others are eyelets
+/// on the body through which it slides; it is attached to the last one.
 struct CableSettings {
   std::string name;
   Eigen::Matrix3Xd path_m;         ///< [3 x >=2], robot frame, at rest
   double max_tension_N = 1e3;      ///< > 0
   double guide_radius_m = 0.0015;  ///< >= 0; 0: barycentric points
-  /// >= 0; of the cable in its eyelets while the drive pulls it in (cable_friction.hpp).
+  /// >= 0; of the cable in its eyelets while the actuator pulls it in (cable_friction.hpp).
   double friction_coefficient = 0.0;
   SourceLocation where;
 };
@@ -51,14 +51,14 @@ struct CableSettings {
 /// A named part of the body; its own modulus where given, else the body's.
 struct RegionSettings {
   std::string name;
-  Box box;  ///< takes the cells whose centroid lies inside; a later region wins over an earlier
+  Box box;  ///< takes the elements whose centroid lies inside; a later region wins over an earlier
   std::optional<double> youngs_modulus_Pa;
   SourceLocation where;
 };
 
 struct MarkerSettings {
   std::string name;
-  Eigen::Vector3d position_m;  ///< of the undeformed body, before gravity; may stand off
+  Eigen::Vector3d position_m;  ///< of the undeformed body, before gravity; may be off the surface
   SourceLocation where;
 };
 
@@ -82,17 +82,16 @@ struct RobotDescription {
 };
 
 /// Reads a robot file strictly. Throws InputError with file:line:column for an unknown key or unit
-/// (with what was meant), a wrong type, NaN, a value out of range, a cable with fewer than two
-/// points, a name given twice. Whether mesh, boxes and points fit together is BuildRobotBody's
-/// business.
+/// (with the allowed ones), a wrong type, NaN, a value out of range, a cable with fewer than two
+/// points, a name given twice. BuildRobotBody checks whether mesh, boxes and points fit together.
 ///
-/// Lengths are in metres; `mesh.translate_mm` may stand for `mesh.translate_m`. Left out:
+/// Lengths are in metres; `mesh.translate_mm` may stand for `mesh.translate_m`. Defaults:
 /// element tet10, gravity (0, 0, -9.81), 51 feature points, `material.volumetric` mean_dilatation
 /// for tet10 from a Poisson's ratio of 0.48 on (against locking) where the material model has it,
 /// else pointwise.
 RobotDescription ReadRobotFile(const std::filesystem::path& file, const ConfigLoader& load);
 
-/// Poisson's ratio from which tet10 averages the dilatation over the element unless told otherwise.
+/// Poisson's ratio from which tet10 averages the dilatation over the element by default.
 inline constexpr double kNearlyIncompressible = 0.48;
 /// Beyond it displacements change by less than 0.01 %, while rounding and Newton iterations grow
 /// tenfold with each further digit (docs/near_incompressibility.md).

@@ -17,10 +17,10 @@
 
 namespace palpate::robot {
 
-/// What is asked of one cable.
+/// Boundary condition of one cable.
 struct CableCommand {
   enum class Kind {
-    kNone,          ///< not driven: no tension
+    kNone,          ///< free: no tension
     kDisplacement,  ///< m pulled in, counted from the undeformed body; the cable may be slack
     kTension,       ///< N, >= 0
   };
@@ -35,8 +35,7 @@ enum class CableInput { kDisplacement, kTension };
 CableCommand ChooseCommand(std::optional<double> displacement_m, std::optional<double> tension_N,
                            CableInput preferred);
 
-/// How far a drive's reading of its displacement is off: it takes in (1 + gain) u + offset_m where
-/// it says u.
+/// Errors of an actuator: it pulls in (1 + gain) u + offset_m where it reports the displacement u.
 struct DriveCalibration {
   double offset_m = 0.0;
   double gain = 0.0;
@@ -86,8 +85,8 @@ class RobotModel {
   void SetYoungsModulus(int material, double youngs_modulus_Pa);
   void SetPoissonsRatio(int material, double poissons_ratio);
   /// Friction of a cable in its eyelets (cable_friction.hpp); at first the robot file's, sliding in
-  /// all of them. The static solver then takes more steps; what a load history does to sticking and
-  /// sliding is the caller's business.
+  /// all of them. The static solver then takes more steps. The caller decides which eyelets stick
+  /// or slide after a load history.
   void SetCableFriction(int cable, const CableFriction& friction) {
     cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
   }
@@ -99,17 +98,18 @@ class RobotModel {
   /// The point fixed to the ground that a cable is pulled from; at first the robot file's. Its rest
   /// length and displacements count from the undeformed body with the point there.
   void SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m);
-  /// An eyelet of it (0: next to the drive) sits `moved_m` off its place in the robot file, of a
-  /// robot of scale 1; body() says so from then on. Counted as SetPullPoint does. kInvalidInput,
-  /// and nothing is moved: the body has no room there (GiveEyeletsRoom).
+  /// Moves an eyelet (0: next to the actuator) by `moved_m` from its place in the robot file, for a
+  /// robot of scale 1; body() has it there. Displacements count as with SetPullPoint. Returns
+  /// kInvalidInput and moves nothing where the body has no room for it (GiveEyeletsRoom).
   Status MoveEyelet(int cable, int eyelet, const Eigen::Vector3d& moved_m);
   const fem::PointLocator& locator() const { return locator_; }
-  /// How a cable's measured displacements are read; at first as they are.
+  /// Offset and gain by which measured displacements of a cable are corrected; at first none.
   void SetDrive(int cable, const DriveCalibration& drive) {
     drives_.at(static_cast<size_t>(cable)) = drive;
   }
   const std::vector<DriveCalibration>& drives() const { return drives_; }  ///< [cables]
-  /// The command for what was measured of a cable (ChooseCommand), read as its drive asks for.
+  /// The command for the measured inputs of a cable (ChooseCommand), corrected by its actuator's
+  /// offset and gain.
   CableCommand CommandFor(int cable, std::optional<double> displacement_m,
                           std::optional<double> tension_N, CableInput preferred) const;
 

@@ -20,7 +20,7 @@ struct ToolPose {
 
 /// What is done to the robot at one instant.
 struct BenchInputs {
-  /// [cables of the robot file] m, what the drives are told; NaN: not driven.
+  /// [cables of the robot file] m, commanded displacements; NaN: the cable is free.
   Eigen::VectorXd displacement_m;
   std::vector<ToolPose> tools;      ///< those that are there
   std::vector<HungWeight> weights;  ///< those that hang now

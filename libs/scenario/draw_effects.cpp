@@ -65,7 +65,7 @@ void DrawParameters(const Effect& effect, const EffectKind& kind, Random* random
   }
 }
 
-/// Those that say where first, so that the others are drawn from what is left.
+/// Effects with `where` first, so that the places of the others are drawn from those that remain.
 std::vector<ActiveEffect> DrawWanted(const Scenario& scenario, const RobotNames& robot,
                                      std::uint64_t seed) {
   std::vector<ActiveEffect> wanted(scenario.effects.size());
@@ -98,7 +98,7 @@ double AsBuilt(const EffectParameter& parameter, double nominal, double deviatio
   return std::clamp(Rounded(nominal + deviation), parameter.min, parameter.max);
 }
 
-/// Nothing where no parameter has a tolerance, or nobody knows what it would be about.
+/// nullopt where no parameter has a tolerance, or its nominal value is unknown.
 std::optional<ActiveEffect> DrawClutter(const EffectKind& kind, const Where& where,
                                         const Scenario& scenario, const RobotNames& robot,
                                         std::uint64_t seed) {

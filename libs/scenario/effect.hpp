@@ -18,21 +18,21 @@ namespace palpate::scenario {
 /// Which part of the bench an effect changes.
 enum class Side { kBody, kBase, kActuator, kCamera };
 
-/// Who can be meant by `where`.
+/// Parts of the robot that `where` can name.
 enum class Place { kBody, kBase, kCamera, kRegion, kCable, kTwoCables, kMarker };
 
 /// One parameter of an effect, with the name and unit of verdict.json.
 struct EffectParameter {
   std::string_view name;   ///< "mu"
   double healthy = 0.0;    ///< value without the effect; NaN: the robot file's
-  double tolerance = 0.0;  ///< standard deviation of a healthy robot (clutter); 0: none
+  double tolerance = 0.0;  ///< manufacturing tolerance, one standard deviation; 0: none
   double min = 0.0;        ///< values allowed in a scenario
   double max = 0.0;
   bool required = true;  ///< else `healthy` where it is left out
-  bool whole = false;    ///< a number to count with
+  bool whole = false;    ///< an integer
 };
 
-/// One row of the catalogue (DIAGNOSIS, "Catalogue").
+/// One row of the catalogue of effects (README.md here; causes: docs/diagnosis.md).
 struct EffectKind {
   std::string_view id;
   Side side;
@@ -41,7 +41,7 @@ struct EffectKind {
   std::string_view what;  ///< one line for people
 };
 
-/// The whole catalogue, in the order of DIAGNOSIS. `discretisation` is no entry: the bench's own
+/// The whole catalogue. `discretisation` is no entry: the bench's own
 /// mesh always is one.
 const std::vector<EffectKind>& EffectCatalogue();
 /// nullptr where there is none of that id.
@@ -57,12 +57,12 @@ struct Effect {
   SourceLocation location;
 };
 
-/// An effect as it is: part of the answer.
+/// An effect of the bench: part of the sealed answer.
 struct ActiveEffect {
   std::string id;
   std::vector<std::string> where;
   std::map<std::string, double> parameters;  ///< every one of the kind's
-  bool clutter = false;                      ///< inside the tolerances of a healthy robot
+  bool clutter = false;                      ///< a manufacturing tolerance, not a fault
 
   double Get(std::string_view parameter) const;
 };
@@ -70,8 +70,8 @@ struct ActiveEffect {
 struct Scenario;
 struct RobotNames;
 
-/// What the seed makes of the scenario's effects and clutter; the same for the same arguments on
-/// every machine. Wanted effects first.
+/// Draws the scenario's effects and manufacturing tolerances; the result depends on the arguments
+/// only, not on the machine. Effects of the scenario come first.
 std::vector<ActiveEffect> DrawEffects(const Scenario& scenario, const RobotNames& robot,
                                       std::uint64_t seed);
 

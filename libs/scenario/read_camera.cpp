@@ -22,7 +22,7 @@ DepthSensor ReadSensor(MapReader& reader) {
 }
 
 Eigen::Isometry3d ReadLookAt(const ConfigNode& eye, const ConfigNode* target) {
-  if (target == nullptr) Refuse(eye, "goes with 'target_m', the point that is looked at");
+  if (target == nullptr) Refuse(eye, "goes with 'target_m', the point on the optical axis");
   const Eigen::Vector3d eye_m = ReadVector3(eye);
   const Eigen::Vector3d target_m = ReadVector3(*target);
   if ((target_m - eye_m).norm() < kNearest_m) Refuse(*target, "is where the camera is");

@@ -25,7 +25,7 @@ struct PronyTerm {
   double tau_s = 0.0;  ///< > 0
 };
 
-/// What the virtual robot's body is made of where it differs from the robot file.
+/// The virtual robot's body where it differs from the robot file.
 struct BodyTruth {
   std::filesystem::path mesh_file;  ///< empty: the robot file's; unit and placement are its
   int refine = 1;                   ///< 0 to 2: so often is every tetrahedron cut in eight
@@ -82,15 +82,15 @@ struct HungWeight {
   double patch_radius_m = 0.0;
 };
 
-/// A row of commands: what the drives are told, before any effect. Linear between rows. NaN: not
-/// driven (the cable has no tension).
+/// Commanded displacements at one time, before any effect. Linear between rows. NaN: the cable is
+/// free (it has no tension).
 struct CommandRow {
   double t_s = 0.0;
   Eigen::VectorXd displacement_m;  ///< [cables] in the order of CommandScript::cables
 };
 
 struct CommandScript {
-  std::vector<std::string> cables;  ///< those that are driven
+  std::vector<std::string> cables;  ///< those with a command
   std::vector<CommandRow> rows;     ///< time rising, at least one where cables is not empty
 
   Eigen::VectorXd At(double t_s) const;  ///< [cables]
@@ -104,7 +104,7 @@ struct RecordingPlan {
   std::vector<ToolPath> tool_paths;
   std::vector<HungWeight> weights;
   Eigen::Vector2d base_tilt_deg = Eigen::Vector2d::Zero();
-  /// Where the camera is moved to on purpose, and everybody knows.
+  /// Pose to which the camera was moved on purpose; it goes into recording.yaml.
   std::optional<Eigen::Isometry3d> T_robot_camera;
   std::string notes;
   SourceLocation location;
@@ -112,7 +112,7 @@ struct RecordingPlan {
 
 enum class DepthSensor { kNone, kStereo, kTimeOfFlight };
 
-/// Noise of the depth image (CAPTURE, "Virtual camera").
+/// Noise of the depth image of the virtual camera.
 struct DepthNoise {
   DepthSensor sensor = DepthSensor::kStereo;
   double subpixel_px = 0.08;          ///< sigma of the disparity
@@ -151,20 +151,20 @@ struct Stage {
 struct MarkerSpec {
   Eigen::Vector3d sigma_m{3e-4, 3e-4, 3e-4};  ///< > 0
   double rate_hz = 30.0;
-  /// The depth camera finds them, with its faults, in place of taking pictures; else a tracker
-  /// does, which has none, in that camera's frame where there is one.
+  /// The depth camera measures the markers, with its errors, and takes no images. Else motion
+  /// capture measures them without bias, in the frame of the camera where there is one.
   bool by_depth_camera = false;
 };
 
-/// scenario.yaml: a virtual bench, and what is done on it. Format and every key: README.md here.
+/// scenario.yaml: a virtual bench, and what is done on it. Every key: README.md here.
 struct Scenario {
   std::filesystem::path file;
   std::string name;
   BodyTruth body;
   Motion motion;
   std::vector<Effect> effects;
-  /// Healthy spread: every parameter of the catalogue is off by so many of its tolerances, normally
-  /// distributed. 0: exactly as built.
+  /// Standard deviation of each parameter of the catalogue, in its manufacturing tolerances. 0:
+  /// exactly as the robot file says.
   double clutter = 0.0;
   std::vector<Tool> tools;
   std::optional<CameraSpec> camera;  ///< without: no images
@@ -187,7 +187,7 @@ struct RobotNames {
   std::vector<std::string> cables;
   std::vector<std::string> regions;
   std::vector<std::string> markers;
-  /// Of the material: what clutter is added to. NaN: nobody knows, nu is without clutter.
+  /// Of the material, to which the tolerance is added. NaN: unknown, nu has no tolerance.
   double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -12,7 +12,7 @@
 
 namespace palpate::scenario {
 
-/// Where in the scenario a moment of the bench lies.
+/// A time of the bench as recording and time in it.
 struct Moment {
   int recording = 0;
   double t_s = 0.0;  ///< in that recording; negative: rest before it

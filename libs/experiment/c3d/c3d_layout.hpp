@@ -15,7 +15,7 @@ namespace palpate::experiment {
 
 inline constexpr std::size_t kC3dBlockSize = 512;
 
-/// Where the points of a C3D file stand and how they are written.
+/// Place and encoding of the points in a C3D file.
 struct C3dLayout {
   std::size_t point_count = 0;
   std::size_t frame_count = 0;
@@ -25,7 +25,7 @@ struct C3dLayout {
   double scale = 0.0;                       ///< > 0, file units per integer step and residual step
   double rate_Hz = 0.0;
   double metres_per_unit = 1.0;
-  std::vector<std::string> labels;  ///< point_count of them, no two alike
+  std::vector<std::string> labels;  ///< point_count of them, all different
 
   std::size_t value_size() const { return real_points ? 4 : 2; }
   std::size_t frame_size() const {

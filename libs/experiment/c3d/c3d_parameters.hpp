@@ -30,7 +30,7 @@ class C3dParameters {
   std::optional<double> Number(const std::string& name) const;
   /// All strings of a text parameter without outer blanks; empty where it is absent.
   std::vector<std::string> Texts(const std::string& name) const;
-  /// Where the values of the parameter stand, 0 where it is absent.
+  /// Offset of the values of the parameter; 0: absent.
   std::size_t OffsetOf(const std::string& name) const;
 
  private:

@@ -35,7 +35,7 @@ struct Field {
 
 enum class Data { kAscii, kBinary, kCompressed };
 
-/// What stands before the points.
+/// The header before the points.
 struct Header {
   std::vector<Field> fields;
   std::uint64_t width = 0;

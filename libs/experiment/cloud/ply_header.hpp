@@ -30,7 +30,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;  ///< in the order of the data
-  std::uint64_t columns = 0;         ///< `obj_info num_cols`; 0: not told
+  std::uint64_t columns = 0;         ///< `obj_info num_cols`; 0: unknown
   std::uint64_t rows = 0;
   int lines = 0;
 };

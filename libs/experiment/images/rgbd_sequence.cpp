@@ -92,7 +92,7 @@ RgbdSequence OpenRecordingImages(const Recording& recording, const ConfigLoader&
   const SourceLocation where{recording.folder.string()};
   if (!HoldsImages(recording)) throw InputError(where, "holds neither depth images nor clouds");
   if (!recording.camera_file) {
-    throw InputError(where, "has no camera.yaml: nobody knows what its pixels see");
+    throw InputError(where, "has no camera.yaml, so the intrinsics of its images are unknown");
   }
   RgbdSequence sequence;
   sequence.name = recording.name;

@@ -79,7 +79,8 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
   }
   const Eigen::PartialPivLU<fem::QpMatrix> lu(W);
   constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
-  if (!(lu.rcond() >= kAlike)) return {StatusCode::kUnobservable, "two taut cables act alike"};
+  if (!(lu.rcond() >= kAlike))
+    return {StatusCode::kUnobservable, "two taut cables have linearly dependent effects"};
   for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
     fem::QpVector wanted(count);
     for (Eigen::Index t = 0; t < count; ++t) {

@@ -33,7 +33,7 @@ class CableTerms {
   /// At the point's present equilibrium.
   void Evaluate();
 
-  /// Those that keep the length that their drives hold.
+  /// Those that keep the length that their actuators hold.
   const std::vector<int>& taut() const { return taut_; }
   Eigen::Index TautCount() const { return static_cast<Eigen::Index>(taut_.size()); }
   Eigen::Index TurnCount() const { return static_cast<Eigen::Index>(angles_.size()); }
@@ -44,7 +44,8 @@ class CableTerms {
   /// Gives the taut cables what tension keeps them at the lengths that are commanded, as far as
   /// they do not stretch under it. All [cables x p]; `per_tension` [cables x taut]
   /// dlength/dtension. `length_m` and `tension_N` are those at fixed tensions of taut cables
-  /// before, and what they are after. kUnobservable where two taut cables act alike.
+  /// before, and what they are after. kUnobservable where two taut cables have linearly dependent
+  /// effects.
   Status HoldLengths(const fem::QpMatrix& per_tension, const Eigen::MatrixXd& commanded_length_m,
                      Eigen::MatrixXd* length_m, Eigen::MatrixXd* tension_N) const;
 

@@ -28,8 +28,8 @@ class EquilibriumPoint {
   const std::vector<fem::Material>& materials() const { return model_.elastic_body().materials(); }
   const Eigen::VectorXd& x_m() const { return x_m_; }  ///< [3n]
   double tension_N(int cable) const { return tension_N_[cable]; }
-  /// It pulls, and its drive holds its length: displacement is commanded, and the tension is below
-  /// the cable's limit. (At the limit the drive yields: the tension stays.)
+  /// It pulls, and its actuator holds its length: displacement is commanded, and the tension is
+  /// below the cable's limit. (At the limit the actuator yields: the tension stays.)
   bool KeepsLength(int cable) const;
   const CableCommand& command(int cable) const { return commands_[Index(cable)]; }
   const CablePath& path(int cable) const { return paths_[Index(cable)]; }

@@ -16,7 +16,8 @@ namespace palpate::robot {
 
 namespace {
 
-/// Where a cell's shape functions are expanded for a point, and how that place follows the point.
+/// Where an element's shape functions are expanded for a point, and how that place follows the
+/// point.
 struct Expansion {
   Eigen::Vector3d xi = Eigen::Vector3d::Zero();
   Eigen::Vector3d xi_along = Eigen::Vector3d::Zero();
@@ -47,7 +48,7 @@ Eigen::Vector3d AlongFeature(const Eigen::Matrix3d& corners_m, const Eigen::Vect
   return direction - normal.dot(direction) * normal;
 }
 
-/// Outside the mesh: the nearest point of the cell's corner tetrahedron.
+/// Outside the mesh: the nearest point of the element's corner tetrahedron.
 Expansion NearestInCell(const Eigen::Matrix<double, 3, 4>& corners_m,
                         const Eigen::Vector3d& point_m, const Eigen::Vector3d& direction) {
   constexpr std::array<std::array<int, 3>, 4> kFaces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};

@@ -11,7 +11,7 @@ namespace palpate::robot {
 
 /// Derivative of PointLocator::EmbedBall(centre_m, radius_m).weights where the centre moves along
 /// `direction` through the undeformed body, 1/m; the weights add up to 0. As long as every sample
-/// of the ball stays in its cell: on a border between cells, that of one side.
+/// of the ball stays in its element: on a border between elements, that of one side.
 fem::InterpolationWeights EyeletWeightsAlong(const fem::PointLocator& locator,
                                              const Eigen::Vector3d& centre_m, double radius_m,
                                              const Eigen::Vector3d& direction);

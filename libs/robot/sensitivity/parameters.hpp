@@ -15,8 +15,8 @@ namespace palpate::robot {
 
 /// Which undeformed shape a displacement command counts from where a parameter changes that shape.
 enum class CableZero {
-  kOfChangedShape,  ///< the changed one: the drive was zeroed on the robot as it is
-  kKept,            ///< the model's: the change came after the drive was zeroed
+  kOfChangedShape,  ///< the changed one: the actuator was zeroed on the robot as it is
+  kKept,            ///< the model's: the change came after the actuator was zeroed
 };
 
 /// What becomes of the nodal masses where a parameter changes the rest shape.
@@ -28,8 +28,8 @@ enum class MassRule {
 
 /// What turns and moves along with the base.
 enum class BaseRiders {
-  kHeldNodes,               ///< the clamp slips against the ground and the drives
-  kHeldNodesAndPullPoints,  ///< clamp and drives are on one plate, which moves
+  kHeldNodes,               ///< the clamp slips against the ground and the actuators
+  kHeldNodesAndPullPoints,  ///< clamp and actuators are on one plate, which moves
 };
 
 /// Young's modulus of a material (RobotBody::materials), Pa.
@@ -39,7 +39,7 @@ ParameterPtr PoissonsRatio(int material);
 
 /// Factor on all nodal masses (now 1). Of the density rho: divide by rho for per kg/m3.
 ParameterPtr MassFactor();
-/// Factor on the density of one material's cells (now 1), where mass is by volume: of a uniform
+/// Factor on the density of one material's elements (now 1), where mass is by volume: of a uniform
 /// density, the one that gives the model's total mass.
 ParameterPtr RegionMassFactor(int material);
 
@@ -48,38 +48,39 @@ ParameterPtr GravityChange(const Eigen::Vector3d& change_m_s2);
 /// Angle, rad, by which gravity turns about `axis` (unit); dead loads keep their direction.
 ParameterPtr GravityTurn(const Eigen::Vector3d& axis);
 
-/// o, m: the drive takes in u + o where u is commanded. Of no effect where a tension is commanded.
+/// o, m: the actuator takes in u + o where u is commanded. Of no effect where a tension is
+/// commanded.
 ParameterPtr CableOffset(int cable);
-/// g: the drive takes in (1 + g) u + o; `gain` and `offset_m` are the present g and o, which the
+/// g: the actuator takes in (1 + g) u + o; `gain` and `offset_m` are the present g and o, which the
 /// command of the cable (1 + g) u + o already holds. Of no effect where a tension is commanded.
 ParameterPtr CableGain(int cable, double gain = 0.0, double offset_m = 0.0);
-/// The same of a drive under force control: it pulls with (1 + g) T + o where T is commanded, g and
-/// o (N) now `gain` and `offset_N`. Of no effect where a displacement is commanded. At 0 N the
+/// The same of an actuator under force control: it pulls with (1 + g) T + o where T is commanded, g
+/// and o (N) now `gain` and `offset_N`. Of no effect where a displacement is commanded. At 0 N the
 /// derivative towards a pull.
 ParameterPtr TensionOffset(int cable);
 ParameterPtr TensionGain(int cable, double gain = 0.0, double offset_N = 0.0);
-/// G: the drive of `driven` takes in u + G times what cable `by` is commanded. Acts where both are
-/// commanded a displacement.
+/// G: the actuator of `driven` takes in u + G times what cable `by` is commanded. Acts where both
+/// are commanded a displacement.
 ParameterPtr DriveCoupling(int driven, int by);
-/// m/N, at 0: the cable's stretch per tension at the drive, which lets out so much of it. Acts
+/// m/N, at 0: the cable's stretch per tension at the actuator, which lets out so much of it. Acts
 /// where displacement is commanded.
 ParameterPtr CableCompliance(int cable);
 /// mu of a cable's capstan friction (cable_friction.hpp) with each eyelet sliding as it is; exact
 /// at every mu. Nothing where the cable is slack.
 ParameterPtr CableFrictionCoefficient(int cable);
-/// mu s at one of its eyelets (0: next to the drive), CableFriction::Signed.
+/// mu s at one of its eyelets (0: next to the actuator), CableFriction::Signed.
 ParameterPtr CableFrictionAt(int cable, int eyelet);
 
 /// Distance, m, by which the pull point moves along `direction` (unit).
 ParameterPtr PullPointMove(int cable, const Eigen::Vector3d& direction,
                            CableZero zero = CableZero::kOfChangedShape);
-/// Distance, m, by which an eyelet (0: next to the drive) moves through the undeformed body along
-/// `direction`. `weights_along`: the derivative of its weights (eyelet_gradient.hpp).
+/// Distance, m, by which an eyelet (0: next to the actuator) moves through the undeformed body
+/// along `direction`. `weights_along`: the derivative of its weights (eyelet_gradient.hpp).
 ParameterPtr EyeletMove(int cable, int eyelet, fem::InterpolationWeights weights_along,
                         CableZero zero = CableZero::kOfChangedShape);
 
 /// Angle, rad, by which the base turns about `axis` (unit) through `pivot_m`: the held nodes are
-/// led along, in their held directions. Gravity, dead loads and the robot frame stay, and so does
+/// moved along, in their held directions. Gravity, dead loads and the robot frame stay, and so does
 /// what displacement commands count from. (The whole robot tilted is GravityTurn the other way.)
 ParameterPtr BaseRotation(const Eigen::Vector3d& axis, const Eigen::Vector3d& pivot_m,
                           BaseRiders riders = BaseRiders::kHeldNodes);
@@ -91,8 +92,8 @@ ParameterPtr BaseTranslation(const Eigen::Vector3d& direction,
 /// spring of stiffness k = 1/c, d/dk = -c^2 d/dc to first order in c. The base turns by (rows 0-2,
 /// rad) and moves by (rows 3-5, m) `compliance` times the moment about `pivot_m` (columns 0-2, N m)
 /// and the force (columns 3-5, N) with which the body, and the pull points where they ride, act on
-/// it. A torsion spring alike about all axes: diag(1, 1, 1, 0, 0, 0), the parameter then in rad/(N
-/// m).
+/// it. A torsion spring that is equal about all axes: diag(1, 1, 1, 0, 0, 0), the parameter then in
+/// rad/(N m).
 ParameterPtr BaseCompliance(const Eigen::Matrix<double, 6, 6>& compliance,
                             const Eigen::Vector3d& pivot_m,
                             BaseRiders riders = BaseRiders::kHeldNodes);

@@ -19,7 +19,7 @@
 namespace palpate::robot {
 
 /// What SensitivitySolver gives, for what is observed of the body (a marker's coordinates, a place
-/// of the skin along its normal): the same derivatives by the adjoint method. With R the rows of
+/// of the surface along its normal): the same derivatives by the adjoint method. With R the rows of
 /// what is observed and of the cables' lengths, and K'
 /// the tangent with friction, R' K'^-1 r_p = (K'^-T R)' r_p: as many columns to solve as there are
 /// rows, however many parameters there are, and parameters that load few nodes cost next to
@@ -43,7 +43,7 @@ class PointSensitivity {
 
   /// [rows x p] motion of what is observed, m per unit of each parameter.
   const Eigen::MatrixXd& motion_m() const { return motion_m_; }
-  /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.
+  /// [cables x p] of the lengths outside the actuators, m, and of the tensions at the actuators, N.
   const Eigen::MatrixXd& length_m() const { return length_m_; }
   const Eigen::MatrixXd& tension_N() const { return tension_N_; }
 

@@ -30,8 +30,8 @@ namespace palpate::robot {
 /// cable and for each turn of a cable with friction, all solved in one block. That friction makes K
 /// unsymmetric by one rank for each turn, which the Woodbury formula adds.
 ///
-/// Buffers grow at first; called again alike, it allocates nothing, friction and parameters that
-/// move held nodes, guides or the rest shape aside. For one thread.
+/// Buffers grow at first; called again with the same sizes, it allocates nothing, friction and
+/// parameters that move held nodes, guides or the rest shape aside. For one thread.
 class SensitivitySolver {
  public:
   /// `model` must outlive it and keep its mesh.
@@ -53,7 +53,7 @@ class SensitivitySolver {
                     Eigen::MatrixXd* motions_m) const;
   /// [3n] motion of all nodes with one parameter.
   void NodalMotion(int parameter, Eigen::VectorXd* motion_m) const;
-  /// [cables x p] of the lengths outside the drives, m, and of the tensions at the drives, N.
+  /// [cables x p] of the lengths outside the actuators, m, and of the tensions at the actuators, N.
   const Eigen::MatrixXd& length_m() const { return length_m_; }
   const Eigen::MatrixXd& tension_N() const { return tension_N_; }
 

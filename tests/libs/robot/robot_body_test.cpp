@@ -169,7 +169,7 @@ TEST_F(RobotBodyTest, SaysWhichPointsLieOffTheMesh) {
                                          HasSubstr("extrapolated"))));
   EXPECT_THAT(body.notes, Contains(HasSubstr("marker m1 6 mm outside")));
   EXPECT_THAT(body.notes, Not(Contains(HasSubstr("marker 2"))));
-  EXPECT_THAT(body.notes, Contains(AllOf(HasSubstr("mesh beam.vtk: 99 nodes, 240 cells of 4"),
+  EXPECT_THAT(body.notes, Contains(AllOf(HasSubstr("mesh beam.vtk: 99 nodes, 240 elements of 4"),
                                          HasSubstr("volume 40 cm3"))));
 }
 
@@ -217,7 +217,7 @@ TEST_F(RobotBodyTest, NodesThatNoCellUsesAreHeldAndWeighNothing) {
   EXPECT_TRUE(body.fixed.col(99).all());
   EXPECT_EQ(body.node_mass_kg(99), 0.0);
   EXPECT_NEAR(body.node_mass_kg.sum(), 0.5, 1e-14);
-  EXPECT_THAT(body.notes, Contains(HasSubstr("1 nodes that no cell uses")));
+  EXPECT_THAT(body.notes, Contains(HasSubstr("1 nodes that no element uses")));
 }
 
 TEST_F(RobotBodyTest, HashNamesMeshAndElementAndNothingElse) {
@@ -291,7 +291,7 @@ TEST_F(RobotBodyTest, RefusesAPieceThatNothingHolds) {
 TEST_F(RobotBodyTest, RefusesARegionWithoutACell) {
   EXPECT_THAT(
       BuildRefusal(Changed("[[-0.02, 0, -0.02], [0.02, 0.02, 0.02]]", "[[1, 1, 1], [2, 2, 2]]")),
-      AllOf(StartsWith(At(":13:")), HasSubstr("'root' has no cell")));
+      AllOf(StartsWith(At(":13:")), HasSubstr("'root' has no element")));
 }
 
 TEST_F(RobotBodyTest, RefusesACableFarFromTheBody) {

@@ -15,7 +15,7 @@ using Kind = CableCommand::Kind;
 /// Change of a command's value per unit of the parameter.
 using Change = std::function<double(const EquilibriumPoint&)>;
 
-/// Change of what a drive does where it is commanded in one way; without effect in the other.
+/// Change of what an actuator does where it is commanded in one way; without effect in the other.
 class CommandChange final : public Parameter {
  public:
   CommandChange(Kind kind, int cable, Change change)
