@@ -109,7 +109,7 @@ Members MembersOf(const ValueType& type) {
 Json SchemaOf(const Key& key) {
   ValueType type = key.type;
   // The readers take a key without a value for an absent one.
-  if (key.presence.kind == Presence::Kind::kOptional) type.may_be_null = true;
+  if (!key.presence.MustBeThere()) type.may_be_null = true;
   const std::string unit = UnitOf(key.name);
   Members members = {
       {"description", Quoted(unit.empty() ? key.meaning : key.meaning + " Unit: " + unit + ".")}};

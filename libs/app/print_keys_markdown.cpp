@@ -85,10 +85,15 @@ std::string ChoiceText(const std::vector<std::string>& choices) {
   return text;
 }
 
+std::string IntegerText(const NumberRule& rule) {
+  return "integer " + std::to_string(static_cast<int>(rule.min)) + " to " +
+         std::to_string(static_cast<int>(rule.max));
+}
+
 std::string TypeText(const ValueType& type) {
   switch (type.kind) {
     case ValueKind::kBoolean: return "`true`, `false`";
-    case ValueKind::kInteger: return WithRange("integer", type.rule);
+    case ValueKind::kInteger: return IntegerText(type.rule);
     case ValueKind::kNumber:
       return WithRange("number", type.rule) + (type.may_be_null ? ", or `~`" : "");
     case ValueKind::kText: return type.choices.empty() ? "text" : ChoiceText(type.choices);
@@ -101,13 +106,28 @@ std::string TypeText(const ValueType& type) {
 }
 
 std::string PresenceText(const Presence& presence) {
-  if (!presence.json.empty()) return "`" + presence.text + "`";
+  const bool plain_default = !presence.json.empty() && presence.IsUnconditional();
+  if (plain_default) return "`" + presence.text + "`";
   return presence.text.empty() ? "optional" : presence.text;
 }
 
-std::string Row(const Key& key) {
-  return "| `" + key.name + "` | " + TypeText(key.type) + " | " + UnitOf(key.name) + " | " +
+/// What a row says of a key, without its name.
+std::string RowTail(const Key& key) {
+  return " | " + TypeText(key.type) + " | " + UnitOf(key.name) + " | " +
          PresenceText(key.presence) + " | " + key.meaning + " |\n";
+}
+
+/// Neighbours of which the same is to be said share a row.
+std::string Rows(const std::vector<Key>& keys) {
+  std::string rows;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const std::string tail = RowTail(keys[k]);
+    rows += "| `" + keys[k].name + "`";
+    while (k + 1 < keys.size() && RowTail(keys[k + 1]) == tail)
+      rows += ", `" + keys[++k].name + "`";
+    rows += tail;
+  }
+  return rows;
 }
 
 std::string Rules(const KeyTable& table) {
@@ -133,10 +153,8 @@ void PrintTable(const KeyTable& table, const std::string& heading_marks,
            "\n| key | type and range | unit | default | meaning |\n|---|---|---|---|---|\n";
   std::vector<const KeyTable*> maps;
   for (const auto* keys : {&table.keys, &table.open_keys}) {
-    for (const Key& key : *keys) {
-      *text += Row(key);
-      ListMapsIn(key.type, &maps);
-    }
+    *text += Rows(*keys);
+    for (const Key& key : *keys) ListMapsIn(key.type, &maps);
   }
   for (const KeyTable* map : maps) PrintTable(*map, "####", printed, text);
 }

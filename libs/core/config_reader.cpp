@@ -184,9 +184,7 @@ const ConfigNode& MapReader::Require(const std::string& key) {
   if (const ConfigNode* empty = node_.Find(key)) Refuse(*empty, "must have a value");
   std::vector<std::string> unknown_keys;
   for (const auto& [name, unused] : node_.entries) {
-    if (std::find(known_keys_.begin(), known_keys_.end(), name) == known_keys_.end()) {
-      unknown_keys.push_back(name);
-    }
+    if (!IsKnown(name)) unknown_keys.push_back(name);
   }
   const std::string near = Nearest(key, unknown_keys);
   Refuse(node_, "key '" + key + "' is missing" +
@@ -195,15 +193,20 @@ const ConfigNode& MapReader::Require(const std::string& key) {
 
 const ConfigNode* MapReader::Optional(const std::string& key) {
   PALPATE_CHECK(keys_ == nullptr || keys_->Find(key) != nullptr, key, "is not in the table");
-  const bool first = std::find(known_keys_.begin(), known_keys_.end(), key) == known_keys_.end();
-  if (first) known_keys_.push_back(key);
+  if (!IsKnown(key)) known_keys_.push_back(key);
   const ConfigNode* entry = node_.Find(key);
   return entry == nullptr || entry->kind == Kind::kNull ? nullptr : entry;
 }
 
 void MapReader::Finish() const {
+  if (keys_ != nullptr) {
+    for (const Key& key : keys_->keys) {
+      PALPATE_CHECK(!key.presence.IsUnconditional() || IsKnown(key.name), keys_->title, key.name,
+                    "is in the table and was not asked for");
+    }
+  }
   for (const auto& [key, entry] : node_.entries) {
-    if (std::find(known_keys_.begin(), known_keys_.end(), key) == known_keys_.end()) {
+    if (!IsKnown(key)) {
       throw InputError(entry.key_where, "unknown key '" + Excerpt(entry.path) + "'" +
                                             DidYouMean(key, known_keys_) +
                                             "; allowed: " + Listed(known_keys_));
@@ -216,14 +219,17 @@ double MapReader::Number(const std::string& key, double fallback, const NumberRu
   return entry == nullptr ? fallback : ReadNumber(*entry, rule);
 }
 
+bool MapReader::IsKnown(const std::string& key) const {
+  return std::find(known_keys_.begin(), known_keys_.end(), key) != known_keys_.end();
+}
+
 const Key& MapReader::KeyOf(const std::string& key) const {
   PALPATE_CHECK(keys_ != nullptr && keys_->Find(key) != nullptr, key, "is not in the table");
   return *keys_->Find(key);
 }
 
 const ConfigNode* MapReader::Entry(const std::string& key) {
-  const bool optional = KeyOf(key).presence.kind == Presence::Kind::kOptional;
-  return optional ? Optional(key) : &Require(key);
+  return KeyOf(key).presence.MustBeThere() ? &Require(key) : Optional(key);
 }
 
 void MapReader::Read(const std::string& key, bool* value) {

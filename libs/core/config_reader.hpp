@@ -37,7 +37,8 @@ class MapReader {
   /// Throws InputError where `node` is no map, or names a key twice.
   explicit MapReader(const ConfigNode& node);
   /// The same with the keys that the map may have; a key in another unit is refused here. `keys`
-  /// must outlive the reader. From then on only keys of the table may be asked for.
+  /// must outlive the reader. Only keys of the table may be asked for, and before Finish() all of
+  /// them must be that depend on no other key.
   MapReader(const ConfigNode& node, const KeyTable& keys);
 
   /// The entry; throws InputError where it is missing or null.
@@ -66,6 +67,7 @@ class MapReader {
   /// The entry as Require or Optional find it, whichever the table says.
   const ConfigNode* Entry(const std::string& key);
   const Key& KeyOf(const std::string& key) const;
+  bool IsKnown(const std::string& key) const;  ///< it was asked for
 
   const ConfigNode& node_;
   const KeyTable* keys_ = nullptr;

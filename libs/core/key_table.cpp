@@ -139,11 +139,17 @@ const Presence kRequired{.kind = Presence::Kind::kRequired, .text = "required", 
 const Presence kOptional{};
 
 Presence RequiredFor(const std::string& condition) {
-  return {Presence::Kind::kConditional, "required for " + condition, {}};
+  return {Presence::Kind::kRequiredIf, "required for " + condition, {}};
 }
 
 Presence OnlyFor(const std::string& condition) {
-  return {Presence::Kind::kOptional, "only for " + condition, {}};
+  return {Presence::Kind::kOptionalIf, "only for " + condition, {}};
+}
+
+Presence OnlyFor(const std::string& condition, Presence with_default) {
+  with_default.kind = Presence::Kind::kOptionalIf;
+  with_default.text += ", only for " + condition;
+  return with_default;
 }
 
 Presence Default(double value) {

@@ -58,18 +58,24 @@ struct Presence {
   enum class Kind {
     kRequired,
     kOptional,
-    kConditional,  ///< required where a reader asks for it, refused elsewhere
+    kRequiredIf,  ///< required where a reader asks for it, refused elsewhere
+    kOptionalIf,  ///< optional where a reader asks for it, refused elsewhere
   };
 
   Kind kind = Kind::kOptional;
   std::string text;  ///< for people: the default as YAML, or the condition; may be empty
   std::string json;  ///< the default as JSON; empty: none
+
+  bool MustBeThere() const { return kind == Kind::kRequired || kind == Kind::kRequiredIf; }
+  /// Whether every reader asks for the key, whatever the other keys are.
+  bool IsUnconditional() const { return kind == Kind::kRequired || kind == Kind::kOptional; }
 };
 
 extern const Presence kRequired;
 extern const Presence kOptional;  ///< without a default: `meaning` says what absence means
 Presence RequiredFor(const std::string& condition);  ///< "shape: sphere"
 Presence OnlyFor(const std::string& condition);      ///< optional there, refused elsewhere
+Presence OnlyFor(const std::string& condition, Presence with_default);
 /// Optional with a default, which is best taken from a default-constructed settings struct.
 Presence Default(double value);
 Presence Default(int value);

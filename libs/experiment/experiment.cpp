@@ -72,17 +72,19 @@ const KeyTable& ToleranceKeys() {
         .title = "tolerances",
         .about =
             "Manufacturing tolerances (one standard deviation) that replace those of the "
-            "catalogue of diagnosis; each in the unit of the first parameter of its cause."};
+            "catalogue of diagnosis. A value is for the first parameter of the cause that has a "
+            "tolerance, in its unit; the other tolerances of the cause change in proportion."};
     for (const std::string& cause : causes) {
       table.keys.push_back(
-          {cause, value::Real(kPositive), kOptional, "Tolerance of the cause `" + cause + "`."});
+          {cause, value::Real(kPositive), kOptional, "Tolerance of the cause of this name."});
     }
     table.keys.push_back({"extrinsics_m", value::Real(kPositive), kOptional,
                           "Standard error of the translation of `T_robot_camera`."});
     table.keys.push_back({"extrinsics_rad", value::Real(kPositive), kOptional,
                           "Standard error of the rotation of `T_robot_camera`."});
-    table.keys.push_back({"marker_bias_m", value::Real(kPositive), kOptional,
-                          "Standard deviation of the constant offset of a marker."});
+    table.keys.push_back(
+        {"marker_bias_m", value::Real(kPositive), kOptional,
+         "Standard deviation of each coordinate of the constant offset of a marker."});
     return table;
   }();
   return keys;

@@ -53,8 +53,9 @@ std::string Printed(const char* format, double value) {
 
 std::string Summary(const fem::MeshReport& report, const std::string& file) {
   return "mesh " + file + ": " + std::to_string(report.node_count) + " nodes, " +
-         std::to_string(report.cell_count) + " elements of " + std::to_string(report.nodes_per_cell) +
-         " nodes, volume " + Printed("%.6g", report.volume_m3 * 1e6) + " cm3, worst quality " +
+         std::to_string(report.cell_count) + " elements of " +
+         std::to_string(report.nodes_per_cell) + " nodes, volume " +
+         Printed("%.6g", report.volume_m3 * 1e6) + " cm3, worst quality " +
          Printed("%.3g", report.worst_quality) + " (element " + std::to_string(report.worst_cell) +
          ")";
 }

@@ -118,9 +118,10 @@ void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
   for (size_t k = 0; k < robot.regions.size(); ++k) {
     const auto& of_cell = body->material_of_cell;
     if (std::find(of_cell.begin(), of_cell.end(), static_cast<int>(k) + 1) == of_cell.end()) {
-      throw InputError(robot.regions[k].where,
-                       "region '" + robot.regions[k].name +
-                           "' has no element: no centroid lies in its box, or later regions take all");
+      throw InputError(
+          robot.regions[k].where,
+          "region '" + robot.regions[k].name +
+              "' has no element: no centroid lies in its box, or later regions take all");
     }
   }
 }

@@ -42,10 +42,11 @@ Key ColorKey(const std::string& name, const Presence& presence, const std::strin
 void AddPoseKeys(std::vector<Key>* keys, const std::string& meaning) {
   keys->push_back({"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
                    meaning + " Optical frame of the depth camera: p_robot = T p_camera."});
-  keys->push_back({"eye_m", value::Vector3(), OnlyFor("no `T_robot_camera`"),
-                   "The same as the position of the camera, robot frame. Its x axis is level."});
   keys->push_back(
-      {"target_m", value::Vector3(), RequiredFor("`eye_m`"), "Point on the optical axis."});
+      {"eye_m", value::Vector3(), kOptional,
+       "In place of `T_robot_camera`: position of the camera, robot frame. Its x axis is level."});
+  keys->push_back({"target_m", value::Vector3(), RequiredFor("`eye_m`"),
+                   "With `eye_m`: a point on the optical axis."});
 }
 
 KeyTable MakeEffectKeys(const EffectKind& kind) {
@@ -157,8 +158,9 @@ const KeyTable& ToolKeys() {
           {"radius_m", value::Real(kToolLength), RequiredFor("sphere, cylinder"), "Radius."},
           {"length_m", value::Real(kToolLength), RequiredFor("cylinder"), "Length."},
           {"size_m", value::Vector3(kToolLength), RequiredFor("plate"), "Edges along x, y, z."},
-          {"friction_coefficient", value::Real(kFriction), Default(defaults.friction_coefficient),
-           "Coulomb friction on the robot. Not for a hand."},
+          {"friction_coefficient", value::Real(kFriction),
+           OnlyFor("sphere, cylinder, plate", Default(defaults.friction_coefficient)),
+           "Coulomb friction on the robot."},
           ColorKey("color_rgb", Default(defaults.color_rgb), "Colour")}};
   return keys;
 }
@@ -202,7 +204,7 @@ const KeyTable& CameraSpecKeys() {
                    .keys = {{"file", value::File(), kOptional,
                              "A camera.yaml, in place of `depth` and `color` here."}}};
     for (Key key : rgbd::CameraFileKeys().keys) {
-      if (key.name == "depth") key.presence = RequiredFor("no `file`");
+      key.presence = key.presence.MustBeThere() ? RequiredFor("no `file`") : OnlyFor("no `file`");
       table.keys.push_back(key);
     }
     AddPoseKeys(&table.keys, "Pose, required unless `eye_m` is given.");

@@ -119,5 +119,12 @@ TEST(KeyTableDeathTest, AKeyThatIsNotInTheTableCannotBeAskedFor) {
   EXPECT_DEATH(reader.Optional("length_m"), "is not in the table");
 }
 
+TEST(KeyTableDeathTest, AKeyOfTheTableThatIsNeverAskedForIsAFaultOfTheReader) {
+  const ConfigNode node = MapOf({{"name", "north"}});
+  MapReader reader(node, CablesOfTheTest());
+  reader.Require("name");
+  EXPECT_DEATH(reader.Finish(), "limit_N is in the table and was not asked for");
+}
+
 }  // namespace
 }  // namespace palpate
