@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The palpate authors
 # SPDX-License-Identifier: Apache-2.0
 """References of file formats: docs/schema/*.json and the generated parts of the documents are what
-`palpate reference` prints; every YAML file under config/robots and config/scenarios fits its
-schema, and with an unknown key it does not. --fix rewrites the generated texts."""
+`palpate reference` prints; every YAML file under config/robots and config/scenarios, and every
+example in the documents that names its schema, fits it, and with an unknown key it does not. --fix
+rewrites the generated texts."""
 
 import copy
 import json
@@ -137,6 +138,31 @@ def check_shipped(root):
     return violations, checked
 
 
+def check_examples(root):
+    """Fenced YAML in the documents that names its schema fits it."""
+    import jsonschema
+    violations, checked = [], 0
+    for name in DOCUMENTS:
+        text = (root / name).read_text(encoding="utf-8")
+        for block in re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            named = re.search(r"\$schema=\S*/(\w+)\.schema\.json", block)
+            if named is None:
+                continue
+            schema = json.loads((root / SCHEMA_FOLDER / f"{named[1]}.schema.json").read_text())
+            violations += check_file(name, block, jsonschema.Draft202012Validator(schema))
+            checked += 1
+    return violations, checked
+
+
+def check_kinds(root):
+    """Each kind of recording has a row of its own in the document."""
+    name = "docs/experiment.md"
+    schema = json.loads((root / SCHEMA_FOLDER / "recording.schema.json").read_text())
+    text = (root / name).read_text(encoding="utf-8")
+    return [Violation(name, 0, f"has no row that explains kind {kind}")
+            for kind in schema["properties"]["kind"]["enum"] if f"\n| `{kind}` | " not in text]
+
+
 def main():
     parser = source_tree.parse_root(__doc__)
     parser.add_argument("--programs", type=pathlib.Path,
@@ -151,10 +177,12 @@ def main():
         violations += check_documents(root, programs, arguments.fix)
     try:
         shipped, checked = check_shipped(root)
+        examples, more = check_examples(root)
+        examples += check_kinds(root)
     except ModuleNotFoundError:
         print("check_references: skipped in part: install python3-jsonschema (./run test does)")
         return 1 if source_tree.report("check_references", violations, 1) else source_tree.SKIPPED
-    return source_tree.report("check_references", violations + shipped, checked)
+    return source_tree.report("check_references", violations + shipped + examples, checked + more)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@
 
 #include "components/palpate/child_process.hpp"
 #include "components/palpate/progress_line.hpp"
+#include "components/palpate/reference_verb.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
@@ -51,6 +52,17 @@ TEST(Command, DescribesRobotMeshAndExperiment) {
   EXPECT_EQ(RunCommand({"info", (folder / "bar.vtk").string(), "--unit", "mm"}), 0);
   EXPECT_EQ(RunCommand({"info", PALPATE_SOURCE_DIR "/tests/data/beam_calculix"}), 0);
   EXPECT_THAT(RefusalOf({"info", "nothing.msh"}), testing::HasSubstr("nothing.msh"));
+}
+
+TEST(Command, PrintsTheReferenceOfFiles) {
+  EXPECT_EQ(RunCommand({"reference", "robot"}), 0);
+  EXPECT_EQ(RunCommand({"reference", "camera", "--format", "json-schema"}), 0);
+  EXPECT_THAT(Reference({"experiment", "recording"}, false),
+              testing::AllOf(testing::HasSubstr("### experiment.yaml"),
+                             testing::HasSubstr("### recording.yaml")));
+  EXPECT_THAT(RefusalOf({"reference", "robto"}), testing::HasSubstr("did you mean 'robot'?"));
+  EXPECT_THAT(RefusalOf({"reference", "robot", "camera", "--format", "json-schema"}),
+              testing::HasSubstr("name one kind of file, not 2"));
 }
 
 TEST(ProgressLine, SaysRateAndTimeToGo) {

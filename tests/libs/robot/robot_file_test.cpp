@@ -124,7 +124,9 @@ TEST(RobotFile, TranslationMayBeInMetres) {
 TEST(RobotFile, RefusesAnUnknownKeyAndSaysWhichWasMeant) {
   EXPECT_THAT(RefusalOf(Changed("max_tension_N: 20", "max_tensoin_N: 20")),
               AllOf(StartsWith("robot.yaml:9:"), HasSubstr("max_tensoin_N"),
-                    HasSubstr("did you mean 'max_tension_N'?")));
+                    HasSubstr("did you mean 'max_tension_N'?"),
+                    HasSubstr("allowed: name, path_m, max_tension_N, guide_radius_m, "
+                              "friction_coefficient")));
   EXPECT_THAT(RefusalOf(FullRobotText() + "colour: red\n"),
               AllOf(StartsWith("robot.yaml:16:"), HasSubstr("colour")));
   EXPECT_THAT(RefusalOf(Changed("element: tet10", "elemnt: tet10")),
