@@ -8,7 +8,11 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <functional>
+#include <limits>
+#include <utility>
 
 #include "libs/app/version.hpp"
 #include "libs/core/error.hpp"
@@ -31,7 +35,40 @@ bool ParseWhole(const std::string& text, int* value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-void Require(CLI::Option* option, Need need) { option->required(need == Need::kRequired); }
+/// What --help and its like print; thrown through the parser, which then asks for nothing more.
+struct Answer {
+  std::string text;
+};
+
+/// "from 1 to 64", or "0 or more".
+std::string Range(int min, int max) {
+  if (max == std::numeric_limits<int>::max()) return std::to_string(min) + " or more";
+  return "from " + std::to_string(min) + " to " + std::to_string(max);
+}
+
+/// `help` with what else is known of the option, such as "(from 1 to 64; default: 2)".
+std::string WithNotes(const std::string& help, const std::vector<std::string>& notes) {
+  std::string list;
+  for (const std::string& note : notes) {
+    if (!note.empty()) list += (list.empty() ? "" : "; ") + note;
+  }
+  return list.empty() ? help : help + " (" + list + ")";
+}
+
+std::string NoteOnNeed(Need need) { return need == Need::kRequired ? "required" : ""; }
+
+std::string NoteOnDefault(const std::string& value) {
+  return value.empty() ? "" : "default: " + value;
+}
+
+/// "--out FOLDER" -> "--out", "FOLDER"; without a second word `placeholder`.
+ArgumentText OptionText(const std::string& declared, const std::string& placeholder) {
+  const std::size_t space = declared.find(' ');
+  ArgumentText text;
+  text.name = declared.substr(0, space);
+  text.value = space == std::string::npos ? placeholder : declared.substr(space + 1);
+  return text;
+}
 
 }  // namespace
 
@@ -40,21 +77,55 @@ std::vector<std::string> CommandLineWords(int argc, const char* const* argv) {
 }
 
 struct Arguments::Impl {
-  Impl(const std::string& program, const std::string& purpose) : cli(purpose, program) {
-    cli.set_help_flag("--help,-h", "Print this and exit");
-    cli.set_version_flag("--version", program + " " + Version(), "Print the version and exit");
-    cli.get_formatter()->column_width(34);
+  Impl(const std::string& program, const std::string& purpose, Scope scope)
+      : cli(purpose, program), text{.name = program, .purpose = purpose} {
+    cli.set_help_flag();
+    cli.add_flag_callback("--help,-h", [this] { throw Answer{FormatHelp(Text())}; });
+    cli.add_flag_callback("--version", [program] { throw Answer{VersionLine(program)}; });
+    cli.add_flag_callback("--man", [this] { throw Answer{FormatManualPage(Text())}; });
+    common = CommonArguments(program, scope == Scope::kVerb);
+    if (scope == Scope::kVerb) return;
+    const auto complete = [this](const std::string& shell) {
+      if (shell != "bash") Refuse("--completion: must be bash, not '" + shell + "'");
+      throw Answer{FormatBashCompletion(Text(), {})};
+    };
+    cli.add_option_function<std::string>("--completion", complete, "");
   }
 
   [[noreturn]] void Refuse(const std::string& message) const {
     throw InputError(message + "; see " + cli.get_name() + " --help");
   }
 
+  CommandText Text() const {
+    CommandText sorted = text;
+    std::stable_partition(sorted.arguments.begin(), sorted.arguments.end(),
+                          [](const ArgumentText& argument) { return !argument.IsOption(); });
+    sorted.arguments.insert(sorted.arguments.end(), common.begin(), common.end());
+    return sorted;
+  }
+
+  /// Declares an argument with one value, to be taken by `assign`.
+  CLI::Option* Add(const ArgumentText& argument, Need need,
+                   std::function<void(const std::string&)> assign) {
+    text.arguments.push_back(argument);
+    text.arguments.back().is_required = need == Need::kRequired;
+    return cli.add_option_function<std::string>(argument.name, std::move(assign))
+        ->required(need == Need::kRequired);
+  }
+
+  CLI::Option* AddMany(const ArgumentText& argument, Need need, std::vector<std::string>* values) {
+    text.arguments.push_back(argument);
+    text.arguments.back().is_required = need == Need::kRequired;
+    const auto assign = [values](const std::vector<std::string>& texts) { *values = texts; };
+    return cli.add_option_function<std::vector<std::string>>(argument.name, assign)
+        ->required(need == Need::kRequired);
+  }
+
   /// The options as they are written, for "did you mean".
   std::vector<std::string> OptionNames() const {
     std::vector<std::string> names;
-    for (const CLI::Option* option : cli.get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const ArgumentText& argument : Text().arguments) {
+      if (argument.IsOption()) names.push_back(argument.name);
     }
     return names;
   }
@@ -70,88 +141,106 @@ struct Arguments::Impl {
   }
 
   CLI::App cli;
+  CommandText text;  ///< in the order of declaration, without what is common
+  std::vector<ArgumentText> common;
 };
 
-Arguments::Arguments(const std::string& program, const std::string& purpose)
-    : impl_(std::make_unique<Impl>(program, purpose)) {}
+Arguments::Arguments(const std::string& program, const std::string& purpose, Scope scope)
+    : impl_(std::make_unique<Impl>(program, purpose, scope)) {}
 
 Arguments::~Arguments() = default;
 
 void Arguments::Positional(const std::string& name, std::filesystem::path* value,
                            const std::string& help, Need need) {
-  const auto assign = [value](const std::string& text) { *value = text; };
-  Require(impl_->cli.add_option_function<std::string>(name, assign, help), need);
+  impl_->Add(
+      {.name = name, .help = WithNotes(help, {NoteOnDefault(value->string())}), .is_path = true},
+      need, [value](const std::string& text) { *value = text; });
 }
 
 void Arguments::Positional(const std::string& name, std::string* value, const std::string& help,
                            Need need) {
-  const auto assign = [value](const std::string& text) { *value = text; };
-  Require(impl_->cli.add_option_function<std::string>(name, assign, help), need);
+  impl_->Add({.name = name, .help = WithNotes(help, {NoteOnDefault(*value)})}, need,
+             [value](const std::string& text) { *value = text; });
 }
 
 void Arguments::Positionals(const std::string& name, std::vector<std::string>* values,
                             const std::string& help, Need need) {
-  const auto assign = [values](const std::vector<std::string>& texts) { *values = texts; };
-  Require(impl_->cli.add_option_function<std::vector<std::string>>(name, assign, help), need);
+  impl_->AddMany({.name = name, .help = WithNotes(help, {"any number"})}, need, values);
 }
 
 void Arguments::Option(const std::string& name, std::filesystem::path* value,
                        const std::string& help, Need need) {
-  const auto assign = [value](const std::string& text) { *value = text; };
-  CLI::Option* option = impl_->cli.add_option_function<std::string>(name, assign, help);
-  Require(option->type_name("PATH"), need);
+  ArgumentText argument = OptionText(name, "FILE");
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(value->string())});
+  argument.is_path = true;
+  impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
 
 void Arguments::Option(const std::string& name, std::string* value, const std::string& help,
                        Need need) {
-  const auto assign = [value](const std::string& text) { *value = text; };
-  Require(impl_->cli.add_option_function<std::string>(name, assign, help), need);
+  ArgumentText argument = OptionText(name, "TEXT");
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(*value)});
+  impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
 
 void Arguments::Option(const std::string& name, int* value, int min, int max,
                        const std::string& help, Need need) {
+  const bool has_default = *value >= min && *value <= max;
+  ArgumentText argument = OptionText(name, "N");
+  argument.help = WithNotes(help, {NoteOnNeed(need), Range(min, max),
+                                   NoteOnDefault(has_default ? std::to_string(*value) : "")});
   const auto check = [min, max](const std::string& text) {
     int number = 0;
     if (ParseWhole(text, &number) && number >= min && number <= max) return std::string();
-    return "must be a whole number from " + std::to_string(min) + " to " + std::to_string(max) +
-           ", not '" + text + "'";
+    return "must be a whole number, " + Range(min, max) + ", not '" + text + "'";
   };
-  const auto assign = [value](const std::string& text) { ParseWhole(text, value); };
-  CLI::Option* option = impl_->cli.add_option_function<std::string>(name, assign, help);
-  Require(option->type_name("N")->check(check), need);
+  impl_->Add(argument, need, [value](const std::string& text) { ParseWhole(text, value); })
+      ->check(check);
 }
 
 void Arguments::Option(const std::string& name, double* value, const std::string& help, Need need) {
-  const auto assign = [value](const std::string& text) { ParseFinite(text, value); };
-  CLI::Option* option = impl_->cli.add_option_function<std::string>(name, assign, help);
-  Require(option->type_name("NUMBER")->check(CheckFinite), need);
+  ArgumentText argument = OptionText(name, "NUMBER");
+  argument.help = WithNotes(
+      help, {NoteOnNeed(need), NoteOnDefault(std::isfinite(*value) ? FormatNumber(*value) : "")});
+  impl_->Add(argument, need, [value](const std::string& text) { ParseFinite(text, value); })
+      ->check(CheckFinite);
 }
 
 void Arguments::Choice(const std::string& name, std::string* value,
                        std::vector<std::string> choices, const std::string& help, Need need) {
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : "|") + choice;
+  ArgumentText argument = OptionText(name, list);
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(*value)});
+  argument.words = choices;
   const auto check = [choices = std::move(choices), list](const std::string& text) {
     const bool known = std::find(choices.begin(), choices.end(), text) != choices.end();
     return known ? std::string()
                  : "must be " + list + ", not '" + text + "'" + DidYouMean(text, choices);
   };
-  const auto assign = [value](const std::string& text) { *value = text; };
-  CLI::Option* option = impl_->cli.add_option_function<std::string>(name, assign, help);
-  Require(option->type_name(list)->check(check), need);
+  impl_->Add(argument, need, [value](const std::string& text) { *value = text; })->check(check);
 }
 
 void Arguments::Repeated(const std::string& name, std::vector<std::string>* values,
                          const std::string& help) {
-  const auto assign = [values](const std::vector<std::string>& texts) { *values = texts; };
-  impl_->cli.add_option_function<std::vector<std::string>>(name, assign, help)
-      ->type_name("TEXT")
+  ArgumentText argument = OptionText(name, "TEXT");
+  argument.help = WithNotes(help, {"may be repeated"});
+  // Left to itself CLI11 gives all words up to the next option to one that takes a list.
+  impl_->AddMany(argument, Need::kOptional, values)
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void Arguments::Flag(const std::string& name, bool* value, const std::string& help) {
-  impl_->cli.add_flag(name, *value, help);
+  impl_->text.arguments.push_back({.name = name, .help = help});
+  impl_->cli.add_flag(name, *value);
+}
+
+void Arguments::Suggest(const std::string& name, std::vector<std::string> words) {
+  for (ArgumentText& argument : impl_->text.arguments) {
+    if (argument.name == name) argument.words = std::move(words);
+  }
 }
 
 bool Arguments::WasGiven(const std::string& name) const { return impl_->cli.count(name) > 0; }
@@ -159,11 +248,8 @@ bool Arguments::WasGiven(const std::string& name) const { return impl_->cli.coun
 bool Arguments::Parse(const std::vector<std::string>& words) {
   try {
     impl_->cli.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(Help().c_str(), stdout);
-    return false;
-  } catch (const CLI::CallForVersion& version) {
-    std::printf("%s\n", version.what());
+  } catch (const Answer& answer) {
+    std::fputs(answer.text.c_str(), stdout);
     return false;
   } catch (const CLI::ParseError& error) {
     impl_->RefuseUnknownOption();
@@ -175,6 +261,6 @@ bool Arguments::Parse(const std::vector<std::string>& words) {
   return true;
 }
 
-std::string Arguments::Help() const { return impl_->cli.help(); }
+CommandText Arguments::Text() const { return impl_->Text(); }
 
 }  // namespace palpate::app

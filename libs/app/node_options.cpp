@@ -38,15 +38,18 @@ int DomainOfEnvironment() {
 
 void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
   options->domain_id = kDomainNotGiven;
-  arguments.Option("--config", &options->config_file, "Settings file (YAML)");
-  arguments.Repeated("--set", &options->overrides, "KEY=VALUE: one setting; wins over the file");
+  arguments.Option("--config", &options->config_file,
+                   "Settings file (YAML); settings that it lacks keep their defaults");
+  arguments.Repeated("--set KEY=VALUE", &options->overrides,
+                     "Change one setting; overrides the settings file");
   arguments.Option("--domain", &options->domain_id, 0, kMaxDomain,
-                   "DDS domain (else ROS_DOMAIN_ID, else 0)");
-  arguments.Choice("--log-level", &options->log_level, {"debug", "info", "warning", "error"},
-                   "Least severity that is logged");
+                   "DDS domain; without it the value of ROS_DOMAIN_ID, else 0");
+  arguments.Choice("--log-level LEVEL", &options->log_level, {"debug", "info", "warning", "error"},
+                   "Lowest severity that is logged: debug, info, warning or error");
   arguments.Flag("--print-config", &options->print_config,
-                 "Print all settings as a settings file and exit");
-  arguments.Flag("--markdown", &options->markdown, "With --print-config: as a table");
+                 "Print all settings with their values as a settings file and exit");
+  arguments.Flag("--markdown", &options->markdown,
+                 "With --print-config: print a Markdown table instead");
 }
 
 bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* options) {

@@ -13,7 +13,7 @@
 namespace palpate::app {
 
 /// What is alike on the command line of every process: --config, --set, --domain, --log-level,
-/// --print-config [--markdown], beside --help and --version.
+/// --print-config [--markdown], beside what every program has (command_text.hpp).
 struct NodeOptions {
   std::filesystem::path config_file;  ///< empty: none
   std::string config_sha256;          ///< of that file's bytes; empty without a file

@@ -3,8 +3,9 @@
 
 #include "libs/app/verbs.hpp"
 
-#include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 
 #include "libs/app/run_main.hpp"
 #include "libs/app/version.hpp"
@@ -15,15 +16,45 @@ namespace palpate::app {
 
 namespace {
 
-void PrintOverview(const std::string& program, const std::string& purpose,
-                   const std::vector<Verb>& verbs) {
-  std::printf("%s\nUsage: %s VERB [ARGUMENTS]\n\nVerbs:\n", purpose.c_str(), program.c_str());
-  size_t width = 0;
-  for (const Verb& verb : verbs) width = std::max(width, verb.name.size());
+std::unique_ptr<Arguments> ArgumentsOf(const std::string& program, const Verb& verb) {
+  return std::make_unique<Arguments>(program + " " + verb.name, verb.purpose, Scope::kVerb);
+}
+
+CommandText Describe(const std::string& program, const std::string& purpose,
+                     const std::vector<Verb>& verbs) {
+  CommandText text{.name = program,
+                   .purpose = purpose,
+                   .arguments = CommonArguments(program, false),
+                   .verbs = {}};
+  for (const Verb& verb : verbs) text.verbs.push_back({verb.name, verb.purpose});
+  return text;
+}
+
+std::string Completion(const CommandText& program, const std::vector<Verb>& verbs) {
+  std::vector<CommandText> texts;
   for (const Verb& verb : verbs) {
-    std::printf("  %-*s  %s\n", static_cast<int>(width), verb.name.c_str(), verb.purpose.c_str());
+    const std::unique_ptr<Arguments> arguments = ArgumentsOf(program.name, verb);
+    const Verb::Action targets = verb.declare(*arguments);
+    texts.push_back(arguments->Text());
   }
-  std::printf("\n%s VERB --help tells what a verb takes.\n", program.c_str());
+  return FormatBashCompletion(program, texts);
+}
+
+/// What is asked of the program and not of a verb; nullopt where a verb is.
+std::optional<std::string> Answer(const CommandText& program, const std::vector<Verb>& verbs,
+                                  const std::vector<std::string>& words) {
+  const std::string& word = words.front();
+  if (word == "--help" || word == "-h" || word == "help") return FormatHelp(program);
+  if (word == "--version") return VersionLine(program.name);
+  if (word == "--man") return FormatManualPage(program);
+  if (word == "--completion" && words.size() == 2 && words.back() == "bash") {
+    return Completion(program, verbs);
+  }
+  if (word == "--completion=bash") return Completion(program, verbs);
+  if (word.starts_with("--completion")) {
+    throw InputError("--completion: must be bash; see " + program.name + " --help");
+  }
+  return std::nullopt;
 }
 
 const Verb& FindVerb(const std::string& program, const std::string& name,
@@ -44,18 +75,14 @@ int RunVerbs(const std::string& program, const std::string& purpose, const std::
   if (words.empty()) {
     throw InputError("a verb is missing; see " + program + " --help");
   }
-  if (words.front() == "--help" || words.front() == "-h" || words.front() == "help") {
-    PrintOverview(program, purpose, verbs);
-    return kExitDone;
-  }
-  if (words.front() == "--version") {
-    std::printf("%s %s\n", program.c_str(), Version());
+  if (const auto answer = Answer(Describe(program, purpose, verbs), verbs, words)) {
+    std::fputs(answer->c_str(), stdout);
     return kExitDone;
   }
   const Verb& verb = FindVerb(program, words.front(), verbs);
-  Arguments arguments(program + " " + verb.name, verb.purpose);
-  const Verb::Action action = verb.declare(arguments);
-  if (!arguments.Parse({words.begin() + 1, words.end()})) return kExitDone;
+  const std::unique_ptr<Arguments> arguments = ArgumentsOf(program, verb);
+  const Verb::Action action = verb.declare(*arguments);
+  if (!arguments->Parse({words.begin() + 1, words.end()})) return kExitDone;
   return action();
 }
 

@@ -17,14 +17,14 @@ struct Verb {
   using Action = std::function<int()>;
 
   std::string name;
-  std::string purpose;  ///< one sentence, for both helps
+  std::string purpose;  ///< an imperative sentence without a full stop, for both helps
   /// Declares the verb's arguments, whose targets the returned action owns (shared_ptr).
   std::function<Action(Arguments&)> declare;
 };
 
 /// Runs the verb that words[0] names with the rest of the words (those after the program's name);
-/// --help and --version are answered here. Throws InputError for a missing verb or an unknown one,
-/// with "did you mean".
+/// --help, --version, --man and --completion of the program are answered here. Throws InputError
+/// for a missing verb or an unknown one, with "did you mean".
 int RunVerbs(const std::string& program, const std::string& purpose, const std::vector<Verb>& verbs,
              const std::vector<std::string>& words);
 

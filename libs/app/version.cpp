@@ -7,4 +7,6 @@ namespace palpate::app {
 
 const char* Version() { return PALPATE_VERSION; }
 
+std::string VersionLine(const std::string& program) { return program + " " + Version() + "\n"; }
+
 }  // namespace palpate::app

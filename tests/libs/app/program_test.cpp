@@ -72,6 +72,30 @@ TEST(Arguments, ReadsPositionalsOptionsAndFlags) {
   EXPECT_THAT(read.extra, ElementsAre("x=1", "y=2"));
 }
 
+TEST(Arguments, ARepeatedOptionTakesOneValueEachTime) {
+  SolveArguments read;
+  EXPECT_TRUE(read.Parse({"--extra", "x=1", "a.yaml", "--out", "dir"}));
+  EXPECT_EQ(read.robot, "a.yaml");
+  EXPECT_THAT(read.extra, ElementsAre("x=1"));
+  EXPECT_TRUE(read.Parse({"--extra", "[1,2]", "--extra=-3", "b.yaml", "--out", "dir"}));
+  EXPECT_EQ(read.robot, "b.yaml");
+  EXPECT_THAT(read.extra, ElementsAre("[1,2]", "-3"));
+  EXPECT_THAT(RefusalOf({"a.yaml", "--out", "dir", "--extra", "x", "y"}),
+              HasSubstr("unexpected argument 'y'"));
+  EXPECT_THAT(RefusalOf({"a.yaml", "--out", "dir", "--extra"}), HasSubstr("--extra"));
+}
+
+TEST(Arguments, PositionalsTakeWhatIsLeft) {
+  std::vector<std::string> extra;
+  std::vector<std::string> addresses;
+  Arguments arguments("palpate capture", "List");
+  arguments.Repeated("--extra", &extra, "More");
+  arguments.Positionals("ADDRESS", &addresses, "Addresses", Need::kOptional);
+  EXPECT_TRUE(arguments.Parse({"1.1.1.1", "--extra", "x", "2.2.2.2", "3.3.3.3"}));
+  EXPECT_THAT(extra, ElementsAre("x"));
+  EXPECT_THAT(addresses, ElementsAre("1.1.1.1", "2.2.2.2", "3.3.3.3"));
+}
+
 TEST(Arguments, WhatIsNotGivenKeepsItsValue) {
   SolveArguments read;
   EXPECT_TRUE(read.Parse({"a.yaml", "--out", "dir"}));
@@ -133,7 +157,8 @@ TEST(Verbs, HelpListsThem) {
   EXPECT_EQ(RunVerbs("palpate", "Feels.", TwoVerbs(), {"--version"}), kExitDone);
   EXPECT_EQ(RunVerbs("palpate", "Feels.", TwoVerbs(), {"solve", "--help"}), kExitDone);
   const std::string printed = ::testing::internal::GetCapturedStdout();
-  EXPECT_THAT(printed, HasSubstr("  solve  Solves.\n  info   Tells.\n"));
+  EXPECT_THAT(printed, HasSubstr("  solve                   Solves.\n"
+                                 "  info                    Tells.\n"));
   EXPECT_THAT(printed, HasSubstr(std::string("palpate ") + Version()));
 }
 
