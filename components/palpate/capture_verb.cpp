@@ -40,7 +40,9 @@ void PrintJson(const std::vector<capture::CameraDescription>& cameras) {
 
 int Capture(const CaptureOptions& options) {
   if (!options.list) {
-    throw InputError("--list is required; frames are captured by palpate-capture, a process");
+    throw InputError(
+        "--list is required: this verb only lists cameras; the process palpate-capture captures "
+        "frames");
   }
   const auto cameras = capture::ListCameras(options.addresses);
   if (options.json) {
@@ -54,12 +56,14 @@ int Capture(const CaptureOptions& options) {
 }  // namespace
 
 app::Verb CaptureVerb() {
-  return {"capture", "Shows the GenICam cameras that answer.", [](app::Arguments& arguments) {
+  return {"capture", "List the GenICam cameras on the network", [](app::Arguments& arguments) {
             auto options = std::make_shared<CaptureOptions>();
-            arguments.Flag("--list", &options->list, "Show the cameras that answer");
-            arguments.Flag("--json", &options->json, "For machines");
+            arguments.Flag("--list", &options->list,
+                           "List the cameras that answer: model, serial number, address, "
+                           "components and formats (required)");
+            arguments.Flag("--json", &options->json, "Print JSON instead of text");
             arguments.Positionals("ADDRESS", &options->addresses,
-                                  "Cameras on networks of others, by IPv4 address",
+                                  "IPv4 address of a camera outside the local network",
                                   app::Need::kOptional);
             return [options] { return Capture(*options); };
           }};

@@ -20,6 +20,7 @@
 #include "components/palpate/diagnose/skin_pictures.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/perception_settings.hpp"
+#include "components/palpate/import/import_options.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/version.hpp"
@@ -38,14 +39,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> SplitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    if (comma > begin) parts.push_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
+/// The ids of --exclude, each of which may be a list with commas.
+std::vector<std::string> ExcludedCauses(const DiagnoseOptions& options) {
+  std::vector<std::string> ids;
+  for (const std::string& list : options.exclude) {
+    for (const std::string& id : SplitNames(list)) {
+      if (!id.empty()) ids.push_back(id);
+    }
   }
-  return parts;
+  return ids;
+}
+
+/// How the verdict's reader gets it again.
+std::string CommandOf(const DiagnoseOptions& options) {
+  std::string command =
+      fmt::format("palpate diagnose {} --data {} --out {}", options.robot.string(),
+                  options.data.string(), options.out.string());
+  for (const std::string& id : options.exclude) command += " --exclude " + id;
+  if (options.from != "all") command += " --from " + options.from;
+  return command;
 }
 
 void CheckCause(const std::string& id, const std::vector<std::string>& known) {
@@ -69,15 +81,15 @@ std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experi
   return cameras;
 }
 
-/// What of the experiment is to be looked at.
+/// The experiment with the data that --from chooses.
 experiment::Experiment ReadData(const DiagnoseOptions& options) {
   experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
-  if (options.from != "pictures") return experiment;
+  if (options.from != "depth") return experiment;
   for (experiment::Recording& recording : experiment.recordings) recording.markers.reset();
   return experiment;
 }
 
-/// Thousands of points would tell no more of some fifty features than a third of them.
+/// More points would not determine some fifty surface points any better.
 perception::Config PictureSettings(const DiagnoseOptions& options,
                                    const experiment::Experiment& experiment) {
   constexpr int kEnoughPoints = 4000;
@@ -87,7 +99,7 @@ perception::Config PictureSettings(const DiagnoseOptions& options,
   return PerceptionOf(overrides, experiment);
 }
 
-/// What is wrong with the data is a verdict; what is wrong with the robot or the options is not.
+/// Data that cannot be used are a verdict; a wrong robot file or option is an error.
 diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot) {
   std::unique_ptr<ProgressLine> progress;
@@ -106,7 +118,7 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
     }
     diagnosis::Diagnosis diagnosis =
         diagnosis::Diagnose(robot, experiment,
-                            {.without = SplitAtCommas(options.without),
+                            {.without = ExcludedCauses(options),
                              .most_samples = options.most_samples,
                              .threads = options.threads,
                              .longest_s = 60.0 * options.most_minutes,
@@ -142,7 +154,7 @@ void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
 void WriteNext(const fs::path& out, const diagnosis::Diagnosis& diagnosis) {
   diagnosis::WritePlans(diagnosis.next, out);
   if (diagnosis.next.empty()) {
-    fmt::print("no experiment is planned: no two causes are in question\n");
+    fmt::print("no experiment is planned: the data leave no two causes undecided\n");
     return;
   }
   fmt::print("the next experiment is in {}: {}\n", (out / "plan").string(),
@@ -158,24 +170,19 @@ void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& r
   }
   for (const diagnosis::Rival& rival : result.rivals) {
     if (rival.name.id != id) continue;
-    fmt::print("{}: {} (ln BF {:.1f}, likeness to what was named {:.2f})\n", rival.words,
+    fmt::print("{}: {} (ln BF {:.1f}, correlation with the named cause {:.2f})\n", rival.words,
                rival.why_not, rival.ln_bayes_factor, rival.canonical_correlation);
     found = true;
   }
   if (!found) {
-    fmt::print("{}: cannot show on this robot with these data, or was left out\n", id);
+    fmt::print("{}: not observable on this robot with these data, or excluded\n", id);
   }
 }
 
 }  // namespace
 
 int Diagnose(const DiagnoseOptions& options) {
-  if (options.robot.empty()) throw InputError("which robot? palpate diagnose ROBOT ...");
-  if (options.data.empty()) throw InputError("--data is missing");
-  if (options.out.empty()) throw InputError("--out is missing");
-  for (const std::string& id : SplitAtCommas(options.without)) {
-    CheckCause(id, diagnosis::CatalogueIds());
-  }
+  for (const std::string& id : ExcludedCauses(options)) CheckCause(id, diagnosis::CatalogueIds());
   if (!options.explain.empty()) CheckCause(options.explain, diagnosis::KnownCauses());
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
@@ -186,18 +193,12 @@ int Diagnose(const DiagnoseOptions& options) {
   result.robot = robot.name;
   result.data = options.data.string();
   result.version = app::Version();
-  result.command = fmt::format("palpate diagnose {} --data {} --out {}{}{}{}{}",
-                               options.robot.string(), options.data.string(), options.out.string(),
-                               options.without.empty() ? "" : " --without ", options.without,
-                               options.from == "all" ? "" : " --from ",
-                               options.from == "all" ? "" : options.from);
+  result.command = CommandOf(options);
   result.duration_s = SecondsSince(begin);
   Write(options.out, &diagnosis);
   fmt::print("{}\n", VerdictParagraph(result));
   for (const std::string& words : diagnosis.not_in_files) {
-    fmt::print(
-        "{}: neither robot file nor calibration can say it; the extended files are without\n",
-        words);
+    fmt::print("{}: not written to the extended files, whose formats have no key for it\n", words);
   }
   if (options.plan) WriteNext(options.out, diagnosis);
   if (!options.explain.empty()) PrintExplanation(options.explain, result);
@@ -205,31 +206,35 @@ int Diagnose(const DiagnoseOptions& options) {
 }
 
 app::Verb DiagnoseVerb() {
-  return {"diagnose", "Say what a robot's simulation gets wrong, name the cause, extend the model",
+  return {"diagnose", "Identify model errors from measured data and write a corrected robot file",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<DiagnoseOptions>();
-            arguments.Positional("ROBOT", &options->robot,
-                                 "robot file, or the name of a robot that comes with palpate",
-                                 app::Need::kOptional);
-            arguments.Option("--data", &options->data, "experiment folder");
-            arguments.Option("--out", &options->out,
-                             "folder for verdict.json, report.html, robot.extended.yaml");
-            arguments.Option("--without", &options->without,
-                             "causes that are not believed in, ID[,ID]");
-            arguments.Option("--explain", &options->explain, "cause: say why it was not named");
-            arguments.Choice("--from", &options->from, {"all", "markers", "pictures"},
-                             "what of the data is looked at; pictures are depth images and clouds");
-            arguments.Repeated("--set", &options->overrides,
-                               "how perception sees the robot in pictures, perception.KEY=VALUE");
+            DeclareRobot(arguments, &options->robot);
+            arguments.Option("--data FOLDER", &options->data, "Experiment folder",
+                             app::Need::kRequired);
+            arguments.Option("--out FOLDER", &options->out,
+                             "Folder of verdict.json, report.html and robot.extended.yaml",
+                             app::Need::kRequired);
+            arguments.Repeated("--exclude ID", &options->exclude,
+                               "Exclude this cause, or these (ID,ID), from the search");
+            arguments.Suggest("--exclude", diagnosis::CatalogueIds());
+            arguments.Option("--explain ID", &options->explain,
+                             "Print why this cause was named, or why not");
+            arguments.Suggest("--explain", diagnosis::KnownCauses());
+            arguments.Choice("--from", &options->from, {"all", "markers", "depth"},
+                             "Data to use: markers only, depth images and point clouds only "
+                             "(depth), or all");
+            arguments.Repeated("--set KEY=VALUE", &options->overrides,
+                               "Change one setting perception.* of the image processing");
             arguments.Flag("--plan", &options->plan,
-                           "write the next experiment, as files that a person, a robot or the "
-                           "virtual bench can run, into OUT/plan; those ranked behind it into "
-                           "OUT/plan_others");
+                           "Also plan the next experiment: the best one in OUT/plan, the others "
+                           "in OUT/plan_others");
             arguments.Option("--samples", &options->most_samples, 10, 2000,
-                             "moments that are compared, at most");
+                             "Maximum number of time samples used in the fit");
             arguments.Option("--minutes", &options->most_minutes, 0, 100000,
-                             "after which no further cause is looked for; 0: without an end");
-            arguments.Option("--threads", &options->threads, 1, 64, "recordings worked on at once");
+                             "Time limit of the search, minutes; 0: unlimited");
+            arguments.Option("--threads", &options->threads, 1, 64,
+                             "Number of recordings processed in parallel");
             return [options] { return Diagnose(*options); };
           }};
 }

@@ -3,6 +3,7 @@
 
 #include "components/palpate/find_robot.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,18 +25,6 @@ bool IsPlainName(const std::filesystem::path& robot) {
   return !robot.empty() && !robot.has_extension() && !robot.has_parent_path();
 }
 
-std::vector<std::string> KnownRobots() {
-  std::vector<std::string> names;
-  const std::filesystem::path folder = FindProjectFile("config/robots");
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-    if (entry.path().extension() == ".yaml") {
-      names.push_back(entry.path().stem().string());
-    }
-  }
-  return names;
-}
-
 }  // namespace
 
 std::filesystem::path ProgramFolder() {
@@ -55,6 +44,19 @@ std::filesystem::path FindProjectFile(const std::filesystem::path& relative) {
   }
   const auto in_sources = std::filesystem::path(PALPATE_SOURCE_DIR) / relative;
   return std::filesystem::exists(in_sources, none) ? in_sources : std::filesystem::path();
+}
+
+std::vector<std::string> KnownRobots() {
+  std::vector<std::string> names;
+  const std::filesystem::path folder = FindProjectFile("config/robots");
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".yaml") {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::filesystem::path FindRobotFile(const std::filesystem::path& robot) {
@@ -86,11 +88,29 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
+void DeclareRobot(app::Arguments& arguments, std::filesystem::path* robot, app::Need need) {
+  arguments.Positional("ROBOT", robot, "Robot file, or name of a robot in config/robots", need);
+  arguments.Suggest("ROBOT", KnownRobots());
+}
+
+void DeclareRobotOption(app::Arguments& arguments, std::filesystem::path* robot,
+                        const std::string& use) {
+  arguments.Option("--robot", robot, "Robot file, or name of a robot in config/robots: " + use);
+  arguments.Suggest("--robot", KnownRobots());
+}
+
+void DeclareCableInput(app::Arguments& arguments, std::string* cable_input) {
+  arguments.Choice("--cable-input", cable_input, {"displacement", "tension"},
+                   "Boundary condition of cables that have both columns: prescribed displacement "
+                   "or tension");
+}
+
 void DeclareSolverOptions(app::Arguments& arguments, fem::SolverSettings* solver) {
   constexpr int kMostThreads = 64;
-  arguments.Choice("--solver", &solver->solver, fem::SolverNames(), "sparse Cholesky of the model");
+  arguments.Choice("--solver", &solver->solver, fem::SolverNames(),
+                   "Sparse Cholesky factorisation of the model");
   arguments.Option("--threads", &solver->threads, 1, kMostThreads,
-                   "threads that assemble, factorise and solve; results do not depend on it");
+                   "Number of threads; results do not depend on it");
 }
 
 robot::CableInput ParseCableInput(const std::string& word) {

@@ -13,6 +13,7 @@
 #include "components/palpate/import/import_report.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/robot_description.hpp"
 
@@ -31,12 +32,12 @@ struct Target {
 Target FindTarget(const ImportOptions& options) {
   if (fs::exists(options.out / "recording.yaml")) {
     throw InputError(SourceLocation{options.out.string()},
-                     "is a recording already; a recording is never overwritten");
+                     "is a recording already and is not overwritten; give another --out");
   }
   if (options.recording.empty()) {
     if (fs::exists(options.out / "experiment.yaml")) {
       throw InputError(SourceLocation{options.out.string()},
-                       "is an experiment: name the new recording with --recording");
+                       "is an experiment; name the new recording with --recording");
     }
     return {options.out, {}};
   }
@@ -46,7 +47,7 @@ Target FindTarget(const ImportOptions& options) {
   Target target{options.out / "recordings" / options.recording, options.out / "experiment.yaml"};
   if (fs::exists(target.recording)) {
     throw InputError(SourceLocation{target.recording.string()},
-                     "exists already; a recording is never overwritten");
+                     "exists already and is not overwritten; give another --recording");
   }
   return target;
 }
@@ -81,66 +82,83 @@ void CheckFits(const ImportOptions& options, const std::optional<robot::RobotDes
   const SourceLocation where{experiment_file.string()};
   if (options.markers_sigma_m > 0.0) {
     throw InputError(where,
-                     "is there already: write markers_sigma_m there instead of giving "
+                     "exists already; write markers_sigma_m there instead of giving "
                      "--markers-sigma");
   }
   if (robot && settings.robot &&
       fs::weakly_canonical(*settings.robot) != fs::weakly_canonical(robot->file)) {
-    throw InputError(where, "is about another robot, " + settings.robot->string());
+    throw InputError(where, "belongs to another robot, " + settings.robot->string() +
+                                ": give that one with --robot, or another --out");
   }
 }
 
 void DeclareTarget(app::Arguments& arguments, ImportOptions& options) {
   arguments.Positional("FILE", &options.file,
-                       ".c3d, or .csv with time_s, marker, x_m, y_m, z_m[, residual_m] (or _mm, "
-                       "_cm)");
-  arguments.Option("--out", &options.out, "experiment folder; without --recording the recording's",
+                       "Motion-capture file: .c3d, or .csv with the columns time_s, marker, x_m, "
+                       "y_m, z_m and optionally residual_m (or _mm, _cm)");
+  arguments.Option("--out FOLDER", &options.out,
+                   "Experiment folder; without --recording the folder of the recording itself",
                    app::Need::kRequired);
-  arguments.Option("--recording", &options.recording, "name of the recording in the experiment");
-  arguments.Option("--robot", &options.robot,
-                   "robot file or name: no other markers than its own may be in the data");
-  arguments.Choice("--kind", &options.kind,
+  arguments.Option("--recording NAME", &options.recording,
+                   "Name of the new recording in the experiment");
+  DeclareRobotOption(arguments, &options.robot,
+                     "refuse markers that it lacks; without it all markers are kept");
+  arguments.Choice("--kind KIND", &options.kind,
                    {"rest", "ramp", "hold", "known_load", "co_contraction", "base_tilted",
                     "camera_moved", "second_speed", "repeat", "free"},
-                   "what was done");
-  arguments.Option("--notes", &options.notes, "text to keep with the recording");
-  arguments.Option("--markers-sigma", &options.markers_sigma_m,
-                   "noise of a coordinate, m, for a new experiment");
+                   "What was done: rest, ramp, hold, known_load, co_contraction, base_tilted, "
+                   "camera_moved, second_speed, repeat or free (docs/experiment.md)");
+  arguments.Option("--notes", &options.notes, "Text to store with the recording");
+  arguments.Option("--markers-sigma M", &options.markers_sigma_m,
+                   "Standard deviation of the noise of a coordinate, m, for a new experiment; 0: "
+                   "not written");
 }
 
 void DeclareEdits(app::Arguments& arguments, ImportOptions& options) {
-  arguments.Repeated("--rename", &options.rename, "NAME=NEW_NAME of a marker");
-  arguments.Option("--markers", &options.markers, "a,b,c: keep only these");
-  arguments.Option("--unit", &options.unit, "m, cm or mm, for a C3D file that does not say");
-  arguments.Option("--from", &options.from_s, "first time to keep, s");
-  arguments.Option("--to", &options.to_s, "last time to keep, s");
-  arguments.Option("--rate", &options.rate_Hz, "frames a second to keep");
-  arguments.Option("--time-offset", &options.time_offset_s,
-                   "s, added to all times: an experiment has one clock");
-  arguments.Option("--rest-window", &options.rest_window,
-                   "T0:T1, s: displacements count from the mean over it");
-  arguments.Choice("--rest-shape", &options.rest_shape, {"undeformed", "equilibrium"},
-                   "the body's shape in the rest window");
-  arguments.Option("--steady-window", &options.steady_window, "T0:T1, s: the static phase");
+  arguments.Repeated("--rename NAME=NEW_NAME", &options.rename, "Rename a marker of the file");
+  arguments.Option("--markers A,B,...", &options.markers,
+                   "Keep only these markers; without it all");
+  arguments.Choice("--unit", &options.unit, {"m", "cm", "mm"},
+                   "Length unit of a C3D file that does not name one");
+  arguments.Option("--from S", &options.from_s,
+                   "First time to keep, s, on the file's clock; without it from the first frame");
+  arguments.Option("--to S", &options.to_s,
+                   "Last time to keep, s, on the file's clock; without it to the last frame");
+  arguments.Option("--rate HZ", &options.rate_Hz, "Frame rate to keep, Hz; 0: all frames");
+  arguments.Option("--time-offset S", &options.time_offset_s,
+                   "Time to add to all times, s: all recordings of an experiment share one clock");
+  arguments.Option("--rest-window T0:T1", &options.rest_window,
+                   "Window at rest, s, on the file's clock: displacements count from the mean "
+                   "over it");
+  arguments.Choice("--rest-shape SHAPE", &options.rest_shape, {"undeformed", "equilibrium"},
+                   "Shape of the body in the rest window: undeformed (the mesh, before gravity) or "
+                   "equilibrium (static equilibrium under gravity)");
+  arguments.Option("--steady-window T0:T1", &options.steady_window,
+                   "Window of the static phase, s, on the file's clock; without it none");
 }
 
 void DeclareFrame(app::Arguments& arguments, ImportOptions& options) {
-  arguments.Option("--axes", &options.axes,
-                   "model axes from the file's: z,-y,x means x is its z, y its -y, z its x "
-                   "(write --axes=-z,... for a leading minus)");
+  arguments.Option("--axes AXES", &options.axes,
+                   "Robot axes in terms of the file's: z,-y,x means that the robot's x is the "
+                   "file's z, its y the file's -y, its z the file's x (write --axes=-z,... for a "
+                   "leading minus)");
   arguments.Choice("--frame", &options.frame, {"robot", "camera"},
-                   "frame of the positions; default: robot with --axes, else camera");
-  arguments.Option("--pose", &options.pose, "T_robot_camera as x,y,z,qx,qy,qz,qw");
+                   "Measurement frame of the positions; without it robot with --axes, else camera");
+  arguments.Option("--pose POSE", &options.pose,
+                   "Camera pose T_robot_camera as x,y,z,qx,qy,qz,qw, m");
   arguments.Flag("--register", &options.register_to_robot,
-                 "find T_robot_camera from the marker positions in the rest window");
-  arguments.Option("--register-markers", &options.register_markers,
-                   "a,b,c: register by these alone");
+                 "Estimate T_robot_camera: register the mean marker positions of the rest window "
+                 "to the robot file");
+  arguments.Option("--register-markers A,B,...", &options.register_markers,
+                   "Register these markers only; without it all");
 }
 
 }  // namespace
 
 int RunImport(const ImportOptions& options, std::ostream& report) {
-  if (options.markers_sigma_m < 0.0) throw InputError("--markers-sigma must be > 0");
+  if (options.markers_sigma_m < 0.0)
+    throw InputError("--markers-sigma: must be 0 or more, not " +
+                     FormatNumber(options.markers_sigma_m));
   const Target target = FindTarget(options);
   const bool is_new_experiment =
       !target.experiment_file.empty() && !fs::exists(target.experiment_file);
@@ -168,7 +186,7 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
 }
 
 app::Verb ImportVerb() {
-  return {"import", "Turn a motion-capture file (C3D or CSV) into a recording of an experiment",
+  return {"import", "Convert a motion-capture file (C3D or CSV) to a recording of an experiment",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<ImportOptions>();
             DeclareTarget(arguments, *options);

@@ -133,17 +133,18 @@ int Info(const InfoOptions& options) {
 }
 
 app::Verb InfoVerb() {
-  return {
-      "info", "Tell what a robot file, a mesh or a folder of measured data holds",
-      [](app::Arguments& arguments) -> app::Verb::Action {
-        const auto options = std::make_shared<InfoOptions>();
-        arguments.Positional("TARGET", &options->target,
-                             "robot file or name, mesh (.vtu, .vtk, .msh), or experiment or "
-                             "recording folder");
-        arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"}, "length unit of a mesh file");
-        arguments.Flag("--json", &options->json, "print JSON");
-        return [options] { return Info(*options); };
-      }};
+  return {"info", "Summarise and check a robot file, mesh or data folder",
+          [](app::Arguments& arguments) -> app::Verb::Action {
+            const auto options = std::make_shared<InfoOptions>();
+            arguments.Positional("TARGET", &options->target,
+                                 "Robot file, name of a robot in config/robots, mesh (.vtu, .vtk, "
+                                 ".msh), or experiment or recording folder");
+            arguments.Suggest("TARGET", KnownRobots());
+            arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
+                             "Length unit of a mesh file; robot files name their own");
+            arguments.Flag("--json", &options->json, "Print JSON instead of text");
+            return [options] { return Info(*options); };
+          }};
 }
 
 }  // namespace palpate::command

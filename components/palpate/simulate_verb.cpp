@@ -28,18 +28,20 @@ std::filesystem::path AnswerFile(const SimulateOptions& options,
 
 int Check(const SimulateOptions& options) {
   if (!options.robot.empty() || !options.scenario.empty() || !options.out.empty()) {
-    throw InputError("--check goes with --answer alone: nothing is simulated");
+    throw InputError("--check takes no other option than --answer: it simulates nothing");
   }
   const std::filesystem::path answer = AnswerFile(options, options.check);
   CheckSeal(options.check, answer);
-  fmt::print("{} is the answer that was sealed with {}\n", answer.string(), options.check.string());
+  fmt::print("{} is the ground truth that was stored with {}\n", answer.string(),
+             options.check.string());
   return app::kExitDone;
 }
 
 SimulationJob JobOf(const SimulateOptions& options) {
-  if (options.robot.empty()) throw InputError("which robot? palpate simulate ROBOT ...");
-  if (options.scenario.empty()) throw InputError("--scenario is missing");
-  if (options.out.empty()) throw InputError("--out is missing");
+  if (options.robot.empty()) throw InputError("ROBOT is required; see palpate simulate --help");
+  if (options.scenario.empty())
+    throw InputError("--scenario is required; see palpate simulate --help");
+  if (options.out.empty()) throw InputError("--out is required; see palpate simulate --help");
   SimulationJob job;
   job.robot = robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
   job.scenario = scenario::ReadScenario(options.scenario, app::LoadYaml);
@@ -57,36 +59,38 @@ int SimulateOrCheck(const SimulateOptions& options, const MakeBench& make_bench)
   const SimulationJob job = JobOf(options);
   std::optional<ProgressLine> progress;
   const SimulationCounts counts = Simulate(job, make_bench, [&](int done, int total) {
-    if (!progress) progress.emplace("moments", total);
+    if (!progress) progress.emplace("samples", total);
     progress->Update(done);
   });
   progress.reset();
-  fmt::print("{}: {} recordings, {} images, {} frames of markers; the answer is sealed in {}\n",
+  fmt::print("{}: {} recordings, {} images, {} marker frames; ground truth in {}\n",
              job.out.string(), counts.recordings, counts.images, counts.marker_frames,
              job.answer.string());
   return app::kExitDone;
 }
 
 app::Verb SimulateVerb() {
-  return {"simulate", "Make an experiment on the virtual bench, with a sealed answer",
+  return {"simulate",
+          "Generate a synthetic data set with the virtual robot; the ground truth is stored with a "
+          "hash",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<SimulateOptions>();
-            arguments.Positional("ROBOT", &options->robot,
-                                 "robot file, or the name of a robot that comes with palpate",
-                                 app::Need::kOptional);
-            arguments.Option(
-                "--scenario", &options->scenario,
-                "what the bench is made of and what is done (libs/scenario/README.md)");
+            DeclareRobot(arguments, &options->robot, app::Need::kOptional);
+            arguments.Option("--scenario", &options->scenario,
+                             "Scenario file: sensors, commands, loads and hidden effects "
+                             "(libs/scenario/README.md); required to simulate");
             arguments.Option("--seed", &options->seed, 0, std::numeric_limits<int>::max(),
-                             "draws noise, clutter and what the scenario leaves open");
-            arguments.Option("--out", &options->out, "experiment folder to make");
+                             "Random seed (noise, manufacturing tolerances, unspecified effects)");
+            arguments.Option("--out FOLDER", &options->out,
+                             "Experiment folder to create; required to simulate");
             arguments.Option("--answer", &options->answer,
-                             "file of the sealed answer; else beside the experiment, "
-                             "EXP.answer.json");
+                             "File of the ground truth; without it EXPERIMENT.answer.json beside "
+                             "the experiment folder");
             arguments.Flag("--tell-camera-pose", &options->tell_camera_pose,
-                           "write the planned T_robot_camera into experiment.yaml");
-            arguments.Option("--check", &options->check,
-                             "experiment: is --answer the one that was sealed with it?");
+                           "Store the nominal camera pose as T_robot_camera in experiment.yaml");
+            arguments.Option("--check FOLDER", &options->check,
+                             "Simulate nothing: check that the ground truth is the one stored "
+                             "with this experiment");
             return [options] { return SimulateOrCheck(*options); };
           }};
 }

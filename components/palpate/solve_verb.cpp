@@ -97,25 +97,27 @@ int Solve(const SolveOptions& options) {
 }
 
 app::Verb SolveVerb() {
-  return {"solve", "Compute static equilibria of a robot under cables, loads and its weight",
+  return {"solve", "Compute static equilibria of a robot under cables, loads and gravity",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<SolveOptions>();
-            arguments.Positional("ROBOT", &options->robot,
-                                 "robot file, or the name of a robot that comes with palpate");
+            DeclareRobot(arguments, &options->robot);
             arguments.Option("--actuation", &options->actuation,
-                             "CSV: t_s,<cable>.displacement_m|<cable>.tension_N,...; each row is "
-                             "one static state");
+                             "CSV file with the columns t_s and CABLE.displacement_m or "
+                             "CABLE.tension_N; each row is one static state; without it no cable "
+                             "is actuated");
             arguments.Option("--loads", &options->loads,
-                             "CSV: t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N[,patch_radius_m]; a row holds "
-                             "until the next, a single one throughout");
-            arguments.Option("--out", &options->out, "folder for the results",
+                             "CSV file with the columns t_s, x_m, y_m, z_m, fx_N, fy_N, fz_N and "
+                             "optionally patch_radius_m; a row holds until the next one; without "
+                             "it there is no load but gravity");
+            arguments.Option("--out FOLDER", &options->out, "Folder of the results",
                              app::Need::kRequired);
             DeclareSolverOptions(arguments, &options->solver);
-            arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
-                             "what is imposed on a cable that has both columns");
-            arguments.Flag("--vtu", &options->vtu, "write body_0000.vtu for ParaView as well");
-            arguments.Flag("--png", &options->png, "draw scene_0000.png as well");
-            arguments.Flag("--json", &options->json, "print result.json instead of lines to read");
+            DeclareCableInput(arguments, &options->cable_input);
+            arguments.Flag("--vtu", &options->vtu,
+                           "Also write the deformed body of each row for ParaView: body_0000.vtu");
+            arguments.Flag("--png", &options->png,
+                           "Also draw the deformed body of each row: scene_0000.png");
+            arguments.Flag("--json", &options->json, "Print result.json instead of text");
             return [options] { return Solve(*options); };
           }};
 }

@@ -31,7 +31,8 @@ std::vector<int> MaterialsOf(const std::vector<std::string>& parts, const robot:
   for (const std::string& part : parts.empty() ? std::vector<std::string>{"body"} : parts) {
     const auto found = std::find(known.begin(), known.end(), part);
     if (found == known.end()) {
-      throw InputError("--part " + part + ": the robot has no such region" +
+      throw InputError("--part " + part +
+                       ": the robot has no such region; give body or a region of the robot file" +
                        DidYouMean(part, known));
     }
     const int material = static_cast<int>(found - known.begin());
@@ -54,10 +55,12 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   const std::vector<int> materials = MaterialsOf(options.parts, model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (options.fit_depth_bias && options.no_depth_bias) {
-    throw InputError("--fit-depth-bias and --no-depth-bias: only one of them");
+    throw InputError("--fit-depth-bias and --no-depth-bias exclude each other: give one");
   }
   if (options.from == "markers" && !options.camera_pose.empty() && !unlabelled) {
-    throw InputError("--camera-pose is for images; --from markers needs none");
+    throw InputError(
+        "--camera-pose is for images and unlabelled markers; leave it out, or give "
+        "--from images or --unlabelled");
   }
   const bool joint = options.what == "joint";
   const bool fiducials = !PerceptionOf(options.overrides, experiment).markers.color_rgb.empty();
@@ -73,7 +76,8 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   const bool from_images = images_are_meant || (options.from.empty() && !has_markers &&
                                                 HasImagesOfTheCamera(experiment));
   if (from_images && options.unlabelled) {
-    throw InputError("--unlabelled is for markers.csv; markers in images have no names anyway");
+    throw InputError(
+        "--unlabelled is for markers.csv; fiducials in images have no names: leave it out");
   }
   if (from_images && fiducials) return CalibrateFromFiducials(options, experiment, wanted, model);
   if (from_images) return CalibrateFromImages(options, experiment, wanted, model);
@@ -81,49 +85,77 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   return CalibrateJointly(options, experiment, wanted, camera, model);
 }
 
-/// A number that is looked for jointly where how far it may be off is not 0.
-struct Belief {
+/// A parameter that a joint calibration estimates where its prior standard deviation is not 0.
+struct PriorOption {
   const char* option;
   double CalibrateOptions::*sigma;
-  const char* how_far;
+  const char* of_what;
 };
-constexpr std::array kBeliefs = {
-    Belief{"--marker-offset-sigma-m", &CalibrateOptions::marker_offset_sigma_m,
-           "a marker may sit from its place in the robot file"},
-    Belief{"--gravity-tilt-sigma-deg", &CalibrateOptions::gravity_tilt_sigma_deg,
-           "gravity may lean"},
-    Belief{"--mass-relative-sigma", &CalibrateOptions::mass_relative_sigma,
-           "the body's weight may be off (0.1: 10 %)"},
-    Belief{"--poissons-ratio-sigma", &CalibrateOptions::poissons_ratio_sigma,
-           "Poisson's ratio may be off, of the parts whose modulus is looked for"},
-    Belief{"--geometry-scale-sigma", &CalibrateOptions::geometry_scale_sigma,
-           "the robot's size may be off (0.01: 1 %)"},
-    Belief{
-        "--cable-route-sigma-m", &CalibrateOptions::cable_route_sigma_m,
-        "the points that cables are pulled from may sit off the robot file's, across the cables"},
-    Belief{"--cable-eyelet-sigma-m", &CalibrateOptions::cable_eyelet_sigma_m,
-           "the cables' eyelets on the body may sit off the robot file's, across the cables"},
-    Belief{"--depth-scale-sigma", &CalibrateOptions::depth_scale_sigma,
-           "the distances of markers from the camera may be off (0.003: 0.3 %)"}};
+constexpr std::array kPriorOptions = {
+    PriorOption{"--marker-offset-sigma-m M", &CalibrateOptions::marker_offset_sigma_m,
+                "marker offsets, m"},
+    PriorOption{"--gravity-tilt-sigma-deg DEG", &CalibrateOptions::gravity_tilt_sigma_deg,
+                "the gravity direction, degrees"},
+    PriorOption{"--mass-relative-sigma RATIO", &CalibrateOptions::mass_relative_sigma,
+                "the body's mass, relative (0.1: 10 %)"},
+    PriorOption{"--poissons-ratio-sigma NUMBER", &CalibrateOptions::poissons_ratio_sigma,
+                "Poisson's ratio, for the parts whose modulus is estimated"},
+    PriorOption{"--geometry-scale-sigma RATIO", &CalibrateOptions::geometry_scale_sigma,
+                "the robot's size, relative (0.01: 1 %)"},
+    PriorOption{"--cable-route-sigma-m M", &CalibrateOptions::cable_route_sigma_m,
+                "the fixed points that pull the cables, across the cables, m"},
+    PriorOption{"--cable-eyelet-sigma-m M", &CalibrateOptions::cable_eyelet_sigma_m,
+                "the cables' eyelets on the body, across the cables, m"},
+    PriorOption{"--depth-scale-sigma RATIO", &CalibrateOptions::depth_scale_sigma,
+                "the scale of marker distances from the camera, relative (0.003: 0.3 %)"}};
 
-/// How far what is not looked for, or looked for, may be off.
-void DeclareBeliefs(app::Arguments& arguments, CalibrateOptions* options) {
-  arguments.Option("--marker-bias-m", &options->marker_bias_m,
-                   "constant error of each marker, one sigma, that averaging does not remove");
-  arguments.Option("--drive-offset-sigma-m", &options->drive_offset_sigma_m,
-                   "how far a drive's zero may be off, one sigma");
-  arguments.Flag("--drive-gains", &options->drive_gains,
-                 "find the gains of the drives' displacements, too");
-  for (const Belief& belief : kBeliefs) {
+/// Priors of what is estimated, and errors of what is not.
+void DeclarePriors(app::Arguments& arguments, CalibrateOptions* options) {
+  arguments.Option("--marker-bias-m M", &options->marker_bias_m,
+                   "Standard deviation of each marker's constant error, which averaging does not "
+                   "remove, m");
+  arguments.Option("--actuator-offset-sigma-m M", &options->drive_offset_sigma_m,
+                   "Prior standard deviation of the zero offset of each cable actuator, m");
+  arguments.Flag("--actuator-gains", &options->drive_gains,
+                 "Also estimate the gain of each actuator's displacement");
+  for (const PriorOption& prior : kPriorOptions) {
     arguments.Option(
-        belief.option, &(options->*belief.sigma),
-        "how far " + std::string(belief.how_far) + ", one sigma; joint: looked for where not 0");
+        prior.option, &(options->*prior.sigma),
+        "Prior standard deviation of " + std::string(prior.of_what) + "; 0: not estimated");
   }
   arguments.Flag("--fit-depth-bias", &options->fit_depth_bias,
-                 "depth without markers: find the smooth error of the depth image with the pose, "
-                 "which is done anyway");
+                 "With images: estimate the smooth depth bias with the pose, as is the default");
   arguments.Flag("--no-depth-bias", &options->no_depth_bias,
-                 "do not look for it: it counts in the standard errors alone");
+                 "With images: do not estimate the depth bias; it counts in the standard errors");
+}
+
+/// What is calibrated, from which data and from which start.
+void DeclareWhat(app::Arguments& arguments, CalibrateOptions* options) {
+  arguments.Choice("--what", &options->what, {"auto", "material", "camera", "joint"},
+                   "What to estimate: material (Young's moduli), camera (camera pose and actuator "
+                   "offsets), joint (all of them, without the pose where it is known), or auto "
+                   "(camera where the data are in a camera frame of unknown pose, else material)");
+  arguments.Choice("--from", &options->from, {"markers", "images"},
+                   "Measurement for the camera pose; without it markers in the camera frame where "
+                   "a recording has them, else images: by fiducials where --set "
+                   "perception.markers.color_rgb names their colour, else by the robot's shape");
+  arguments.Repeated("--recording NAME", &options->recordings,
+                     "Use this recording; without it all but those of kind free");
+  arguments.Repeated("--part NAME", &options->parts,
+                     "Estimate the modulus of this region, or of body; without it of the body");
+  arguments.Flag("--unlabelled", &options->unlabelled,
+                 "Assign the points of markers.csv to markers by their positions and ignore their "
+                 "names; without it only where no point has a name");
+  arguments.Option("--camera-pose POSE", &options->camera_pose,
+                   "Approximate camera pose (to 50 mm and 20 degrees), \"{translation_m: [x, y, "
+                   "z], rotation_xyzw: [x, y, z, w]}\": start for images without fiducials; "
+                   "decides between symmetric assignments of unlabelled markers; without it the "
+                   "experiment's");
+  arguments.Option("--earlier", &options->earlier,
+                   "Earlier calibration file: its pose is the start for images without fiducials, "
+                   "and decides between symmetric assignments if the camera has not moved");
+  arguments.Repeated("--set KEY=VALUE", &options->overrides,
+                     "Change one setting perception.* of the image processing");
 }
 
 }  // namespace
@@ -146,54 +178,24 @@ int Calibrate(const CalibrateOptions& options) {
 
 app::Verb CalibrateVerb() {
   return {
-      "calibrate", "Find camera pose, drives and material from measured markers",
+      "calibrate", "Calibrate camera pose, cable actuators and material from measured data",
       [](app::Arguments& arguments) -> app::Verb::Action {
         const auto options = std::make_shared<CalibrateOptions>();
-        arguments.Positional("ROBOT", &options->robot,
-                             "robot file, or the name of a robot that comes with palpate");
-        arguments.Option("--data", &options->data, "experiment or recording folder",
+        DeclareRobot(arguments, &options->robot);
+        arguments.Option("--data FOLDER", &options->data, "Experiment or recording folder",
                          app::Need::kRequired);
-        arguments.Option("--out", &options->out, "calibration file to write", app::Need::kRequired);
-        arguments.Choice("--what", &options->what, {"auto", "material", "camera", "joint"},
-                         "what is found; camera: pose and drives' offsets; joint: with the moduli, "
-                         "without the pose where it is known; auto: camera where markers are in "
-                         "its frame and its pose is not known, "
-                         "else material");
-        arguments.Choice("--from", &options->from, {"markers", "images"},
-                         "what the camera is found from; else from markers in its frame where a "
-                         "recording has them, and without them from depth and colour: by coloured "
-                         "markers where --set perception.markers.color_rgb=[r, g, b] says which, "
-                         "else by the robot's shape");
-        arguments.Flag("--unlabelled", &options->unlabelled,
-                       "tell by where they are which markers the points in markers.csv are, "
-                       "whatever they are called; without this only where none has a name");
-        arguments.Option("--assignment", &options->assignment,
-                         "draw which point was taken for which marker (SVG); camera's pose only");
-        arguments.Option(
-            "--camera-pose", &options->camera_pose,
-            "roughly where the camera stands, \"{translation_m: [x, y, z], "
-            "rotation_xyzw: [x, y, z, w]}\" (50 mm, 20 degrees): images without coloured markers "
-            "start from it; of markers without names on a robot that looks the same after a turn "
-            "it tells which is which; else the experiment's");
-        arguments.Option("--earlier", &options->earlier,
-                         "an earlier calibration: images without coloured markers start from its "
-                         "pose; where markers without names could be told apart in several ways, "
-                         "it tells, if the camera stands there still");
-        arguments.Repeated("--set", &options->overrides,
-                           "a setting perception.* for images, KEY=VALUE");
-        arguments.Repeated("--recording", &options->recordings,
-                           "use this recording (repeatable); else all but those of kind 'free'");
-        arguments.Repeated("--part", &options->parts,
-                           "fit the modulus of 'body' or of a region (repeatable); else the body");
+        arguments.Option("--out", &options->out, "Calibration file to write", app::Need::kRequired);
+        DeclareWhat(arguments, options.get());
         DeclareSolverOptions(arguments, &options->solver);
-        arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
-                         "what is imposed on a cable where both were measured");
-        DeclareBeliefs(arguments, options.get());
-        arguments.Option(
-            "--convergence", &options->convergence,
-            "draw how the residual of the first frame falls, by the paper's Algorithm 1 "
-            "and jointly (SVG); camera's pose only");
-        arguments.Flag("--json", &options->json, "print JSON");
+        DeclareCableInput(arguments, &options->cable_input);
+        DeclarePriors(arguments, options.get());
+        arguments.Option("--assignment", &options->assignment,
+                         "SVG file to draw: which point was assigned to which marker; camera pose "
+                         "only");
+        arguments.Option("--convergence", &options->convergence,
+                         "SVG file to draw: residual of the first frame against iterations, by "
+                         "the paper's Algorithm 1 and by the joint fit; camera pose only");
+        arguments.Flag("--json", &options->json, "Print JSON instead of text");
         return [options] { return Calibrate(*options); };
       }};
 }

@@ -16,24 +16,25 @@ struct CalibrateOptions {
   std::filesystem::path robot;
   std::string what = "auto";           ///< material, camera, joint (both); auto: what the data lack
   std::filesystem::path data;          ///< experiment or recording folder
-  std::string from;                    ///< markers, images; empty: what there is
-  std::string camera_pose;             ///< of which images start; empty: the experiment's
-  std::filesystem::path earlier;       ///< a calibration file, whose pose may still hold
+  std::string from;                    ///< markers, images; empty: what the recordings have
+  std::string camera_pose;             ///< start of the fit to images; empty: the experiment's
+  std::filesystem::path earlier;       ///< an earlier calibration file; empty: none
   std::vector<std::string> overrides;  ///< perception.*=VALUE
-  std::vector<std::string> recordings;  ///< names; empty: all that serve
+  std::vector<std::string> recordings;  ///< names; empty: all that are suitable
   std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body
   std::string cable_input = "displacement";
   fem::SolverSettings solver;
-  double marker_bias_m = 0.0;          ///< constant error of each marker, one sigma
-  double drive_offset_sigma_m = 2e-3;  ///< how far a drive's zero may be off, one sigma
-  bool drive_gains = false;
-  bool fit_depth_bias = false;         ///< what is done anyway
-  bool no_depth_bias = false;          ///< not to be looked for
-  double marker_offset_sigma_m = 0.0;  ///< of these four 0: not looked for
+  double marker_bias_m = 0.0;          ///< standard deviation of a marker's constant error
+  double drive_offset_sigma_m = 2e-3;  ///< prior standard deviation of an actuator's offset
+  bool drive_gains = false;            ///< estimate the actuators' gains, too
+  bool fit_depth_bias = false;         ///< the default, said explicitly
+  bool no_depth_bias = false;          ///< do not estimate the depth bias
+  // Prior standard deviations; 0: not estimated.
+  double marker_offset_sigma_m = 0.0;
   double gravity_tilt_sigma_deg = 0.0;
   double mass_relative_sigma = 0.0;
   double poissons_ratio_sigma = 0.0;
-  double geometry_scale_sigma = 0.0;  ///< of these four, too
+  double geometry_scale_sigma = 0.0;
   double cable_route_sigma_m = 0.0;
   double cable_eyelet_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
@@ -44,11 +45,10 @@ struct CalibrateOptions {
   bool json = false;
 };
 
-/// `palpate calibrate`: finds where the camera stands and how the drives' displacements are to be
-/// read (markers in the camera's frame, or depth and colour without markers), Young's moduli
-/// (static phases with known loads or self weight), or both jointly, and writes the calibration
-/// file. Returns 0; throws InputError, and RunError where the data do not determine what was asked
-/// for.
+/// `palpate calibrate`: estimates camera pose and actuator offsets (from markers in the camera
+/// frame, or from depth and colour images), Young's moduli (static phases under known loads or self
+/// weight), or both jointly, and writes the calibration file. Returns 0; throws InputError, and
+/// RunError where the data do not determine what was asked for.
 int Calibrate(const CalibrateOptions& options);
 
 app::Verb CalibrateVerb();

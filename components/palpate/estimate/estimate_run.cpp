@@ -62,7 +62,7 @@ ShapePipeline& EstimateRun::Shape() {
         .model = &model_,
         .cable_input = ParseCableInput(options_.cable_input),
         .sites = force_estimation::ParseContactSites(settings_.forces.contacts),
-        .first_untouched = options_.teachers == "first" ? settings_.shape.untouched_frames : 0};
+        .first_untouched = options_.bias_frames == "first" ? settings_.shape.untouched_frames : 0};
     for (const force_estimation::ContactSite& site : inputs.sites) {
       if (site.direction.isZero(0.0)) continue;
       Say("the direction of contact '" + site.name + "' counts for markers only");
@@ -77,7 +77,7 @@ void EstimateRun::Teach(const std::vector<PlannedRecording>& plan) {
   const bool from_shape = std::any_of(
       plan.begin(), plan.end(),
       [](const PlannedRecording& planned) { return planned.from == EstimateFrom::kShape; });
-  if (!from_shape || options_.teachers != "recordings") return;
+  if (!from_shape || options_.bias_frames != "recordings") return;
   int frames = 0;
   for (const experiment::Recording* teacher : Teachers(experiment_)) {
     frames += Shape().Teach(*teacher);

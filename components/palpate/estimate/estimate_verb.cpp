@@ -26,34 +26,37 @@ int Estimate(const EstimateOptions& options) {
 
 app::Verb EstimateVerb() {
   return {
-      "estimate", "Estimate the forces on a robot from its shape, or its markers, as recorded",
+      "estimate", "Estimate contact forces from recorded images or markers",
       [](app::Arguments& arguments) -> app::Verb::Action {
         const auto options = std::make_shared<EstimateOptions>();
-        arguments.Positional("ROBOT", &options->robot,
-                             "robot file, or the name of a robot that comes with palpate");
-        arguments.Option("--data", &options->data, "experiment or recording folder",
+        DeclareRobot(arguments, &options->robot);
+        arguments.Option("--data FOLDER", &options->data, "Experiment or recording folder",
                          app::Need::kRequired);
-        arguments.Option("--out", &options->out, "forces.csv to write", app::Need::kRequired);
-        arguments.Option("--calibration", &options->calibration, "what `palpate calibrate` found");
-        arguments.Repeated("--recording", &options->recordings,
-                           "this recording (repeatable); else all with images or markers");
+        arguments.Option("--out", &options->out, "CSV file of the forces to write",
+                         app::Need::kRequired);
+        arguments.Option("--calibration", &options->calibration,
+                         "Calibration file of palpate calibrate; without it the robot file's "
+                         "moduli hold and the camera pose is the experiment's");
+        arguments.Repeated("--recording NAME", &options->recordings,
+                           "Use this recording; without it all that have images or markers");
         arguments.Choice("--from", &options->from, {"shape", "markers"},
-                         "from depth and colour, or from markers; else from images where a "
-                         "recording has them");
-        arguments.Choice("--teachers", &options->teachers, {"recordings", "first", "none"},
-                         "which frames teach the depth bias: those of recordings in which nobody "
-                         "touches the robot; the first shape.untouched_frames, as "
-                         "palpate-force-estimation does; none");
-        arguments.Repeated("--contact", &options->contacts,
-                           "where a force may act, \"name: x, y, z[, patch radius]\" in m on the "
-                           "undeformed body (repeatable); else the contact is searched, and known "
-                           "loads act where they are");
+                         "Measurement: shape (depth and colour images) or markers; without it "
+                         "images where a recording has them, else markers");
+        arguments.Choice("--bias-frames", &options->bias_frames, {"recordings", "first", "none"},
+                         "Contact-free frames used to estimate the depth bias: those of "
+                         "contact-free recordings; the first shape.untouched_frames frames, as in "
+                         "palpate-force-estimation; or none");
+        arguments.Repeated("--contact SITE", &options->contacts,
+                           "Possible contact location \"name: x, y, z[, patch radius]\", m, on the "
+                           "undeformed body; without it contacts are searched, and images use "
+                           "the locations of known loads (loads.csv)");
         arguments.Option("--config", &options->config,
-                         "settings: those of palpate-force-estimation, shape.*, perception.*");
-        arguments.Repeated("--set", &options->overrides, "one of these settings, KEY=VALUE");
-        arguments.Choice("--cable-input", &options->cable_input, {"displacement", "tension"},
-                         "what is imposed on a cable where both were measured");
-        arguments.Flag("--json", &options->json, "print a summary as JSON");
+                         "Settings file (YAML): settings of palpate-force-estimation, shape.* and "
+                         "perception.*");
+        arguments.Repeated("--set KEY=VALUE", &options->overrides,
+                           "Change one of these settings; overrides the settings file");
+        DeclareCableInput(arguments, &options->cable_input);
+        arguments.Flag("--json", &options->json, "Print the summary as JSON");
         return [options] { return Estimate(*options); };
       }};
 }

@@ -17,9 +17,9 @@ struct EstimateOptions {
   std::filesystem::path data;           ///< experiment or recording folder
   std::vector<std::string> recordings;  ///< names; empty: all that can be estimated
   std::string from;  ///< "markers" | "shape"; empty: shape where there are images
-  /// What teaches the depth bias: "recordings" (those in which nobody touches the robot), "first"
-  /// (the first shape.untouched_frames frames, as the processes do), "none".
-  std::string teachers = "recordings";
+  /// Frames from which the depth bias is estimated: "recordings" (those of contact-free
+  /// recordings), "first" (the first shape.untouched_frames frames, as the processes do), "none".
+  std::string bias_frames = "recordings";
   std::vector<std::string> contacts;   ///< added to the settings' contacts
   std::filesystem::path config;        ///< EstimateSettings; empty: defaults
   std::vector<std::string> overrides;  ///< KEY=VALUE

@@ -74,7 +74,7 @@ TEST_F(CalibrateImages, TheDepthBiasIsLeftAloneWhereItIsNotWanted) {
   ASSERT_EQ(Calibrate(options_), 0);
   EXPECT_FALSE(Found().depth_bias);
   options_.fit_depth_bias = true;
-  EXPECT_THAT(Refusal<InputError>(), HasSubstr("only one of them"));
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("exclude each other"));
 }
 
 TEST_F(CalibrateImages, ARoughPoseIsNeeded) {

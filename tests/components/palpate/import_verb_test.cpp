@@ -162,7 +162,7 @@ TEST_F(ImportVerbTest, RenamesTurnsCropsThinsAndShifts) {
 
 TEST_F(ImportVerbTest, ExtendsAnExperimentAndNeverOverwrites) {
   Import();
-  EXPECT_THAT(Refusal(), HasSubstr("never overwritten"));
+  EXPECT_THAT(Refusal(), HasSubstr("not overwritten"));
   options_.recording = "r2";
   options_.markers_sigma_m = 1e-5;
   EXPECT_THAT(Refusal(), HasSubstr("--markers-sigma"));
@@ -172,7 +172,7 @@ TEST_F(ImportVerbTest, ExtendsAnExperimentAndNeverOverwrites) {
   options_.recording = "";
   EXPECT_THAT(Refusal(), HasSubstr("--recording"));
   options_.out = options_.out / "recordings/r1";
-  EXPECT_THAT(Refusal(), HasSubstr("never overwritten"));
+  EXPECT_THAT(Refusal(), HasSubstr("not overwritten"));
 }
 
 TEST_F(ImportVerbTest, WritesARecordingOnItsOwn) {

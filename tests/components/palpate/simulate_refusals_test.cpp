@@ -49,11 +49,11 @@ TEST_F(SimulateTest, RefusesAScenarioThatMeasuresNothing) {
 TEST_F(SimulateTest, SaysWhichArgumentIsMissing) {
   SimulateOptions none;
   options_ = none;
-  EXPECT_THAT(Refusal(), HasSubstr("which robot?"));
+  EXPECT_THAT(Refusal(), HasSubstr("ROBOT is required"));
   options_.robot = "bar";
-  EXPECT_THAT(Refusal(), HasSubstr("--scenario is missing"));
+  EXPECT_THAT(Refusal(), HasSubstr("--scenario is required"));
   options_.scenario = "s.yaml";
-  EXPECT_THAT(Refusal(), HasSubstr("--out is missing"));
+  EXPECT_THAT(Refusal(), HasSubstr("--out is required"));
 }
 
 TEST_F(SimulateTest, LeavesNothingWhereTheBenchFails) {

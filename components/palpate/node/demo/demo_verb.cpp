@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "components/palpate/find_robot.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::command {
@@ -13,40 +14,44 @@ int Demo(const DemoOptions& options) {
   const SystemDemoOptions& system = options.system;
   if (options.recording == "beam" || options.computed) {
     if (!system.scenario.empty() || !system.robot.empty()) {
-      throw InputError("--robot and --scenario do not go with the recording of the beam");
+      throw InputError("--recording beam and --computed take neither --robot nor --scenario");
     }
     return BeamDemo({.out = system.out, .data = system.data, .computed = options.computed});
   }
   if (!system.data.empty() && !system.scenario.empty()) {
-    throw InputError("either --data (recordings) or --scenario (virtual bench)");
+    throw InputError(
+        "--data (recordings) and --scenario (virtual robot) exclude each other: give one");
   }
   if (!system.data.empty() && system.robot.empty()) {
-    throw InputError("--data needs --robot: whose recordings are these?");
+    throw InputError("--data needs --robot: the robot of these recordings");
   }
   return SystemDemo(system);
 }
 
 app::Verb DemoVerb() {
-  return {"demo", "See it work: forces on a soft robot, felt through a depth camera, live",
+  return {"demo", "Run the whole system on a virtual robot and compare its forces with the truth",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<DemoOptions>();
             SystemDemoOptions& system = options->system;
-            arguments.Option("--out", &system.out,
-                             "folder for the results; else demo/ in the build folder");
+            arguments.Option("--out FOLDER", &system.out,
+                             "Folder of the results; without it demo in the build folder");
             arguments.Option("--seconds", &system.seconds, 1, 86400,
-                             "how long the system is watched; else 30 s, or all of --data");
-            arguments.Option("--robot", &system.robot, "robot file or name; else four_leg");
+                             "Duration, s; without it 30 s, or all of --data");
+            DeclareRobotOption(arguments, &system.robot,
+                               "the robot to simulate, or the one of --data; without it four_leg");
             arguments.Option("--scenario", &system.scenario,
-                             "what the virtual bench does; else sensing.yaml");
-            arguments.Option("--data", &system.data,
-                             "an experiment with depth images to play instead of the virtual "
-                             "bench; of the beam: the folder with silicone_beam");
+                             "Scenario of the virtual robot; without it "
+                             "config/scenarios/sensing.yaml");
+            arguments.Option("--data FOLDER", &system.data,
+                             "Experiment folder with depth images to play instead of the virtual "
+                             "robot; with --recording beam the folder that holds silicone_beam");
             arguments.Option("--calibration", &system.calibration,
-                             "what `palpate calibrate` found for the robot");
+                             "Calibration file of palpate calibrate; without it the robot file's "
+                             "moduli hold");
             arguments.Choice("--recording", &options->recording, {"beam"},
-                             "play the measured beam with a weight instead, from its markers");
+                             "Play a recorded beam with a weight instead, from its markers");
             arguments.Flag("--computed", &options->computed,
-                           "play the computed beam, though the measured one is there");
+                           "Play the computed beam even where the measured one is available");
             return [options] { return Demo(*options); };
           }};
 }

@@ -54,7 +54,7 @@ TEST_F(DegenerateMarkers, AllOnTheFixedPartTellThePoseAndNothingOfTheDrive) {
 
 TEST_F(DegenerateMarkers, OneFrameDoesNotTellAGain) {
   Record({.name = "hold", .commanded_m = 0.005});
-  const ProgramRun run = Calibrate({"--drive-gains"});
+  const ProgramRun run = Calibrate({"--actuator-gains"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
   ExpectPose();
   ASSERT_EQ(Found().undetermined.size(), 1U) << run.output;
@@ -63,7 +63,7 @@ TEST_F(DegenerateMarkers, OneFrameDoesNotTellAGain) {
 
 TEST_F(DegenerateMarkers, WithoutMotionTheGainIsNotTold) {
   for (const char* name : {"a", "b", "c"}) Record({.name = name, .commanded_m = 0.0});
-  const ProgramRun run = Calibrate({"--drive-gains"});
+  const ProgramRun run = Calibrate({"--actuator-gains"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
   ExpectPose();
   EXPECT_THAT(run.output, HasSubstr("gain"));
