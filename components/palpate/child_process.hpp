@@ -13,8 +13,7 @@
 
 namespace palpate::command {
 
-/// A program that we started. It ends with us, at the latest: with this object, or when our own
-/// process dies.
+/// A program that this process started. It ends with this object, or when this process dies.
 class ChildProcess {
  public:
   /// `environment` is added to ours; standard output and error go to `log`. Throws RunError where
@@ -27,8 +26,8 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Where cores are short, all that runs at the usual priority goes first. Called at once, it
-  /// holds for every thread of the program.
+  /// Lowers the priority (nice 5): processes of normal priority run first where cores are scarce.
+  /// Call it right after the start, so that it holds for every thread of the program.
   void GiveWay();
 
   /// Exit code (128 + signal where a signal ended it), or nullopt while it runs.

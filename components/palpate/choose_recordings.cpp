@@ -40,7 +40,7 @@ std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& exp
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
-      throw InputError("--recording " + name + ": the experiment has none of that name" +
+      throw InputError("--recording " + name + ": the experiment has no such recording" +
                        DidYouMean(name, known));
     }
     chosen.push_back(&experiment.recordings[static_cast<std::size_t>(found - known.begin())]);
@@ -57,7 +57,7 @@ std::vector<const Recording*> RecordingsWithKnownLoads(const experiment::Experim
   }
   if (chosen.empty()) {
     throw InputError(experiment.folder.string() +
-                     ": no recording with markers, a static phase and known loads (kind 'free' "
+                     ": no recording has markers, a static phase and known loads (kind 'free' "
                      "may hold unknown contacts); name one with --recording");
   }
   return chosen;

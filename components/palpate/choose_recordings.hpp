@@ -15,9 +15,9 @@ namespace palpate::command {
 std::vector<const experiment::Recording*> ChooseRecordings(const experiment::Experiment& experiment,
                                                            const std::vector<std::string>& names);
 
-/// Those that a material can be fitted to: with markers and without unknown contacts (any kind but
-/// `free`), and static: a steady window, or a kind that is static throughout. Throws InputError
-/// where there is none.
+/// The recordings that determine a material: with markers, without unknown contacts (any kind but
+/// `free`), and with a static phase: a steady window, or a kind that is static throughout. Throws
+/// InputError where there is none.
 std::vector<const experiment::Recording*> RecordingsWithKnownLoads(
     const experiment::Experiment& experiment);
 

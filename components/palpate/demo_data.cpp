@@ -24,7 +24,7 @@ constexpr char kHungWeightFile[] = "beam_load52_V2_a.c3d";
 constexpr char kContact[] = "tip: 0, 0.015, 0.03, 0.005 along 0, 0, -1";
 
 // The beam was held straight until it was released, rang, and came to rest some 2.5 s later. Both
-// static phases are taken equally long after the release: silicone creeps.
+// static phases are taken equally long after the release, because silicone creeps.
 struct Capture {
   const char* file;
   const char* recording;
@@ -73,7 +73,7 @@ std::optional<std::filesystem::path> FindMeasuredData(const std::filesystem::pat
   if (!given.empty()) {
     if (!HoldsBeam(given)) {
       throw InputError("--data " + given.string() + ": no silicone_beam/" + kSelfWeightFile +
-                       " and " + kHungWeightFile + " in there");
+                       " and " + kHungWeightFile + " in this folder");
     }
     return given;
   }
@@ -96,7 +96,7 @@ DemoData ImportMeasuredBeam(const std::filesystem::path& data,
   demo.self_weight = kSelfWeight.recording;
   demo.hung_weight = kHungWeight.recording;
   demo.contact = kContact;
-  demo.marker_bias_m = 5e-4;  // the hand-held reference is good to about a millimetre
+  demo.marker_bias_m = 5e-4;  // the hand-held reference is accurate to about a millimetre
   demo.true_force_N = {0.0, 0.0, -0.510};
   demo.true_force_uncertainty = 0.02;
   std::filesystem::remove_all(demo.experiment);
@@ -115,8 +115,8 @@ DemoData ComputedBeam() {
   demo.experiment = FindProjectFile("tests/data/beam_calculix");
   if (demo.experiment.empty()) {
     throw InputError(
-        "neither the measured beam (set PALPATE_DATA_DIR) nor tests/data/"
-        "beam_calculix can be found");
+        "neither the measured beam nor tests/data/beam_calculix is there; set PALPATE_DATA_DIR "
+        "or give --data");
   }
   demo.self_weight = "self_weight";
   demo.hung_weight = "hung_weight";
@@ -126,7 +126,7 @@ DemoData ComputedBeam() {
   const ConfigNode* weight = truth.Find("hung_weight");
   const ConfigNode* force = weight == nullptr ? nullptr : weight->Find("force_N");
   if (force == nullptr) {
-    throw InputError({truth.where.file}, "hung_weight: {force_N: [x, y, z]} is missing");
+    throw InputError({truth.where.file}, "key 'hung_weight: {force_N: [x, y, z]}' is missing");
   }
   demo.true_force_N = ReadVector3(*force);
   return demo;

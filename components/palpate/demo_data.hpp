@@ -10,8 +10,8 @@
 
 namespace palpate::command {
 
-/// What the demonstration works on: a beam that hangs under its own weight in one recording and
-/// carries a known weight in another.
+/// The data of the demonstration: a beam under its own weight in one recording and with a known
+/// weight in another.
 struct DemoData {
   std::string description;  ///< one line: where it comes from
   std::filesystem::path experiment;
@@ -27,8 +27,8 @@ struct DemoData {
 /// ../shared/data from here or from the project. Throws InputError where `given` does not hold it.
 std::optional<std::filesystem::path> FindMeasuredData(const std::filesystem::path& given);
 
-/// Imports the motion-capture files of the measured beam into `folder`/experiment (made anew); what
-/// `palpate import` says goes to `folder`/import.log. Throws InputError, RunError.
+/// Imports the motion-capture files of the measured beam into `folder`/experiment (created
+/// again); the output of `palpate import` goes to `folder`/import.log. Throws InputError, RunError.
 DemoData ImportMeasuredBeam(const std::filesystem::path& data, const std::filesystem::path& folder);
 
 /// The small data set that comes with palpate, computed by CalculiX. Throws InputError where it is

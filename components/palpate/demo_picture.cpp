@@ -27,7 +27,7 @@ std::string CompareWithTruth(const DemoData& data, const ForceSummary::Contact& 
   const bool inside = std::abs(error_N) <= force.ci95_N + data.true_force_uncertainty * truth_N;
   std::string text = fmt::format(
       "  estimated  {:.3f} N +- {:.3f} N (95 %), ({:.3f}, {:.3f}, {:.3f}) N; median of {} frames,\n"
-      "             given where it hangs and that it pulls straight down\n",
+      "             with its location and direction given\n",
       force.magnitude_N, force.ci95_N, force.force_N.x(), force.force_N.y(), force.force_N.z(),
       force.count);
   text += fmt::format("  truth      {:.3f} N{}\n", truth_N,
@@ -68,7 +68,7 @@ Eigen::Matrix3Xd ModelMarkers(const robot::RobotModel& model, const Eigen::Vecto
 
 void AddHeading(const DemoData& data, const robot::CalibrationFile& calibration,
                 double marker_rms_m, view::Scene* scene) {
-  scene->title = "The weight on a soft beam, felt by sight";
+  scene->title = "A weight on a soft beam, estimated from its markers";
   scene->caption = {
       data.description,
       fmt::format("E = {:.0f} ± {:.0f} kPa from self weight, markers and model "

@@ -18,7 +18,7 @@ namespace palpate::command {
 
 struct DemoResult {
   bool found = false;  ///< a force was found; else `scene` is empty
-  std::string text;    ///< lines to read: force, interval, truth, and how far apart they are
+  std::string text;    ///< lines of text: force, interval, truth and their difference
   view::Scene scene;   ///< deformed body, markers, both forces
 };
 

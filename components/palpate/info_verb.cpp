@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What is found out, as a document and as lines to read.
+// The summary as a JSON document and as text.
 struct Findings {
   Json json;
   std::string text;

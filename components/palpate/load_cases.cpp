@@ -51,11 +51,12 @@ CableCommand CommandAt(const Actuation& actuation, const CableColumns& columns, 
 void NoteChoice(const std::string& cable, const CableColumns& columns, robot::CableInput preferred,
                 std::vector<std::string>* notes) {
   if (columns.displacement == nullptr && columns.tension == nullptr) {
-    notes->push_back("cable " + cable + " is not driven: no tension");
+    notes->push_back("cable " + cable + " is not actuated: its tension is 0");
   } else if (columns.displacement != nullptr && columns.tension != nullptr) {
     const bool displacement = preferred == robot::CableInput::kDisplacement;
     notes->push_back("cable " + cable + " has a displacement and a tension: the " +
-                     (displacement ? "displacement" : "tension") + " is imposed");
+                     (displacement ? "displacement" : "tension") +
+                     " is prescribed (--cable-input)");
   }
 }
 
@@ -81,7 +82,7 @@ Actuation ReadActuationRows(const std::filesystem::path& file) {
     actuation.t_s.push_back(experiment::RisingTime(table, row, 0, experiment::Rise::kStrict));
   }
   if (actuation.t_s.empty()) {
-    throw InputError({file.string(), 1, 1}, "no row");
+    throw InputError({file.string(), 1, 1}, "the table has no rows");
   }
   return actuation;
 }

@@ -14,7 +14,7 @@
 
 namespace palpate::command {
 
-/// One static state that is asked for.
+/// One static state to compute.
 struct LoadCase {
   double t_s = 0.0;
   std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
@@ -23,17 +23,17 @@ struct LoadCase {
 
 struct LoadCases {
   std::vector<LoadCase> rows;
-  std::vector<std::string> notes;  ///< cables that nothing drives, or for which a choice was made
+  std::vector<std::string> notes;  ///< cables that are not actuated, or that have two columns
 };
 
-/// Reads actuation.csv; here it may also hold times alone (nothing is driven).
+/// Reads actuation.csv; here it may also hold times alone (no cable is actuated).
 /// Throws InputError as experiment::ReadActuation does.
 experiment::Actuation ReadActuationRows(const std::filesystem::path& file);
 
 /// One case for each row of `actuation`; without it one for each time of `loads`; without either
-/// one under weight alone. A cable without a column is not driven; one with two is driven by the
-/// `preferred`; an empty field is interpolated in time within its column. Throws InputError at the
-/// header for a cable that the robot does not have (with "did you mean").
+/// one under gravity alone. A cable without a column is not actuated; of one with two columns the
+/// `preferred` is prescribed; an empty field is interpolated in time within its column. Throws
+/// InputError at the header for a cable that the robot does not have (with "did you mean").
 LoadCases MakeLoadCases(const std::optional<experiment::Actuation>& actuation,
                         const std::vector<experiment::KnownLoad>& loads,
                         const std::vector<std::string>& cable_names, robot::CableInput preferred);

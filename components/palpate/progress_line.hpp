@@ -10,9 +10,9 @@
 
 namespace palpate::command {
 
-/// How far a longer piece of work is, on the standard error output: on a terminal one line that is
-/// rewritten, with rate and time to go; elsewhere a plain line now and then. Says nothing about
-/// work that is done within a second.
+/// Progress of a longer computation on the standard error output: on a terminal one line that is
+/// rewritten, with rate and remaining time; elsewhere a plain line now and then. Prints nothing
+/// about work that takes less than a second.
 class ProgressLine {
  public:
   /// `unit`: what is counted, in the plural ("rows").
@@ -21,7 +21,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `done` of the total are finished.
+  /// `done` of the total are done.
   void Update(int done);
 
   /// Takes the line off the terminal, before something else is printed there.

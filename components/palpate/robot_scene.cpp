@@ -107,13 +107,13 @@ void AddMarkers(const Eigen::Matrix3Xd& observed_m, const Eigen::Matrix3Xd& mode
                 view::Scene* scene) {
   view::Points observed;
   observed.points_m = observed_m;
-  observed.name = "markers seen";
+  observed.name = "markers, measured";
   scene->points.push_back(observed);
   view::Points computed;
   computed.shape = view::Points::Shape::kCross;
   computed.points_m = model_m;
   computed.color = view::palette::kModelPoint;
-  computed.name = "model";
+  computed.name = "markers, model";
   scene->points.push_back(computed);
 }
 

@@ -20,7 +20,7 @@ struct SimulateOptions {
   bool tell_camera_pose = false;
 };
 
-/// `palpate simulate`: an experiment of the virtual bench with a sealed answer, or the check of one
+/// `palpate simulate`: a synthetic data set with its ground truth, or the check of one
 /// (--check). Returns 0; throws InputError and RunError. Tests put their own bench here.
 int SimulateOrCheck(const SimulateOptions& options, const MakeBench& make_bench = MakeVirtualBench);
 

@@ -27,8 +27,9 @@ void MakeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
-    throw RunError("cannot create the folder " + folder.string() + ": " +
-                   (error ? error.message() : "a file of that name is in the way"));
+    throw RunError(
+        "cannot create the folder " + folder.string() + ": " +
+        (error ? error.message() : "a file has that name; remove it or give another --out"));
   }
 }
 

@@ -22,8 +22,8 @@ struct Extras {
 /// fields of a row that did not converge are empty) and result.json at the end.
 class SolveOutput {
  public:
-  /// Creates the folder and removes what an earlier `solve` left in it, so that no old row passes
-  /// for a new one. Throws RunError where that fails.
+  /// Creates the folder and removes the results of an earlier `solve` from it, so that no old row
+  /// is mistaken for a new one. Throws RunError where that fails.
   SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, const Extras& extras);
 
   /// Writes the row's own files. Throws RunError where they cannot be written.

@@ -79,14 +79,14 @@ void ReadCables(const LoadCase& row, const robot::RobotModel& model, const fem::
     const CableCommand& command = row.cables[index];
     if (command.kind == CableCommand::Kind::kDisplacement && cable.tension_N <= 0.0) {
       result->notes.push_back(
-          fmt::format("cable {} is slack: {:.6g} m asked for, the body is at {:.6g} m",
+          fmt::format("cable {} is slack: {:.6g} m prescribed, the body is at {:.6g} m",
                       model.body().cables[index].name, command.value, cable.displacement_m));
     }
     result->cables.push_back(cable);
   }
 }
 
-// A failure as the user should read it: which cable stood furthest from what was asked of it.
+// Adds to a failure which cable is farthest from its prescribed displacement.
 void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
                     const fem::StaticState& state, fem::StaticResult* result) {
   if (result->status.code() == StatusCode::kTensionLimit) {
@@ -102,14 +102,14 @@ void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
       largest_gap_m = command.value - reached_m;
       culprit = fmt::format(
           "cable {}: no equilibrium found beyond a displacement of {:.6g} m of "
-          "the {:.6g} m asked for: ",
+          "the {:.6g} m prescribed: ",
           model.body().cables[static_cast<std::size_t>(c)].name, reached_m, command.value);
     }
   }
   result->status = Status(result->status.code(), culprit + result->status.message());
 }
 
-// A cable cannot take in more than its whole length; nullopt where none is asked to.
+// A cable cannot be shortened by more than its length; nullopt where no cable is.
 std::optional<Status> RefuseImpossible(const LoadCase& row, const robot::RobotModel& model) {
   for (int c = 0; c < model.CableCount(); ++c) {
     const CableCommand& command = row.cables[static_cast<std::size_t>(c)];

@@ -13,7 +13,7 @@
 
 namespace palpate::command {
 
-/// What came of one row.
+/// The result of one row.
 struct RowResult {
   int row = 0;
   double t_s = 0.0;
@@ -28,11 +28,11 @@ struct RowResult {
 
 /// Solves one row after the other, each from the state before it (the first from rest), and hands
 /// each result to `take`. A row that fails does not stop the others. Throws InputError at the line
-/// of a load that lies farther from the body than half its diagonal, which no load can mean.
+/// of a load that lies farther from the body than half the body's diagonal.
 void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
                const std::function<void(const RowResult&)>& take);
 
-/// What a log should say of loads that do not lie on the surface.
+/// Notes on loads that do not lie on the surface.
 std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,
                                       const robot::RobotModel& model);
 

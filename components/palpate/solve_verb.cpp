@@ -42,7 +42,7 @@ std::vector<std::string> AllNotes(const LoadCases& cases, const robot::RobotMode
 
 void PrintRow(const RowResult& result, const std::vector<std::string>& cable_names) {
   if (!result.converged()) {
-    fmt::print("row {} (t = {:g} s) failed: {}: {}; {:.0f} % of the way was reached\n", result.row,
+    fmt::print("row {} (t = {:g} s) failed: {}: {}; {:.0f} % of the load was reached\n", result.row,
                result.t_s, ToString(result.solver.status.code()), result.solver.status.message(),
                100.0 * result.solver.load_fraction);
     return;

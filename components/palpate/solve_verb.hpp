@@ -13,14 +13,14 @@ namespace palpate::command {
 
 struct SolveOptions {
   std::filesystem::path robot = "four_leg";
-  std::filesystem::path actuation;  ///< empty: no cable is driven
+  std::filesystem::path actuation;  ///< empty: no cable is actuated
   std::filesystem::path loads;      ///< empty: no external load
   std::filesystem::path out;
-  std::string cable_input = "displacement";  ///< or "tension": what drives a cable with both
+  std::string cable_input = "displacement";  ///< or "tension": prescribed on a cable with both
   fem::SolverSettings solver;
   bool vtu = false;   ///< write body_0000.vtu
   bool png = false;   ///< write scene_0000.png
-  bool json = false;  ///< result.json on the standard output instead of lines to read
+  bool json = false;  ///< print result.json instead of text
 };
 
 /// `palpate solve`: static equilibria, one for each row of the actuation. Returns 0 only if all

@@ -39,7 +39,7 @@ double Residual_m(const AssignmentPanel& panel, const MarkerSighting& point) {
   return (point.position_m - panel.model_m.col(point.marker)).norm();
 }
 
-/// What an ellipse or a line shows, enlarged so that the largest can be seen.
+/// The factor by which ellipses and lines are enlarged.
 double ChooseEnlargement(const std::vector<AssignmentPanel>& panels, const PlainView& plain) {
   constexpr double kLargest_px = 34.0;
   double largest_px = 0.0;
@@ -89,7 +89,7 @@ double LengthOf(const std::string& text) {
   return 0.66 * kLabel_px * static_cast<double>(text.size());
 }
 
-/// A text that can be read on a picture.
+/// A text that is legible on an image.
 void Label(const view::Rect& place, const std::string& text, const view::Color& color,
            SvgDocument* svg) {
   svg->Polygon({{place.x_px - 2.0, place.y_px},
@@ -192,7 +192,7 @@ class PanelDrawing {
     const SvgPoint at = projection_.At(point.position_m);
     if (point.marker < 0) {
       Cross(at, 5.0, kFalse, svg_);
-      AddNote(at, 5.0, "none of them", kFalse);
+      AddNote(at, 5.0, "no marker", kFalse);
       return;
     }
     const auto derivative = projection_.Derivative(point.position_m);
@@ -245,7 +245,7 @@ class PanelDrawing {
     svg_->Text(at, panel_.name, {.size_px = 13.0, .bold = true});
     svg_->Text(
         {frame_.x_px + frame_.width_px, at.y_px},
-        fmt::format("{} of {} markers, off by {:.2f} mm RMS{}", matched, panel_.model_m.cols(),
+        fmt::format("{} of {} markers, residual {:.2f} mm RMS{}", matched, panel_.model_m.cols(),
                     rms_mm, panel_.ground.color.empty() ? "; seen " + view_name_ : std::string()),
         {.anchor = SvgText::Anchor::kEnd, .size_px = 12.0, .color = view::palette::kMutedInk});
   }
@@ -268,15 +268,15 @@ void DrawLegend(double top_px, double enlargement, SvgDocument* svg) {
   };
   svg->Polyline(Ring({left_px, top_px}, Eigen::Vector2d(11.0, 7.0).asDiagonal()), {kPoint, 1.5});
   svg->Dot({left_px, top_px}, 2.5, kPoint);
-  text(0, "point that was seen; the ellipse holds it with 95 %, enlarged " + times + " times");
+  text(0, "measured point; the ellipse holds it with 95 %, enlarged " + times + " times");
   svg->Line({left_px - 8.0, top_px + 20.0}, {left_px + 8.0, top_px + 20.0}, {kModel, 2.0});
   Circle({left_px + 8.0, top_px + 20.0}, 3.5, {kModel, 2.0}, svg);
-  text(1, "where the calibrated model has it, enlarged " + times +
-              " times; the number is the whole distance in space");
+  text(1, "marker of the calibrated model, enlarged " + times +
+              " times; the number is the distance in space");
   Circle({left_px, top_px + 40.0}, 6.0, {kMissing, 1.5, true}, svg);
-  text(2, "marker that was not seen, where the model has it");
+  text(2, "marker of the model that was not seen");
   Cross({left_px, top_px + 60.0}, 5.0, kFalse, svg);
-  text(3, "point that is none of the robot's markers");
+  text(3, "point that is no marker of the robot");
 }
 
 }  // namespace
@@ -303,7 +303,7 @@ void DrawAssignment(const std::filesystem::path& file, const std::vector<std::st
                   static_cast<int>(legend_px + kLegend_px - kGap_px));
   svg.Rectangle({0.0, 0.0}, std::max(width_px, 640.0), legend_px + kLegend_px,
                 view::palette::kPaper);
-  svg.Text({kGap_px, 24.0}, "Which point is which marker", {.size_px = 17.0, .bold = true});
+  svg.Text({kGap_px, 24.0}, "Assignment of points to markers", {.size_px = 17.0, .bold = true});
   const PlainView plain = ChooseView(panels);
   const double enlargement = ChooseEnlargement(panels, plain);
   for (int k = 0; k < count; ++k) {

@@ -16,7 +16,7 @@
 
 namespace palpate::command {
 
-/// The picture that points were found in, in the depth camera's pixels; empty: there is none.
+/// The image that the points were found in, in the depth camera's pixels; empty: none.
 struct PictureGround {
   rgbd::ColorImage color;
   rgbd::CameraModel lens;
@@ -25,25 +25,25 @@ struct PictureGround {
 /// One setting of the cables.
 struct AssignmentPanel {
   std::string name;
-  /// Camera frame; `marker` is the robot's that each is, -1: none of them.
+  /// Camera frame; `marker`: index of the robot's marker, -1: none.
   std::vector<calibration::MarkerSighting> points;
-  Eigen::Matrix3Xd model_m;  ///< [3 x markers] where the calibrated model has them, camera frame
+  Eigen::Matrix3Xd model_m;  ///< [3 x markers] of the calibrated model, camera frame
   PictureGround ground;
 };
 
-/// The model's markers in a state of its nodes x_m [3n], as the camera sees them: [3 x markers].
+/// The model's markers with the nodes at x_m [3n], camera frame: [3 x markers], m.
 Eigen::Matrix3Xd MarkersInCamera(const robot::RobotModel& model, const Eigen::VectorXd& x_m,
                                  const geometry::RigidTransform& T_robot_camera);
 
-/// Draws which point is which marker (SVG): the points with the ellipse that holds 95 % of them,
-/// the model's markers, the way between (both enlarged, as the legend says) and its length in mm;
-/// markers that were not seen, and points that are none. On the picture where there is one, else
-/// straight along the axis in which they are flattest. Throws RunError where the file cannot be
-/// written.
+/// Draws the assignment of points to markers (SVG): the points with their 95 % ellipses, the
+/// model's markers, the line between (both enlarged, as the legend says) and its length in mm;
+/// markers that were not seen, and points that are no marker. Drawn on the image where there is
+/// one, else projected along the axis in which the points are flattest. Throws RunError where the
+/// file cannot be written.
 void DrawAssignment(const std::filesystem::path& file, const std::vector<std::string>& marker_names,
                     const std::vector<AssignmentPanel>& panels);
 
-/// The same of markers that have names. `fit`: what was found from these frames.
+/// The same of markers with names. `fit`: the calibration from these frames.
 void DrawFrames(const std::filesystem::path& file,
                 const std::vector<calibration::CalibrationFrame>& frames,
                 const calibration::JointCalibration& fit, const robot::RobotModel& model);

@@ -48,15 +48,15 @@ std::vector<calibration::MarkerSighting> PointsOf(const FiducialFrame& seen,
 
 std::string Rejected(const perception::FiducialRejections& rejected) {
   return fmt::format(
-      "{} spots of their colour are none: {} too small, {} too large, {} not round, {} without "
-      "depth, {} at an edge, {} hardly of another colour than what is round them",
+      "{} regions of their colour are no fiducials: {} too small, {} too large, {} not round, {} "
+      "without depth, {} at an edge, {} too similar in colour to their surroundings",
       rejected.Count(), rejected.too_small, rejected.too_large, rejected.not_round,
       rejected.no_depth, rejected.at_edge, rejected.wrong_color);
 }
 
-/// Pictures of one recording.
+/// Adds the points of one recording's images.
 void Look(const std::vector<ImageMoment>& moments, const perception::FiducialConfig& config,
-          const std::vector<std::string>& markers, bool with_pictures, PointsWithoutNames* points) {
+          const std::vector<std::string>& markers, bool with_images, PointsWithoutNames* points) {
   perception::FiducialDetector detector(config);
   detector.SetCamera(moments.front().images->camera);
   perception::Registration registration(moments.front().images->camera);
@@ -67,7 +67,7 @@ void Look(const std::vector<ImageMoment>& moments, const perception::FiducialCon
     const FiducialFrame& seen = detector.Detect(images);
     if (!seen.status.ok()) throw InputError(moment.frame.name + ": " + seen.status.message());
     if (seen.fiducials.empty()) {
-      fmt::print(stderr, "left out: {}: no marker is seen; {}\n", moment.frame.name,
+      fmt::print(stderr, "excluded: {}: no fiducial is seen; {}\n", moment.frame.name,
                  Rejected(seen.rejected));
       continue;
     }
@@ -76,7 +76,7 @@ void Look(const std::vector<ImageMoment>& moments, const perception::FiducialCon
                                         .loads = moment.frame.loads,
                                         .gravity_m_s2 = moment.frame.gravity_m_s2},
                               .points = PointsOf(seen, markers)});
-    if (!with_pictures || !registration.Register(images, &registered).ok()) continue;
+    if (!with_images || !registration.Register(images, &registered).ok()) continue;
     points->grounds.push_back({registered.color, moment.images->camera.depth});
   }
 }
@@ -91,7 +91,7 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
       perception::FiducialsOf(PerceptionOf(options.overrides, experiment));
   PointsWithoutNames points;
   points.settings.request = RequestOf(options, materials, true);
-  // What all points of a picture err by alike is no noise of each.
+  // An error common to all points of an image is not noise of each point.
   points.settings.request.depth_bias_sigma = std::exchange(config.depth_bias, 0.0);
   points.settings.named = !config.names.empty();
   const std::vector<std::string> markers = model->MarkerNames();
@@ -104,9 +104,9 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   }
   if (points.frames.empty()) {
     throw RunError(
-        "no picture shows a marker: is their colour right (--set "
+        "no image shows a fiducial: check their colour (--set "
         "perception.markers.color_rgb=[r, g, b]) and their size (perception.markers.min_radius_m, "
-        "max_radius_m)?");
+        "max_radius_m)");
   }
   return CalibrateFromPoints(options, experiment, points, model);
 }

@@ -32,16 +32,15 @@ Eigen::Isometry3d StartOf(const CalibrateOptions& options, const experiment::Exp
   if (rough) return *rough;
   if (earlier) return *earlier;
   throw InputError(
-      "clouds need to know roughly where the camera stands: --camera-pose or --earlier; coloured "
-      "markers do "
-      "not: --set perception.markers.color_rgb=[r, g, b]");
+      "images without fiducials need an approximate camera pose: give --camera-pose or "
+      "--earlier, or the fiducials' colour, --set perception.markers.color_rgb=[r, g, b]");
 }
 
 Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
   return Eigen::Translation3d(T.translation_m()) * T.rotation();
 }
 
-/// The robot's shapes as the model has them before anything is fitted.
+/// The model's shapes before anything is fitted.
 std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageMoment>& moments,
                                     const Eigen::Isometry3d& T_robot_camera,
                                     robot::RobotModel* model) {
@@ -60,7 +59,7 @@ std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageMoment>& moments,
   return shapes;
 }
 
-/// Clouds of all moments and the calibration from them.
+/// Clouds of all frames and the calibration from them.
 struct Pass {
   std::vector<CloudFrame> frames;
   CloudCalibration fit;
@@ -73,11 +72,11 @@ Pass Run(const std::vector<ImageMoment>& moments, const perception::Config& perc
   std::vector<std::string> left_out;
   pass.frames = SeeClouds(moments, perception, model->body(), expected, &left_out);
   if (pass.frames.empty()) {
-    throw RunError("perception sees the robot in no picture (" + left_out.front() +
-                   "): --camera-pose nearer to the truth, or the robot's colour, --set "
+    throw RunError("perception sees the robot in no image (" + left_out.front() +
+                   "): give a more accurate --camera-pose, or the robot's colour, --set "
                    "perception.robot_color_rgb=[r, g, b]");
   }
-  for (const std::string& line : left_out) fmt::print(stderr, "left out: {}\n", line);
+  for (const std::string& line : left_out) fmt::print(stderr, "excluded: {}\n", line);
   pass.fit = calibration::CalibrateFromClouds(*model, pass.frames, ToTransform(start), clouds);
   RequireFit(pass.fit.status);
   return pass;
@@ -87,8 +86,8 @@ void PrintPass(const Pass& pass) {
   for (std::size_t f = 0; f < pass.frames.size(); ++f) {
     const calibration::CloudMatch& match = pass.fit.matches[f];
     fmt::print(
-        "{}: {} of {} points on the skin, off by {:.3f} mm RMS; {:.0f} % of the skin in view has "
-        "points\n",
+        "{}: {} of {} points on the surface, residual {:.3f} mm RMS; {:.0f} % of the visible "
+        "surface has points\n",
         pass.frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
         100.0 * match.skin_covered);
   }
@@ -96,7 +95,7 @@ void PrintPass(const Pass& pass) {
              pass.fit.joint.chi_squared, pass.fit.joint.degrees_of_freedom, pass.fit.rounds);
 }
 
-/// A depth bias is that of one camera.
+/// A depth bias belongs to one camera.
 bool AreOfOneCamera(const std::vector<experiment::RgbdSequence>& sequences) {
   return std::all_of(sequences.begin(), sequences.end(), [&](const auto& sequence) {
     return sequence.camera.depth == sequences.front().camera.depth;
@@ -128,7 +127,8 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                     .drive_gains = options.drive_gains,
                     .moduli = materials};
   const calibration::ModelSnapshot kept(*model);
-  // A rough pose misplaces the predicted surface; the robot's colour, where it is told, does not.
+  // An approximate pose misplaces the predicted surface; a known robot colour does not depend on
+  // it.
   const bool by_color = !perception.robot_color_rgb.empty();
   const Pass rough = Run(moments, perception,
                          by_color ? std::vector<ExpectedNodes>() : ShapesOf(moments, start, model),

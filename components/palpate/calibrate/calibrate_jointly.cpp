@@ -33,7 +33,7 @@ bool IsOfTheCamera(const experiment::Experiment& experiment, const Recording& re
          (recording.camera_on_base || !recording.base_tilt_deg);
 }
 
-/// All in the camera's frame with the camera where it always stood, and without unknown contacts.
+/// All in the camera's frame with the camera at its usual pose, and without unknown contacts.
 std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment& experiment) {
   std::vector<const Recording*> chosen;
   for (const Recording& recording : experiment.recordings) {
@@ -42,7 +42,7 @@ std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment
   }
   if (chosen.empty()) {
     throw InputError(experiment.folder.string() +
-                     ": no recording serves to find the camera: it needs markers.csv in the "
+                     ": no recording determines the camera pose: it needs markers.csv in the "
                      "camera's frame (frame: camera) and a kind other than 'free' and "
                      "'camera_moved'");
   }
@@ -60,21 +60,21 @@ bool IsInFile(const std::string& name) {
 void PrintCorrelated(const std::vector<calibration::CorrelatedValues>& pairs) {
   constexpr std::size_t kMost = 5;
   for (std::size_t k = 0; k < std::min(kMost, pairs.size()); ++k) {
-    fmt::print("{} and {} are hardly told apart (correlation {:.2f})\n", pairs[k].one,
+    fmt::print("{} and {} are hardly distinguishable (correlation {:.2f})\n", pairs[k].one,
                pairs[k].other, pairs[k].correlation);
   }
   if (pairs.size() > kMost) {
-    fmt::print("so are {} further pairs (correlation {:.2f} and more)\n", pairs.size() - kMost,
+    fmt::print("{} further pairs have a correlation of {:.2f} or more\n", pairs.size() - kMost,
                std::abs(pairs.back().correlation));
   }
 }
 
-/// Correlation of errors that people should know of.
+/// Correlations of errors that are reported.
 constexpr double kClose = 0.9;
 
 void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frames) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    fmt::print("{}: markers off by {:.3f} mm RMS\n", frames[f],
+    fmt::print("{}: marker residual {:.3f} mm RMS\n", frames[f],
                1e3 * fit.residual_rms_of_frame_m[f]);
   }
   for (const FittedValue& value : fit.values) {
@@ -147,8 +147,8 @@ robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
   if (!options.convergence.empty()) {
     if (!camera) {
       throw InputError(
-          "--convergence compares ways to find the camera's pose: it needs markers in "
-          "the camera's frame");
+          "--convergence compares two methods for the camera pose: it needs markers in the "
+          "camera's frame (frame: camera)");
     }
     PlotConvergence(frames, model, options.convergence);
   }

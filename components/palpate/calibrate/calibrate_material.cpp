@@ -20,7 +20,7 @@ using calibration::MaterialCalibration;
 void PrintMaterialFit(const MaterialCalibration& fit,
                       const std::vector<calibration::StaticObservation>& observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    fmt::print("{}: markers off by {:.3f} mm RMS\n", observations[i].name,
+    fmt::print("{}: marker residual {:.3f} mm RMS\n", observations[i].name,
                1e3 * fit.residual_rms_of_observation_m[i]);
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,

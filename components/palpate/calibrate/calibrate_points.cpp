@@ -30,14 +30,14 @@ void PrintAssignment(const UnlabelledCalibration& found, const PointsWithoutName
   for (std::size_t k = 0; k < found.frames.size(); ++k) {
     const std::size_t seen = points.frames[found.labels.frames[k]].points.size();
     const auto markers = static_cast<int>(found.frames[k].markers.size());
-    fmt::print("{}: {} of {} markers seen, {} points are none; off by {:.3f} mm RMS\n",
+    fmt::print("{}: {} of {} markers seen, {} points are none; residual {:.3f} mm RMS\n",
                found.frames[k].name, markers, marker_count, static_cast<int>(seen) - markers,
                1e3 * found.joint.residual_rms_of_frame_m[k]);
   }
   if (found.choices > 1) {
-    fmt::print("the pictures alone leave {} ways to tell the markers apart; {} which\n",
-               found.choices,
-               found.told_by_last_pose ? "the earlier calibration's pose says" : "the cables say");
+    fmt::print(
+        "the points alone allow {} assignments to markers; {} decides\n", found.choices,
+        found.told_by_last_pose ? "the earlier calibration's pose" : "the cable displacements");
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n",
              found.joint.chi_squared, found.joint.degrees_of_freedom, found.joint.iterations);
@@ -74,7 +74,7 @@ robot::CalibrationFile CalibrateFromPoints(const CalibrateOptions& options,
   }
   const UnlabelledCalibration found =
       calibration::CalibrateUnlabelled(*model, points.frames, rough ? &*rough : nullptr, settings);
-  for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
+  for (const std::string& line : found.left_out) fmt::print(stderr, "excluded: {}\n", line);
   RequireFit(found.status);
   if (!options.convergence.empty()) PlotConvergence(found.frames, model, options.convergence);
   if (!options.assignment.empty()) Draw(options, points, found, *model);
@@ -102,8 +102,8 @@ robot::CalibrationFile CalibrateFromUnlabelled(const CalibrateOptions& options,
                                                robot::RobotModel* model) {
   if (!HasMarkersOfTheCamera(experiment)) {
     throw InputError(
-        "points without names are told apart in a camera's frame (frame: camera) without a "
-        "known pose; markers in the robot's frame need names");
+        "points without names are assigned to markers only in a camera's frame (frame: camera) of "
+        "unknown pose; markers in the robot's frame need names in markers.csv");
   }
   PointsWithoutNames points;
   points.recordings = ChosenRecordings(options, experiment, true);

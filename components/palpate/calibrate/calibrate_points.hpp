@@ -14,16 +14,16 @@
 
 namespace palpate::command {
 
-/// What a calibration from points without names starts from.
+/// The data of a calibration from points without names.
 struct PointsWithoutNames {
   std::vector<const experiment::Recording*> recordings;
   std::vector<calibration::UnlabelledFrame> frames;
-  std::vector<PictureGround> grounds;  ///< [frames] to draw on; none: plain
+  std::vector<PictureGround> grounds;  ///< [frames] images to draw on; empty: none
   calibration::UnlabelledSettings settings;
 };
 
-/// Tells which point is which marker, calibrates, says and draws what came of it. Throws RunError
-/// where the points do not determine it.
+/// Assigns points to markers, calibrates, prints and draws the result. Throws RunError where the
+/// points do not determine it.
 robot::CalibrationFile CalibrateFromPoints(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const PointsWithoutNames& points,

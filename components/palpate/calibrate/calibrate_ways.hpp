@@ -19,50 +19,49 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
                                          const std::vector<int>& materials,
                                          robot::RobotModel* model);
 
-/// Whether a recording lies in the camera's frame and nobody says where the camera stood.
+/// Whether a recording is in the camera's frame and the experiment has no camera pose.
 bool NeedsCameraPose(const experiment::Experiment& experiment);
 
-/// Whether a recording that serves has markers in the camera's frame.
+/// Whether a suitable recording has markers in the camera's frame.
 bool HasMarkersOfTheCamera(const experiment::Experiment& experiment);
 
-/// Whether a recording that serves has depth images.
+/// Whether a suitable recording has depth images.
 bool HasImagesOfTheCamera(const experiment::Experiment& experiment);
 
-/// Drives, gravity and the moduli of `materials` (empty: as they are) from markers, with the
-/// camera's pose where they were measured in its frame (`camera`).
+/// Actuator offsets, gravity and the moduli of `materials` (empty: not estimated) from markers,
+/// with the camera pose where they were measured in its frame (`camera`).
 robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
                                         const experiment::Experiment& experiment,
                                         const std::vector<int>& materials, bool camera,
                                         robot::RobotModel* model);
 
-/// The same from depth and colour without markers: perception's clouds of the robot, first as it
-/// sees them from the rough pose, then from the one that was found.
+/// The same from depth and colour without markers: from the robot's point clouds, segmented first
+/// with the approximate pose, then with the estimated one.
 robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model);
 
-/// Whether nobody says which markers the points in the recordings are, or what is said is not to
-/// count (--unlabelled).
+/// Whether the points of the recordings have no marker names, or --unlabelled ignores them.
 bool AreUnlabelled(const CalibrateOptions& options, const experiment::Experiment& experiment);
 
-/// As CalibrateJointly in the camera's frame, from points whose names mean nothing.
+/// As CalibrateJointly in the camera's frame, from points without names.
 robot::CalibrationFile CalibrateFromUnlabelled(const CalibrateOptions& options,
                                                const experiment::Experiment& experiment,
                                                const std::vector<int>& materials,
                                                robot::RobotModel* model);
 
-/// The same from the coloured markers that depth and colour show.
+/// The same from the fiducials that depth and colour images show.
 robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
                                               const experiment::Experiment& experiment,
                                               const std::vector<int>& materials,
                                               robot::RobotModel* model);
 
-/// What the options ask of a joint calibration; `camera`: for the camera's pose, too.
+/// The parameters and priors of a joint calibration; `camera`: with the camera pose.
 calibration::JointRequest RequestOf(const CalibrateOptions& options,
                                     const std::vector<int>& materials, bool camera);
 
-/// The recordings that are named, or all that serve. Throws InputError where none does.
+/// The recordings that are named, or all that are suitable. Throws InputError where none is.
 std::vector<const experiment::Recording*> ChosenRecordings(const CalibrateOptions& options,
                                                            const experiment::Experiment& experiment,
                                                            bool camera);

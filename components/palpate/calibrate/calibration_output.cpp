@@ -27,8 +27,9 @@ void PrintGeometry(const robot::CalibrationFile& file) {
                file.geometry_scale->scale, file.geometry_scale->standard_error);
   }
   for (const robot::CalibratedRoute& route : file.cable_routes) {
-    const std::string point = route.point == 0 ? "guide" : "eyelet " + std::to_string(route.point);
-    fmt::print("{} of {}: off by {} m (standard error {} m)\n", point, route.cable,
+    const std::string point =
+        route.point == 0 ? "fixed point" : "eyelet " + std::to_string(route.point);
+    fmt::print("{} of {}: moved by {} m (standard error {} m)\n", point, route.cable,
                geometry::FormatVector(route.moved_m),
                geometry::FormatVector(route.standard_error_m));
   }
@@ -91,18 +92,18 @@ void PrintCalibration(const robot::CalibrationFile& file) {
                kDegrees * file.pose->rotation_error_rad.norm());
   }
   if (file.depth_bias) {
-    fmt::print("depth image: off by {:.2f} % of z in its middle; the map over it is in the file\n",
+    fmt::print("depth bias: {:.2f} % of z at the image centre; the file has the map\n",
                100.0 * file.depth_bias->map.coefficients[0]);
   }
   for (const robot::CalibratedDrive& drive : file.drives) {
     fmt::print(
-        "drive of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",
+        "actuator of {}: offset {:.3f} mm (standard error {:.3f} mm), gain {:.2f} % ({:.2f} %)\n",
         drive.cable, 1e3 * drive.drive.offset_m, 1e3 * drive.standard_error.offset_m,
         100.0 * drive.drive.gain, 100.0 * drive.standard_error.gain);
   }
   PrintGeometry(file);
   for (const robot::Undetermined& number : file.undetermined) {
-    fmt::print("{} is not determined by these data, and stays as it was; it takes {}\n",
+    fmt::print("{} is not determined by these data and keeps its value; to determine it: {}\n",
                number.name, number.what_would_tell);
   }
 }

@@ -14,8 +14,7 @@
 
 namespace palpate::command {
 
-/// A calibration of this model from these recordings, made now; what was found is the caller's to
-/// fill in.
+/// A calibration of this model from these recordings, dated now, without estimates.
 robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
                                        const std::vector<const experiment::Recording*>& recordings,
                                        const std::filesystem::path& data);
@@ -31,7 +30,7 @@ void TakeQuality(const Fit& fit, robot::CalibrationFile* file) {
   file->degrees_of_freedom = fit.degrees_of_freedom;
 }
 
-/// Tells it on standard output, for people or as JSON.
+/// Prints it on the standard output, as text or as JSON.
 void PrintCalibration(const robot::CalibrationFile& calibration);
 void PrintCalibrationJson(const robot::CalibrationFile& calibration);
 

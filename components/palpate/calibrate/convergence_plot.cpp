@@ -50,7 +50,9 @@ void PlotConvergence(const std::vector<CalibrationFrame>& frames, robot::RobotMo
     return frame.loads.empty();
   });
   if (chosen == frames.end()) {
-    throw InputError("--convergence: every frame has loads, which Algorithm 1 does not know");
+    throw InputError(
+        "--convergence: every frame has loads, which Algorithm 1 does not model; add a recording "
+        "without loads");
   }
   CalibrationFrame frame = *chosen;
   frame.cables.assign(frame.cables.size(), {});
@@ -62,7 +64,7 @@ void PlotConvergence(const std::vector<CalibrationFrame>& frames, robot::RobotMo
   kept.Restore();
   if (!paper.status.ok() && !joint.status.ok()) {
     throw RunError("--convergence: neither Algorithm 1 (" + paper.status.message() +
-                   ") nor the joint calibration (" + joint.status.message() + ") found a pose");
+                   ") nor the joint calibration (" + joint.status.message() + ") converged");
   }
   Print("Algorithm 1", paper.status, paper.residual_rms_after_m);
   Print("joint", joint.status, joint.residual_rms_after_m);

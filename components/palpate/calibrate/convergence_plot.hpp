@@ -11,11 +11,11 @@
 
 namespace palpate::command {
 
-/// Calibrates the first of these frames that is without loads as the paper does, whose cables
-/// nothing is known of: by its Algorithm 1 and jointly by Ipopt; draws the residual of both after
-/// each iteration (the paper's Fig. 6) and prints where they end. `model` stays as it was. Throws
-/// InputError where every frame has loads, and RunError where neither finds a pose or the file
-/// cannot be written.
+/// Calibrates the first of these frames without loads as the paper does, with unknown cable
+/// tensions: by its Algorithm 1 and jointly by Ipopt. Draws the residual of both after each
+/// iteration (the paper's Fig. 6) and prints the last one. `model` is not changed. Throws
+/// InputError where every frame has loads, and RunError where neither converges or the file cannot
+/// be written.
 void PlotConvergence(const std::vector<calibration::CalibrationFrame>& frames,
                      robot::RobotModel* model, const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ namespace palpate::command {
 
 namespace {
 
-/// Pictures to take, into `images.frames`.
+/// The frames to use, as indices into `images.frames`.
 std::vector<std::size_t> Choose(const experiment::Recording& recording,
                                 const experiment::RgbdSequence& images, std::size_t most) {
   std::vector<std::size_t> in_window;
@@ -25,7 +25,7 @@ std::vector<std::size_t> Choose(const experiment::Recording& recording,
     if (!window || (t_s >= window->begin_s && t_s <= window->end_s)) in_window.push_back(k);
   }
   if (in_window.empty()) {
-    throw InputError(recording.folder.string() + ": no picture lies in steady_window_s");
+    throw InputError(recording.folder.string() + ": no image lies in steady_window_s");
   }
   if (recording.steady_window_s || calibration::CablesAreStill(recording)) {
     return {in_window[in_window.size() / 2]};
@@ -70,7 +70,7 @@ std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& m
                                                std::vector<std::string>* left_out) {
   RobotViewer viewer(config, body);
   std::vector<calibration::CloudFrame> frames;
-  ProgressLine progress("pictures", static_cast<int>(moments.size()));
+  ProgressLine progress("images", static_cast<int>(moments.size()));
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const ImageMoment& moment = moments[k];
     const perception::SegmentedFrame& seen =

@@ -15,24 +15,23 @@
 
 namespace palpate::command {
 
-/// A picture that calibration takes, and what acted on the robot then.
+/// A frame that calibration uses, and what acted on the robot at its time.
 struct ImageMoment {
   const experiment::RgbdSequence* images = nullptr;
   std::size_t index = 0;          ///< into its frames
-  calibration::CloudFrame frame;  ///< the cloud is yet to come
+  calibration::CloudFrame frame;  ///< without its cloud
 };
 
-/// Of a recording whose cables are still, or in its steady window, the middle picture; of a moving
+/// Of a recording whose cables do not move, or in its steady window, the middle frame; of a moving
 /// one up to `most`, spread over its time. `images` must outlive them. Throws InputError where a
-/// load lies off the body, or a steady window shows no picture.
+/// load lies off the body, or no image lies in a steady window.
 std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
                                    const experiment::RgbdSequence& images,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most = 6);
 
-/// Perception's clouds of the robot at these moments; `expected`: one for each, or none where
-/// nothing is known. Those in which it does not see the robot are left out, with a line for each in
-/// `left_out`.
+/// Point clouds of the robot in these frames; `expected`: predicted nodes for each, or none. Frames
+/// in which the robot is not found are excluded, with a line for each in `left_out`.
 std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
                                                const perception::Config& config,
                                                const robot::RobotBody& body,

@@ -19,7 +19,7 @@ namespace {
 
 using experiment::Recording;
 
-bool Serves(const Recording& recording) {
+bool IsSuitable(const Recording& recording) {
   return recording.camera_file && !recording.depth_images.empty() && !recording.T_robot_camera &&
          recording.kind != experiment::RecordingKind::kFree &&
          recording.kind != experiment::RecordingKind::kCameraMoved &&
@@ -40,7 +40,9 @@ std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
   const robot::CalibrationFile file = robot::ReadCalibrationFile(options.earlier, app::LoadYaml);
   const Status status = robot::CheckCalibration(file, model);
   if (!status.ok()) throw InputError(options.earlier.string() + ": " + status.message());
-  if (!file.pose) throw InputError(options.earlier.string() + ": it has no camera's pose");
+  if (!file.pose)
+    throw InputError(options.earlier.string() +
+                     ": the calibration has no camera pose (T_robot_camera)");
   return file.pose->T_robot_camera;
 }
 
@@ -53,18 +55,18 @@ std::vector<const Recording*> RecordingsWithImages(const CalibrateOptions& optio
   if (!options.recordings.empty()) return ChooseRecordings(experiment, options.recordings);
   std::vector<const Recording*> chosen;
   for (const Recording& recording : experiment.recordings) {
-    if (Serves(recording)) chosen.push_back(&recording);
+    if (IsSuitable(recording)) chosen.push_back(&recording);
   }
   if (chosen.empty()) {
     throw InputError(experiment.folder.string() +
-                     ": no recording serves to find the camera: it needs depth images and a kind "
+                     ": no recording determines the camera pose: it needs depth images and a kind "
                      "other than 'free' and 'camera_moved'");
   }
   return chosen;
 }
 
 bool HasImagesOfTheCamera(const experiment::Experiment& experiment) {
-  return std::any_of(experiment.recordings.begin(), experiment.recordings.end(), Serves);
+  return std::any_of(experiment.recordings.begin(), experiment.recordings.end(), IsSuitable);
 }
 
 }  // namespace palpate::command

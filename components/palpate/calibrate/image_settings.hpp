@@ -15,20 +15,20 @@
 
 namespace palpate::command {
 
-/// Where the camera stands, roughly: --camera-pose, else the experiment's; nothing where neither
-/// says it.
+/// The approximate camera pose: --camera-pose, else the experiment's; nullopt where neither has
+/// one.
 std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment);
 
-/// Where it stood at the calibration of --earlier; nothing without that. Throws InputError where
-/// the file is not this robot's, or says nothing of it.
+/// The camera pose of the calibration file --earlier; nullopt without that file. Throws InputError
+/// where the file is not this robot's, or has no pose.
 std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
                                              const robot::RobotModel& model);
 
 geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T);
 
-/// The recordings whose images serve to find the camera: those that are named, or all with depth,
-/// the camera where it always stood, and without unknown contacts. Throws InputError where there is
+/// The recordings whose images determine the camera pose: those that are named, or all with depth,
+/// the camera at its usual pose, and without unknown contacts. Throws InputError where there is
 /// none.
 std::vector<const experiment::Recording*> RecordingsWithImages(
     const CalibrateOptions& options, const experiment::Experiment& experiment);

@@ -13,18 +13,18 @@
 
 namespace palpate::command {
 
-/// Straight along one axis of the camera's frame.
+/// Orthographic projection along one axis of the camera's frame.
 struct PlainView {
   Eigen::Matrix<double, 2, 3> axes = Eigen::Matrix<double, 2, 3>::Zero();  ///< right, down
   std::string name;                                                        ///< "along z"
 };
 
-/// Along the axis in which the points are flattest; along z as the camera sees it, along x and y
+/// Along the axis in which the points are flattest; along z in the camera's view, along x and y
 /// with z up.
 PlainView ChooseView(const std::vector<AssignmentPanel>& panels);
 
-/// From the camera's frame to the sheet: as the camera sees it where there is a picture, else
-/// straight.
+/// From the camera's frame to the sheet: through the camera's lens where there is an image, else
+/// orthographic.
 class PictureProjection {
  public:
   /// `panel` must outlive this.
@@ -36,7 +36,7 @@ class PictureProjection {
   /// At the points' middle.
   double Pixels_per_m() const;
 
-  /// The part of the picture that is shown, in its pixels (first, and one past the last).
+  /// The part of the image that is shown, in its pixels (first, and one past the last).
   Eigen::Vector2i first_px() const { return first_px_; }
   Eigen::Vector2i last_px() const { return last_px_; }
   /// Where that part lies on the sheet.
@@ -46,12 +46,12 @@ class PictureProjection {
   Eigen::Vector2d Flat(const Eigen::Vector3d& point_m) const;
   void Fit(const Eigen::Matrix2Xd& flat, const view::Rect& frame);
 
-  const rgbd::CameraModel* lens_ = nullptr;  ///< none: plain
+  const rgbd::CameraModel* lens_ = nullptr;  ///< nullptr: orthographic
   Eigen::Matrix<double, 2, 3> axes_ = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Vector3d middle_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector2d origin_{0, 0};  ///< flat, of the panel's corner
   Eigen::Vector2d corner_px_{0, 0};
-  double scale_ = 1.0;  ///< sheet pixels per picture's, or per m
+  double scale_ = 1.0;  ///< sheet pixels per image pixel, or per m
   Eigen::Vector2i first_px_{0, 0}, last_px_{0, 0};
 };
 

@@ -40,12 +40,12 @@ ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
 }
 
 std::string ScoreText(const std::string& name, const ForceScore& score) {
-  if (score.frames == 0) return fmt::format("  {:<18} none was found\n", name);
+  if (score.frames == 0) return fmt::format("  {:<18} none detected\n", name);
   std::string text = fmt::format(
-      "  {:<18} {:.1f} % mean error over {} frames; place {:.1f} mm off (median)", name,
+      "  {:<18} {:.1f} % mean error over {} frames; location error {:.1f} mm (median)", name,
       100.0 * score.mean_relative_error, score.frames, 1e3 * score.median_location_error_m);
   if (std::isfinite(score.mean_direction_error_rad)) {
-    text += fmt::format(", direction {:.0f} deg",
+    text += fmt::format(", direction error {:.0f} deg",
                         score.mean_direction_error_rad * 180.0 / std::numbers::pi);
   }
   return text + fmt::format("; {:.0f} % inside the 95 % interval\n", 100.0 * score.coverage);
@@ -92,7 +92,8 @@ std::string ComparisonSummary::ToText() const {
   text += ScoreText("one, out of view", Hidden());
   text += ScoreText("two at once", Together());
   text += ScoreText("all", All());
-  text += fmt::format("  {:<18} {} of {} steady forces were not found\n", "misses", misses_, due_);
+  text +=
+      fmt::format("  {:<18} {} of {} steady forces were not detected\n", "misses", misses_, due_);
   text +=
       fmt::format("  {:<18} {} of {} frames\n", "false alarms", frames_with_false_alarm_, frames_);
   return text;

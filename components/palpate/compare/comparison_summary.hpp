@@ -10,14 +10,14 @@
 
 namespace palpate::command {
 
-/// How well forces of one kind were found, over the frames in which they were due and found. NaN
+/// Accuracy of the forces of one kind, over the frames in which they were due and detected. NaN
 /// where there is no such frame.
 struct ForceScore {
   int frames = 0;
   double mean_relative_error = 0.0;
   double median_location_error_m = 0.0;
   double mean_direction_error_rad = 0.0;  ///< of those whose direction was observable
-  double coverage = 0.0;                  ///< share whose true size lies in the 95 % interval
+  double coverage = 0.0;                  ///< share whose true magnitude lies in the 95 % interval
 };
 
 /// Estimates against truth over a whole run.
@@ -32,12 +32,12 @@ class ComparisonSummary {
   ForceScore Hidden() const;    ///< one force, the camera does not
   ForceScore Together() const;  ///< of two or more at once
   ForceScore All() const;
-  int due() const { return due_; }        ///< true forces that were to be found
+  int due() const { return due_; }        ///< true forces that had to be detected
   int misses() const { return misses_; }  ///< of these
   int false_alarms() const { return false_alarms_; }
   int frames_with_false_alarm() const { return frames_with_false_alarm_; }
 
-  /// Lines to read, each ended and indented.
+  /// Lines of text, indented, each with its line end.
   std::string ToText() const;
 
  private:

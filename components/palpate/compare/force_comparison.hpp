@@ -12,7 +12,7 @@
 
 namespace palpate::command {
 
-/// What counts as the same contact, and as one that an estimate has to find.
+/// Tuning of the comparison: which contacts are the same, and which have to be detected.
 struct ComparisonRules {
   double same_place_m = 0.04;    ///< an estimate farther from every true force is a false alarm
   double smallest_N = 0.1;       ///< true forces below may be missed
@@ -20,14 +20,14 @@ struct ComparisonRules {
   double steady_share = 0.05;    ///< by no more than this share
 };
 
-/// A true force, what was estimated of it, or both, in one frame. Without truth: a false alarm;
+/// A true force, its estimate, or both, in one frame. Without truth: a false alarm;
 /// without estimate: a miss, where it is `due`.
 struct ComparedForce {
   double t_s = 0.0;
   std::optional<TrueContact> truth;
   std::optional<force_estimation::ContactForce> estimate;
-  bool due = false;     ///< steady, and large enough to be found
-  int true_forces = 0;  ///< that act in this frame, large enough to be found
+  bool due = false;     ///< steady, and large enough to be detected
+  int true_forces = 0;  ///< that act in this frame, large enough to be detected
 };
 
 /// Matches the contacts of a frame with the true forces of its time, each with the nearest that is
@@ -36,14 +36,14 @@ struct ComparedForce {
 std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& estimate,
                                         const TruthTimeline& truth, const ComparisonRules& rules);
 
-/// Whether the frame says which forces act: some, or none.
+/// Whether the frame has a result: forces, or that there is none.
 bool HasResult(const Status& status);
 
 /// Whether the contact's force has a number.
 bool HasForce(const force_estimation::ContactForce& contact);
 
-/// Size of the estimate less that of the truth, N; of a force that was seen along the normal only,
-/// less the truth's share along it. Both are there.
+/// |F| of the estimate minus |F| of the truth, N; where only the normal component is observable,
+/// minus the truth's component along the normal. Needs both.
 double ForceError_N(const ComparedForce& force);
 
 }  // namespace palpate::command

@@ -11,7 +11,7 @@ namespace palpate::command {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-const char* const kElsewhere = "where nothing pushed";
+const char* const kElsewhere = "no true force here";
 
 }  // namespace
 

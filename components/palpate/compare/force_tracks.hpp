@@ -12,13 +12,13 @@
 
 namespace palpate::command {
 
-/// Gathers compared frames into lines over time: one track for each true force, and one, if need
-/// be, for estimates where nothing pushed. Without truth one for each contact's name.
+/// Collects compared frames as curves over time: one track for each true force, and one for
+/// estimates without a true force. Without truth one for each contact's name.
 class ForceTracks {
  public:
   explicit ForceTracks(bool with_truth = true) : with_truth_(with_truth) {}
 
-  /// A frame at `t_s`; without a result or a truth, `compared` is empty and the lines have a gap.
+  /// A frame at `t_s`; without a result or a truth, `compared` is empty and the curves have a gap.
   void Add(double t_s, bool has_result, const std::vector<ComparedForce>& compared);
 
   /// In the order in which the forces first acted.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kNodesKept = 40;
 
-// How much of what happens in a frame was found; steady forces make the better picture.
+// Share of the true forces in a frame that was detected; steady forces are preferred.
 double WorthOfPicture(const std::vector<ComparedForce>& compared, bool with_truth) {
   constexpr double kUnsteady = 0.01;
   double sum_N = 0.0;
@@ -50,7 +50,7 @@ void LiveComparison::AddEstimate(const force_estimation::ForceEstimate& estimate
   first_s_ = frames_ == 0 ? estimate.t_s : first_s_;
   last_s_ = estimate.t_s;
   ++frames_;
-  // A camera that streams before there is a robot says nothing of the rate.
+  // Frames before the robot starts do not count in the rate.
   if (frames_with_robot_ > 0 || estimate.status.code() != StatusCode::kNoRobotSeen) {
     if (frames_with_robot_++ == 0) robot_since_s_ = estimate.t_s;
   }
@@ -108,7 +108,7 @@ double LiveComparison::Rate_hz() const {
 
 std::string LiveComparison::ToText() const {
   std::string text = fmt::format("  {:<18} {}", "frames", frames_);
-  if (frames_with_robot_ > 1) text += fmt::format(", {:.1f} a second", Rate_hz());
+  if (frames_with_robot_ > 1) text += fmt::format(", {:.1f} Hz", Rate_hz());
   for (const auto& [status, count] : statuses_) text += fmt::format("; {} {}", count, status);
   text += "\n";
   if (!latencies_s_.empty()) {

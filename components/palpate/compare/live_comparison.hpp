@@ -18,45 +18,45 @@
 
 namespace palpate::command {
 
-/// A frame worth a picture: the model's nodes and the forces in it.
+/// A frame to draw: the model's nodes and the forces in it.
 struct ForceMoment {
   double t_s = 0.0;
   Eigen::VectorXd nodes_m;  ///< [3n]
   std::vector<ComparedForce> forces;
 };
 
-/// Compares estimates with the truth while both come in, in whatever order. Times are stamps on one
+/// Compares estimates with the truth while both arrive, in any order. Times are stamps on one
 /// clock, s.
 class LiveComparison {
  public:
-  /// An estimate waits no longer than this for the truth of its time.
+  /// Maximum time that an estimate waits for the truth of its time.
   static constexpr double kLongestWait_s = 0.5;
   using TakeFrame = std::function<void(const force_estimation::ForceEstimate&,
                                        const std::vector<ComparedForce>&)>;
 
-  /// `with_truth`: there is one; else each true force is unknown, and estimates stand alone.
+  /// `with_truth`: false where true forces are unknown; estimates are then not compared.
   explicit LiveComparison(bool with_truth, const ComparisonRules& rules = {});
 
   void AddTruth(double t_s, std::vector<TrueContact> contacts);
   void AddNodes(double t_s, Eigen::VectorXd nodes_m);
-  /// `latency_s`: from the exposure to now; nullopt: it means nothing.
+  /// `latency_s`: from the exposure to now; nullopt: not meaningful.
   void AddEstimate(const force_estimation::ForceEstimate& estimate,
                    std::optional<double> latency_s);
-  /// Hands on the frames whose truth has come, or will not come any more; without truth they come
-  /// alone.
+  /// Passes on the frames whose truth has arrived, or will not arrive any more; without truth the
+  /// estimates alone.
   void Advance(const TakeFrame& take);
 
   const ComparisonSummary& summary() const { return summary_; }
   std::vector<view::ForceTrack> Tracks() const { return tracks_.Tracks(); }
-  /// The frame in which most steady force was found where it acts; without truth: most force.
+  /// The frame with the largest detected steady force; without truth the largest force.
   const std::optional<ForceMoment>& best() const { return best_; }
-  int frames() const { return frames_; }    ///< answered; stale ones do not count
-  int results() const { return results_; }  ///< frames that say which forces act
+  int frames() const { return frames_; }    ///< with an estimate; stale ones do not count
+  int results() const { return results_; }  ///< frames with a result
   /// Frames a second between the first in which there is a robot and the last; NaN below two.
   double Rate_hz() const;
   const std::vector<double>& latencies_s() const { return latencies_s_; }
 
-  /// Frames, rate and latency, and how estimates compare with the truth; lines, each ended.
+  /// Frames, rate, latency and accuracy; lines of text, each with its line end.
   std::string ToText() const;
 
  private:

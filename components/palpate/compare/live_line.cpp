@@ -9,7 +9,7 @@ namespace palpate::command {
 
 namespace {
 
-// True forces that nobody could find are not worth a place in the line.
+// Smaller true forces are not shown: they are below what can be detected.
 constexpr double kShown_N = 0.05;
 
 std::string EstimateText(const force_estimation::ContactForce& contact) {
@@ -26,8 +26,9 @@ std::string Text(const ComparedForce& force) {
     return fmt::format("{} {}, true {:.3f} N", force.truth->name, EstimateText(*force.estimate),
                        true_N);
   }
-  return true_N < kShown_N ? std::string()
-                           : fmt::format("{} not found, true {:.3f} N", force.truth->name, true_N);
+  return true_N < kShown_N
+             ? std::string()
+             : fmt::format("{} not detected, true {:.3f} N", force.truth->name, true_N);
 }
 
 }  // namespace

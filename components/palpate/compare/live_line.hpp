@@ -11,7 +11,7 @@
 
 namespace palpate::command {
 
-/// One frame in one line: time, state, and each contact with its estimate and the truth, as
+/// One frame in one line: time, status, and each contact with its estimate and the truth, as
 /// "12.3 s  ok  blue_ball 0.512 +- 0.031 N at (23, -22, 103) mm, true 0.505 N". `compared`: of
 /// CompareFrame; empty: the estimates alone.
 std::string LiveLine(const force_estimation::ForceEstimate& estimate,

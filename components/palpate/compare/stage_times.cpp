@@ -19,8 +19,8 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<const char*, StageTimes::kStages> kNames = {
-    "picture and network", "capture",    "to perception",  "perception",
-    "to estimation",       "estimation", "to the listener"};
+    "image and network", "capture",    "to perception",  "perception",
+    "to estimation",     "estimation", "to the listener"};
 
 std::size_t Index(Milestone milestone) { return static_cast<std::size_t>(milestone); }
 
@@ -82,8 +82,8 @@ std::string StageTimes::CountsText() const {
       return stamp_ns >= estimated_ns_.front() && stamp_ns <= estimated_ns_.back();
     });
   };
-  return fmt::format("  {:<18} {} states, {} pictures captured, {} perceived, {} estimated\n",
-                     "on the way", within(states_ns_), within(pictures_ns_), within(perceived_ns_),
+  return fmt::format("  {:<18} {} states, {} frames captured, {} perceived, {} estimated\n",
+                     "counts", within(states_ns_), within(pictures_ns_), within(perceived_ns_),
                      within(estimated_ns_));
 }
 
@@ -106,7 +106,8 @@ std::string StageTimes::ToCsv() const {
 std::string StageTimes::ToText() const {
   if (ages_s_.empty()) return {};
   std::string text = CountsText();
-  text += fmt::format("  {:<18} {:<20} median    p99   in the slowest 1 %, ms\n", "stages", "");
+  text +=
+      fmt::format("  {:<18} {:<20} median    p99   mean of the slowest 1 %, ms\n", "stages", "");
   const std::vector<Ages> slowest = Slowest();
   for (std::size_t stage = 0; stage < kStages; ++stage) {
     const std::vector<double> times_s = Stage_s(stage, ages_s_);

@@ -12,7 +12,7 @@
 
 namespace palpate::command {
 
-/// Places that a frame passes on its way from the exposure to whoever listens to forces.
+/// Events of a frame between its exposure and the receipt of its forces.
 enum class Milestone {
   kReceived,    ///< capture has its last packet
   kPublished,   ///< capture has written its images
@@ -23,20 +23,21 @@ enum class Milestone {
   kHeard,       ///< the listener has them
 };
 
-/// Where the time goes between exposure and force, from what the processes' messages say. Bounded:
-/// frames that never arrive are forgotten.
+/// Durations of the stages between exposure and force, from the stamps of the messages. Memory is
+/// bounded: frames that never arrive are dropped.
 class StageTimes {
  public:
   static constexpr std::size_t kStages = 7;
 
-  /// The bench has published the state of this stamp, from which the camera takes a picture.
+  /// The virtual robot has published the state of this stamp, of which the camera takes an image.
   void AddState(std::int64_t stamp_ns) { AddStamp(stamp_ns, &states_ns_); }
-  /// `after_exposure_s`: from the frame's stamp to the milestone. The first word on one counts.
+  /// `after_exposure_s`: from the frame's stamp to the milestone. The first call for a milestone
+  /// counts.
   void Pass(std::int64_t stamp_ns, Milestone milestone, double after_exposure_s);
-  /// The frame has its forces: if all is known of it, it counts.
+  /// The frame has its forces: it counts if all its milestones are known.
   void Finish(std::int64_t stamp_ns);
 
-  std::size_t frames() const { return ages_s_.size(); }  ///< of which all is known
+  std::size_t frames() const { return ages_s_.size(); }  ///< with all milestones
   /// [kStages] s, of the stage that ends with the milestone; NaN without frames.
   double Median_s(Milestone milestone) const;
 
@@ -58,7 +59,7 @@ class StageTimes {
   static constexpr std::size_t kMostOpen = 64;
 
   std::map<std::int64_t, Ages> open_;  ///< by stamp
-  Stamps stamps_ns_;                   ///< of the frames of which all is known
+  Stamps stamps_ns_;                   ///< of the frames with all milestones
   std::vector<Ages> ages_s_;           ///< of the same frames
   Stamps states_ns_;
   Stamps pictures_ns_;

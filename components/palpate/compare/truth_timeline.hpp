@@ -10,7 +10,7 @@
 
 namespace palpate::command {
 
-/// A force that is known to act, robot frame, where it acts on the deformed body.
+/// A true force, N, and its location on the deformed body, m; robot frame.
 struct TrueContact {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
@@ -20,17 +20,17 @@ struct TrueContact {
 /// True forces over time, from samples.
 class TruthTimeline {
  public:
-  /// Neighbours farther apart have nothing between them.
+  /// Maximum distance of samples between which forces are interpolated.
   static constexpr double kLongestGap_s = 0.5;
-  /// Stamps of a camera and of the bench that it looks at agree to so much.
+  /// Tolerance of stamps of the camera and of the virtual robot.
   static constexpr double kSameTime_s = 0.005;
 
   /// Samples whose time does not rise are left out.
   void Add(double t_s, std::vector<TrueContact> contacts);
 
-  /// The forces at `t_s`: those of a sample of that time, else linear between the neighbours; one
-  /// that only one of them has counts from the middle on. nullopt where the truth of that time is
-  /// not known.
+  /// The forces at `t_s`: those of a sample of that time, else interpolated linearly; a force
+  /// that only one neighbour has counts in that neighbour's half. nullopt where the truth of that
+  /// time is not known.
   std::optional<std::vector<TrueContact>> At(double t_s) const;
 
   /// Whether all of the `window_s` before `t_s` is known and the size of the force named varied by

@@ -11,7 +11,7 @@
 
 namespace palpate::command {
 
-/// Depth images, or clouds, of an experiment's recordings, from which perception takes the robot.
+/// The robot's point clouds, segmented from the depth images or clouds of an experiment.
 class SkinPictures final : public diagnosis::SkinSource {
  public:
   /// Both must outlive it. Throws InputError for settings that do not go together.

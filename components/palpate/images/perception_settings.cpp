@@ -14,7 +14,7 @@ struct Settings {
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
-    v("perception", perception, "From images to clouds and markers");
+    v("perception", perception, "Image processing: clouds, contacts and markers");
   }
 };
 

@@ -11,8 +11,8 @@
 
 namespace palpate::command {
 
-/// perception.* as --set (`overrides`) has it; the depth noise is the experiment's where that says
-/// one. Throws InputError for a setting that is not there.
+/// The settings perception.* with `overrides` (--set) applied; the depth noise is the experiment's
+/// where it has one. Throws InputError for an unknown setting.
 perception::Config PerceptionOf(const std::vector<std::string>& overrides,
                                 const experiment::Experiment& experiment);
 

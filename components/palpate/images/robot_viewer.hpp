@@ -13,24 +13,24 @@
 
 namespace palpate::command {
 
-/// Where the robot is thought to be in a picture.
+/// The predicted nodes of the robot in a frame.
 struct ExpectedNodes {
   Eigen::Matrix3Xf nodes_m;  ///< [3 x n] robot frame
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };
 
-/// Tells the robot from all else in recorded pictures, one after the other.
+/// Segments the robot in recorded frames, one after the other.
 class RobotViewer {
  public:
   /// `body` must outlive it. Throws InputError for settings that do not go together.
   RobotViewer(const perception::Config& config, const robot::RobotBody& body);
 
-  /// What perception makes of a picture; `expected`: nullptr where nobody knows. Holds until the
-  /// next call. `sequence` must be there as long as its pictures are looked at. Throws InputError
-  /// where a file cannot be read.
+  /// The segmented frame; `expected`: nullptr without a prediction. Valid until the next call.
+  /// `sequence` must outlive the calls with its frames. Throws InputError where a file cannot be
+  /// read.
   const perception::SegmentedFrame& Look(const experiment::RgbdSequence& sequence,
                                          std::size_t picture, const ExpectedNodes* expected);
-  /// As it was read.
+  /// The frame as it was read.
   const rgbd::RgbdFrame& images() const { return images_; }
 
  private:

@@ -9,12 +9,12 @@
 
 namespace palpate::command {
 
-/// Reads the file and does to the data all that the options ask for: other names, fewer markers,
-/// other axes, a part of the time, fewer frames, and last the time offset. Throws InputError.
+/// Reads the file and applies the options in this order: names, selection of markers, axes, time
+/// window, frame rate, time offset. Throws InputError.
 experiment::CapturedMarkers ReadAndEdit(const ImportOptions& options);
 
-/// The recording that the options describe; its pose still has to be found where they ask for a
-/// registration. Throws InputError, also for a window without a frame.
+/// The recording that the options describe; without its pose where --register is to estimate it.
+/// Throws InputError, also for a window without a frame.
 experiment::Recording MakeRecording(const ImportOptions& options,
                                     const experiment::CapturedMarkers& captured);
 

@@ -21,13 +21,13 @@ struct ImportOptions {
   std::filesystem::path out;    ///< experiment folder, or, without `recording`, the recording's own
   std::string recording;        ///< name of the recording in the experiment
   std::filesystem::path robot;  ///< file or name; its markers are the only ones allowed
-  std::string kind = "free";    ///< what was done: `kind` of recording.yaml
+  std::string kind = "free";    ///< `kind` of recording.yaml
   std::string notes;            ///< `notes` of recording.yaml
 
-  std::vector<std::string> rename;  ///< "Tip-1=tip_top", names in the file and ours
+  std::vector<std::string> rename;  ///< "Tip-1=tip_top": name in the file, new name
   std::string markers;              ///< "a,b,c": keep only these; empty: all
   std::string axes;                 ///< "z,-y,x": model axes from the file's; empty: as they are
-  std::string unit;                 ///< m, cm or mm, for a C3D file that does not say
+  std::string unit;                 ///< m, cm or mm, for a C3D file without a unit
 
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();
@@ -38,8 +38,8 @@ struct ImportOptions {
   std::string steady_window;              ///< "T0:T1", `steady_window_s`; empty: none
 
   std::string frame;               ///< robot or camera; empty: robot with `axes` alone, else camera
-  std::string pose;                ///< T_robot_camera as "x,y,z,qx,qy,qz,qw"; empty: not known
-  bool register_to_robot = false;  ///< find T_robot_camera from the rest window's mean positions
+  std::string pose;                ///< T_robot_camera as "x,y,z,qx,qy,qz,qw"; empty: unknown
+  bool register_to_robot = false;  ///< estimate T_robot_camera from the rest window's means
   std::string register_markers;    ///< "a,b,c": those to register; empty: all that are kept
   double markers_sigma_m = 0.0;    ///< for a new experiment.yaml; 0: left out
 };
@@ -49,7 +49,7 @@ std::vector<std::string> SplitNames(const std::string& text, char separator = ',
 std::optional<experiment::TimeWindow> ParseWindow(const std::string& option,
                                                   const std::string& text);
 std::optional<Eigen::Isometry3d> ParsePose(const std::string& text);
-/// Name in the file -> our name.
+/// Name in the file -> new name.
 std::map<std::string, std::string> ParseRenames(const std::vector<std::string>& renames);
 
 }  // namespace palpate::command

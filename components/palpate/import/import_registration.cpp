@@ -79,7 +79,7 @@ Eigen::Isometry3d Register(const ImportOptions& options, const experiment::Recor
   report << fmt::format("registered {} markers to the robot file, RMS {:.3f} mm\n",
                         pairs.names.size(), 1e3 * result.rms_m);
   for (Eigen::Index i = 0; i < mapped_m.cols(); ++i) {
-    report << fmt::format("  {:<16} off by {:.3f} mm\n", pairs.names[static_cast<std::size_t>(i)],
+    report << fmt::format("  {:<16} residual {:.3f} mm\n", pairs.names[static_cast<std::size_t>(i)],
                           1e3 * (mapped_m.col(i) - pairs.rest_m.col(i)).norm());
   }
   return Eigen::Translation3d(result.T_target_source.translation_m()) *

@@ -12,10 +12,10 @@
 
 namespace palpate::command {
 
-/// T_robot_camera: the rigid motion that brings the markers' mean positions in the rest window (all
-/// of the recording where only markers that do not move are used) nearest to the rest positions of
-/// the robot file. Reports what is left for each marker. Throws InputError where the options do not
-/// fit or the markers do not determine it.
+/// T_robot_camera: rigid registration of the markers' mean positions in the rest window (in the
+/// whole recording where only markers that do not move are used) to the rest positions of the robot
+/// file. Reports the residual of each marker. Throws InputError where the options contradict each
+/// other or the markers do not determine the pose.
 Eigen::Isometry3d Register(const ImportOptions& options, const experiment::Recording& recording,
                            const robot::RobotDescription& robot, std::ostream& report);
 

@@ -44,10 +44,10 @@ void PrintFrame(const ImportOptions& options, const experiment::Recording& recor
   if (recording.frame == MeasurementFrame::kCamera) {
     report << (recording.T_robot_camera ? "frame: camera, with its pose\n"
                                         : "frame: camera, its pose in the robot's frame is not "
-                                          "known (--axes, --register or --pose give it)\n");
+                                          "known; give --axes, --register or --pose\n");
   } else if (!options.axes.empty()) {
-    report << "frame: robot by its axes; the origin is the file's, so only displacements from a "
-              "rest window have meaning\n";
+    report << "frame: robot, axes only; the origin is the file's, so only displacements from a "
+              "rest window are meaningful\n";
   }
 }
 

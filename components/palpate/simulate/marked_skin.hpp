@@ -10,7 +10,7 @@
 
 namespace palpate::command {
 
-/// The bench's skin under each marker: the facets within the marker's disc, at least the nearest.
+/// The body's surface under each marker: the facets within the marker's disc, at least the nearest.
 class MarkedSkin {
  public:
   /// `markers_m` [3 x markers] on the mesh at rest.

@@ -26,7 +26,7 @@ std::optional<double> Sample(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// What recording.yaml tells: the plan, nothing of what went wrong.
+/// The content of recording.yaml: the plan, without the hidden effects.
 experiment::Recording Settings(const scenario::RecordingPlan& plan) {
   experiment::Recording recording;
   recording.name = plan.name;
@@ -127,7 +127,7 @@ std::vector<experiment::KnownLoad> DeclaredLoads(const scenario::RecordingPlan& 
     load.patch_radius_m = weight.patch_radius_m;
     loads.push_back(load);
   }
-  // Rows of one time alone would act throughout.
+  // Rows of one single time would hold throughout the recording.
   if (!loads.empty() && plan.weights.front().t_s > 0.0) {
     experiment::KnownLoad none = loads.front();
     none.t_s = begin_s;

@@ -17,14 +17,14 @@
 
 namespace palpate::command {
 
-/// Collects what the sensors say in one recording and writes its folder; images at once. Everything
-/// throws RunError where it cannot be written.
+/// Collects the measurements of one recording and writes its folder; images at once. Every function
+/// throws RunError where a file cannot be written.
 class RecordingWriter {
  public:
   RecordingWriter(const robot::RobotDescription& robot, const scenario::Scenario& scenario,
                   const scenario::RecordingPlan& plan, std::filesystem::path folder);
 
-  /// Readings of the drives in the order of the robot's cables; NaN: not driven.
+  /// Readings of the actuators in the order of the robot's cables; NaN: not actuated.
   void AddCables(double t_s, const std::vector<virtual_robot::CableReading>& readings);
   /// [3 x markers] m, in the measurement frame without noise, which is added here; NaN: not seen.
   void AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m, scenario::Random* noise);
@@ -43,8 +43,7 @@ class RecordingWriter {
   experiment::MarkerTracks markers_;
 };
 
-/// loads.csv of the plan's weights: their weight as everybody believes it, in the robot frame,
-/// which turns with the base.
+/// loads.csv of the planned weights: nominal weight, in the robot frame, which turns with the base.
 std::vector<experiment::KnownLoad> DeclaredLoads(const scenario::RecordingPlan& plan,
                                                  const Eigen::Vector3d& gravity_m_s2,
                                                  double begin_s);

@@ -19,7 +19,7 @@ const RecordingPlan& PlanOf(const scenario::Schedule& schedule, int recording) {
   return schedule.scenario().recordings.at(static_cast<std::size_t>(recording));
 }
 
-/// The moments of one recording, each once.
+/// The samples of one recording, each once.
 class Moments {
  public:
   Moments(double begin_s, double duration_s)

@@ -55,7 +55,7 @@ OrderedJson ToJson(const RecordingTruth& recording, bool camera) {
   return json;
 }
 
-/// Those that the scenario asks for, or those that every robot has.
+/// The effects of the scenario, or the manufacturing tolerances (`clutter`) of every robot.
 OrderedJson EffectsOf(const Answer& answer, bool clutter) {
   OrderedJson effects = OrderedJson::array();
   for (const scenario::ActiveEffect& effect : answer.effects) {
@@ -123,19 +123,21 @@ void CheckSeal(const fs::path& experiment, const fs::path& answer) {
   const auto seal = experiment::ReadExperimentSettings(settings, app::LoadYaml).answer_sha256;
   if (!seal) {
     throw InputError(SourceLocation{settings.string()},
-                     "holds no 'answer_sha256': no answer was sealed with it");
+                     "has no key 'answer_sha256': no ground truth was stored with it");
   }
   const std::string bytes = ReadFile(answer);
   if (Sha256Hex(bytes) != *seal) {
-    throw RunError(answer.string() + ": is not the answer that was sealed in " + settings.string());
+    throw RunError(answer.string() + ": its hash differs from answer_sha256 in " +
+                   settings.string());
   }
   const OrderedJson json = OrderedJson::parse(bytes, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || json.value("format", "") != kFormat) {
-    throw RunError(answer.string() + ": is no answer of 'palpate simulate'");
+    throw RunError(answer.string() + ": is not a ground truth of palpate simulate (format " +
+                   kFormat + ")");
   }
   if (json.value("data_sha256", "") != HashOfData(experiment)) {
     throw RunError(experiment.string() +
-                   ": the recordings are not those with which the answer was sealed");
+                   ": the recordings have changed since the ground truth was stored");
   }
 }
 

@@ -14,7 +14,7 @@
 
 namespace palpate::command {
 
-/// The true forces at one moment.
+/// The true forces at one time.
 struct TrueForces {
   double t_s = 0.0;
   std::vector<virtual_robot::TrueForce> forces;
@@ -22,31 +22,31 @@ struct TrueForces {
 
 struct RecordingTruth {
   std::string name;
-  /// Where the depth camera really was; meaningless without one.
+  /// The true pose of the depth camera; meaningless without a camera.
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   std::vector<TrueForces> frames;
 };
 
-/// What whoever diagnoses the experiment is to find, and the judge opens afterwards.
+/// The ground truth of an experiment: hidden effects, true forces and camera poses.
 struct Answer {
-  std::string salt;  ///< NewSalt: nobody finds the answer by trying effects until the hash fits
+  std::string salt;  ///< NewSalt: guessed effects cannot be checked against the hash
   std::uint64_t seed = 0;
   std::string version;       ///< of palpate
   std::string robot;         ///< name in the robot file
   std::string robot_sha256;  ///< of the robot file
   std::string scenario;      ///< name in the scenario file
   std::string scenario_sha256;
-  std::string mesh_hash;  ///< of the true body
+  std::string mesh_hash;  ///< of the simulated body
   bool camera = false;
   std::vector<scenario::ActiveEffect> effects;
   std::vector<RecordingTruth> recordings;
   std::string data_sha256;  ///< HashOfData of the experiment that it belongs to
 };
 
-/// 64 hexadecimal digits from the machine's source of randomness.
+/// 64 hexadecimal digits from the operating system's random source.
 std::string NewSalt();
 
-/// The answer as the bytes of its file: JSON.
+/// The bytes of the answer's file: JSON.
 std::string FormatAnswer(const Answer& answer);
 
 /// Of all files below recordings/, names and contents: the measured data.
@@ -55,9 +55,8 @@ std::string HashOfData(const std::filesystem::path& experiment);
 /// EXP -> EXP.answer.json beside it.
 std::filesystem::path AnswerBeside(const std::filesystem::path& experiment);
 
-/// Throws InputError where the experiment holds no seal or the answer cannot be read, RunError
-/// where the answer is not the one that was sealed, or the data are not those that it was sealed
-/// with.
+/// Throws InputError where experiment.yaml has no answer_sha256 or the answer cannot be read,
+/// RunError where its hash differs, or the recordings have changed.
 void CheckSeal(const std::filesystem::path& experiment, const std::filesystem::path& answer);
 
 }  // namespace palpate::command

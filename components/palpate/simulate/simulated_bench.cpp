@@ -54,8 +54,7 @@ class VirtualBench : public SimulatedBench {
     Eigen::Matrix3Xd measured_m = virtual_camera::MeasurePoints(
         faults_, data_sheet_, moment.t_s, T_camera_robot * Markers_m(),
         T_camera_robot.linear() * skin_.Normals(robot_.positions_m()));
-    // At rest and from where the camera is planned to be: what is seen does not tell what is
-    // hidden.
+    // At rest and from the nominal camera pose, so that visibility does not reveal hidden effects.
     for (Eigen::Index m = 0; m < measured_m.cols(); ++m) {
       const Eigen::Vector3d to_camera_m =
           moment.T_robot_camera.translation() - rest_markers_m_.col(m);

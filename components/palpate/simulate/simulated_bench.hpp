@@ -20,16 +20,15 @@
 
 namespace palpate::command {
 
-/// What the virtual camera has to know of the moment.
+/// Inputs of the virtual camera at one time.
 struct CameraMoment {
   double t_s = 0.0;  ///< since the bench was switched on
   int recording = 0;
-  /// Where everybody takes the depth camera to be; effects come on top.
+  /// The nominal camera pose; hidden effects are added to it.
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };
 
-/// The virtual robot and the camera in front of it, as `simulate` uses them. Tests put another one
-/// here.
+/// The virtual robot and its camera, as `simulate` uses them. Tests have another implementation.
 class SimulatedBench {
  public:
   virtual ~SimulatedBench() = default;
@@ -39,11 +38,11 @@ class SimulatedBench {
 
   virtual std::vector<virtual_robot::CableReading> Cables() const = 0;  ///< of the robot file
   virtual Eigen::Matrix3Xd Markers_m() const = 0;  ///< [3 x markers of the robot file] robot frame
-  /// The same as the depth camera measures them without noise, its frame; NaN: out of its picture,
-  /// or on skin that at rest is beyond its grazing angle.
+  /// The same as the depth camera measures them without noise, camera frame; NaN: outside the
+  /// image, or on a surface that at rest is beyond the grazing angle.
   virtual Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const = 0;
   virtual std::vector<virtual_robot::TrueForce> Forces() const = 0;
-  virtual std::string MeshHash() const = 0;  ///< of the body as it really is
+  virtual std::string MeshHash() const = 0;  ///< of the simulated body
 
   virtual void TakeFrame(const scenario::BenchInputs& inputs, const CameraMoment& moment,
                          rgbd::RgbdFrame* frame) = 0;
@@ -54,7 +53,7 @@ using MakeBench = std::function<std::unique_ptr<SimulatedBench>(
     const robot::RobotDescription&, const scenario::Scenario&,
     const std::vector<scenario::ActiveEffect>&, std::uint64_t seed)>;
 
-/// The real ones: VirtualRobot and VirtualCamera. Throws InputError where robot, scenario and
+/// VirtualRobot and VirtualCamera. Throws InputError where robot, scenario and
 /// effects do not fit together.
 std::unique_ptr<SimulatedBench> MakeVirtualBench(const robot::RobotDescription& robot,
                                                  const scenario::Scenario& scenario,

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder beside the one that is to be, which takes its name when all is done.
+/// A temporary folder beside the wanted one; it is renamed when all is done.
 class UnfinishedFolder {
  public:
   explicit UnfinishedFolder(fs::path wanted) : wanted_(std::move(wanted)), path_(wanted_) {
@@ -63,7 +63,8 @@ fs::path WithoutTrailingSlash(const fs::path& path) {
 void RefuseWhatIsThere(const SimulationJob& job) {
   for (const fs::path& path : {job.out, job.answer}) {
     if (fs::exists(path)) {
-      throw InputError(SourceLocation{path.string()}, "is there already; it is never overwritten");
+      throw InputError(SourceLocation{path.string()},
+                       "exists already and is not overwritten; give another path");
     }
   }
 }
@@ -90,7 +91,7 @@ class Run {
     for (int i = 0; i < RecordingCount(); ++i) MakeRecording(i);
   }
 
-  /// Writes experiment.yaml and gives the bytes of the answer that is sealed in it.
+  /// Writes experiment.yaml and returns the bytes of the answer, whose hash is in it.
   std::string Seal() {
     answer_.salt = NewSalt();
     answer_.seed = job_.seed;
@@ -114,7 +115,7 @@ class Run {
 
   static void Expect(const Status& status, const std::string& when) {
     if (status.ok()) return;
-    throw RunError("the virtual robot did not get on " + when + ": " +
+    throw RunError("the simulation did not converge " + when + ": " +
                    std::string(ToString(status.code())) + ": " + status.message());
   }
 
@@ -220,11 +221,11 @@ SimulationCounts Simulate(const SimulationJob& job, const MakeBench& make_bench,
   RefuseWhatIsThere(job);
   if (!job.scenario.camera && !job.scenario.markers) {
     throw InputError(SourceLocation{job.scenario.file.string()},
-                     "measures nothing: it has neither 'camera' nor 'markers'");
+                     "measures nothing: add the key 'camera' or 'markers'");
   }
   if (job.scenario.markers && job.robot.markers.empty()) {
     throw InputError(SourceLocation{job.robot.file.string()},
-                     "has no 'markers', which the scenario measures");
+                     "has no key 'markers', which the scenario measures");
   }
   UnfinishedFolder folder(WithoutTrailingSlash(job.out));
   Run run(job, make_bench, report, folder.path());

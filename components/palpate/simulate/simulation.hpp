@@ -19,9 +19,9 @@ struct SimulationJob {
   robot::RobotDescription robot;
   scenario::Scenario scenario;
   std::uint64_t seed = 0;
-  std::filesystem::path out;      ///< experiment folder, not there yet
-  std::filesystem::path answer;   ///< file, not there yet
-  bool tell_camera_pose = false;  ///< write T_robot_camera (as planned) into experiment.yaml
+  std::filesystem::path out;      ///< experiment folder; must not exist
+  std::filesystem::path answer;   ///< file; must not exist
+  bool tell_camera_pose = false;  ///< write the nominal T_robot_camera into experiment.yaml
 };
 
 struct SimulationCounts {
@@ -30,14 +30,14 @@ struct SimulationCounts {
   int marker_frames = 0;
 };
 
-/// Called after each moment: how many of how many are done.
+/// Called after each sample: how many of how many are done.
 using ReportProgress = std::function<void(int done, int total)>;
 
-/// Drives the bench along the scenario, one history through all recordings and the rests between,
-/// and writes the experiment folder (ARCHITECTURE, "Measured data") and the sealed answer. Both
-/// appear when all is done; a failure leaves neither. Throws InputError where out or answer is
-/// there already, or the scenario does not fit the robot or measures nothing; RunError where the
-/// bench does not converge or something cannot be written.
+/// Simulates the scenario as one history through all recordings and the pauses between them, and
+/// writes the experiment folder (docs/experiment.md) and the answer. Both appear when all is done;
+/// a failure leaves neither. Throws InputError where `out` or `answer` exists, or the scenario does
+/// not fit the robot or measures nothing; RunError where the simulation does not converge or a file
+/// cannot be written.
 SimulationCounts Simulate(const SimulationJob& job, const MakeBench& make_bench,
                           const ReportProgress& report);
 

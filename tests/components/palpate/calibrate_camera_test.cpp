@@ -165,7 +165,7 @@ TEST_F(CalibrateCamera, ACameraThatMovedServesNot) {
     Calibrate(options);
     FAIL() << "nothing was refused";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no recording serves to find the camera"));
+    EXPECT_THAT(error.what(), HasSubstr("no recording determines the camera pose"));
   }
 }
 

@@ -97,7 +97,7 @@ TEST_F(CalibrateImages, APoseThatIsTooFarOffIsRefused) {
 TEST_F(CalibrateImages, RecordingsInWhichAnythingMayHappenServeNot) {
   Simulate("rest_between_s: 0.5\nrecordings:\n  - {name: c_free, kind: free, duration_s: 0.1}\n");
   options_.camera_pose = Text(PoseOffBy(0.0, 0.0));
-  EXPECT_THAT(Refusal<InputError>(), HasSubstr("no recording serves to find the camera"));
+  EXPECT_THAT(Refusal<InputError>(), HasSubstr("no recording determines the camera pose"));
 }
 
 TEST_F(CalibrateImages, SettingsThatAreNotThereAreRefused) {

@@ -185,7 +185,7 @@ TEST(ComparisonSummary, KeepsSeenHiddenAndSeveralApart) {
   EXPECT_NEAR(summary.Together().mean_relative_error, 0.04, 1e-9);
   EXPECT_EQ(summary.Together().coverage, 1.0);
   EXPECT_EQ(summary.All().frames, 4);
-  EXPECT_THAT(summary.ToText(), HasSubstr("1 of 5 steady forces were not found"));
+  EXPECT_THAT(summary.ToText(), HasSubstr("1 of 5 steady forces were not detected"));
   EXPECT_THAT(summary.ToText(), HasSubstr("1 of 6 frames"));
   EXPECT_THAT(summary.ToText(), HasSubstr("11.0 % mean error over 2 frames"));
   EXPECT_THAT(ComparisonSummary().ToText(), Not(HasSubstr("nan")));

@@ -91,7 +91,7 @@ TEST_F(LiveComparisonTest, KeepsTheMomentOfMostSteadyForceForThePicture) {
   EXPECT_NEAR(comparison_.best()->t_s, 19 * 0.03125, 1e-9);  // from the first frame on
   EXPECT_NEAR(comparison_.Rate_hz(), 32.0, 1e-6);
   EXPECT_EQ(comparison_.results(), 20);
-  EXPECT_THAT(comparison_.ToText(), HasSubstr("20, 32.0 a second; 20 ok"));
+  EXPECT_THAT(comparison_.ToText(), HasSubstr("20, 32.0 Hz; 20 ok"));
   EXPECT_THAT(comparison_.ToText(), HasSubstr("30 ms median, 39 ms p99, from exposure"));
   EXPECT_THAT(comparison_.ToText(), HasSubstr("0 of 20 frames"));
   ASSERT_THAT(comparison_.Tracks(), SizeIs(1));

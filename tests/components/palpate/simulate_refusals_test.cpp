@@ -16,10 +16,10 @@ using testing::HasSubstr;
 
 TEST_F(SimulateTest, NeverOverwrites) {
   fs::create_directory(options_.out);
-  EXPECT_THAT(Refusal(), AllOf(HasSubstr("exp: "), HasSubstr("is there already")));
+  EXPECT_THAT(Refusal(), AllOf(HasSubstr("exp: "), HasSubstr("exists already")));
   fs::remove(options_.out);
   folder_.Write("exp.answer.json", "mine");
-  EXPECT_THAT(Refusal(), AllOf(HasSubstr("exp.answer.json"), HasSubstr("is there already")));
+  EXPECT_THAT(Refusal(), AllOf(HasSubstr("exp.answer.json"), HasSubstr("exists already")));
   EXPECT_EQ(AnswerText(), "mine");
   EXPECT_FALSE(fs::exists(options_.out));
 }

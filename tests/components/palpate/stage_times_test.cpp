@@ -93,7 +93,7 @@ TEST(StageTimes, SaysHowManyFramesEachProcessHadBetweenTheFirstAndTheLastThatWas
   AddFrame(4 * kPeriod_ns, kUsual_ms, &times);
   times.AddState(5 * kPeriod_ns);  // still on its way
   EXPECT_THAT(times.ToText(),
-              HasSubstr("5 states, 4 pictures captured, 3 perceived, 2 estimated\n"));
+              HasSubstr("5 states, 4 frames captured, 3 perceived, 2 estimated\n"));
 }
 
 TEST(StageTimes, ShowsWhereTheSlowestFramesLoseTheirTime) {

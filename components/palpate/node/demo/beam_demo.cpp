@@ -39,8 +39,9 @@ DemoData PrepareData(const BeamDemoOptions& options, const DemoPlace& place) {
 }
 
 void CalibrateOnSelfWeight(const DemoData& data, const DemoPlace& place) {
-  const DemoStep step(fmt::format(
-      "[2/4] Stiffness from the beam's own weight ({}): palpate calibrate", data.self_weight));
+  const DemoStep step(
+      fmt::format("[2/4] Young's modulus from the beam's own weight ({}): palpate calibrate",
+                  data.self_weight));
   CalibrateOptions options;
   options.robot = "beam";
   options.data = data.experiment;
@@ -87,18 +88,16 @@ void ListenWhileItPlays(const DemoData& data, const DemoPlace& place, ForceListe
   if (!finished || player->ExitCode().value_or(1) != 0) {
     RefuseEnded(*player, finished ? *player->ExitCode() : player->Stop());
   }
-  fmt::print("  {} marker frames answered on /forces; logs: {}, {}\n", listener->estimates().size(),
-             player->log().string(), estimation->log().string());
+  fmt::print("  {} marker frames estimated on /forces; logs: {}, {}\n",
+             listener->estimates().size(), player->log().string(), estimation->log().string());
 }
 
 }  // namespace
 
 int BeamDemo(const BeamDemoOptions& options) {
   const DemoPlace place = MakeDemoPlace(options.out);
-  fmt::print(
-      "palpate demo: the weight on a soft beam, estimated from how the beam bends.\n"
-      "All that it makes comes to lie in {}.\n",
-      place.folder.string());
+  fmt::print("palpate demo: a weight on a soft beam, estimated from its markers; results in {}\n",
+             place.folder.string());
   const DemoData data = PrepareData(options, place);
   CalibrateOnSelfWeight(data, place);
   ForceListener listener(place.domain_id);
@@ -112,7 +111,7 @@ int BeamDemo(const BeamDemoOptions& options) {
     return app::kExitFailed;
   }
   view::SaveScene(place.folder / "scene.png", result.scene);
-  fmt::print("  picture: {}\n", (place.folder / "scene.png").string());
+  fmt::print("  image: {}\n", (place.folder / "scene.png").string());
   return app::kExitDone;
 }
 

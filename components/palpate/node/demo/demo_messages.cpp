@@ -14,7 +14,7 @@ namespace palpate::command {
 
 namespace {
 
-// The status behind a word of forces.csv; a word that is not known cannot be relied on.
+// The status of a word of forces.csv; an unknown word is an invalid input.
 Status ParseStatus(std::string_view word, std::string_view reason) {
   for (int code = 0; code <= static_cast<int>(StatusCode::kInvalidInput); ++code) {
     if (ToString(static_cast<StatusCode>(code)) == word) {

@@ -23,7 +23,7 @@ force_estimation::ForceEstimate ToEstimate(const idl::palpate_msgs::ForceArray& 
 /// A /truth/forces message.
 std::vector<TrueContact> ToTruth(const idl::palpate_msgs::ForceArray& message);
 
-/// [3n] nodes; nullopt where the state may not be used.
+/// [3n] nodes, m; nullopt where the state is not usable.
 std::optional<Eigen::VectorXd> ToNodes(const idl::palpate_msgs::MeshState& message);
 
 }  // namespace palpate::command

@@ -21,8 +21,8 @@ namespace {
 constexpr int kFirstDomain = 120;  // far from the usual 0
 constexpr int kDomains = 100;
 
-// DDS on 127.0.0.1 only. A frame of 2 MB comes at once: what finds no room in the receiver's buffer
-// is asked for again, and the frame is late by the delay of that.
+// DDS on 127.0.0.1 only. A frame of 2 MB is sent at once. What does not fit into the receive buffer
+// is requested again after NackDelay, which delays the frame.
 constexpr char kLoopbackXml[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <CycloneDDS xmlns="https://cdds.io/config">
   <Domain Id="any">
@@ -83,7 +83,7 @@ DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
 }
 
 void RefuseEnded(const ChildProcess& process, int exit_code) {
-  throw RunError(fmt::format("{} ended with {}: {} (log: {})", process.name(), exit_code,
+  throw RunError(fmt::format("{} ended with exit code {}: {} (log: {})", process.name(), exit_code,
                              LastLine(process.log()), process.log().string()));
 }
 

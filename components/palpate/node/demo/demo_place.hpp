@@ -14,27 +14,26 @@
 
 namespace palpate::command {
 
-/// Where a demonstration happens: its files, the programs that it starts, and a DDS domain of its
-/// own on 127.0.0.1.
+/// Surroundings of a demonstration: its folder, the programs that it starts, and a DDS domain of
+/// its own on 127.0.0.1.
 struct DemoPlace {
   std::filesystem::path folder;
   std::filesystem::path programs;
   int domain_id = 0;
 
-  /// An address of this host that no other demonstration uses: cameras are found by it.
+  /// A loopback address that no other demonstration uses, for the virtual camera.
   std::string CameraAddress() const;
-  /// Starts a program of ours in the domain; its output goes to `log` in the folder. Throws
-  /// RunError.
+  /// Starts a program in the domain; its output goes to `log` in the folder. Throws RunError.
   std::unique_ptr<ChildProcess> Start(const std::string& program,
                                       std::vector<std::string> arguments,
                                       const std::string& log) const;
 };
 
 /// `out`: the folder, made where it is absent; empty: demo/ beside the folder of the programs. From
-/// then on this process, and those that it starts, talk DDS on 127.0.0.1 only. Throws RunError.
+/// then on this process, and those that it starts, use DDS on 127.0.0.1 only. Throws RunError.
 DemoPlace MakeDemoPlace(const std::filesystem::path& out);
 
-/// Throws RunError that names the program, how it ended, its log and the last line of that.
+/// Throws RunError with the program, its exit code, its log and the last line of the log.
 [[noreturn]] void RefuseEnded(const ChildProcess& process, int exit_code);
 
 }  // namespace palpate::command

@@ -15,7 +15,7 @@ namespace palpate::command {
 
 namespace {
 
-// Of the body's diagonal: the longest arrow, and how far the truth stands beside the estimate.
+// Relative to the body's diagonal: length of the longest arrow, offset of the truth.
 constexpr double kLongestArrow = 0.45;
 constexpr double kAside = 0.05;
 
@@ -64,13 +64,12 @@ view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& mo
     }
   }
   scene.title = title;
-  scene.caption = {
-      fmt::format("{:.1f} s into the run; shape: the model as the camera's frames "
-                  "have moved it",
-                  moment.t_s)};
+  scene.caption = {fmt::format(
+      "{:.1f} s after the start; shape: the model fitted to the depth images", moment.t_s)};
   using Mark = view::LegendEntry::Mark;
   scene.legend.push_back({Mark::kLine, view::palette::kEstimate, "force estimated (95 %)"});
-  if (has_truth) scene.legend.push_back({Mark::kLine, view::palette::kTruth, "true force, aside"});
+  if (has_truth)
+    scene.legend.push_back({Mark::kLine, view::palette::kTruth, "true force (drawn beside)"});
   return scene;
 }
 
@@ -81,11 +80,11 @@ void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem
   if (!comparison.best()) return;
   const auto model = LoadRobot(robot);
   if (comparison.best()->nodes_m.size() != model->body().mesh.nodes_m.size()) {
-    fmt::print("  no picture: /robot/mesh_state is of another mesh\n");
+    fmt::print("  no image: /robot/mesh_state belongs to another mesh\n");
     return;
   }
   view::SaveScene(folder / "scene.png", MakeForceScene(*model, *comparison.best(), title));
-  fmt::print("  {:<18} {}\n", "picture", (folder / "scene.png").string());
+  fmt::print("  {:<18} {}\n", "image", (folder / "scene.png").string());
 }
 
 }  // namespace palpate::command

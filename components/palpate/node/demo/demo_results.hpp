@@ -12,12 +12,13 @@
 
 namespace palpate::command {
 
-/// Picture of one moment: the body as the model has it, forces as estimated and, beside them, as
-/// they are in truth. The nodes are the model's.
+/// Image of one frame: the body as the model has it, estimated forces and, beside them, the true
+/// ones.
 view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& moment,
                            const std::string& title);
 
-/// Writes forces.svg, and scene.png where a force was found; says where. Throws RunError.
+/// Writes forces.svg, and scene.png where a force was detected; prints their paths. Throws
+/// RunError.
 void WriteDemoResults(const std::filesystem::path& folder, const std::filesystem::path& robot,
                       const std::string& title, const LiveComparison& comparison);
 

@@ -8,7 +8,7 @@
 
 namespace palpate::command {
 
-/// Says what happens, and afterwards how long it took.
+/// Prints the name of a step, and afterwards its duration.
 class DemoStep {
  public:
   explicit DemoStep(const std::string& what);

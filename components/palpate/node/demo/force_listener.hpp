@@ -14,14 +14,14 @@
 
 namespace palpate::command {
 
-/// Listens to what palpate-force-estimation publishes.
+/// Reads the topics of palpate-force-estimation.
 class ForceListener {
  public:
   /// Throws RunError where DDS refuses.
   explicit ForceListener(int domain_id);
 
-  /// Takes messages until `done()` holds, which is asked at least every 50 ms; false where `limit`
-  /// passes before.
+  /// Takes messages until `done()` holds, which is checked at least every 50 ms; false where
+  /// `limit` passes first.
   bool Listen(const std::function<bool()>& done, std::chrono::seconds limit);
 
   bool estimator_is_there() const { return forces_.matched() > 0; }

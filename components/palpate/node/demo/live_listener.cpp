@@ -119,7 +119,7 @@ void LiveListener::TakeReports() {
 std::string LiveListener::Troubles() const {
   std::string text;
   for (const auto& [component, trouble] : reports_) {
-    if (!trouble.empty()) text += "  " + component + " says " + trouble + "\n";
+    if (!trouble.empty()) text += "  status of " + component + ": " + trouble + "\n";
   }
   return text;
 }

@@ -15,9 +15,9 @@
 
 namespace palpate::command {
 
-/// Listens to the whole system: /forces, the model's state, how the components fare, and, of the
-/// virtual bench, /truth/forces, with which it compares the estimates, and what tells where a
-/// frame's time goes. Nothing that it hears goes back to those who estimate.
+/// Listens to the whole system: /forces, the mesh state, the components' status, and, of the
+/// virtual robot, /truth/forces to compare with and the stamps of each stage. It publishes nothing,
+/// so that the truth cannot reach the estimator.
 class LiveListener {
  public:
   enum class Truth { kKnown, kNone };
@@ -31,17 +31,17 @@ class LiveListener {
       const std::function<bool()>& done, std::chrono::duration<double> limit,
       const LiveComparison::TakeFrame& take = [](const auto&, const auto&) {});
 
-  /// Whether the component has told how it fares.
+  /// Whether a status of the component has arrived.
   bool Heard(const std::string& component) const { return reports_.contains(component); }
-  /// How those fare that are not well; lines, each ended.
+  /// The status of components that are not ok; lines of text, each with its line end.
   std::string Troubles() const;
 
   const LiveComparison& comparison() const { return comparison_; }
-  /// Of the virtual bench; of recordings, whose stamps are of another day, nothing.
+  /// Of the virtual robot; empty for recordings, whose stamps are in the past.
   const StageTimes& stages() const { return stages_; }
 
  private:
-  /// What only the virtual bench is asked for.
+  /// Topics that only the virtual robot has.
   struct BenchReaders {
     dds::Reader<idl::palpate_msgs::ForceArray> truth;
     dds::Reader<idl::palpate_msgs::FrameInfo> pictures;
@@ -63,7 +63,7 @@ class LiveListener {
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
   std::optional<BenchReaders> bench_;
-  std::map<std::string, std::string> reports_;  ///< by component; empty: it is well
+  std::map<std::string, std::string> reports_;  ///< by component; empty: ok
   LiveComparison comparison_;
   StageTimes stages_;
   LiveComparison::TakeFrame take_;

@@ -10,8 +10,8 @@
 
 namespace palpate::command {
 
-/// A line that is always the newest, on the standard output: on a terminal rewritten in place, cut
-/// to its width, a few times a second; elsewhere a line each second.
+/// Shows the newest line on the standard output: on a terminal rewritten in place, cut to its
+/// width, a few times a second; elsewhere one line each second.
 class LiveTable {
  public:
   explicit LiveTable(Clock clock = MonotonicNow_ns);

@@ -36,7 +36,7 @@ ReplayedImages ExamineImages(const std::filesystem::path& data) {
     if (images.recordings == 0) images.T_robot_camera = T_robot_camera;
     if (!T_robot_camera.isApprox(images.T_robot_camera, kSamePose)) {
       throw InputError(recording.folder.string() +
-                       ": the camera stands elsewhere than in the recordings before; give one "
+                       ": its camera pose differs from that of the recordings before; give one "
                        "recording as --data");
     }
     ++images.recordings;

@@ -8,15 +8,15 @@
 
 namespace palpate::command {
 
-/// Recordings with images that the processes can take for one run of a camera.
+/// Recordings with images of one camera pose.
 struct ReplayedImages {
   int recordings = 0;
   int frames = 0;
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();  ///< of all of them
 };
 
-/// What `data`, an experiment or one recording, holds of them. Throws InputError where there are
-/// none, where nobody says where the camera was, and where it was moved between two of them.
+/// Those of `data`, an experiment or one recording. Throws InputError where there are none, where a
+/// camera pose is missing, and where it differs between two of them.
 ReplayedImages ExamineImages(const std::filesystem::path& data);
 
 }  // namespace palpate::command

@@ -36,25 +36,26 @@ constexpr duration<double> kStartLimit = std::chrono::seconds(60);
 constexpr duration<double> kFirstForceLimit = std::chrono::seconds(60);
 constexpr duration<double> kLongestReplay = std::chrono::hours(24);
 constexpr int kUsualSeconds = 30;
-// What the pictures of a depth camera at 30 Hz ask of a socket.
+// Receive buffer that a depth camera at 30 Hz needs.
 constexpr int kPictureBuffer_bytes = 2'097'152;
 void AdviseOnKernel() {
   const auto granted = capture::GrantedReceiveBuffer_bytes(kPictureBuffer_bytes);
   if (!granted || *granted >= kPictureBuffer_bytes) return;
   fmt::print(
-      "  Note: this kernel lends a socket {} kB only, and pictures come in bursts: frames will be "
-      "lost.\n  It is mended by: sudo sysctl -w net.core.rmem_max={}\n",
+      "  Note: the kernel limits UDP receive buffers to {} kB; frames will be lost.\n  Fix with: "
+      "sudo "
+      "sysctl -w net.core.rmem_max={}\n",
       *granted / 1024, kPictureBuffer_bytes);
 }
 
 std::filesystem::path ScenarioFile(const SystemDemoOptions& options) {
   if (!options.scenario.empty()) return std::filesystem::absolute(options.scenario);
   const std::filesystem::path file = FindProjectFile("config/scenarios/sensing.yaml");
-  if (file.empty()) throw InputError("config/scenarios/sensing.yaml is not there: --scenario");
+  if (file.empty()) throw InputError("config/scenarios/sensing.yaml is not there; give --scenario");
   return file;
 }
 
-// One system that runs, and who listens to it.
+// The running system and its listener.
 class DemoRun {
  public:
   DemoRun(const DemoPlace& place, LiveListener::Truth truth)
@@ -64,8 +65,8 @@ class DemoRun {
   const LiveComparison& comparison() const { return listener_.comparison(); }
   const StageTimes& stages() const { return listener_.stages(); }
 
-  // Until all of these have told how they fare. Throws RunError where they do not, false where the
-  // user does not want to wait.
+  // Waits for the status of all of these. Throws RunError where it does not come; false where the
+  // user stops the demonstration.
   bool AwaitComponents(const std::vector<std::string>& components) {
     const auto all_there = [&] {
       for (const std::string& component : components) {
@@ -75,12 +76,13 @@ class DemoRun {
     };
     const bool there = Listen(all_there, kStartLimit);
     if (!there && !stop_.Requested()) {
-      throw RunError("the processes do not answer; their logs are in " + log_folder_hint_);
+      throw RunError("the processes do not answer within 60 s; see their logs in " +
+                     log_folder_hint_);
     }
     return there;
   }
 
-  // Listens and shows the newest line, until `done`, the user's stop, or `limit`: then false.
+  // Listens and shows the newest line until `done` (true), or the user's stop or `limit` (false).
   bool Listen(const std::function<bool()>& done, duration<double> limit) {
     const auto finished = [&] {
       processes_.CheckAlive();
@@ -115,7 +117,8 @@ class DemoRun {
 void PlayBench(const SystemDemoOptions& options, const std::filesystem::path& robot, DemoRun* run) {
   const std::filesystem::path scenario_file = ScenarioFile(options);
   const auto scenario = scenario::ReadScenario(scenario_file, app::LoadYaml);
-  if (!scenario.camera) throw InputError(scenario_file.string() + ": the scenario has no camera");
+  if (!scenario.camera)
+    throw InputError(scenario_file.string() + ": the scenario has no camera; add the key 'camera'");
   {
     const DemoStep step(
         "[1/3] Start: virtual camera (GigE Vision), capture, perception, force "
@@ -148,7 +151,7 @@ void PlayRecordings(const SystemDemoOptions& options, const std::filesystem::pat
     const auto answered = [&] { return run->comparison().frames() > 0; };
     if (!run->Listen(answered, kFirstForceLimit)) return;
   }
-  const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each answered before the next",
+  const DemoStep step(fmt::format("[2/3] {} recordings, {} frames, each estimated before the next",
                                   images.recordings, images.frames));
   run->ShowTable();
   const auto ended = [&] { return run->processes().HasEnded("palpate-player"); };
@@ -160,23 +163,23 @@ int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool wi
              DemoRun* run) {
   const std::string troubles = run->Troubles();
   run->processes().Stop();
-  const DemoStep step("[3/3] What came of it");
+  const DemoStep step("[3/3] Result");
   const LiveComparison& comparison = run->comparison();
   if (comparison.frames() == 0) {
-    fmt::print("  no frame was answered on /forces\n{}  logs: {}\n", troubles,
-               place.folder.string());
+    fmt::print("  no message arrived on /forces\n{}  logs: {}\n", troubles, place.folder.string());
     return app::kExitFailed;
   }
   fmt::print("{}{}", comparison.ToText(), run->stages().ToText());
   if (run->stages().frames() > 0) {
     WriteFile(place.folder / "latency.csv", run->stages().ToCsv());
-    fmt::print("  {:<18} {}\n", "each frame", (place.folder / "latency.csv").string());
+    fmt::print("  {:<18} {}\n", "latency", (place.folder / "latency.csv").string());
   }
-  WriteDemoResults(place.folder, robot, "Forces on a soft robot, felt by sight", comparison);
+  WriteDemoResults(place.folder, robot, "Forces on a soft robot, estimated from depth images",
+                   comparison);
   const bool worked = with_truth ? comparison.summary().found() > 0 : comparison.results() > 0;
   if (worked) return app::kExitDone;
-  fmt::print("  it did not work: no {}\n{}  logs: {}\n",
-             with_truth ? "steady force was found" : "frame says which forces act", troubles,
+  fmt::print("  failed: no {}\n{}  logs: {}\n",
+             with_truth ? "steady force was detected" : "frame has a result", troubles,
              place.folder.string());
   return app::kExitFailed;
 }
@@ -189,8 +192,8 @@ int SystemDemo(const SystemDemoOptions& options) {
       std::filesystem::absolute(FindRobotFile(options.robot.empty() ? "four_leg" : options.robot));
   const bool with_truth = options.data.empty();
   fmt::print(
-      "palpate demo: forces on a soft robot, felt through a depth camera. DDS domain {}, this "
-      "machine only.\nAll that it makes comes to lie in {}.\n",
+      "palpate demo: forces on a soft robot, estimated live from a depth camera.\nDDS domain {}, "
+      "this machine only; results in {}\n",
       place.domain_id, place.folder.string());
   DemoRun run(place, with_truth ? LiveListener::Truth::kKnown : LiveListener::Truth::kNone);
   run.SetLogFolder(place.folder);

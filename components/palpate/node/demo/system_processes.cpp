@@ -12,7 +12,7 @@ namespace palpate::command {
 
 namespace {
 
-// Draws what the scenario leaves to chance; the same each time.
+// Random seed; fixed, so that each run is the same.
 const char* const kSeed = "7";
 
 std::vector<std::string> BenchArguments(const std::filesystem::path& robot,
@@ -38,11 +38,11 @@ void SystemProcesses::StartVirtualCamera(const std::filesystem::path& robot,
 void SystemProcesses::StartVirtualRobot(const std::filesystem::path& robot,
                                         const std::filesystem::path& scenario) {
   std::vector<std::string> arguments = BenchArguments(robot, scenario);
-  // The whole system shares the cores: a second thread of the solver would wait, turning, for one
-  // that others have pushed off its core.
+  // The whole system shares the cores: a second solver thread would spin while it waits for one
+  // that has no core.
   arguments.insert(arguments.end(), {"--set", "threads=1"});
   Start("palpate-virtual-robot", arguments);
-  processes_.back()->GiveWay();  // it stands for the world, which would take none of our cores
+  processes_.back()->GiveWay();  // it stands for the real robot, which needs no core
 }
 
 void SystemProcesses::StartPlayer(const std::filesystem::path& data) {

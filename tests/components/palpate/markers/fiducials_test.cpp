@@ -92,9 +92,9 @@ TEST_F(CalibrateFromFiducials, NeedNamesThatTheRobotHasOneForEachColour) {
 TEST_F(CalibrateFromFiducials, OfAnotherColourAreNotFound) {
   Simulate();
   options_.overrides = {"perception.markers.color_rgb=[0.1, 0.2, 0.9]"};
-  EXPECT_THAT(Refusal<RunError>(), HasSubstr("no picture shows a marker"));
+  EXPECT_THAT(Refusal<RunError>(), HasSubstr("no image shows a fiducial"));
   options_.overrides = {kGreen, "perception.markers.max_radius_m=0.0025"};
-  EXPECT_THAT(Refusal<RunError>(), HasSubstr("no picture shows a marker"));
+  EXPECT_THAT(Refusal<RunError>(), HasSubstr("no image shows a fiducial"));
 }
 
 TEST_F(CalibrateFromFiducials, AreNotWhatUnlabelledIsFor) {
