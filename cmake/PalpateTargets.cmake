@@ -49,6 +49,7 @@ function(add_component name)
   add_executable(${program} node/main.cpp)
   target_link_libraries(${program} PRIVATE palpate::${name}_node)
   palpate_own_code(${program})
+  set_property(GLOBAL APPEND PROPERTY PALPATE_PROGRAMS ${program})
 endfunction()
 
 # palpate_use_loopback(NAME): the cases of test program NAME get a DDS domain id of their own, on

@@ -17,13 +17,16 @@ namespace palpate::calibration {
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
-  app::Arguments arguments("palpate-calibration",
-                           "Finds, when asked, where the camera stands and how the drives are read "
-                           "from the running robot.");
-  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
+  app::Arguments arguments(
+      "palpate-calibration",
+      "Calibrate camera pose and cable actuators of the running robot on request");
+  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
+                       app::Need::kOptional);
   std::string out, camera_pose;
-  arguments.Option("--out", &out, "Same as --set calibration_file=...");
-  arguments.Option("--camera-pose", &camera_pose, "Same as --set camera_pose=...");
+  arguments.Option("--out FILE", &out,
+                   "Calibration file to write; same as --set calibration_file=FILE");
+  arguments.Option("--camera-pose POSE", &camera_pose,
+                   "Approximate camera pose T_robot_camera; same as --set camera_pose=POSE");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
@@ -31,7 +34,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   }
   if (!out.empty()) command.config.calibration_file = out;
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
-  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
+  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
   return command;
 }
 

@@ -28,11 +28,15 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   std::string camera;
   std::filesystem::path replay;
   app::Arguments arguments("palpate-capture",
-                           "Publish the frames of an RGB-D camera, or of a recording of one.");
-  arguments.Option("--camera", &camera, "Same as --set genicam.camera_id=...");
-  arguments.Option("--replay", &replay, "A recording instead of a camera");
-  arguments.Flag("--list", &command.list, "Show the cameras that answer");
-  arguments.Positionals("ADDRESS", &command.addresses, "With --list: cameras on networks of others",
+                           "Publish the frames of an RGB-D camera or of a recording");
+  arguments.Option("--camera ID", &camera,
+                   "GenICam camera by IPv4 address, vendor-serial, serial number or MAC; same as "
+                   "--set genicam.camera_id=ID");
+  arguments.Option("--replay FOLDER", &replay,
+                   "Recording to publish instead of a camera; same as --set replay.folder=FOLDER");
+  arguments.Flag("--list", &command.list, "List the GenICam cameras that answer and exit");
+  arguments.Positionals("ADDRESS", &command.addresses,
+                        "With --list: IPv4 address of a camera outside the local network",
                         app::Need::kOptional);
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
@@ -40,7 +44,8 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
     return std::nullopt;
   }
   CheckAddresses(command);
-  if (!camera.empty() && !replay.empty()) throw InputError("either --camera or --replay");
+  if (!camera.empty() && !replay.empty())
+    throw InputError("--camera and --replay exclude each other: give one");
   if (!camera.empty()) {
     command.config.source = "genicam";
     command.config.genicam.camera_id = camera;

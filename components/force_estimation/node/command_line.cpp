@@ -48,17 +48,19 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments(
       "palpate-force-estimation",
-      "Estimates the forces on a robot from its shape, or its markers, and its "
-      "cables.");
-  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
-  arguments.Option("--calibration", &command.calibration,
-                   "What `palpate calibrate` found for this robot");
+      "Estimate contact forces from the robot's shape or markers and its cables");
+  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
+                       app::Need::kOptional);
+  arguments.Option(
+      "--calibration", &command.calibration,
+      "Calibration file of palpate calibrate; without it the robot file's moduli hold");
   std::vector<std::string> contacts;
-  arguments.Repeated("--contact", &contacts,
-                     "Where a force may act, \"name: x, y, z[, patch radius]\" in m on the "
-                     "undeformed body; else the contact is searched");
+  arguments.Repeated("--contact SITE", &contacts,
+                     "Possible contact location \"name: x, y, z[, patch radius]\", m, on the "
+                     "undeformed body; without it contacts are searched");
   std::string camera_pose;
-  arguments.Option("--camera-pose", &camera_pose, "Same as --set camera_pose=...");
+  arguments.Option("--camera-pose POSE", &camera_pose,
+                   "Camera pose T_robot_camera; same as --set camera_pose=POSE");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
@@ -67,7 +69,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
   auto& sites = command.config.contacts;
   sites.insert(sites.end(), contacts.begin(), contacts.end());
-  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
+  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
   return command;
 }
 

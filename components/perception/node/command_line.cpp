@@ -14,10 +14,11 @@ namespace palpate::perception {
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   std::string camera_pose;
-  app::Arguments arguments("palpate-perception",
-                           "Finds the robot, what is near it and where it is touched in the frames "
-                           "of an RGB-D camera.");
-  arguments.Option("--camera-pose", &camera_pose, "Same as --set camera_pose=...");
+  app::Arguments arguments(
+      "palpate-perception",
+      "Segment the robot, objects and contacts in the frames of an RGB-D camera");
+  arguments.Option("--camera-pose POSE", &camera_pose,
+                   "Camera pose T_robot_camera; same as --set camera_pose=POSE");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {

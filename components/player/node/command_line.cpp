@@ -31,21 +31,25 @@ void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible, P
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   bool as_fast_as_possible = false;
-  app::Arguments arguments("palpate-player", "Plays measured data as if the robot ran now.");
-  arguments.Option("--data", &command.data, "Experiment or recording folder");
-  arguments.Option("--recording", &command.recording, "The only recording to play");
-  arguments.Flag("--images", &command.images, "Depth and colour images instead of markers");
-  arguments.Option("--rate", &command.playback.rate, "So many times real time");
+  app::Arguments arguments("palpate-player", "Publish recorded data as if the robot ran now");
+  arguments.Option("--data FOLDER", &command.data,
+                   "Experiment or recording folder; required to run");
+  arguments.Option("--recording NAME", &command.recording,
+                   "Play this recording only; without it all");
+  arguments.Flag("--images", &command.images, "Publish depth and colour images instead of markers");
+  arguments.Option("--rate FACTOR", &command.playback.rate, "Speed relative to real time, above 0");
   arguments.Flag("--step", &command.playback.step,
-                 "The next frame when /forces has answered the last one; loses nothing");
-  arguments.Flag("--as-fast-as-possible", &as_fast_as_possible, "Without waiting");
+                 "Publish each frame when /forces has answered the last one; loses no frame");
+  arguments.Flag("--as-fast-as-possible", &as_fast_as_possible, "Publish frames without waiting");
   arguments.Flag("--loop", &command.playback.loop, "Begin again at the end");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
     return std::nullopt;
   }
-  if (command.data.empty()) throw InputError("--data is required: what shall be played?");
+  if (command.data.empty()) {
+    throw InputError("--data is required: give an experiment or recording folder");
+  }
   SettlePlayback(arguments, as_fast_as_possible, &command.playback);
   return command;
 }

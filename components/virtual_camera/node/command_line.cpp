@@ -16,18 +16,21 @@ namespace palpate::virtual_camera {
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments("palpate-virtual-camera",
-                           "Stream RGB-D frames of palpate-virtual-robot as a GigE Vision camera.");
-  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
-  arguments.Option("--scenario", &command.scenario, "The scenario that the virtual robot runs");
+                           "Stream RGB-D frames of palpate-virtual-robot as a GigE Vision camera");
+  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
+                       app::Need::kOptional);
+  arguments.Option("--scenario", &command.scenario,
+                   "Scenario file that the virtual robot runs; required to run");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
-                   "The seed of the virtual robot");
+                   "Random seed of the virtual robot");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
     return std::nullopt;
   }
-  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
-  if (command.scenario.empty()) throw InputError("--scenario is required: what is to be seen?");
+  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  if (command.scenario.empty())
+    throw InputError("--scenario is required: give the scenario file of the virtual robot");
   return command;
 }
 

@@ -17,18 +17,20 @@ namespace palpate::virtual_robot {
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments("palpate-virtual-robot",
-                           "A soft robot of its own physics that does what a scenario says.");
-  arguments.Positional("ROBOT", &command.robot, "Robot file", app::Need::kOptional);
-  arguments.Option("--scenario", &command.scenario, "What is done to the robot, and its effects");
+                           "Simulate a soft robot under the commands and loads of a scenario");
+  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
+                       app::Need::kOptional);
+  arguments.Option("--scenario", &command.scenario,
+                   "Scenario file: commands, loads and hidden effects; required to run");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
-                   "Draws what the scenario leaves to chance");
+                   "Random seed (noise, manufacturing tolerances, unspecified effects)");
   app::DeclareNodeOptions(arguments, &command.options);
   if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
       !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
     return std::nullopt;
   }
-  if (command.robot.empty()) throw InputError("ROBOT is required: a robot file");
-  if (command.scenario.empty()) throw InputError("--scenario is required: what shall be done?");
+  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  if (command.scenario.empty()) throw InputError("--scenario is required: give a scenario file");
   return command;
 }
 

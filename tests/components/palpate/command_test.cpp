@@ -44,6 +44,27 @@ TEST(Command, RefusesWhatItDoesNotKnowWithDidYouMean) {
   EXPECT_THAT(RefusalOf({"solve", "beam"}), testing::HasSubstr("--out"));
 }
 
+TEST(Command, ARepeatedOptionLeavesTheRobotToThePositional) {
+  const TestFolder folder;
+  const std::string out = (folder / "forces.csv").string();
+  const std::string calibration = (folder / "c.yaml").string();
+  const std::vector<std::vector<std::string>> commands = {
+      {"estimate", "--recording", "r1", "no_such", "--data", "D", "--out", out},
+      {"estimate", "--contact", "tip: 0, 0, 0.1", "no_such", "--data", "D", "--out", out},
+      {"estimate", "--set", "threads=1", "no_such", "--data", "D", "--out", out},
+      {"calibrate", "--recording", "r1", "no_such", "--data", "D", "--out", calibration},
+      {"calibrate", "--part", "body", "no_such", "--data", "D", "--out", calibration},
+      {"calibrate", "--set", "a=1", "no_such", "--data", "D", "--out", calibration},
+      {"diagnose", "--set", "perception.voxel_m=1", "no_such", "--data", "D", "--out", "O"},
+      {"diagnose", "--exclude", "cable_friction", "no_such", "--data", "D", "--out", "O"},
+      {"import", "--rename", "a=b", "no_such.csv", "--out", (folder / "e").string()}};
+  for (const std::vector<std::string>& words : commands) {
+    const std::string refusal = RefusalOf(words);
+    EXPECT_THAT(refusal, testing::Not(testing::HasSubstr("is required"))) << words[1];
+    EXPECT_THAT(refusal, testing::Not(testing::IsEmpty())) << words[1];
+  }
+}
+
 TEST(Command, DescribesRobotMeshAndExperiment) {
   const TestFolder folder;
   const auto robot = WriteBarRobot(folder);

@@ -234,7 +234,7 @@ TEST(ForceTracks, HaveALineForEachTrueForceWithGaps) {
   EXPECT_EQ(lines[0].ci95_N[1], 0.1);
   EXPECT_TRUE(std::isnan(lines[0].estimated_N[2]));
   EXPECT_EQ(lines[0].hidden_N[2], 0.45);
-  EXPECT_EQ(lines[1].contact, "where nothing pushed");
+  EXPECT_EQ(lines[1].contact, "no true force here");
   EXPECT_EQ(lines[1].estimated_N[2], 0.3);
   EXPECT_EQ(lines[1].true_N[2], 0.0);
 }

@@ -35,7 +35,7 @@ TEST(LoadCases, MakesARowOfEachLineAndInterpolatesEmptyFieldsInTime) {
 TEST(LoadCases, LeavesACableWithoutColumnUndrivenAndSaysSo) {
   const LoadCases cases = Read("t_s,south.tension_N\n0,1\n", {"north", "south"});
   EXPECT_EQ(cases.rows[0].cables[0].kind, Kind::kNone);
-  EXPECT_THAT(cases.notes, testing::ElementsAre("cable north is not driven: no tension"));
+  EXPECT_THAT(cases.notes, testing::ElementsAre("cable north is not actuated: its tension is 0"));
 }
 
 TEST(LoadCases, ImposesThePreferredOfTwoColumnsAndSaysSo) {
@@ -44,7 +44,8 @@ TEST(LoadCases, ImposesThePreferredOfTwoColumnsAndSaysSo) {
   const LoadCases by_force = Read(csv, {"north"}, CableInput::kTension);
   EXPECT_EQ(by_force.rows[0].cables[0].kind, Kind::kTension);
   EXPECT_DOUBLE_EQ(by_force.rows[0].cables[0].value, 3.0);
-  EXPECT_THAT(by_force.notes, testing::ElementsAre(testing::HasSubstr("the tension is imposed")));
+  EXPECT_THAT(by_force.notes,
+              testing::ElementsAre(testing::HasSubstr("the tension is prescribed")));
 }
 
 TEST(LoadCases, TakesTimesAloneAsRowsUnderWeight) {

@@ -105,14 +105,14 @@ TEST_F(SimulateTest, SeesAnAnswerThatWasChanged) {
   std::string text = AnswerText();
   text.replace(text.find("\"seed\": 1"), 9, "\"seed\": 2");
   WriteFile(folder_ / "exp.answer.json", text);
-  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("is not the answer that was sealed"));
+  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("its hash differs from answer_sha256"));
 }
 
 TEST_F(SimulateTest, SeesDataThatWereChanged) {
   ASSERT_EQ(Run(), 0);
   const fs::path markers = options_.out / "recordings/a_rest/markers.csv";
   WriteFile(markers, ReadFile(markers) + "9,tip,0,0,0\n");
-  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("the recordings are not those"));
+  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("the recordings have changed"));
 }
 
 TEST_F(SimulateTest, SaysWhatIsMissingForACheck) {
@@ -121,13 +121,13 @@ TEST_F(SimulateTest, SaysWhatIsMissingForACheck) {
   fs::remove(folder_ / "exp.answer.json");
   EXPECT_THAT(CheckRefusal<InputError>(), HasSubstr("exp.answer.json: cannot be read"));
   WriteFile(options_.out / "experiment.yaml", "frame: robot\n");
-  EXPECT_THAT(CheckRefusal<InputError>(), HasSubstr("holds no 'answer_sha256'"));
+  EXPECT_THAT(CheckRefusal<InputError>(), HasSubstr("has no key 'answer_sha256'"));
   const std::string text = "{}";
   WriteFile(folder_ / "exp.answer.json", text);
   WriteFile(options_.out / "experiment.yaml", "answer_sha256: \"" + Sha256Hex(text) + "\"\n");
-  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("is no answer of 'palpate simulate'"));
+  EXPECT_THAT(CheckRefusal<RunError>(), HasSubstr("is not a ground truth of palpate simulate"));
   options_.check = options_.out;
-  EXPECT_THAT(Refusal(), HasSubstr("--check goes with --answer alone"));
+  EXPECT_THAT(Refusal(), HasSubstr("--check takes no other option than --answer"));
 }
 
 TEST_F(SimulateTest, PutsTheAnswerWhereItIsTold) {

@@ -92,8 +92,7 @@ TEST(StageTimes, SaysHowManyFramesEachProcessHadBetweenTheFirstAndTheLastThatWas
   times.Pass(3 * kPeriod_ns, Milestone::kPerceived, 0.02);  // but not estimated
   AddFrame(4 * kPeriod_ns, kUsual_ms, &times);
   times.AddState(5 * kPeriod_ns);  // still on its way
-  EXPECT_THAT(times.ToText(),
-              HasSubstr("5 states, 4 frames captured, 3 perceived, 2 estimated\n"));
+  EXPECT_THAT(times.ToText(), HasSubstr("5 states, 4 frames captured, 3 perceived, 2 estimated\n"));
 }
 
 TEST(StageTimes, ShowsWhereTheSlowestFramesLoseTheirTime) {
