@@ -21,7 +21,7 @@ class StopSignal {
   StopSignal& operator=(const StopSignal&) = delete;
 
   bool Requested() const;
-  /// For poll(): readable from the request on. Nobody is to read from it.
+  /// For poll() only: readable from the request on. Do not read from it.
   int file_descriptor() const;
   /// Blocks until a stop is requested.
   void Wait() const;

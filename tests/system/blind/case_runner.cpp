@@ -128,7 +128,7 @@ void CaseRunner::Diagnose(const BlindCase& drawn, const fs::path& data, const fs
                                         "--samples", std::to_string(settings_.samples),
                                         "--minutes", std::to_string(settings_.minutes)};
   if (!drawn.without.empty())
-    arguments.insert(arguments.end(), {"--without", Joined(drawn.without)});
+    arguments.insert(arguments.end(), {"--exclude", Joined(drawn.without)});
   const auto begin = steady_clock::now();
   system_test::Process program("palpate", arguments, data.parent_path() / "diagnose.log");
   const auto done = program.Wait(std::chrono::seconds(settings_.longest_diagnosis_s));

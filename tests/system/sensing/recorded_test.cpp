@@ -170,7 +170,7 @@ TEST(RecordedImages, GiveTheForcesOfTheDeskToTheLastBit) {
   ASSERT_EQ(
       RunProgram("palpate",
                  {"estimate", Robot(), "--data", experiment.string(), "--out",
-                  (folder / "forces.csv").string(), "--teachers", "first", "--set", kUntouched},
+                  (folder / "forces.csv").string(), "--bias-frames", "first", "--set", kUntouched},
                  folder / "estimate.log"),
       0)
       << ReadFile(folder / "estimate.log");

@@ -217,7 +217,7 @@ TEST_F(DiagnoseVerb, SaysNothingOfACameraThatStoodStill) {
 
 TEST_F(DiagnoseVerb, RefusesACauseThatDoesNotExist) {
   EXPECT_EQ(Palpate({"diagnose", "four_leg", "--data", "x", "--out", (folder_ / "out").string(),
-                     "--without", "cable_frictoin"},
+                     "--exclude", "cable_frictoin"},
                     folder_ / "log"),
             2);
   EXPECT_THAT(ReadFile(folder_ / "log"), testing::HasSubstr("cable_friction"));
