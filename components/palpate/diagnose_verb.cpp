@@ -17,7 +17,7 @@
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/report/verdict_words.hpp"
 #include "components/palpate/choose_recordings.hpp"
-#include "components/palpate/diagnose/skin_pictures.hpp"
+#include "components/palpate/diagnose/surface_images.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/import/import_options.hpp"
@@ -90,8 +90,8 @@ experiment::Experiment ReadData(const DiagnoseOptions& options) {
 }
 
 /// More points would not determine some fifty surface points any better.
-perception::Config PictureSettings(const DiagnoseOptions& options,
-                                   const experiment::Experiment& experiment) {
+perception::Config ImageSettings(const DiagnoseOptions& options,
+                                 const experiment::Experiment& experiment) {
   constexpr int kEnoughPoints = 4000;
   std::vector<std::string> overrides = {"perception.max_cloud_points=" +
                                         std::to_string(kEnoughPoints)};
@@ -112,9 +112,9 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
   try {
     const experiment::Experiment experiment = ReadData(options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
-    std::optional<SkinPictures> pictures;
-    if (options.from != "markers" && HasPictures(experiment)) {
-      pictures.emplace(experiment, body, PictureSettings(options, experiment));
+    std::optional<SurfaceImages> images;
+    if (options.from != "markers" && HasSurfaceImages(experiment)) {
+      images.emplace(experiment, body, ImageSettings(options, experiment));
     }
     diagnosis::Diagnosis diagnosis =
         diagnosis::Diagnose(robot, experiment,
@@ -124,7 +124,7 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                              .longest_s = 60.0 * options.most_minutes,
                              .noise = {},
                              .depth_cameras = DepthCamerasOf(experiment),
-                             .pictures = pictures ? &*pictures : nullptr},
+                             .pictures = images ? &*images : nullptr},
                             report);
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;

@@ -22,7 +22,7 @@ enum class Scope { kProgram, kVerb };
 /// --help, the manual page (--man) and completion (--completion).
 ///
 /// Options are written "--out FOLDER": the second word stands for the value in these texts. An
-/// option that is not given leaves its target as it was. Texts say what an option does and its
+/// option that is not given does not change its target. Texts say what an option does and its
 /// unit; the range and the default, which is the target's value at the declaration, are added. A
 /// target that is empty or out of its range has no default that could be shown: the text says what
 /// holds then. The targets must outlive Parse().

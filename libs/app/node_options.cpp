@@ -54,7 +54,7 @@ void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
 
 bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* options) {
   if (options->markdown && !options->print_config) {
-    throw InputError("--markdown needs --print-config");
+    throw InputError("--markdown needs --print-config: give both");
   }
   if (options->domain_id == kDomainNotGiven) options->domain_id = DomainOfEnvironment();
   if (!options->config_file.empty()) {

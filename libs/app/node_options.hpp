@@ -12,7 +12,7 @@
 
 namespace palpate::app {
 
-/// What is alike on the command line of every process: --config, --set, --domain, --log-level,
+/// The options that every process has: --config, --set, --domain, --log-level,
 /// --print-config [--markdown], beside what every program has (command_text.hpp).
 struct NodeOptions {
   std::filesystem::path config_file;  ///< empty: none

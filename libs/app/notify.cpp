@@ -29,8 +29,10 @@ void Notify(std::string_view state) {
   const std::string path = variable == nullptr ? "" : variable;
   if (path.empty()) return;
   sockaddr_un address{};
-  if (path.front() != '/' && path.front() != '@') Fail(path, "must begin with / or @");
-  if (path.size() >= sizeof(address.sun_path)) Fail(path, "is too long");
+  if (path.front() != '/' && path.front() != '@')
+    Fail(path, "must begin with / or @, as systemd sets it");
+  if (path.size() >= sizeof(address.sun_path))
+    Fail(path, "is longer than the path of a socket may be");
   address.sun_family = AF_UNIX;
   path.copy(address.sun_path, path.size());
   if (path.front() == '@') address.sun_path[0] = '\0';  // a name outside the file system

@@ -5,9 +5,9 @@
 
 namespace palpate::app {
 
-/// Tells systemd (Type=notify) that this process is ready, stopping, or alive: one datagram to the
-/// socket that NOTIFY_SOCKET names (sd_notify(3)); nothing where it is unset. Each throws RunError
-/// with the cause where the datagram cannot be sent.
+/// Notifies systemd (Type=notify) that this process is ready, stopping, or alive: one datagram to
+/// the socket that NOTIFY_SOCKET names (sd_notify(3)); nothing where it is unset. Each throws
+/// RunError with the cause where the datagram cannot be sent.
 void NotifyReady();
 void NotifyStopping();
 void NotifyWatchdog();

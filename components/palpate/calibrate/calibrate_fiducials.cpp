@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibrate_points.hpp"
-#include "components/palpate/calibrate/calibrate_ways.hpp"
-#include "components/palpate/calibrate/image_moments.hpp"
+#include "components/palpate/calibrate/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/perception/markers/fiducial_detector.hpp"
@@ -55,29 +55,29 @@ std::string Rejected(const perception::FiducialRejections& rejected) {
 }
 
 /// Adds the points of one recording's images.
-void Look(const std::vector<ImageMoment>& moments, const perception::FiducialConfig& config,
+void Look(const std::vector<ImageSample>& samples, const perception::FiducialConfig& config,
           const std::vector<std::string>& markers, bool with_images, PointsWithoutNames* points) {
   perception::FiducialDetector detector(config);
-  detector.SetCamera(moments.front().images->camera);
-  perception::Registration registration(moments.front().images->camera);
+  detector.SetCamera(samples.front().images->camera);
+  perception::Registration registration(samples.front().images->camera);
   perception::RegisteredFrame registered;
   rgbd::RgbdFrame images;
-  for (const ImageMoment& moment : moments) {
-    moment.images->Read(moment.index, &images);
+  for (const ImageSample& sample : samples) {
+    sample.images->Read(sample.index, &images);
     const FiducialFrame& seen = detector.Detect(images);
-    if (!seen.status.ok()) throw InputError(moment.frame.name + ": " + seen.status.message());
+    if (!seen.status.ok()) throw InputError(sample.frame.name + ": " + seen.status.message());
     if (seen.fiducials.empty()) {
-      fmt::print(stderr, "excluded: {}: no fiducial is seen; {}\n", moment.frame.name,
+      fmt::print(stderr, "excluded: {}: no fiducial is seen; {}\n", sample.frame.name,
                  Rejected(seen.rejected));
       continue;
     }
-    points->frames.push_back({.frame = {.name = moment.frame.name,
-                                        .cables = moment.frame.cables,
-                                        .loads = moment.frame.loads,
-                                        .gravity_m_s2 = moment.frame.gravity_m_s2},
+    points->frames.push_back({.frame = {.name = sample.frame.name,
+                                        .cables = sample.frame.cables,
+                                        .loads = sample.frame.loads,
+                                        .gravity_m_s2 = sample.frame.gravity_m_s2},
                               .points = PointsOf(seen, markers)});
     if (!with_images || !registration.Register(images, &registered).ok()) continue;
-    points->grounds.push_back({registered.color, moment.images->camera.depth});
+    points->grounds.push_back({registered.color, sample.images->camera.depth});
   }
 }
 
@@ -99,7 +99,7 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   points.recordings = RecordingsWithImages(options, experiment);
   for (const experiment::Recording* recording : points.recordings) {
     const auto images = experiment::OpenRecordingImages(*recording, app::LoadYaml);
-    Look(MomentsOf(*recording, images, *model, ParseCableInput(options.cable_input)), config,
+    Look(SamplesOf(*recording, images, *model, ParseCableInput(options.cable_input)), config,
          markers, !options.assignment.empty(), &points);
   }
   if (points.frames.empty()) {

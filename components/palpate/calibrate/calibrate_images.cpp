@@ -9,9 +9,9 @@
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
-#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
-#include "components/palpate/calibrate/image_moments.hpp"
+#include "components/palpate/calibrate/image_samples.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/yaml.hpp"
@@ -41,18 +41,18 @@ Eigen::Isometry3d ToIsometry(const geometry::RigidTransform& T) {
 }
 
 /// The model's shapes before anything is fitted.
-std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageMoment>& moments,
+std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageSample>& samples,
                                     const Eigen::Isometry3d& T_robot_camera,
                                     robot::RobotModel* model) {
   const calibration::ModelSnapshot kept(*model);
   std::vector<ExpectedNodes> shapes;
-  for (const ImageMoment& moment : moments) {
-    model->SetGravity(moment.frame.gravity_m_s2);
+  for (const ImageSample& sample : samples) {
+    model->SetGravity(sample.frame.gravity_m_s2);
     fem::StaticState state = model->RestState();
-    const fem::StaticResult solved = model->Solve(moment.frame.cables, moment.frame.loads, &state);
+    const fem::StaticResult solved = model->Solve(sample.frame.cables, sample.frame.loads, &state);
     kept.RestoreGravity();
     if (!solved.status.ok()) {
-      throw RunError(moment.frame.name + ": " + solved.status.message());
+      throw RunError(sample.frame.name + ": " + solved.status.message());
     }
     shapes.push_back({state.x_m.reshaped(3, state.x_m.size() / 3).cast<float>(), T_robot_camera});
   }
@@ -65,12 +65,12 @@ struct Pass {
   CloudCalibration fit;
 };
 
-Pass Run(const std::vector<ImageMoment>& moments, const perception::Config& perception,
+Pass Run(const std::vector<ImageSample>& samples, const perception::Config& perception,
          const std::vector<ExpectedNodes>& expected, const Eigen::Isometry3d& start,
          const calibration::CloudSettings& clouds, robot::RobotModel* model) {
   Pass pass;
   std::vector<std::string> left_out;
-  pass.frames = SeeClouds(moments, perception, model->body(), expected, &left_out);
+  pass.frames = SeeClouds(samples, perception, model->body(), expected, &left_out);
   if (pass.frames.empty()) {
     throw RunError("perception sees the robot in no image (" + left_out.front() +
                    "): give a more accurate --camera-pose, or the robot's colour, --set "
@@ -113,12 +113,12 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   const auto chosen = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
   sequences.reserve(chosen.size());
-  std::vector<ImageMoment> moments;
+  std::vector<ImageSample> samples;
   for (const Recording* recording : chosen) {
     sequences.push_back(experiment::OpenRecordingImages(*recording, app::LoadYaml));
-    for (ImageMoment& moment :
-         MomentsOf(*recording, sequences.back(), *model, ParseCableInput(options.cable_input))) {
-      moments.push_back(std::move(moment));
+    for (ImageSample& sample :
+         SamplesOf(*recording, sequences.back(), *model, ParseCableInput(options.cable_input))) {
+      samples.push_back(std::move(sample));
     }
   }
   calibration::CloudSettings clouds;
@@ -130,12 +130,12 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   // An approximate pose misplaces the predicted surface; a known robot colour does not depend on
   // it.
   const bool by_color = !perception.robot_color_rgb.empty();
-  const Pass rough = Run(moments, perception,
-                         by_color ? std::vector<ExpectedNodes>() : ShapesOf(moments, start, model),
+  const Pass rough = Run(samples, perception,
+                         by_color ? std::vector<ExpectedNodes>() : ShapesOf(samples, start, model),
                          start, clouds, model);
   kept.Restore();
   const Eigen::Isometry3d found = ToIsometry(rough.fit.joint.T_robot_camera);
-  const Pass pass = Run(moments, perception, ShapesOf(moments, found, model), found, clouds, model);
+  const Pass pass = Run(samples, perception, ShapesOf(samples, found, model), found, clouds, model);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   calibration::TakeFit(pass.fit.joint, *model, &file);
   calibration::TakeDepthBias(pass.fit.joint, rgbd::PictureOf(sequences.front().camera.depth),

@@ -6,7 +6,7 @@
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/material_calibration.hpp"
 #include "components/calibration/recording_observation.hpp"
-#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/find_robot.hpp"

@@ -11,7 +11,7 @@
 
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/calibration/pose/unlabelled_recording.hpp"
-#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/convergence_plot.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"

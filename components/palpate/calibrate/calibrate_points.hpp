@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/calibration/pose/unlabelled_calibration.hpp"
-#include "components/palpate/calibrate/assignment_picture.hpp"
+#include "components/palpate/calibrate/assignment_plot.hpp"
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -18,7 +18,7 @@ namespace palpate::command {
 struct PointsWithoutNames {
   std::vector<const experiment::Recording*> recordings;
   std::vector<calibration::UnlabelledFrame> frames;
-  std::vector<PictureGround> grounds;  ///< [frames] images to draw on; empty: none
+  std::vector<PlotGround> grounds;  ///< [frames] images to draw on; empty: none
   calibration::UnlabelledSettings settings;
 };
 

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "components/calibration/joint/found_calibration.hpp"
-#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/find_robot.hpp"

@@ -40,7 +40,7 @@ struct CalibrateOptions {
   double depth_scale_sigma = 0.0;
   std::filesystem::path out;
   bool unlabelled = false;            ///< names in markers.csv mean nothing
-  std::filesystem::path assignment;   ///< SVG to draw (assignment_picture.hpp); empty: none
+  std::filesystem::path assignment;   ///< SVG to draw (assignment_plot.hpp); empty: none
   std::filesystem::path convergence;  ///< SVG to draw (convergence_plot.hpp); empty: none
   bool json = false;
 };

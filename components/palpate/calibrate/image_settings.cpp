@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "components/palpate/calibrate/calibrate_ways.hpp"
+#include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"

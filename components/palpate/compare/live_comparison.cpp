@@ -96,7 +96,7 @@ void LiveComparison::KeepIfBest(double t_s, const std::vector<ComparedForce>& co
   const double worth = WorthOfPicture(compared, with_truth_);
   if (nodes == nodes_m_.end() || worth <= best_worth_) return;
   best_worth_ = worth;
-  best_ = ForceMoment{t_s - first_s_, nodes->second, compared};
+  best_ = ForceFrame{t_s - first_s_, nodes->second, compared};
 }
 
 double LiveComparison::Rate_hz() const {

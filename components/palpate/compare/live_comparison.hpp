@@ -19,7 +19,7 @@
 namespace palpate::command {
 
 /// A frame to draw: the model's nodes and the forces in it.
-struct ForceMoment {
+struct ForceFrame {
   double t_s = 0.0;
   Eigen::VectorXd nodes_m;  ///< [3n]
   std::vector<ComparedForce> forces;
@@ -49,7 +49,7 @@ class LiveComparison {
   const ComparisonSummary& summary() const { return summary_; }
   std::vector<view::ForceTrack> Tracks() const { return tracks_.Tracks(); }
   /// The frame with the largest detected steady force; without truth the largest force.
-  const std::optional<ForceMoment>& best() const { return best_; }
+  const std::optional<ForceFrame>& best() const { return best_; }
   int frames() const { return frames_; }    ///< with an estimate; stale ones do not count
   int results() const { return results_; }  ///< frames with a result
   /// Frames a second between the first in which there is a robot and the last; NaN below two.
@@ -71,7 +71,7 @@ class LiveComparison {
   ComparisonSummary summary_;
   ForceTracks tracks_;
   std::map<std::string, int> statuses_;
-  std::optional<ForceMoment> best_;
+  std::optional<ForceFrame> best_;
   double best_worth_ = 0.0;
   int frames_ = 0;
   int results_ = 0;

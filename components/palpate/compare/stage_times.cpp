@@ -36,7 +36,7 @@ void StageTimes::Pass(std::int64_t stamp_ns, Milestone milestone, double after_e
   double& age_s = frame->second[Index(milestone)];
   if (std::isfinite(age_s)) return;
   age_s = after_exposure_s;
-  if (milestone == Milestone::kPublished) AddStamp(stamp_ns, &pictures_ns_);
+  if (milestone == Milestone::kPublished) AddStamp(stamp_ns, &captured_ns_);
   if (milestone == Milestone::kPerceived) AddStamp(stamp_ns, &perceived_ns_);
   if (milestone == Milestone::kEstimated) AddStamp(stamp_ns, &estimated_ns_);
   if (open_.size() > kMostOpen) open_.erase(open_.begin());
@@ -83,7 +83,7 @@ std::string StageTimes::CountsText() const {
     });
   };
   return fmt::format("  {:<18} {} states, {} frames captured, {} perceived, {} estimated\n",
-                     "counts", within(states_ns_), within(pictures_ns_), within(perceived_ns_),
+                     "counts", within(states_ns_), within(captured_ns_), within(perceived_ns_),
                      within(estimated_ns_));
 }
 

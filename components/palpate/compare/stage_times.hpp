@@ -62,7 +62,7 @@ class StageTimes {
   Stamps stamps_ns_;                   ///< of the frames with all milestones
   std::vector<Ages> ages_s_;           ///< of the same frames
   Stamps states_ns_;
-  Stamps pictures_ns_;
+  Stamps captured_ns_;
   Stamps perceived_ns_;
   Stamps estimated_ns_;
 };

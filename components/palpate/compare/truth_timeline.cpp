@@ -73,14 +73,14 @@ bool TruthTimeline::IsSteady(const std::string& name, double t_s, double window_
   const auto now = At(t_s);
   const auto then = At(t_s - window_s);
   if (!now || !then) return false;
-  std::vector<const std::vector<TrueContact>*> moments = {&*then, &*now};
+  std::vector<const std::vector<TrueContact>*> samples = {&*then, &*now};
   for (const Sample& sample : samples_) {
-    if (sample.t_s > t_s - window_s && sample.t_s < t_s) moments.push_back(&sample.contacts);
+    if (sample.t_s > t_s - window_s && sample.t_s < t_s) samples.push_back(&sample.contacts);
   }
   double smallest_N = std::numeric_limits<double>::infinity();
   double largest_N = 0.0;
-  for (const std::vector<TrueContact>* moment : moments) {
-    const TrueContact* contact = Find(*moment, name);
+  for (const std::vector<TrueContact>* contacts : samples) {
+    const TrueContact* contact = Find(*contacts, name);
     if (contact == nullptr) return false;
     smallest_N = std::min(smallest_N, contact->force_N.norm());
     largest_N = std::max(largest_N, contact->force_N.norm());

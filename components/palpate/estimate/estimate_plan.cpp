@@ -16,7 +16,7 @@ using experiment::Experiment;
 using experiment::Recording;
 using experiment::RecordingKind;
 
-std::optional<EstimateFrom> WayOf(const Recording& recording, const std::string& from) {
+std::optional<EstimateFrom> MethodOf(const Recording& recording, const std::string& from) {
   const bool has_images = HasImages(recording);
   if (has_images && from != ToString(EstimateFrom::kMarkers)) return EstimateFrom::kShape;
   const bool images_asked = from == ToString(EstimateFrom::kShape);
@@ -36,7 +36,7 @@ std::string ToString(EstimateFrom from) {
   return from == EstimateFrom::kMarkers ? "markers" : "shape";
 }
 
-bool IsUntouched(const Recording& recording) {
+bool IsContactFree(const Recording& recording) {
   switch (recording.kind) {
     case RecordingKind::kRest:
     case RecordingKind::kRamp:
@@ -61,16 +61,16 @@ std::vector<PlannedRecording> PlanEstimates(const Experiment& experiment,
                                             const std::string& from) {
   std::vector<PlannedRecording> plan;
   for (const Recording* recording : ChooseRecordings(experiment, names)) {
-    const std::optional<EstimateFrom> way = WayOf(*recording, from);
-    if (!way) {
+    const std::optional<EstimateFrom> method = MethodOf(*recording, from);
+    if (!method) {
       throw InputError(recording->folder.string() + ": the recording has no " +
                        WhatIsMissing(from));
     }
-    plan.push_back({recording, *way});
+    plan.push_back({recording, *method});
   }
   if (!names.empty()) return plan;
   for (const Recording& recording : experiment.recordings) {
-    if (const auto way = WayOf(recording, from)) plan.push_back({&recording, *way});
+    if (const auto method = MethodOf(recording, from)) plan.push_back({&recording, *method});
   }
   if (plan.empty()) {
     throw InputError(experiment.folder.string() + ": no recording has " + WhatIsMissing(from));
@@ -78,12 +78,12 @@ std::vector<PlannedRecording> PlanEstimates(const Experiment& experiment,
   return plan;
 }
 
-std::vector<const Recording*> Teachers(const Experiment& experiment) {
-  std::vector<const Recording*> teachers;
+std::vector<const Recording*> BiasRecordings(const Experiment& experiment) {
+  std::vector<const Recording*> recordings;
   for (const Recording& recording : experiment.recordings) {
-    if (IsUntouched(recording) && HasImages(recording)) teachers.push_back(&recording);
+    if (IsContactFree(recording) && HasImages(recording)) recordings.push_back(&recording);
   }
-  return teachers;
+  return recordings;
 }
 
 }  // namespace palpate::command

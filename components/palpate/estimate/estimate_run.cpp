@@ -19,13 +19,11 @@ namespace palpate::command {
 
 namespace {
 
-/// Gives the model and the experiment what was calibrated, and returns it.
+/// Applies the calibration to the model and the experiment, and returns it.
 robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot::RobotModel* model,
                                         experiment::Experiment* experiment) {
   if (file.empty()) {
-    fmt::print(stderr,
-               "palpate estimate: no --calibration: the moduli of the robot file are "
-               "taken as they are\n");
+    fmt::print(stderr, "palpate estimate: no --calibration: the moduli of the robot file hold\n");
     return {};
   }
   auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
@@ -65,7 +63,7 @@ ShapePipeline& EstimateRun::Shape() {
         .first_untouched = options_.bias_frames == "first" ? settings_.shape.untouched_frames : 0};
     for (const force_estimation::ContactSite& site : inputs.sites) {
       if (site.direction.isZero(0.0)) continue;
-      Say("the direction of contact '" + site.name + "' counts for markers only");
+      Say("the direction of contact '" + site.name + "' is used with markers only");
     }
     shape_ =
         std::make_unique<ShapePipeline>(inputs, MakeShapeSenses(settings_, &model_, calibration_));
@@ -73,18 +71,18 @@ ShapePipeline& EstimateRun::Shape() {
   return *shape_;
 }
 
-void EstimateRun::Teach(const std::vector<PlannedRecording>& plan) {
+void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
   const bool from_shape = std::any_of(
       plan.begin(), plan.end(),
       [](const PlannedRecording& planned) { return planned.from == EstimateFrom::kShape; });
   if (!from_shape || options_.bias_frames != "recordings") return;
   int frames = 0;
-  for (const experiment::Recording* teacher : Teachers(experiment_)) {
-    frames += Shape().Teach(*teacher);
+  for (const experiment::Recording* recording : BiasRecordings(experiment_)) {
+    frames += Shape().Teach(*recording);
   }
-  Say(frames > 0 ? fmt::format("learnt from {} frames in which nobody touches the robot", frames)
-                 : "no recording in which nobody touches the robot (rest, ramp, hold, ...) and "
-                   "whose camera pose is known: the depth bias stays unknown");
+  Say(frames > 0 ? fmt::format("depth bias estimated from {} contact-free frames", frames)
+                 : "no contact-free recording (kind rest, ramp, hold, ...) has images and a camera "
+                   "pose: the depth bias stays unknown");
 }
 
 void EstimateRun::Estimate(const PlannedRecording& planned) {

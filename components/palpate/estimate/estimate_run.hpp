@@ -18,18 +18,18 @@
 
 namespace palpate::command {
 
-/// One run of `palpate estimate`: what is estimated is printed at once and gathered for forces.csv.
+/// One run of `palpate estimate`: prints each recording's summary and collects forces.csv.
 class EstimateRun {
  public:
-  /// Gives model and experiment what was calibrated. All arguments must outlive the run. Throws
+  /// Applies the calibration to model and experiment. All arguments must outlive the run. Throws
   /// InputError.
   EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
               experiment::Experiment* experiment, robot::RobotModel* model);
   ~EstimateRun();
 
-  /// Lets the untouched recordings teach, where one of `plan` is estimated from its shape.
-  void Teach(const std::vector<PlannedRecording>& plan);
-  /// Throws InputError, as the ways do.
+  /// Processes the contact-free recordings, where one of `plan` is estimated from its shape.
+  void EstimateDepthBias(const std::vector<PlannedRecording>& plan);
+  /// Throws InputError, as the pipelines do.
   void Estimate(const PlannedRecording& planned);
   /// Writes forces.csv; returns the exit code. Throws RunError.
   int Finish();
@@ -43,7 +43,7 @@ class EstimateRun {
   const experiment::Experiment& experiment_;
   robot::RobotModel& model_;
   robot::CalibrationFile calibration_;    ///< empty where none is given
-  std::unique_ptr<ShapePipeline> shape_;  ///< from the first need on
+  std::unique_ptr<ShapePipeline> shape_;  ///< created when first needed
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   int with_result_ = 0;

@@ -25,13 +25,13 @@ struct EstimateSettings {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     forces.Visit(v);
-    v("perception", perception, "From images to clouds and contacts");
+    v("perception", perception, "Image processing: clouds and contacts");
     v("shape", shape, "Forces from the robot's shape");
   }
 };
 
-/// Defaults, what the experiment tells of its camera, `file` (empty: none), `overrides`
-/// (KEY=VALUE), and `contacts` added to the settings' own; the last word wins. Throws InputError.
+/// Defaults, the depth noise of the experiment, `file` (empty: none), `overrides`
+/// (KEY=VALUE), and `contacts` added to the settings' own; later ones override. Throws InputError.
 EstimateSettings ReadEstimateSettings(const experiment::Experiment& experiment,
                                       const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides,

@@ -19,7 +19,7 @@ int Estimate(const EstimateOptions& options) {
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
                                options.calibration);
   EstimateRun run(options, settings, &experiment, model.get());
-  run.Teach(plan);
+  run.EstimateDepthBias(plan);
   for (const PlannedRecording& planned : plan) run.Estimate(planned);
   return run.Finish();
 }

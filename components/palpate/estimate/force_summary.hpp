@@ -15,16 +15,15 @@
 
 namespace palpate::command {
 
-/// What came of one recording, to be read at a glance: how many frames had which status and why,
-/// and the median force at each contact over the static phase (the whole recording where none is
-/// given).
+/// Summary of one recording: the number of frames of each status with its reason, and the median
+/// force at each contact over the static phase (the whole recording where none is given).
 class ForceSummary {
  public:
   ForceSummary(std::string recording, std::optional<experiment::TimeWindow> steady_window_s);
 
   void Add(const force_estimation::ForceEstimate& estimate);
 
-  /// Median over the frames in which the force was found; forces of no frame: count 0.
+  /// Median over the frames in which the force was estimated; none: count 0.
   struct Contact {
     int count = 0;
     Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of each component
@@ -35,7 +34,7 @@ class ForceSummary {
   Contact MedianOf(const std::string& contact) const;
   std::vector<std::string> Contacts() const;
 
-  /// Lines to read, each ended.
+  /// Lines of text, each with its line end.
   std::string ToText() const;
   nlohmann::ordered_json ToJson() const;
 

@@ -10,7 +10,7 @@
 
 namespace palpate::command {
 
-/// forces.csv (ARCHITECTURE, "Measured data"): one row for each frame and contact; a frame without
+/// forces.csv (docs/experiment.md): one row for each frame and contact; a frame without
 /// contact, and one without a result, has one row with an empty contact and its status. A force
 /// that the markers do not determine at all has empty fields.
 class ForcesTable {
@@ -18,7 +18,7 @@ class ForcesTable {
   void Add(const std::string& recording, const force_estimation::ForceEstimate& estimate);
 
   const std::string& text() const { return text_; }
-  /// Throws RunError where it cannot be written.
+  /// Throws RunError where the file cannot be written.
   void Write(const std::filesystem::path& file) const;
 
  private:

@@ -13,12 +13,12 @@ RobotViewer::RobotViewer(const perception::Config& config, const robot::RobotBod
     : perception_(config), triangles_(body.boundary.DrawnTriangles()) {}
 
 const perception::SegmentedFrame& RobotViewer::Look(const experiment::RgbdSequence& sequence,
-                                                    std::size_t picture,
+                                                    std::size_t index,
                                                     const ExpectedNodes* expected) {
   if (opened_ != &sequence) perception_.SetCamera(sequence.camera);
   opened_ = &sequence;
-  sequence.Read(picture, &images_);
-  images_.stamp_ns = sequence.frames[picture].t_ns;
+  sequence.Read(index, &images_);
+  images_.stamp_ns = sequence.frames[index].t_ns;
   std::optional<perception::PredictedSurface> surface;
   if (expected != nullptr) {
     surface =

@@ -29,7 +29,7 @@ class RobotViewer {
   /// `sequence` must outlive the calls with its frames. Throws InputError where a file cannot be
   /// read.
   const perception::SegmentedFrame& Look(const experiment::RgbdSequence& sequence,
-                                         std::size_t picture, const ExpectedNodes* expected);
+                                         std::size_t index, const ExpectedNodes* expected);
   /// The frame as it was read.
   const rgbd::RgbdFrame& images() const { return images_; }
 

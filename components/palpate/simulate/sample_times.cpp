@@ -20,9 +20,9 @@ const RecordingPlan& PlanOf(const scenario::Schedule& schedule, int recording) {
 }
 
 /// The samples of one recording, each once.
-class Moments {
+class Instants {
  public:
-  Moments(double begin_s, double duration_s)
+  Instants(double begin_s, double duration_s)
       : begin_s_(begin_s), duration_s_(duration_s), end_ns_(Nanoseconds(begin_s + duration_s)) {}
 
   Instant* At(double t_s) {
@@ -57,24 +57,24 @@ class Moments {
 std::vector<Instant> SampleTimes(const scenario::Schedule& schedule, int recording) {
   const RecordingPlan& plan = PlanOf(schedule, recording);
   const scenario::Scenario& scenario = schedule.scenario();
-  Moments moments(schedule.Begin_s(recording), plan.duration_s);
-  moments.At(0.0);
-  if (scenario.markers) moments.AtRate(scenario.markers->rate_hz, &Instant::markers);
-  if (scenario.TakesPictures()) moments.AtRate(scenario.camera->rate_hz, &Instant::image);
-  for (const scenario::CommandRow& row : plan.commands.rows) moments.At(row.t_s);
-  for (const scenario::HungWeight& weight : plan.weights) moments.At(weight.t_s);
+  Instants instants(schedule.Begin_s(recording), plan.duration_s);
+  instants.At(0.0);
+  if (scenario.markers) instants.AtRate(scenario.markers->rate_hz, &Instant::markers);
+  if (scenario.TakesPictures()) instants.AtRate(scenario.camera->rate_hz, &Instant::image);
+  for (const scenario::CommandRow& row : plan.commands.rows) instants.At(row.t_s);
+  for (const scenario::HungWeight& weight : plan.weights) instants.At(weight.t_s);
   for (const scenario::ToolPath& path : plan.tool_paths) {
-    for (const scenario::Waypoint& waypoint : path.waypoints) moments.At(waypoint.t_s);
+    for (const scenario::Waypoint& waypoint : path.waypoints) instants.At(waypoint.t_s);
   }
-  return moments.Take();
+  return instants.Take();
 }
 
 std::vector<Instant> RestTimes(const scenario::Schedule& schedule, int recording) {
   const double rest_s = schedule.scenario().rest_between_s;
   const double begin_s = schedule.Begin_s(recording) - rest_s;
-  Moments moments(begin_s, rest_s);
-  for (const double share : {0.0, 0.5}) moments.At(share * rest_s);
-  return moments.Take();
+  Instants instants(begin_s, rest_s);
+  for (const double share : {0.0, 0.5}) instants.At(share * rest_s);
+  return instants.Take();
 }
 
 scenario::BenchInputs InputsAt(const scenario::Schedule& schedule, int recording,

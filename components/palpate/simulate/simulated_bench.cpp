@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "components/palpate/simulate/marked_skin.hpp"
+#include "components/palpate/simulate/marked_surface.hpp"
 #include "components/virtual_camera/camera_faults.hpp"
 #include "components/virtual_camera/measured_points.hpp"
 #include "components/virtual_camera/virtual_camera.hpp"
@@ -49,15 +49,15 @@ class VirtualBench : public SimulatedBench {
 
   std::vector<virtual_robot::CableReading> Cables() const override { return robot_.cables(); }
   Eigen::Matrix3Xd Markers_m() const override { return robot_.MarkerPositions_m(); }
-  Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const override {
-    const Eigen::Isometry3d T_camera_robot = TrueCameraPose(moment).inverse();
+  Eigen::Matrix3Xd MarkersByCamera_m(const CameraInput& input) const override {
+    const Eigen::Isometry3d T_camera_robot = TrueCameraPose(input).inverse();
     Eigen::Matrix3Xd measured_m = virtual_camera::MeasurePoints(
-        faults_, data_sheet_, moment.t_s, T_camera_robot * Markers_m(),
+        faults_, data_sheet_, input.t_s, T_camera_robot * Markers_m(),
         T_camera_robot.linear() * skin_.Normals(robot_.positions_m()));
     // At rest and from the nominal camera pose, so that visibility does not reveal hidden effects.
     for (Eigen::Index m = 0; m < measured_m.cols(); ++m) {
       const Eigen::Vector3d to_camera_m =
-          moment.T_robot_camera.translation() - rest_markers_m_.col(m);
+          input.T_robot_camera.translation() - rest_markers_m_.col(m);
       const double cosine = rest_normals_.col(m).dot(to_camera_m.normalized());
       if (cosine < grazing_cosine_) {
         measured_m.col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -68,27 +68,27 @@ class VirtualBench : public SimulatedBench {
   std::vector<virtual_robot::TrueForce> Forces() const override { return robot_.forces(); }
   std::string MeshHash() const override { return robot_.mesh_hash(); }
 
-  void TakeFrame(const scenario::BenchInputs& inputs, const CameraMoment& moment,
+  void TakeFrame(const scenario::BenchInputs& inputs, const CameraInput& input,
                  rgbd::RgbdFrame* frame) override {
     PALPATE_CHECK(camera_ != nullptr, "the scenario has no camera");
     const Eigen::VectorXd& positions_m = robot_.positions_m();
-    view_.t_s = moment.t_s;
+    view_.t_s = input.t_s;
     view_.nodes_m =
         Eigen::Map<const Eigen::Matrix3Xd>(positions_m.data(), 3, positions_m.size() / 3);
     view_.tools = inputs.tools;
-    view_.T_robot_camera = moment.T_robot_camera;
-    view_.recording = moment.recording;
+    view_.T_robot_camera = input.T_robot_camera;
+    view_.recording = input.recording;
     camera_->Take(view_, frame);
   }
 
-  Eigen::Isometry3d TrueCameraPose(const CameraMoment& moment) const override {
-    return faults_.MovedPose(moment.T_robot_camera, moment.recording);
+  Eigen::Isometry3d TrueCameraPose(const CameraInput& input) const override {
+    return faults_.MovedPose(input.T_robot_camera, input.recording);
   }
 
  private:
   virtual_robot::VirtualRobot robot_;
   virtual_camera::CameraFaults faults_;
-  MarkedSkin skin_;
+  MarkedSurface skin_;
   Eigen::Matrix3Xd rest_markers_m_;
   Eigen::Matrix3Xd rest_normals_;
   rgbd::CameraModel data_sheet_;

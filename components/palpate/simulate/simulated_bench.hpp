@@ -21,7 +21,7 @@
 namespace palpate::command {
 
 /// Inputs of the virtual camera at one time.
-struct CameraMoment {
+struct CameraInput {
   double t_s = 0.0;  ///< since the bench was switched on
   int recording = 0;
   /// The nominal camera pose; hidden effects are added to it.
@@ -40,13 +40,13 @@ class SimulatedBench {
   virtual Eigen::Matrix3Xd Markers_m() const = 0;  ///< [3 x markers of the robot file] robot frame
   /// The same as the depth camera measures them without noise, camera frame; NaN: outside the
   /// image, or on a surface that at rest is beyond the grazing angle.
-  virtual Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const = 0;
+  virtual Eigen::Matrix3Xd MarkersByCamera_m(const CameraInput& input) const = 0;
   virtual std::vector<virtual_robot::TrueForce> Forces() const = 0;
   virtual std::string MeshHash() const = 0;  ///< of the simulated body
 
-  virtual void TakeFrame(const scenario::BenchInputs& inputs, const CameraMoment& moment,
+  virtual void TakeFrame(const scenario::BenchInputs& inputs, const CameraInput& input,
                          rgbd::RgbdFrame* frame) = 0;
-  virtual Eigen::Isometry3d TrueCameraPose(const CameraMoment& moment) const = 0;
+  virtual Eigen::Isometry3d TrueCameraPose(const CameraInput& input) const = 0;
 };
 
 using MakeBench = std::function<std::unique_ptr<SimulatedBench>(

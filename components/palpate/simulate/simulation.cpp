@@ -145,31 +145,31 @@ class Run {
     time_s_ = t_s;
   }
 
-  CameraMoment MomentOf(int index, double t_s) const {
-    CameraMoment moment{.t_s = t_s, .recording = index};
+  CameraInput CameraInputAt(int index, double t_s) const {
+    CameraInput input{.t_s = t_s, .recording = index};
     if (scenario_.camera) {
       const auto& plan = scenario_.recordings[static_cast<std::size_t>(index)];
-      moment.T_robot_camera = plan.T_robot_camera.value_or(scenario_.camera->T_robot_camera);
+      input.T_robot_camera = plan.T_robot_camera.value_or(scenario_.camera->T_robot_camera);
     }
-    return moment;
+    return input;
   }
 
   void Measure(int index, const Instant& instant, const scenario::BenchInputs& inputs,
                RecordingWriter* writer, RecordingTruth* truth) {
     const double t_s = instant.t_s();
-    const CameraMoment moment = MomentOf(index, t_s);
-    if (scenario_.camera) truth->T_robot_camera = bench_->TrueCameraPose(moment);
+    const CameraInput input = CameraInputAt(index, t_s);
+    if (scenario_.camera) truth->T_robot_camera = bench_->TrueCameraPose(input);
     writer->AddCables(t_s, bench_->Cables());
     if (instant.markers) {
       const Eigen::Isometry3d T_measurement_robot = truth->T_robot_camera.inverse();
       const Eigen::Matrix3Xd measured_m = scenario_.markers->by_depth_camera
-                                              ? bench_->MarkersByCamera_m(moment)
+                                              ? bench_->MarkersByCamera_m(input)
                                               : T_measurement_robot * bench_->Markers_m();
       writer->AddMarkers(t_s, measured_m, &marker_noise_);
       ++counts_.marker_frames;
     }
     if (instant.image) {
-      bench_->TakeFrame(inputs, moment, &frame_);
+      bench_->TakeFrame(inputs, input, &frame_);
       frame_.stamp_ns = instant.t_ns;
       writer->AddImage(frame_);
       ++counts_.images;

@@ -68,21 +68,21 @@ TEST_F(EstimatePlanTest, NobodyTouchesTheRobotInSomeKinds) {
   for (const RecordingKind kind :
        {RecordingKind::kRest, RecordingKind::kRamp, RecordingKind::kHold,
         RecordingKind::kCoContraction, RecordingKind::kSecondSpeed, RecordingKind::kRepeat}) {
-    EXPECT_TRUE(IsUntouched(Named("r", kind))) << experiment::ToString(kind);
+    EXPECT_TRUE(IsContactFree(Named("r", kind))) << experiment::ToString(kind);
   }
   for (const RecordingKind kind : {RecordingKind::kKnownLoad, RecordingKind::kBaseTilted,
                                    RecordingKind::kCameraMoved, RecordingKind::kFree}) {
-    EXPECT_FALSE(IsUntouched(Named("r", kind))) << experiment::ToString(kind);
+    EXPECT_FALSE(IsContactFree(Named("r", kind))) << experiment::ToString(kind);
   }
   Recording loaded = Named("r", RecordingKind::kHold);
   loaded.loads.resize(1);
-  EXPECT_FALSE(IsUntouched(loaded));
+  EXPECT_FALSE(IsContactFree(loaded));
 }
 
-TEST_F(EstimatePlanTest, TeachersHaveImagesAndNoHandsInThem) {
-  EXPECT_THAT(Teachers(experiment_), ElementsAre(&experiment_.recordings[0]));
+TEST_F(EstimatePlanTest, BiasRecordingsHaveImagesAndAreContactFree) {
+  EXPECT_THAT(BiasRecordings(experiment_), ElementsAre(&experiment_.recordings[0]));
   experiment_.recordings[2].depth_images.resize(1);
-  EXPECT_THAT(Teachers(experiment_), SizeIs(2));
+  EXPECT_THAT(BiasRecordings(experiment_), SizeIs(2));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct FakeBenchLog {
   };
   double started_s = -1.0;
   std::vector<Step> steps;
-  std::vector<CameraMoment> moments;  ///< of the frames
+  std::vector<CameraInput> moments;  ///< of the frames
   std::vector<scenario::ActiveEffect> effects;
   double fails_after_s = 1e9;
   Eigen::Isometry3d T_before_after = Eigen::Isometry3d::Identity();  ///< camera, moved by an effect
@@ -61,7 +61,7 @@ class FakeBench : public SimulatedBench {
     if (inputs_.displacement_m[0] > 0.0) moved_m(2, 0) += inputs_.displacement_m[0];
     return moved_m;
   }
-  Eigen::Matrix3Xd MarkersByCamera_m(const CameraMoment& moment) const override {
+  Eigen::Matrix3Xd MarkersByCamera_m(const CameraInput& moment) const override {
     Eigen::Matrix3Xd measured_m = TrueCameraPose(moment).inverse() * Markers_m();
     measured_m.row(2) *= 1.5;  // such a camera it is
     return measured_m;
@@ -72,7 +72,7 @@ class FakeBench : public SimulatedBench {
   }
   std::string MeshHash() const override { return "sha256-of-the-true-mesh"; }
 
-  void TakeFrame(const scenario::BenchInputs&, const CameraMoment& moment,
+  void TakeFrame(const scenario::BenchInputs&, const CameraInput& moment,
                  rgbd::RgbdFrame* frame) override {
     log_.moments.push_back(moment);
     const rgbd::CameraModel& camera = scenario_.camera->camera.depth;
@@ -82,7 +82,7 @@ class FakeBench : public SimulatedBench {
       frame->color = rgbd::ColorImage(camera.width_px, camera.height_px, 7);
     }
   }
-  Eigen::Isometry3d TrueCameraPose(const CameraMoment& moment) const override {
+  Eigen::Isometry3d TrueCameraPose(const CameraInput& moment) const override {
     return moment.T_robot_camera * log_.T_before_after;
   }
 

@@ -11,7 +11,7 @@
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/child_process.hpp"
 #include "components/palpate/demo_data.hpp"
-#include "components/palpate/demo_picture.hpp"
+#include "components/palpate/demo_scene.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/node/demo/demo_place.hpp"
 #include "components/palpate/node/demo/demo_step.hpp"

@@ -19,9 +19,9 @@ namespace {
 constexpr double kLongestArrow = 0.45;
 constexpr double kAside = 0.05;
 
-double Largest_N(const ForceMoment& moment) {
+double Largest_N(const ForceFrame& frame) {
   double largest_N = 1e-6;
-  for (const ComparedForce& force : moment.forces) {
+  for (const ComparedForce& force : frame.forces) {
     if (force.truth) largest_N = std::max(largest_N, force.truth->force_N.norm());
     if (force.estimate) largest_N = std::max(largest_N, force.estimate->force_N.norm());
   }
@@ -43,13 +43,13 @@ void AddPush(const Eigen::Vector3d& at_m, const Eigen::Vector3d& vector_m, const
 
 }  // namespace
 
-view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& moment,
+view::Scene MakeForceScene(const robot::RobotModel& model, const ForceFrame& frame,
                            const std::string& title) {
-  view::Scene scene = MakeRobotScene(model, moment.nodes_m);
+  view::Scene scene = MakeRobotScene(model, frame.nodes_m);
   const double diagonal_m = BodyDiagonal_m(model.body());
-  const double metres_per_newton = kLongestArrow * diagonal_m / Largest_N(moment);
+  const double metres_per_newton = kLongestArrow * diagonal_m / Largest_N(frame);
   bool has_truth = false;
-  for (const ComparedForce& force : moment.forces) {
+  for (const ComparedForce& force : frame.forces) {
     if (force.estimate) {
       const auto& estimate = *force.estimate;
       AddPush(estimate.position_m, metres_per_newton * estimate.force_N, view::palette::kEstimate,
@@ -65,7 +65,7 @@ view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& mo
   }
   scene.title = title;
   scene.caption = {fmt::format(
-      "{:.1f} s after the start; shape: the model fitted to the depth images", moment.t_s)};
+      "{:.1f} s after the start; shape: the model fitted to the depth images", frame.t_s)};
   using Mark = view::LegendEntry::Mark;
   scene.legend.push_back({Mark::kLine, view::palette::kEstimate, "force estimated (95 %)"});
   if (has_truth)

@@ -14,7 +14,7 @@ namespace palpate::command {
 
 /// Image of one frame: the body as the model has it, estimated forces and, beside them, the true
 /// ones.
-view::Scene MakeForceScene(const robot::RobotModel& model, const ForceMoment& moment,
+view::Scene MakeForceScene(const robot::RobotModel& model, const ForceFrame& frame,
                            const std::string& title);
 
 /// Writes forces.svg, and scene.png where a force was detected; prints their paths. Throws

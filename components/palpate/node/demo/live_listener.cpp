@@ -35,7 +35,7 @@ LiveListener::LiveListener(int domain_id, Truth truth)
                               participant_.CreateReader(dds::kFrameInfoTopic),
                               participant_.CreateReader(dds::kPerceptionReportTopic)});
   loop_.Attach(bench_->truth, [this] { TakeTruth(); });
-  loop_.Attach(bench_->pictures, [this] { TakePictures(); });
+  loop_.Attach(bench_->frames, [this] { TakeFrameInfos(); });
   loop_.Attach(bench_->perceived, [this] { TakePerceived(); });
 }
 
@@ -63,7 +63,7 @@ void LiveListener::TakeForces() {
 }
 
 void LiveListener::PassEstimated(const idl::palpate_msgs::ForceArray& message, double heard_s) {
-  TakePictures();
+  TakeFrameInfos();
   TakePerceived();
   const std::int64_t stamp_ns = dds::StampNs(message.header.stamp);
   stages_.Pass(stamp_ns, Milestone::kEstimating, message.age_s - message.latency_s);
@@ -72,8 +72,8 @@ void LiveListener::PassEstimated(const idl::palpate_msgs::ForceArray& message, d
   stages_.Finish(stamp_ns);
 }
 
-void LiveListener::TakePictures() {
-  const auto messages = bench_->pictures.Take();
+void LiveListener::TakeFrameInfos() {
+  const auto messages = bench_->frames.Take();
   for (auto message = messages.begin(); message != messages.end(); ++message) {
     const idl::palpate_msgs::FrameInfo& info = *message;
     const std::int64_t stamp_ns = dds::StampNs(info.header.stamp);

@@ -44,7 +44,7 @@ class LiveListener {
   /// Topics that only the virtual robot has.
   struct BenchReaders {
     dds::Reader<idl::palpate_msgs::ForceArray> truth;
-    dds::Reader<idl::palpate_msgs::FrameInfo> pictures;
+    dds::Reader<idl::palpate_msgs::FrameInfo> frames;
     dds::Reader<idl::palpate_msgs::PerceptionReport> perceived;
   };
 
@@ -52,7 +52,7 @@ class LiveListener {
   void TakeTruth();
   void TakeMeshStates();
   void TakeReports();
-  void TakePictures();
+  void TakeFrameInfos();
   void TakePerceived();
   void PassEstimated(const idl::palpate_msgs::ForceArray& message, double heard_s);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/demo_picture.hpp"
+#include "components/palpate/demo_scene.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/calibrate/assignment_picture.hpp"
+#include "components/palpate/calibrate/assignment_plot.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/palpate/calibrate/picture_projection.hpp"
+#include "components/palpate/calibrate/plot_projection.hpp"
 #include "components/view/color.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/statistics.hpp"
@@ -44,7 +44,7 @@ double ChooseEnlargement(const std::vector<AssignmentPanel>& panels, const Plain
   constexpr double kLargest_px = 34.0;
   double largest_px = 0.0;
   for (const AssignmentPanel& panel : panels) {
-    const PictureProjection projection(panel, plain, {0.0, 0.0, kWidth_px, kHeight_px});
+    const PlotProjection projection(panel, plain, {0.0, 0.0, kWidth_px, kHeight_px});
     for (const MarkerSighting& point : panel.points) {
       if (point.marker < 0) continue;
       const auto derivative = projection.Derivative(point.position_m);
@@ -252,7 +252,7 @@ class PanelDrawing {
 
   const AssignmentPanel& panel_;
   view::Rect frame_;
-  PictureProjection projection_;
+  PlotProjection projection_;
   double enlargement_;
   std::string view_name_;
   SvgDocument* svg_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/simulate/marked_skin.hpp"
+#include "components/palpate/simulate/marked_surface.hpp"
 
 #include <Eigen/Geometry>
 
@@ -9,8 +9,8 @@
 
 namespace palpate::command {
 
-MarkedSkin::MarkedSkin(const fem::TetMesh& mesh, const fem::BoundarySurface& boundary,
-                       const Eigen::Matrix3Xd& markers_m, double radius_m) {
+MarkedSurface::MarkedSurface(const fem::TetMesh& mesh, const fem::BoundarySurface& boundary,
+                             const Eigen::Matrix3Xd& markers_m, double radius_m) {
   const geometry::SurfaceIndex skin(fem::RestSurface(mesh, boundary));
   const Eigen::Matrix3Xi corners = boundary.CornerTriangles();
   for (const auto& marker_m : markers_m.colwise()) {
@@ -21,7 +21,7 @@ MarkedSkin::MarkedSkin(const fem::TetMesh& mesh, const fem::BoundarySurface& bou
   }
 }
 
-Eigen::Matrix3Xd MarkedSkin::Normals(const Eigen::VectorXd& x_m) const {
+Eigen::Matrix3Xd MarkedSurface::Normals(const Eigen::VectorXd& x_m) const {
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, std::ssize(facets_));
   for (Eigen::Index m = 0; m < normals.cols(); ++m) {
     for (const auto& corners : facets_[static_cast<std::size_t>(m)].colwise()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/diagnose/skin_pictures.hpp"
+#include "components/palpate/diagnose/surface_images.hpp"
 
 #include <algorithm>
 
@@ -21,21 +21,21 @@ std::uint64_t DigestOf(const rgbd::DepthImage& depth) {
 
 }  // namespace
 
-SkinPictures::SkinPictures(const experiment::Experiment& experiment, const robot::RobotBody& body,
-                           const perception::Config& config)
+SurfaceImages::SurfaceImages(const experiment::Experiment& experiment, const robot::RobotBody& body,
+                             const perception::Config& config)
     : experiment_(experiment), viewer_(config, body) {}
 
-diagnosis::SkinLook SkinPictures::Look(int recording, int picture,
-                                       const diagnosis::ExpectedShape& expected) {
+diagnosis::SkinLook SurfaceImages::Look(int recording, int frame,
+                                        const diagnosis::ExpectedShape& expected) {
   const ExpectedNodes nodes{expected.nodes_m, expected.T_robot_camera};
   const perception::SegmentedFrame& seen =
-      viewer_.Look(SequenceOf(recording), static_cast<std::size_t>(picture), &nodes);
+      viewer_.Look(SequenceOf(recording), static_cast<std::size_t>(frame), &nodes);
   return {seen.status, seen.robot, DigestOf(viewer_.images().depth)};
 }
 
-rgbd::RgbdCamera SkinPictures::Camera(int recording) { return SequenceOf(recording).camera; }
+rgbd::RgbdCamera SurfaceImages::Camera(int recording) { return SequenceOf(recording).camera; }
 
-const experiment::RgbdSequence& SkinPictures::SequenceOf(int recording) {
+const experiment::RgbdSequence& SurfaceImages::SequenceOf(int recording) {
   const auto known = sequences_.find(recording);
   if (known != sequences_.end()) return known->second;
   return sequences_
@@ -45,7 +45,7 @@ const experiment::RgbdSequence& SkinPictures::SequenceOf(int recording) {
       .first->second;
 }
 
-bool HasPictures(const experiment::Experiment& experiment) {
+bool HasSurfaceImages(const experiment::Experiment& experiment) {
   return std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
                      [](const experiment::Recording& recording) {
                        return !recording.depth_images.empty() || !recording.clouds.empty();

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/palpate/calibrate/assignment_picture.hpp"
+#include "components/palpate/calibrate/assignment_plot.hpp"
 #include "components/view/camera.hpp"
 #include "libs/plot/svg_document.hpp"
 
@@ -25,10 +25,10 @@ PlainView ChooseView(const std::vector<AssignmentPanel>& panels);
 
 /// From the camera's frame to the sheet: through the camera's lens where there is an image, else
 /// orthographic.
-class PictureProjection {
+class PlotProjection {
  public:
   /// `panel` must outlive this.
-  PictureProjection(const AssignmentPanel& panel, const PlainView& plain, const view::Rect& frame);
+  PlotProjection(const AssignmentPanel& panel, const PlainView& plain, const view::Rect& frame);
 
   plot::SvgPoint At(const Eigen::Vector3d& point_m) const;
   /// d At / d point, sheet pixels per m.

@@ -17,7 +17,7 @@
 namespace palpate::command {
 
 /// The image that the points were found in, in the depth camera's pixels; empty: none.
-struct PictureGround {
+struct PlotGround {
   rgbd::ColorImage color;
   rgbd::CameraModel lens;
 };
@@ -28,7 +28,7 @@ struct AssignmentPanel {
   /// Camera frame; `marker`: index of the robot's marker, -1: none.
   std::vector<calibration::MarkerSighting> points;
   Eigen::Matrix3Xd model_m;  ///< [3 x markers] of the calibrated model, camera frame
-  PictureGround ground;
+  PlotGround ground;
 };
 
 /// The model's markers with the nodes at x_m [3n], camera frame: [3 x markers], m.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/calibrate/picture_projection.hpp"
+#include "components/palpate/calibrate/plot_projection.hpp"
 
 #include <algorithm>
 
@@ -45,8 +45,8 @@ PlainView ChooseView(const std::vector<AssignmentPanel>& panels) {
   return plain;
 }
 
-PictureProjection::PictureProjection(const AssignmentPanel& panel, const PlainView& plain,
-                                     const view::Rect& frame) {
+PlotProjection::PlotProjection(const AssignmentPanel& panel, const PlainView& plain,
+                               const view::Rect& frame) {
   const Eigen::Matrix3Xd all_m = AllOf(panel);
   middle_m_ = all_m.rowwise().mean();
   if (panel.ground.color.empty()) {
@@ -64,7 +64,7 @@ PictureProjection::PictureProjection(const AssignmentPanel& panel, const PlainVi
   last_px_ = (origin_ + shown).array().ceil().cast<int>().min(size).max(first_px_.array() + 1);
 }
 
-void PictureProjection::Fit(const Eigen::Matrix2Xd& flat, const view::Rect& frame) {
+void PlotProjection::Fit(const Eigen::Matrix2Xd& flat, const view::Rect& frame) {
   const Eigen::Array2d low = flat.rowwise().minCoeff(), high = flat.rowwise().maxCoeff();
   const double least = lens_ == nullptr ? kLeastSide_m : 1.0;
   const Eigen::Array2d size = (high - low).max(least);
@@ -74,17 +74,17 @@ void PictureProjection::Fit(const Eigen::Matrix2Xd& flat, const view::Rect& fram
   corner_px_ = {frame.x_px, frame.y_px};
 }
 
-Eigen::Vector2d PictureProjection::Flat(const Eigen::Vector3d& point_m) const {
+Eigen::Vector2d PlotProjection::Flat(const Eigen::Vector3d& point_m) const {
   return lens_ != nullptr ? rgbd::Project(*lens_, point_m)
                           : Eigen::Vector2d(axes_ * (point_m - middle_m_));
 }
 
-plot::SvgPoint PictureProjection::At(const Eigen::Vector3d& point_m) const {
+plot::SvgPoint PlotProjection::At(const Eigen::Vector3d& point_m) const {
   const Eigen::Vector2d at_px = corner_px_ + scale_ * (Flat(point_m) - origin_);
   return {at_px.x(), at_px.y()};
 }
 
-Eigen::Matrix<double, 2, 3> PictureProjection::Derivative(const Eigen::Vector3d& point_m) const {
+Eigen::Matrix<double, 2, 3> PlotProjection::Derivative(const Eigen::Vector3d& point_m) const {
   constexpr double kStep_m = 1e-5;
   Eigen::Matrix<double, 2, 3> derivative;
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,9 +95,9 @@ Eigen::Matrix<double, 2, 3> PictureProjection::Derivative(const Eigen::Vector3d&
   return derivative;
 }
 
-double PictureProjection::Pixels_per_m() const { return Derivative(middle_m_).row(0).norm(); }
+double PlotProjection::Pixels_per_m() const { return Derivative(middle_m_).row(0).norm(); }
 
-view::Rect PictureProjection::PictureFrame() const {
+view::Rect PlotProjection::PictureFrame() const {
   const Eigen::Vector2d corner_px =
       corner_px_ + scale_ * (first_px_.cast<double>() - origin_ - Eigen::Vector2d::Constant(0.5));
   const Eigen::Vector2d size_px = scale_ * (last_px_ - first_px_).cast<double>();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/calibrate/image_moments.hpp"
+#include "components/palpate/calibrate/image_samples.hpp"
 
 #include <algorithm>
 
@@ -40,17 +40,17 @@ std::vector<std::size_t> Choose(const experiment::Recording& recording,
 
 }  // namespace
 
-std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
+std::vector<ImageSample> SamplesOf(const experiment::Recording& recording,
                                    const experiment::RgbdSequence& images,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most) {
   experiment::CheckCables(recording, model.CableNames());
   const Eigen::Matrix3d R_base = experiment::BaseRotation(recording);
   const std::vector<std::size_t> chosen = Choose(recording, images, most);
-  std::vector<ImageMoment> moments;
+  std::vector<ImageSample> samples;
   for (const std::size_t index : chosen) {
     const double t_s = NsToSeconds(images.frames[index].t_ns);
-    moments.push_back(
+    samples.push_back(
         {.images = &images,
          .index = index,
          .frame = {.name = chosen.size() == 1 ? recording.name
@@ -60,26 +60,26 @@ std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
                    .loads = calibration::LoadsAt(recording, model, t_s),
                    .gravity_m_s2 = R_base.transpose() * model.gravity_m_s2()}});
   }
-  return moments;
+  return samples;
 }
 
-std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
+std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageSample>& samples,
                                                const perception::Config& config,
                                                const robot::RobotBody& body,
                                                const std::vector<ExpectedNodes>& expected,
                                                std::vector<std::string>* left_out) {
   RobotViewer viewer(config, body);
   std::vector<calibration::CloudFrame> frames;
-  ProgressLine progress("images", static_cast<int>(moments.size()));
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    const ImageMoment& moment = moments[k];
+  ProgressLine progress("images", static_cast<int>(samples.size()));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const ImageSample& sample = samples[k];
     const perception::SegmentedFrame& seen =
-        viewer.Look(*moment.images, moment.index, expected.empty() ? nullptr : &expected[k]);
+        viewer.Look(*sample.images, sample.index, expected.empty() ? nullptr : &expected[k]);
     if (seen.status.ok()) {
-      frames.push_back(moment.frame);
+      frames.push_back(sample.frame);
       frames.back().cloud = seen.robot;
     } else {
-      left_out->push_back(moment.frame.name + ": " + seen.status.message());
+      left_out->push_back(sample.frame.name + ": " + seen.status.message());
     }
     progress.Update(static_cast<int>(k) + 1);
   }

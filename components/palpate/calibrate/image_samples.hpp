@@ -16,7 +16,7 @@
 namespace palpate::command {
 
 /// A frame that calibration uses, and what acted on the robot at its time.
-struct ImageMoment {
+struct ImageSample {
   const experiment::RgbdSequence* images = nullptr;
   std::size_t index = 0;          ///< into its frames
   calibration::CloudFrame frame;  ///< without its cloud
@@ -25,14 +25,14 @@ struct ImageMoment {
 /// Of a recording whose cables do not move, or in its steady window, the middle frame; of a moving
 /// one up to `most`, spread over its time. `images` must outlive them. Throws InputError where a
 /// load lies off the body, or no image lies in a steady window.
-std::vector<ImageMoment> MomentsOf(const experiment::Recording& recording,
+std::vector<ImageSample> SamplesOf(const experiment::Recording& recording,
                                    const experiment::RgbdSequence& images,
                                    const robot::RobotModel& model, robot::CableInput preferred,
                                    std::size_t most = 6);
 
 /// Point clouds of the robot in these frames; `expected`: predicted nodes for each, or none. Frames
 /// in which the robot is not found are excluded, with a line for each in `left_out`.
-std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageMoment>& moments,
+std::vector<calibration::CloudFrame> SeeClouds(const std::vector<ImageSample>& samples,
                                                const perception::Config& config,
                                                const robot::RobotBody& body,
                                                const std::vector<ExpectedNodes>& expected,

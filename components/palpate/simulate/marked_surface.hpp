@@ -11,11 +11,11 @@
 namespace palpate::command {
 
 /// The body's surface under each marker: the facets within the marker's disc, at least the nearest.
-class MarkedSkin {
+class MarkedSurface {
  public:
   /// `markers_m` [3 x markers] on the mesh at rest.
-  MarkedSkin(const fem::TetMesh& mesh, const fem::BoundarySurface& boundary,
-             const Eigen::Matrix3Xd& markers_m, double radius_m);
+  MarkedSurface(const fem::TetMesh& mesh, const fem::BoundarySurface& boundary,
+                const Eigen::Matrix3Xd& markers_m, double radius_m);
 
   /// [3 x markers] mean over each disc with the nodes at `x_m` [3n]; unit, outward.
   Eigen::Matrix3Xd Normals(const Eigen::VectorXd& x_m) const;

@@ -12,13 +12,13 @@
 namespace palpate::command {
 
 /// The robot's point clouds, segmented from the depth images or clouds of an experiment.
-class SkinPictures final : public diagnosis::SkinSource {
+class SurfaceImages final : public diagnosis::SkinSource {
  public:
   /// Both must outlive it. Throws InputError for settings that do not go together.
-  SkinPictures(const experiment::Experiment& experiment, const robot::RobotBody& body,
-               const perception::Config& config);
+  SurfaceImages(const experiment::Experiment& experiment, const robot::RobotBody& body,
+                const perception::Config& config);
 
-  diagnosis::SkinLook Look(int recording, int picture,
+  diagnosis::SkinLook Look(int recording, int frame,
                            const diagnosis::ExpectedShape& expected) override;
   rgbd::RgbdCamera Camera(int recording) override;
 
@@ -31,6 +31,6 @@ class SkinPictures final : public diagnosis::SkinSource {
 };
 
 /// Whether any recording holds depth images or clouds.
-bool HasPictures(const experiment::Experiment& experiment);
+bool HasSurfaceImages(const experiment::Experiment& experiment);
 
 }  // namespace palpate::command
