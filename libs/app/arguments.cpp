@@ -130,8 +130,8 @@ struct Arguments::Impl {
     return names;
   }
 
-  /// An option that nobody declared is the likeliest cause of whatever else went wrong (a required
-  /// one misspelt), so that it is named first.
+  /// An unknown option is the likeliest cause of any other error (a required one misspelt), so it
+  /// is named first.
   void RefuseUnknownOption() const {
     for (const std::string& word : cli.remaining()) {
       if (!word.starts_with("-")) continue;

@@ -49,7 +49,7 @@ std::string Assignments(const std::string& options, const std::string& words, bo
          " ;;\n";
 }
 
-/// What may stand where neither an option's value nor the verb is expected.
+/// The words to offer where neither an option's value nor the verb is expected.
 std::string ArgumentsCase(const std::string& verb, const CommandText& command) {
   std::string options;
   std::string words;

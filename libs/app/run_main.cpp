@@ -23,7 +23,7 @@ void PrintError(const std::string& program, std::string cause) {
   std::fprintf(stderr, "%s: error: %s\n", program.c_str(), cause.c_str());
 }
 
-/// Text is buffered: only the last flush tells whether all of it arrived.
+/// Text is buffered: only the last flush shows whether all of it was written.
 void FlushOutput() {
   errno = 0;
   std::cout.flush();

@@ -26,7 +26,7 @@ struct HandlerState {
   std::atomic<bool> in_use{false};
   std::atomic<bool> requested{false};
   std::array<int, 2> stop_pipe{-1, -1};  // read end, write end
-  std::array<int, 2> quit_pipe{-1, -1};  // tells the watcher that nobody waits any more
+  std::array<int, 2> quit_pipe{-1, -1};  // ends the watcher thread
   struct sigaction interrupt_before {};
   struct sigaction terminate_before {};
 };

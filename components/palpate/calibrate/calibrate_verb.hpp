@@ -48,7 +48,7 @@ struct CalibrateOptions {
 /// `palpate calibrate`: estimates camera pose and actuator offsets (from markers in the camera
 /// frame, or from depth and colour images), Young's moduli (static phases under known loads or self
 /// weight), or both jointly, and writes the calibration file. Returns 0; throws InputError, and
-/// RunError where the data do not determine what was asked for.
+/// RunError where the data do not determine the parameters to estimate.
 int Calibrate(const CalibrateOptions& options);
 
 app::Verb CalibrateVerb();

@@ -4,9 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
-#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kPrograms = fs::path(PALPATE_BINARY_DIR) / "bin";
-const std::vector<std::string> kProcesses = {"palpate-calibration",      "palpate-capture",
-                                             "palpate-force-estimation", "palpate-perception",
-                                             "palpate-player",           "palpate-virtual-camera",
-                                             "palpate-virtual-robot"};
+/// All processes.
+std::vector<std::string> Processes() {
+  std::vector<std::string> names;
+  std::istringstream list(PALPATE_PROGRAMS);
+  for (std::string name; list >> name;) names.push_back(name);
+  return names;
+}
 
 std::vector<std::string> LinesOf(const std::string& text) {
   std::vector<std::string> lines;
@@ -39,7 +43,7 @@ class Manuals : public testing::Test {
     std::string command = "cd " + kPrograms.string() +
                           " && " PALPATE_SOURCE_DIR "/cmake/write_manuals.sh " +
                           (folder_ / "share").string() + " palpate";
-    for (const std::string& process : kProcesses) command += " " + process;
+    for (const std::string& process : Processes()) command += " " + process;
     EXPECT_EQ(Bash(command), "");
   }
 
@@ -103,7 +107,7 @@ TEST_F(Manuals, KnowTheOptionsOfHelp) {
   for (const std::string& verb : Verbs()) {
     ExpectSameOptions("palpate " + verb, "palpate-" + verb, Complete("palpate", verb + " --"));
   }
-  for (const std::string& process : kProcesses) {
+  for (const std::string& process : Processes()) {
     ExpectSameOptions(process, process, Complete(process, "--"));
   }
 }

@@ -15,8 +15,8 @@ struct DemoOptions {
   bool computed = false;  ///< BeamDemo with the computed data set
 };
 
-/// `palpate demo`: SystemDemo, or BeamDemo where the beam is asked for. Throws InputError for
-/// options that do not go together.
+/// `palpate demo`: SystemDemo, or BeamDemo with --recording beam or --computed. Throws InputError
+/// for options that do not go together.
 int Demo(const DemoOptions& options);
 
 app::Verb DemoVerb();
