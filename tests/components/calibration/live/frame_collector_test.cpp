@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/components/force_estimation/node_test_robot.hpp"
+#include "tests/components/force_estimation/node/test_robot.hpp"
 
 namespace palpate::calibration {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "components/calibration/live/earlier_calibration.hpp"
-#include "tests/components/force_estimation/node_test_robot.hpp"
+#include "tests/components/force_estimation/node/test_robot.hpp"
 
 namespace palpate::calibration {
 namespace {

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/selection.hpp"
+#include "tests/components/diagnosis/hidden_causes.hpp"
+
+namespace palpate::diagnosis {
+namespace {
+
+class SearchTime : public HiddenCauses {
+ protected:
+  SearchTime() { Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.3}}); }
+
+  Selection Select(TimeLimit limit) {
+    const Fitter fitter(observed_, body_, hypotheses_, {}, 1, limit);
+    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 3, [](int, int, const auto&) {});
+  }
+};
+
+TEST_F(SearchTime, WithoutAnEndFindsBoth) {
+  const Selection selection = Select({});
+  EXPECT_EQ(selection.named.size(), 2U);
+  EXPECT_TRUE(selection.complete);
+}
+
+TEST_F(SearchTime, ThatIsOverLeavesTheFirstCauseAndSaysSo) {
+  constexpr double kAtOnce_s = 1e-9;
+  const Selection selection = Select(TimeLimit(kAtOnce_s));
+  EXPECT_EQ(selection.named.size(), 1U);
+  EXPECT_FALSE(selection.complete);
+  EXPECT_TRUE(selection.best.status.ok());
+}
+
+/// Else whatever is fitted after it looks better than none.
+TEST_F(SearchTime, ThatIsOverFitsAHealthyRobotToItsEnd) {
+  const Fitter in_time(observed_, body_, hypotheses_, {}, 1);
+  const Fitter late(observed_, body_, hypotheses_, {}, 1, TimeLimit(1e-9));
+  const Fit fit = in_time.Complete(in_time.AsBuilt());
+  EXPECT_NE(fit.z, in_time.AsBuilt().z);
+  EXPECT_EQ(late.Complete(late.AsBuilt()).z, fit.z);
+}
+
+TEST(TimeLimit, IsOverAfterItsTimeAndNeverWithoutOne) {
+  EXPECT_TRUE(TimeLimit(1e-9).IsOver());
+  EXPECT_FALSE(TimeLimit(1e6).IsOver());
+  EXPECT_FALSE(TimeLimit(0.0).IsOver());
+  EXPECT_FALSE(TimeLimit().IsOver());
+}
+
+}  // namespace
+}  // namespace palpate::diagnosis

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "tests/components/perception/node/node_fixture.hpp"
+
+/// The camera's pose that comes on /calibration.
+namespace palpate::perception {
+namespace {
+
+dds::Message<idl::palpate_msgs::Calibration> Calibration(const std::string& mesh_hash, double z_m,
+                                                         const std::string& date_utc) {
+  dds::Message<idl::palpate_msgs::Calibration> message;
+  dds::SetText(message->mesh_hash, mesh_hash);
+  dds::SetText(message->date_utc, date_utc);
+  message->has_camera = true;
+  message->camera_in_robot = dds::ToPose(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z_m)));
+  return message;
+}
+
+TEST(CameraPose, HoldsOnceTheMeshSaysThatItIsOfThisRobot) {
+  CameraPose pose(std::nullopt);
+  ASSERT_TRUE(pose.Take(*Calibration("hash", 0.25, "2026-01-31T12:00:00Z")).ok());
+  EXPECT_TRUE(pose.Adopt("").ok());
+  EXPECT_FALSE(pose.T_robot_camera());
+  EXPECT_TRUE(pose.Adopt("hash").ok());
+  ASSERT_TRUE(pose.T_robot_camera());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 0.25);
+}
+
+TEST(CameraPose, OfAnotherMeshOrOlderOrNoneIsRefusedAndTheOneInUseStays) {
+  CameraPose pose(std::nullopt);
+  ASSERT_TRUE(pose.Take(*Calibration("hash", 0.25, "2026-01-31T12:00:00Z")).ok());
+  ASSERT_TRUE(pose.Adopt("hash").ok());
+  ASSERT_TRUE(pose.Take(*Calibration("other", 0.5, "2026-01-31T13:00:00Z")).ok());
+  EXPECT_EQ(pose.Adopt("hash").code(), StatusCode::kInvalidInput);
+  EXPECT_EQ(pose.Take(*Calibration("hash", 0.5, "2026-01-31T11:59:59Z")).code(),
+            StatusCode::kStale);
+  auto none = Calibration("hash", 0.5, "2026-01-31T13:00:00Z");
+  none->camera_in_robot.orientation.w = 7.0;
+  EXPECT_EQ(pose.Take(*none).code(), StatusCode::kInvalidInput);
+  EXPECT_TRUE(pose.Adopt("hash").ok());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 0.25);
+  // What the foreign one said of its date does not keep a newer one out.
+  ASSERT_TRUE(pose.Take(*Calibration("hash", 0.75, "2026-01-31T12:30:00Z")).ok());
+  EXPECT_TRUE(pose.Adopt("hash").ok());
+  EXPECT_EQ(pose.T_robot_camera()->translation().z(), 0.75);
+}
+
+TEST_F(PerceptionNodeTest, PredictsFromThePoseOfANewCalibration) {
+  auto calibrations = test_.participant.CreateWriter(dds::kCalibrationTopic);
+  StartNode(TestConfig(), false);
+  SendMesh();
+  SendCamera(SmallCamera(), 1, 1);
+  SendMeshState(1 * kSecond_ns, 0.25);
+  EXPECT_EQ(Ask(1 * kSecond_ns + 1).prediction_ns, 0);
+  ASSERT_TRUE(calibrations.Write(Calibration("hash", 0.125, "2026-01-31T12:00:00Z")));
+  ASSERT_TRUE(calibrations.WaitUntilReceived(std::chrono::seconds(5)));
+  // Readers do not wait for each other: ask until the node has it.
+  for (std::int64_t k = 2; k < 100 && Ask(kSecond_ns + k).prediction_ns == 0;) ++k;
+  const auto vertex_m = script_.calls().back().first_vertex_m;
+  ASSERT_TRUE(vertex_m);
+  EXPECT_EQ(vertex_m->z(), 0.25 - 0.125);
+}
+
+}  // namespace
+}  // namespace palpate::perception
