@@ -7,10 +7,9 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <thread>
 
 #include "components/calibration/live/live_calibration.hpp"
-#include "libs/core/bounded_queue.hpp"
+#include "libs/core/worker.hpp"
 
 namespace palpate::calibration {
 
@@ -24,25 +23,18 @@ class Worker {
   /// Stops the calibration that runs.
   ~Worker();
 
-  /// Not to be looked at while a job is in work.
+  /// Not to be read while a job is in work.
   const robot::RobotModel& model() const { return *model_; }
   void Start(LiveJob job);
   /// Stops the one in work, where there is one: its result is then a failure, and comes soon.
   void StopFit() { stop_.request_stop(); }
-  std::optional<LiveResult> TakeResult();
-  bool busy() const { return busy_; }
+  std::optional<LiveResult> TakeResult() { return worker_.TakeResult(); }
+  bool busy() const { return worker_.busy(); }
 
  private:
-  void Run();
-
   std::unique_ptr<robot::RobotModel> model_;
-  Fit fit_;
-  std::function<void()> on_result_;
   std::stop_source stop_;  ///< of the job in work
-  bool busy_ = false;      ///< from Start to TakeResult
-  BoundedQueue<LiveJob> jobs_;
-  BoundedQueue<LiveResult> results_;
-  std::thread thread_;
+  palpate::Worker<LiveJob, LiveResult> worker_;
 };
 
 }  // namespace palpate::calibration

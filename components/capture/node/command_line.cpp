@@ -5,7 +5,10 @@
 
 #include <filesystem>
 
+#include "components/capture/make_source.hpp"
 #include "components/capture/network/packet_size.hpp"
+#include "libs/app/log.hpp"
+#include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 
 namespace palpate::capture {
@@ -55,6 +58,12 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
     command.config.replay.folder = replay;
   }
   return command;
+}
+
+std::unique_ptr<CaptureNode> MakeNode(const Command& command) {
+  return std::make_unique<CaptureNode>(
+      command.config, MakeSource(command.config, app::LoadYaml), command.options.domain_id,
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::capture

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,5 +22,8 @@ struct Command {
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
+
+/// Throws InputError, RunError.
+std::unique_ptr<CaptureNode> MakeNode(const Command& command);
 
 }  // namespace palpate::capture

@@ -6,12 +6,8 @@
 #include <iostream>
 
 #include "components/capture/camera_list.hpp"
-#include "components/capture/make_source.hpp"
 #include "components/capture/node/command_line.hpp"
-#include "libs/app/log.hpp"
-#include "libs/app/run_main.hpp"
-#include "libs/app/stop_signal.hpp"
-#include "libs/app/yaml.hpp"
+#include "libs/app/run_node.hpp"
 
 namespace {
 
@@ -24,20 +20,13 @@ constexpr int kBytesOfItsOwn = 256 * 1024;
 int main(int argc, char** argv) {
   using namespace palpate;
   mallopt(M_MMAP_THRESHOLD, kBytesOfItsOwn);
-  return app::RunMain("palpate-capture", [&]() -> int {
-    const auto command = capture::ReadCommand(argc, argv);
-    if (!command) return app::kExitDone;
-    if (command->list) {
+  const auto read = [](int count, const char* const* words) {
+    auto command = capture::ReadCommand(count, words);
+    if (command && command->list) {
       capture::PrintCameras(capture::ListCameras(command->addresses), std::cout);
-      return app::kExitDone;
+      command.reset();
     }
-    app::StartLog("palpate-capture", command->options);
-    capture::CaptureNode node(
-        command->config, capture::MakeSource(command->config, app::LoadYaml),
-        command->options.domain_id,
-        dds::LoadTopicTable(command->config.dds, app::LoadYaml, app::ParseYaml), app::Log);
-    app::StopSignal stop([&] { node.Stop(); });
-    node.Run();
-    return app::kExitDone;
-  });
+    return command;
+  };
+  return app::RunNode("palpate-capture", read, capture::MakeNode, argc, argv);
 }

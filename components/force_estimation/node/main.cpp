@@ -2,19 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/force_estimation/node/command_line.hpp"
-#include "libs/app/log.hpp"
-#include "libs/app/run_main.hpp"
-#include "libs/app/stop_signal.hpp"
+#include "libs/app/run_node.hpp"
 
 int main(int argc, char** argv) {
   using namespace palpate;
-  return app::RunMain("palpate-force-estimation", [&]() -> int {
-    const auto command = force_estimation::ReadCommand(argc, argv);
-    if (!command) return app::kExitDone;
-    app::StartLog("palpate-force-estimation", command->options);
-    const auto node = force_estimation::MakeNode(*command);
-    app::StopSignal stop([&] { node->Stop(); });
-    node->Run();
-    return app::kExitDone;
-  });
+  return app::RunNode("palpate-force-estimation", force_estimation::ReadCommand,
+                      force_estimation::MakeNode, argc, argv);
 }

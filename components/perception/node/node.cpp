@@ -55,7 +55,8 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
       outputs_{participant_, !config.markers.color_rgb.empty()},
       pairing_{FromSeconds(config.pairing_wait_s)},
-      worker_{config, std::move(maker), [this] { loop_.Wake(); }} {
+      worker_{
+          {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}} {
   AttachReaders();
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });

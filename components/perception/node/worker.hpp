@@ -4,15 +4,13 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
-#include <thread>
 
 #include "components/perception/node/convert.hpp"
 #include "components/perception/node/frame_pairing.hpp"
 #include "components/perception/node/frame_perception.hpp"
 #include "components/perception/node/prediction_history.hpp"
-#include "libs/core/bounded_queue.hpp"
+#include "libs/core/worker.hpp"
 
 namespace palpate::perception {
 
@@ -33,29 +31,11 @@ struct PerceptionResult {
 };
 
 /// Runs perception in a thread of its own, one frame at a time.
-class Worker {
- public:
-  /// `on_result` is called from that thread when a result waits. Throws InputError for settings
-  /// that do not go together.
-  Worker(const Config& config, FramePerceptionMaker maker, std::function<void()> on_result);
-  ~Worker();
+using Worker = palpate::Worker<PerceptionJob, PerceptionResult>;
 
-  /// Only when nothing is in work.
-  void Start(PerceptionJob job);
-  std::optional<PerceptionResult> TakeResult();
-  bool busy() const { return busy_; }
-
- private:
-  void Run();
-  PerceptionResult Perceive(PerceptionJob& job);
-
-  FramePerceptionMaker maker_;
-  std::function<void()> on_result_;
-  std::unique_ptr<FramePerception> perception_;
-  BoundedQueue<PerceptionJob> jobs_{1};
-  BoundedQueue<PerceptionResult> results_{1};
-  bool busy_ = false;  ///< between Start() and TakeResult()
-  std::thread thread_;
-};
+/// What the worker does with a frame: settings and camera that a job brings replace those before.
+/// Throws InputError for settings that do not go together.
+std::function<PerceptionResult(PerceptionJob&)> MakePerceive(const Config& config,
+                                                             FramePerceptionMaker maker);
 
 }  // namespace palpate::perception

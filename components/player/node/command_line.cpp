@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/text.hpp"
@@ -24,6 +25,14 @@ void SettlePlayback(const app::Arguments& arguments, bool as_fast_as_possible, P
     throw InputError("--rate: must be above 0, not " + FormatNumber(playback->rate));
   }
   if (as_fast_as_possible) playback->rate = std::numeric_limits<double>::infinity();
+}
+
+ExperimentPlayer OpenExperiment(const Command& command) {
+  experiment::Experiment experiment = experiment::ReadExperiment(command.data, app::LoadYaml);
+  if (command.images) {
+    return ExperimentPlayer::OfImages(std::move(experiment), command.recording, app::LoadYaml);
+  }
+  return {std::move(experiment), command.recording, command.config.frame == "robot"};
 }
 
 }  // namespace
@@ -54,12 +63,10 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   return command;
 }
 
-ExperimentPlayer OpenExperiment(const Command& command) {
-  experiment::Experiment experiment = experiment::ReadExperiment(command.data, app::LoadYaml);
-  if (command.images) {
-    return ExperimentPlayer::OfImages(std::move(experiment), command.recording, app::LoadYaml);
-  }
-  return {std::move(experiment), command.recording, command.config.frame == "robot"};
+std::unique_ptr<PlayerNode> MakeNode(const Command& command) {
+  return std::make_unique<PlayerNode>(
+      command.config, command.playback, OpenExperiment(command), command.options.domain_id,
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::player

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,7 @@ struct Command {
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
 
-/// Reads the experiment of the command. Throws InputError.
-ExperimentPlayer OpenExperiment(const Command& command);
+/// Reads the experiment of the command. Throws InputError, RunError.
+std::unique_ptr<PlayerNode> MakeNode(const Command& command);
 
 }  // namespace palpate::player

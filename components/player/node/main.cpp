@@ -2,24 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/player/node/command_line.hpp"
-#include "components/player/node/node.hpp"
-#include "libs/app/log.hpp"
-#include "libs/app/run_main.hpp"
-#include "libs/app/stop_signal.hpp"
-#include "libs/app/yaml.hpp"
+#include "libs/app/run_node.hpp"
 
 int main(int argc, char** argv) {
   using namespace palpate;
-  return app::RunMain("palpate-player", [&]() -> int {
-    const auto command = player::ReadCommand(argc, argv);
-    if (!command) return app::kExitDone;
-    app::StartLog("palpate-player", command->options);
-    player::PlayerNode node(command->config, command->playback, player::OpenExperiment(*command),
-                            command->options.domain_id,
-                            dds::LoadTopicTable(command->config.dds, app::LoadYaml, app::ParseYaml),
-                            app::Log);
-    app::StopSignal stop([&] { node.Stop(); });
-    node.Run();
-    return app::kExitDone;
-  });
+  return app::RunNode("palpate-player", player::ReadCommand, player::MakeNode, argc, argv);
 }

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -12,6 +13,28 @@
 #include "libs/scenario/robot_names.hpp"
 
 namespace palpate::virtual_camera {
+
+namespace {
+
+Scene OpenScene(const Command& command) {
+  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
+  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
+  const auto seed = static_cast<std::uint64_t>(command.seed);
+  const scenario::RobotNames names = scenario::NamesOf(robot);
+  scenario::CheckAgainst(scenario, names);
+  Scene scene{scenario::Schedule(scenario, names.cables),
+              Sha256Hex(ReadFile(command.scenario)),
+              seed,
+              scenario::DrawEffects(scenario, names, seed),
+              {}};
+  scene.markers_m.resize(3, static_cast<Eigen::Index>(robot.markers.size()));
+  for (size_t m = 0; m < robot.markers.size(); ++m) {
+    scene.markers_m.col(static_cast<Eigen::Index>(m)) = robot.markers[m].position_m;
+  }
+  return scene;
+}
+
+}  // namespace
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
@@ -34,22 +57,10 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   return command;
 }
 
-Scene OpenScene(const Command& command) {
-  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
-  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
-  const auto seed = static_cast<std::uint64_t>(command.seed);
-  const scenario::RobotNames names = scenario::NamesOf(robot);
-  scenario::CheckAgainst(scenario, names);
-  Scene scene{scenario::Schedule(scenario, names.cables),
-              Sha256Hex(ReadFile(command.scenario)),
-              seed,
-              scenario::DrawEffects(scenario, names, seed),
-              {}};
-  scene.markers_m.resize(3, static_cast<Eigen::Index>(robot.markers.size()));
-  for (size_t m = 0; m < robot.markers.size(); ++m) {
-    scene.markers_m.col(static_cast<Eigen::Index>(m)) = robot.markers[m].position_m;
-  }
-  return scene;
+std::unique_ptr<VirtualCameraNode> MakeNode(const Command& command) {
+  return std::make_unique<VirtualCameraNode>(
+      command.config, OpenScene(command), command.options.domain_id,
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::virtual_camera

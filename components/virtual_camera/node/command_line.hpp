@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "components/virtual_camera/node/node.hpp"
@@ -22,7 +23,7 @@ struct Command {
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
 
-/// Throws InputError where robot and scenario do not fit together.
-Scene OpenScene(const Command& command);
+/// Throws InputError where robot and scenario do not fit together, RunError.
+std::unique_ptr<VirtualCameraNode> MakeNode(const Command& command);
 
 }  // namespace palpate::virtual_camera

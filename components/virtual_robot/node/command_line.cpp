@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -13,6 +14,25 @@
 #include "libs/scenario/robot_names.hpp"
 
 namespace palpate::virtual_robot {
+
+namespace {
+
+BenchSetup OpenBench(const Command& command) {
+  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
+  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
+  const auto seed = static_cast<std::uint64_t>(command.seed);
+  const scenario::RobotNames names = scenario::NamesOf(robot);
+  scenario::CheckAgainst(scenario, names);
+  const auto effects = scenario::DrawEffects(scenario, names, seed);
+  return {std::make_unique<VirtualRobot>(robot, scenario, effects, seed, command.config.threads),
+          robot.name,
+          names.cables,
+          scenario::Schedule(scenario, names.cables),
+          Sha256Hex(ReadFile(command.scenario)),
+          seed};
+}
+
+}  // namespace
 
 std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
@@ -34,19 +54,10 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   return command;
 }
 
-BenchSetup OpenBench(const Command& command) {
-  const auto robot = robot::ReadRobotFile(command.robot, app::LoadYaml);
-  const auto scenario = scenario::ReadScenario(command.scenario, app::LoadYaml);
-  const auto seed = static_cast<std::uint64_t>(command.seed);
-  const scenario::RobotNames names = scenario::NamesOf(robot);
-  scenario::CheckAgainst(scenario, names);
-  const auto effects = scenario::DrawEffects(scenario, names, seed);
-  return {std::make_unique<VirtualRobot>(robot, scenario, effects, seed, command.config.threads),
-          robot.name,
-          names.cables,
-          scenario::Schedule(scenario, names.cables),
-          Sha256Hex(ReadFile(command.scenario)),
-          seed};
+std::unique_ptr<VirtualRobotNode> MakeNode(const Command& command) {
+  return std::make_unique<VirtualRobotNode>(
+      command.config, OpenBench(command), command.options.domain_id,
+      dds::LoadTopicTable(command.config.dds, app::LoadYaml, app::ParseYaml), app::Log);
 }
 
 }  // namespace palpate::virtual_robot

@@ -24,7 +24,7 @@ struct Command {
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
 
-/// Throws InputError where robot and scenario do not fit together.
-BenchSetup OpenBench(const Command& command);
+/// Throws InputError where robot and scenario do not fit together, RunError.
+std::unique_ptr<VirtualRobotNode> MakeNode(const Command& command);
 
 }  // namespace palpate::virtual_robot
