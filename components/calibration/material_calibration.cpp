@@ -3,14 +3,14 @@
 
 #include "components/calibration/material_calibration.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "components/calibration/marker_prediction.hpp"
 #include "libs/core/check.hpp"
+#include "libs/linalg/cholesky.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::calibration {
 
@@ -86,10 +86,9 @@ Status MaterialFit::Iterate(MaterialCalibration* result) {
       kDamping * Eigen::MatrixXd::Identity(log_modulus_.size(), log_modulus_.size());
   while (result->iterations < settings_.max_iterations) {
     ++result->iterations;
-    Eigen::VectorXd step =
-        (Information() + damping)
-            .llt()
-            .solve(prediction_.scaled_jacobian.transpose() * prediction_.scaled_residual);
+    const Eigen::VectorXd gradient =
+        prediction_.scaled_jacobian.transpose() * prediction_.scaled_residual;
+    Eigen::VectorXd step = linalg::Cholesky(Information() + damping).Solve(gradient);
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest <= settings_.tolerance) return CheckDetermined();
     if (longest > kLongestStep) step *= kLongestStep / longest;
@@ -131,12 +130,12 @@ std::string MaterialFit::PartName(int material) const {
 }
 
 Status MaterialFit::CheckDetermined() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Information());
+  const linalg::SymmetricEigen eigen = linalg::DecomposeSymmetric(Information());
   for (Eigen::Index k = 0; k < log_modulus_.size(); ++k) {
-    const double sigma = 1.0 / std::sqrt(std::max(eigen.eigenvalues()[k], 1e-300));
+    const double sigma = 1.0 / std::sqrt(std::max(eigen.values[k], 1e-300));
     if (sigma <= settings_.undetermined_sigma) continue;
     Eigen::Index worst = 0;
-    eigen.eigenvectors().col(k).cwiseAbs().maxCoeff(&worst);
+    eigen.vectors.col(k).cwiseAbs().maxCoeff(&worst);
     return {StatusCode::kUnobservable,
             "these data do not determine Young's modulus of " +
                 PartName(settings_.materials[static_cast<size_t>(worst)]) +
@@ -155,8 +154,7 @@ void MaterialFit::Conclude(MaterialCalibration* result) const {
   const double inflation = result->degrees_of_freedom > 0
                                ? std::max(1.0, result->chi_squared / result->degrees_of_freedom)
                                : 1.0;
-  const Eigen::MatrixXd covariance =
-      inflation * Information().llt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd covariance = inflation * linalg::Cholesky(Information()).Inverse();
   const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
   result->correlation =
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();

@@ -3,9 +3,10 @@
 
 #include "components/virtual_robot/cable_system.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "libs/linalg/lu.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -192,7 +193,7 @@ bool CableSystem::SolveTensions(const Eigen::VectorXd& slack_m,
       tension_N_ = tension_N;
       return true;
     }
-    const Eigen::VectorXd step_N = balance.slope.partialPivLu().solve(balance.residual_N);
+    const Eigen::VectorXd step_N = linalg::Lu(balance.slope).Solve(balance.residual_N);
     Balanced(slack_m, compliance_m_N, tension_N - step_N, &balance);
     const bool helps = balance.residual_N.norm() < before_N;
     tension_N -= helps ? step_N : 0.5 * step_N;

@@ -23,7 +23,7 @@ bool IsCovariance(const Eigen::Matrix3d& matrix) {
   const double largest = matrix.lpNorm<Eigen::Infinity>();
   return matrix.allFinite() &&
          (matrix - matrix.transpose()).lpNorm<Eigen::Infinity>() <= kAsymmetry * largest &&
-         matrix.llt().info() == Eigen::Success;
+         Eigen::LLT<Eigen::Matrix3d>(matrix).info() == Eigen::Success;
 }
 
 /// `called`: the marker, for messages.

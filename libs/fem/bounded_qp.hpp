@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "libs/core/status.hpp"
+#include "libs/linalg/small_matrix.hpp"
 
 namespace palpate::fem {
 
-inline constexpr int kMaxQpVariables = 16;
-/// Small vectors and matrices without heap memory.
-using QpVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxQpVariables, 1>;
-using QpMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxQpVariables, kMaxQpVariables>;
+inline constexpr int kMaxQpVariables = linalg::kMaxSmallSize;
+using QpVector = linalg::SmallVector;
+using QpMatrix = linalg::SmallMatrix;
 
 /// min 1/2 x' H x + c' x subject to lower <= x <= upper; H symmetric positive semidefinite (of a
 /// matrix that is not quite symmetric, the mean with its transpose counts).

@@ -3,9 +3,10 @@
 
 #include "libs/fem/bounded_qp_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::fem {
 
@@ -76,15 +77,15 @@ bool CholeskyStep(const FreeBlock& block, QpVector* step) {
 /// time: eigenvectors are conjugate, so that none undoes what another one has gained.
 StepKind EigenStep(const FreeBlock& block, QpVector* step) {
   const Index size = block.gradient.size();
-  const Eigen::SelfAdjointEigenSolver<QpMatrix> eigen(block.H);
-  if (eigen.info() != Eigen::Success) return StepKind::kFailed;
-  const QpMatrix& vectors = eigen.eigenvectors();
+  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(block.H);
+  if (!eigen.ok) return StepKind::kFailed;
+  const QpMatrix& vectors = eigen.vectors;
   Index steepest = -1;
   double steepest_slope = 0.0;
   step->setZero();
   for (Index k = 0; k < size; ++k) {
-    if (eigen.eigenvalues()[k] > kSingular * static_cast<double>(size)) {
-      *step -= vectors.col(k).dot(block.gradient) / eigen.eigenvalues()[k] * vectors.col(k);
+    if (eigen.values[k] > kSingular * static_cast<double>(size)) {
+      *step -= vectors.col(k).dot(block.gradient) / eigen.values[k] * vectors.col(k);
       continue;
     }
     const double slope = vectors.col(k).dot(block.descent);

@@ -13,6 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "libs/linalg/svd.hpp"
+
 namespace palpate::geometry {
 
 namespace {
@@ -63,7 +65,7 @@ CentredPairs Centre(const Points& source_m, const Points& target_m, const Eigen:
 
 /// Ok where the points span a plane at least.
 Status CheckSpread(const Eigen::Matrix3Xd& centred_m, double distance_to_origin_m) {
-  const Eigen::Vector3d spread_m = Eigen::JacobiSVD<Eigen::MatrixXd>(centred_m).singularValues();
+  const Eigen::Vector3d spread_m = linalg::SingularValues(centred_m);
   if (!(spread_m(0) > kCollinearRatio * kCollinearRatio * distance_to_origin_m)) {
     return {StatusCode::kUnobservable, "the points are all in one place"};
   }
@@ -230,7 +232,7 @@ Registration RegisterRigid(const Points& source_m, const Points& target_m) {
   const std::vector<Eigen::LLT<Eigen::Matrix3d>> unit(
       static_cast<size_t>(count), Eigen::LLT<Eigen::Matrix3d>(Eigen::Matrix3d::Identity()));
   const NormalEquations equations = Linearise(source_m, target_m, unit, result.T_target_source);
-  result.covariance = equations.information.ldlt().solve(Matrix6d::Identity()) *
+  result.covariance = Eigen::LDLT<Matrix6d>(equations.information).solve(Matrix6d::Identity()) *
                       (equations.chi_squared / result.degrees_of_freedom);
   RefuseWhatIsNotKnown(&result);
   return result;

@@ -3,12 +3,12 @@
 
 #include "libs/robot/calibrated_depth_bias.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <vector>
 
 #include "libs/core/config_reader.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::robot {
 
@@ -62,8 +62,7 @@ bool IsCovariance(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd over_sigma =
       (variance.array() > 0.0).select(variance.cwiseSqrt().cwiseInverse(), 1.0);
   const Eigen::MatrixXd scaled = over_sigma.asDiagonal() * matrix * over_sigma.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().minCoeff() >= -kRounding;
+  return linalg::SymmetricEigenvalues(scaled).minCoeff() >= -kRounding;
 }
 
 Eigen::MatrixXd ReadCovariance(const ConfigNode& node, int rows) {

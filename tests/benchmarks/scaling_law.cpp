@@ -3,11 +3,11 @@
 
 #include "tests/benchmarks/scaling_law.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 
+#include "libs/linalg/qr.hpp"
 #include "tests/benchmarks/contender.hpp"
 
 namespace palpate::benchmarks {
@@ -42,12 +42,12 @@ double QuantityValue(const Quantity& quantity, const Result& result) {
 ScalingLaw Fit(const Quantity& quantity, const std::vector<double>& rows,
                const std::vector<double>& values) {
   const auto count = static_cast<Eigen::Index>(rows.size());
-  Eigen::MatrixX2d design(count, 2);
+  Eigen::MatrixXd design(count, 2);
   design.col(0).setOnes();
   design.col(1) = Eigen::Map<const Eigen::VectorXd>(rows.data(), count).array().log();
   const Eigen::VectorXd logarithms =
       Eigen::Map<const Eigen::VectorXd>(values.data(), count).array().log();
-  const Eigen::Vector2d fit = design.colPivHouseholderQr().solve(logarithms);
+  const Eigen::Vector2d fit = linalg::LeastSquares(design, logarithms);
   return {.quantity = quantity.name, .factor = std::exp(fit[0]), .exponent = fit[1], .rows = rows};
 }
 

@@ -20,15 +20,16 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 LIBRARIES = {
     "core": set(),
     "app": {"core"},
-    "geometry": {"core"},
+    "linalg": {"core"},
+    "geometry": {"core", "linalg"},
     "plot": {"core"},
     "rgbd": {"core", "geometry"},
     "correspondence": {"core", "geometry", "fem", "robot", "rgbd"},
     "experiment": {"core", "geometry", "rgbd"},
     "scenario": {"core", "geometry", "fem", "robot", "rgbd"},
     "gige_vision": {"core", "rgbd"},
-    "fem": {"core", "geometry"},
-    "robot": {"core", "geometry", "fem"},
+    "fem": {"core", "linalg", "geometry"},
+    "robot": {"core", "linalg", "geometry", "fem"},
     "dds": {"core", "geometry", "rgbd"},
 }
 NOT_FOR_ALGORITHMS = {"app", "dds"}

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import unittest
 
+import check_decompositions
 import check_format
 import check_includes
 import check_layers
@@ -192,6 +193,33 @@ class CheckIncludes(TreeTest):
                      "double Mean(int of) {\n}\ndouble m = Mean(1);", "struct Case;\nCase* of;",
                      "// Case", 'say("Case");', "#include <Case>", "TEST(Case, Mean) {"):
             self.assertEqual(self.violations(line + "\n"), "", line)
+
+
+class CheckDecompositions(TreeTest):
+    def broken(self, path, text):
+        file = self.plant(path, f"// LLT\n{text}\n")
+        violations, _ = check_decompositions.check_tree(self.root)
+        file.unlink()
+        return self.rules(violations)
+
+    def test_finds_those_of_variable_size(self):
+        for text in ("const Eigen::LLT<Eigen::MatrixXd> factor(A);", "Eigen::LDLT factor(A);",
+                     "Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(A);",
+                     "Eigen::JacobiSVD<Eigen::Matrix<double, 3, Eigen::Dynamic>> svd(A);",
+                     "const auto x = A.ldlt().solve(b);", "x = A->partialPivLu().solve(b);",
+                     "double Ln(const Eigen::MatrixXd& A) { return std::log(A.determinant()); }",
+                     "x = Eigen::MatrixXd(A * B).inverse();"):
+            for path in ("libs/fem/a.cpp", "components/view/a.hpp", "tests/libs/fem/a.cpp"):
+                self.assertIn(f"{path}:2: ", self.broken(path, text), text)
+            self.assertNotIn("libs/linalg", self.broken("libs/linalg/a.cpp", text))
+
+    def test_passes_those_of_fixed_size(self):
+        for text in ("const Eigen::LLT<Eigen::Matrix3d> factor(A);",
+                     "x = Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(A).solve(b);",
+                     "Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(A);",
+                     "const Eigen::LDLT<Matrix6d> factor(A);", "Eigen::SimplicialLDLT<Sparse> s;",
+                     "const Eigen::Isometry3d T_a_b = T_b_a.inverse();", "const Lu lu(A);"):
+            self.assertEqual(self.broken("libs/fem/a.cpp", text), "", text)
 
 
 class CheckSizes(TreeTest):

@@ -93,7 +93,8 @@ void Fit(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds, d
     }
   }
   matrix.diagonal().array() += 1e-9;
-  const Eigen::Matrix<double, 7, 1> step = matrix.ldlt().solve(right);
+  const Eigen::Matrix<double, 7, 1> step =
+      Eigen::LDLT<Eigen::Matrix<double, 7, 7>>(matrix).solve(right);
   const double angle_rad = step.head<3>().norm();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   if (angle_rad > 0.0) turn = Eigen::AngleAxisd(angle_rad, step.head<3>() / angle_rad);

@@ -126,7 +126,8 @@ double Step(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds
   Vector6 ease;
   ease << Eigen::Vector3d::Constant(kArm_m * kArm_m), Eigen::Vector3d::Ones();
   equations.matrix.diagonal() += (1e-3 * equations.matrix(3, 3) + 1e-9) * ease;
-  const Vector6 step = equations.matrix.ldlt().solve(equations.right);
+  const Vector6 step =
+      Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(equations.matrix).solve(equations.right);
   const Eigen::Vector3d turn_rad = step.head<3>();
   const double angle_rad = turn_rad.norm();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();

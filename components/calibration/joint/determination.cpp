@@ -3,11 +3,11 @@
 
 #include "components/calibration/joint/determination.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
 #include "components/calibration/joint/robust_loss.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::calibration {
 
@@ -28,11 +28,6 @@ Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& rows
 
 Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& chosen) {
   return Pick(matrix, chosen, chosen);
-}
-
-Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& information) {
-  return information.ldlt().solve(
-      Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
 }  // namespace
@@ -70,7 +65,7 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
   const auto data = point.jacobian.topRows(problem.DataRows());
   Eigen::MatrixXd information = Pick(data.transpose() * data, free);
   information.diagonal().array() += 1.0;
-  const Eigen::MatrixXd inverse = InverseOf(information);
+  const Eigen::MatrixXd inverse = linalg::InverseSymmetric(information);
   const Eigen::VectorXd variance = inverse.diagonal();
   std::optional<int> worst;
   double worst_sigma = 0.0;
@@ -120,7 +115,7 @@ Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem
       believed.push_back(v);
     }
   }
-  const Eigen::MatrixXd inverse = InverseOf(Pick(fit.information, estimated));
+  const Eigen::MatrixXd inverse = linalg::InverseSymmetric(Pick(fit.information, estimated));
   Eigen::VectorXd sigma(std::ssize(believed));
   for (Eigen::Index k = 0; k < sigma.size(); ++k) {
     const int v = believed[static_cast<size_t>(k)];

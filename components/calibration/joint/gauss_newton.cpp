@@ -3,11 +3,11 @@
 
 #include "components/calibration/joint/gauss_newton.hpp"
 
-#include <Eigen/Cholesky>
 #include <utility>
 #include <vector>
 
 #include "components/calibration/joint/robust_loss.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::calibration {
 
@@ -79,7 +79,7 @@ class Descent {
     Eigen::MatrixXd hessian = moving.transpose() * loss_.weights.asDiagonal() * moving;
     hessian.diagonal().array() += kDamping;
     Eigen::VectorXd step = Eigen::VectorXd::Zero(gradient.size());
-    step(free) = -hessian.ldlt().solve(gradient(free));
+    step(free) = -linalg::SolveSymmetric(hessian, Eigen::VectorXd(gradient(free)));
     return step;
   }
 

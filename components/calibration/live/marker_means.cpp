@@ -47,7 +47,7 @@ Groups GroupByPlace(const std::vector<SeenMarkers>& pictures) {
 /// Of one picture: what it says, or where that is less what the pictures vary by. Told apart along
 /// the directions that both have in common, so that it does not depend on the frame.
 Eigen::Matrix3d LargerOf(const Eigen::Matrix3d& said_m2, const Eigen::Matrix3d& varies_m2) {
-  const Eigen::Matrix3d root = said_m2.llt().matrixL();
+  const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(said_m2).matrixL();
   const Eigen::Matrix3d half =
       root.triangularView<Eigen::Lower>().solve(varies_m2).transpose().eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> ratio(

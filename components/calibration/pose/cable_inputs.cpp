@@ -3,12 +3,12 @@
 
 #include "components/calibration/pose/cable_inputs.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "libs/core/check.hpp"
 #include "libs/fem/bounded_qp.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::calibration {
 
@@ -85,7 +85,7 @@ Status SolveTensions(const CableInputProblem& problem, Eigen::VectorXd* lambda_a
 
 /// The minimum within some half-spaces, through its dual
 ///   min 1/2 mu' A Q^-1 A' mu + (b + A Q^-1 c)' mu over mu >= 0, lambda = -Q^-1 (c + A' mu).
-Status SolveDual(const CableInputProblem& problem, const Eigen::LLT<Eigen::MatrixXd>& Q,
+Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
                  std::vector<HalfSpace>* half_spaces, Eigen::VectorXd* lambda_a_N) {
   const auto count = static_cast<Index>(half_spaces->size());
   if (count > fem::kMaxQpVariables) {
@@ -99,10 +99,10 @@ Status SolveDual(const CableInputProblem& problem, const Eigen::LLT<Eigen::Matri
     b[i] = one.bound;
     start[i] = one.multiplier;
   }
-  const Eigen::MatrixXd responses = Q.solve(A.transpose());
+  const Eigen::MatrixXd responses = Q.Solve(Eigen::MatrixXd(A.transpose()));
   fem::BoundedQp dual;
   dual.H = A * responses;
-  dual.c = b + A * Q.solve(problem.c);
+  dual.c = b + A * Q.Solve(problem.c);
   dual.lower = fem::QpVector::Zero(count);
   dual.upper = fem::QpVector::Constant(count, std::numeric_limits<double>::infinity());
   const fem::BoundedQpResult solution = fem::SolveBoundedQp(dual, start);
@@ -113,7 +113,7 @@ Status SolveDual(const CableInputProblem& problem, const Eigen::LLT<Eigen::Matri
   for (Index i = 0; i < count; ++i) {
     (*half_spaces)[static_cast<size_t>(i)].multiplier = solution.x[i];
   }
-  *lambda_a_N = -Q.solve(problem.c) - responses * solution.x;
+  *lambda_a_N = -Q.Solve(problem.c) - responses * solution.x;
   return Status::Ok();
 }
 
@@ -150,13 +150,13 @@ Status SolveCableInputs(const CableInputProblem& problem, Eigen::VectorXd* lambd
   constexpr double kSlack_N = 1e-9;
   constexpr int kMaxRounds = 32;
   std::vector<HalfSpace> half_spaces;
-  const Eigen::LLT<Eigen::MatrixXd> Q(problem.Q);
+  const linalg::Cholesky Q(problem.Q);
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!AddBroken(problem, solution_N, kSlack_N, &half_spaces)) {
       *lambda_a_N = solution_N;
       return Status::Ok();
     }
-    if (Q.info() != Eigen::Success) {
+    if (!Q.ok()) {
       return {StatusCode::kUnobservable, "limits bind on cables that the markers do not tell"};
     }
     const Status status = SolveDual(problem, Q, &half_spaces, &solution_N);

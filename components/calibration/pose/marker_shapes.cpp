@@ -3,7 +3,6 @@
 
 #include "components/calibration/pose/marker_shapes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/linalg/qr.hpp"
 
 namespace palpate::calibration {
 
@@ -68,7 +68,7 @@ MarkerShapes::MarkerShapes(const Eigen::MatrixXd& tensions_N, const Eigen::Matri
   for (Index s = 0; s < samples; ++s) {
     terms.row(s) = Monomials(tensions_N.col(s).cwiseQuotient(most_tension_N_)).transpose();
   }
-  coefficients_ = terms.colPivHouseholderQr().solve(positions_m.transpose()).transpose();
+  coefficients_ = linalg::LeastSquares(terms, Eigen::MatrixXd(positions_m.transpose())).transpose();
   const Eigen::MatrixXd missed_m = positions_m - coefficients_ * terms.transpose();
   error_m_ = std::sqrt(3.0 * missed_m.squaredNorm() / static_cast<double>(missed_m.size()));
   MeasureDistances(positions_m);

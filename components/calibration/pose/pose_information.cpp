@@ -4,9 +4,9 @@
 #include "components/calibration/pose/pose_information.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "libs/geometry/rigid_registration.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::calibration {
 
@@ -45,11 +45,10 @@ Eigen::MatrixXd JointCovariance(const std::vector<MarkerSighting>& sightings,
   const Eigen::MatrixXd information = J.transpose() * J;
   Eigen::VectorXd scale = information.diagonal();
   for (double& entry : scale) entry = 1.0 / std::sqrt(std::max(entry, 1e-300));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information *
-                                                             scale.asDiagonal());
-  const Eigen::VectorXd variances = eigen.eigenvalues().cwiseMax(kNothing).cwiseInverse();
-  const Eigen::MatrixXd scaled =
-      eigen.eigenvectors() * variances.asDiagonal() * eigen.eigenvectors().transpose();
+  const linalg::SymmetricEigen eigen =
+      linalg::DecomposeSymmetric(scale.asDiagonal() * information * scale.asDiagonal());
+  const Eigen::VectorXd variances = eigen.values.cwiseMax(kNothing).cwiseInverse();
+  const Eigen::MatrixXd scaled = eigen.vectors * variances.asDiagonal() * eigen.vectors.transpose();
   return scale.asDiagonal() * scaled * scale.asDiagonal();
 }
 

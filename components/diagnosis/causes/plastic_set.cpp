@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "components/diagnosis/causes/makers.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/linearisation.hpp"
+#include "libs/linalg/qr.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -39,9 +39,9 @@ SoftShapes SoftestShapes(const robot::RobotBody& body) {
   SoftShapes soft;
   for (int i = 0; i < kIterations; ++i) {
     linearisation.Solve(shapes);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shapes);
-    soft.compliance = qr.matrixQR().diagonal().cwiseAbs();
-    shapes = qr.householderQ() * Eigen::MatrixXd::Identity(shapes.rows(), kModes);
+    const linalg::ThinQr qr = linalg::DecomposeQr(shapes);
+    soft.compliance = qr.R_diagonal.cwiseAbs();
+    shapes = qr.Q;
   }
   soft.compliance /= soft.compliance.maxCoeff();
   soft.nodal = Eigen::MatrixXd::Zero(none.size(), kModes);

@@ -3,7 +3,6 @@
 
 #include "components/diagnosis/inference/confusability_of_faults.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 #include <string>
 
 #include "components/diagnosis/inference/screening.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -29,7 +29,7 @@ class BesideTolerances {
     const Eigen::MatrixXd D_H = sigma.asDiagonal() * data.H(free, Eigen::all);
     Eigen::MatrixXd A = D_H(Eigen::all, free) * sigma.asDiagonal();
     A.diagonal().array() += 1.0;
-    H_ = data.H - D_H.transpose() * A.llt().solve(D_H);
+    H_ = data.H - D_H.transpose() * linalg::Cholesky(A).Solve(D_H);
   }
 
   /// [own x own] of these parameters, their own tolerances left out.
@@ -47,7 +47,7 @@ class BesideTolerances {
       left(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) +=
           1.0 / (tolerance * tolerance);
     }
-    return H + told.transpose() * left.ldlt().solve(told);
+    return H + told.transpose() * linalg::SolveSymmetric(left, told);
   }
 
   /// Squares of noise that a fault of this cause would make, expected.
@@ -73,7 +73,7 @@ class BesideTolerances {
       first += hypotheses_.count(other);
     }
     const Eigen::VectorXd squares = FaultSquares(withheld);
-    const Eigen::MatrixXd explained = both.transpose() * of_other.ldlt().solve(both);
+    const Eigen::MatrixXd explained = both.transpose() * linalg::SolveSymmetric(of_other, both);
     return explained.diagonal().dot(squares) /
            H.topLeftCorner(count, count).diagonal().dot(squares);
   }

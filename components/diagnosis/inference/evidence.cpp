@@ -3,8 +3,9 @@
 
 #include "components/diagnosis/inference/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <vector>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -28,19 +29,18 @@ Posterior Infer(const Information& data, const GaussianPrior& prior) {
   Eigen::MatrixXd A = sigma.asDiagonal() * data.H(free, free) * sigma.asDiagonal();
   A.diagonal().array() += 1.0;
   const Eigen::VectorXd g = sigma.cwiseProduct(b(free));
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  const Eigen::VectorXd steps = factor.solve(g);
+  const linalg::Cholesky factor(A);
+  const Eigen::VectorXd steps = factor.Solve(g);
   Posterior posterior;
   posterior.misfit = c - g.dot(steps);
-  posterior.ln_evidence =
-      -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
+  posterior.ln_evidence = -0.5 * posterior.misfit - 0.5 * factor.LnDeterminant();
   posterior.mean = prior.mean;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     posterior.mean[free[k]] += sigma[i] * steps[i];
   }
   posterior.covariance = Eigen::MatrixXd::Zero(prior.sigma.size(), prior.sigma.size());
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+  const Eigen::MatrixXd inverse = factor.Inverse();
   posterior.covariance(free, free) = sigma.asDiagonal() * inverse * sigma.asDiagonal();
   return posterior;
 }

@@ -3,13 +3,13 @@
 
 #include "components/diagnosis/inference/fault_size.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "libs/core/text.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -44,13 +44,13 @@ double SigmasFromHealthy(const HypothesisSet& hypotheses, const Posterior& poste
   const Eigen::MatrixXd covariance_of_others = covariance(others, others);
   const Eigen::MatrixXd both = covariance(tolerated, others);
   const Eigen::VectorXd likeliest =
-      posterior.mean(tolerated) - both * covariance_of_others.ldlt().solve(gone);
+      posterior.mean(tolerated) - both * linalg::SolveSymmetric(covariance_of_others, gone);
   Eigen::VectorXd off(std::ssize(tolerated) + std::ssize(others));
   off << posterior.mean(tolerated) - likeliest.cwiseMax(-reach).cwiseMin(reach), gone;
   std::vector<Eigen::Index> all = tolerated;
   all.insert(all.end(), others.begin(), others.end());
   const Eigen::MatrixXd covariance_of_all = covariance(all, all);
-  return std::sqrt(off.dot(covariance_of_all.ldlt().solve(off)));
+  return std::sqrt(off.dot(linalg::SolveSymmetric(covariance_of_all, off)));
 }
 
 /// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
@@ -91,7 +91,7 @@ bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, i
   if (sizes.empty()) return false;
   const Eigen::VectorXd z = posterior.mean(sizes);
   const Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
-  return z.dot(covariance.ldlt().solve(z)) <
+  return z.dot(linalg::SolveSymmetric(covariance, z)) <
          kClearly_sigmas * kClearly_sigmas * static_cast<double>(sizes.size());
 }
 

@@ -3,9 +3,10 @@
 
 #include "components/diagnosis/inference/linear_model.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
 
@@ -22,10 +23,9 @@ struct Series {
 class Whitening {
  public:
   explicit Whitening(const Series& series) : scale_(series.sigma_m.cwiseInverse()) {
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(scale_.asDiagonal() * series.common_m,
-                                             Eigen::ComputeThinU);
-    along_ = svd.matrixU();
-    shrink_ = 1.0 - (1.0 + svd.singularValues().array().square()).rsqrt();
+    const linalg::ThinSvd svd = linalg::DecomposeSvd(scale_.asDiagonal() * series.common_m);
+    along_ = svd.U;
+    shrink_ = 1.0 - (1.0 + svd.values.array().square()).rsqrt();
   }
 
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const {

@@ -3,7 +3,7 @@
 
 #include "components/diagnosis/inference/residual_forces.hpp"
 
-#include <Eigen/Cholesky>
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -83,11 +83,11 @@ Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
   }
   Eigen::MatrixXd S = J * known.covariance * J.transpose();
   S.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(S);
-  Eigen::MatrixXd A = effect.transpose() * factor.solve(effect);
+  const linalg::Cholesky factor(S);
+  Eigen::MatrixXd A = effect.transpose() * factor.Solve(effect);
   A.diagonal().array() += 1.0 / (kBelieved_N * kBelieved_N);
-  const Eigen::VectorXd force_N =
-      A.llt().solve(effect.transpose() * factor.solve(LeftOf(known, rows)));
+  const Eigen::VectorXd pull = effect.transpose() * factor.Solve(LeftOf(known, rows));
+  const Eigen::VectorXd force_N = linalg::Cholesky(A).Solve(pull);
   return force_N.reshaped(3, std::ssize(forces));
 }
 

@@ -3,10 +3,11 @@
 
 #include "components/diagnosis/inference/residual_statistics.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <set>
 #include <utility>
+
+#include "libs/linalg/qr.hpp"
 
 namespace palpate::diagnosis {
 
@@ -37,9 +38,7 @@ Eigen::MatrixXd Directions(Eigen::MatrixXd columns) {
   columns.rowwise() -= columns.colwise().mean().eval();
   const double largest = columns.cwiseAbs().maxCoeff();
   if (!(largest > kSame)) return none;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns / largest);
-  qr.setThreshold(kSame);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  return linalg::OrthonormalBasis(columns / largest, kSame);
 }
 
 }  // namespace

@@ -3,12 +3,13 @@
 
 #include "components/diagnosis/inference/screening.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "libs/linalg/cholesky.hpp"
+#include "libs/linalg/qr.hpp"
+#include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
 
@@ -90,19 +91,16 @@ double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& 
   const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
   Eigen::MatrixXd A = clutter.transpose() * clutter;
   A.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  const linalg::Cholesky factor(A);
   const auto basis = [&](int k) -> Eigen::MatrixXd {
     Eigen::MatrixXd effect = model.J.middleCols(hypotheses.first(k), hypotheses.count(k));
-    effect -= clutter * factor.solve(clutter.transpose() * effect);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(effect);
-    if (qr.rank() == 0) return {};
-    return qr.householderQ() * Eigen::MatrixXd::Identity(effect.rows(), qr.rank());
+    effect -= clutter * factor.Solve(Eigen::MatrixXd(clutter.transpose() * effect));
+    return linalg::OrthonormalBasis(effect);
   };
   const Eigen::MatrixXd of_a = basis(a);
   const Eigen::MatrixXd of_b = basis(b);
   if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
-  return std::min(1.0,
-                  Eigen::JacobiSVD<Eigen::MatrixXd>(of_a.transpose() * of_b).singularValues()[0]);
+  return std::min(1.0, linalg::SingularValues(of_a.transpose() * of_b)[0]);
 }
 
 }  // namespace palpate::diagnosis

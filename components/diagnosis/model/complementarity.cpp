@@ -3,10 +3,11 @@
 
 #include "components/diagnosis/model/complementarity.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -19,7 +20,7 @@ Eigen::VectorXd SolveAbove(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
   if (above.empty()) return x;
   const Eigen::MatrixXd of_these = M(above, above);
   const Eigen::VectorXd wanted = -q(above);
-  x(above) = of_these.llt().solve(wanted).eval();
+  x(above) = linalg::Cholesky(of_these).Solve(wanted);
   return x;
 }
 

@@ -3,8 +3,9 @@
 
 #include "components/diagnosis/model/mesh_error.hpp"
 
-#include <Eigen/SVD>
 #include <vector>
+
+#include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
 
@@ -42,13 +43,13 @@ std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simul
     markers_m.col(column) = MarkersAt(finer, finer_x_m) - MarkersAt(body, x_m);
   }
   if (known.empty() || bend_m.isZero(0.0)) return std::nullopt;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(bend_m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& size_m = svd.singularValues();
+  const linalg::ThinSvd svd = linalg::DecomposeSvd(bend_m);
+  const Eigen::VectorXd& size_m = svd.values;
   const Eigen::Index count = (size_m.array() > kLeast * size_m[0]).count();
   const Eigen::MatrixXd per_sample =
-      svd.matrixV().leftCols(count) * size_m.head(count).cwiseInverse().asDiagonal();
+      svd.V.leftCols(count) * size_m.head(count).cwiseInverse().asDiagonal();
   MeshError error;
-  error.shapes = svd.matrixU().leftCols(count);
+  error.shapes = svd.U.leftCols(count);
   error.of_nodes = nodes_m * per_sample;
   error.of_markers = markers_m * per_sample;
   error.relative = nodes_m.norm() / bend_m.norm();

@@ -3,7 +3,7 @@
 
 #include "components/diagnosis/plan/divergence.hpp"
 
-#include <Eigen/Cholesky>
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 
@@ -15,20 +15,16 @@ Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& J, const Posterior& posterio
   return covariance;
 }
 
-double LnDeterminant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-}
-
 }  // namespace
 
 double ExpectedLnBayesFactor(const Eigen::MatrixXd& J, const Posterior& a, const Posterior& b) {
   const Eigen::MatrixXd covariance_a = CovarianceOf(J, a);
-  const Eigen::LLT<Eigen::MatrixXd> factor_a(covariance_a);
-  const Eigen::LLT<Eigen::MatrixXd> factor_b(CovarianceOf(J, b));
+  const linalg::Cholesky factor_a(covariance_a);
+  const linalg::Cholesky factor_b(CovarianceOf(J, b));
   const Eigen::VectorXd apart = J * (a.mean - b.mean);
   return 0.5 *
-         (factor_b.solve(covariance_a).trace() - static_cast<double>(J.rows()) +
-          apart.dot(factor_b.solve(apart)) + LnDeterminant(factor_b) - LnDeterminant(factor_a));
+         (factor_b.Solve(covariance_a).trace() - static_cast<double>(J.rows()) +
+          apart.dot(factor_b.Solve(apart)) + factor_b.LnDeterminant() - factor_a.LnDeterminant());
 }
 
 double InformationGain(const Eigen::MatrixXd& J, const Posterior& posterior,
@@ -40,15 +36,15 @@ double InformationGain(const Eigen::MatrixXd& J, const Posterior& posterior,
   if (free.empty()) return 0.0;
   const Eigen::MatrixXd before = posterior.covariance(free, free);
   const Eigen::MatrixXd seen = J * posterior.covariance(Eigen::all, free);
-  const Eigen::LLT<Eigen::MatrixXd> factor(CovarianceOf(J, posterior));
-  const Eigen::MatrixXd after = before - seen.transpose() * factor.solve(seen);
+  const linalg::Cholesky factor(CovarianceOf(J, posterior));
+  const Eigen::MatrixXd after = before - seen.transpose() * factor.Solve(seen);
   // Of unit variances, lest those in metres and in newtons spoil each other's digits.
   constexpr double kRounding = 1e-9;
   const Eigen::VectorXd scale = before.diagonal().cwiseSqrt().cwiseInverse();
   const auto ln_volume = [&](const Eigen::MatrixXd& covariance) {
     Eigen::MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
     scaled.diagonal().array() += kRounding;
-    return 0.5 * LnDeterminant(Eigen::LLT<Eigen::MatrixXd>(scaled));
+    return 0.5 * linalg::Cholesky(scaled).LnDeterminant();
   };
   return ln_volume(before) - ln_volume(after);
 }

@@ -36,7 +36,8 @@ Eigen::Matrix<double, 6, 6> Allowance(double turn_rad, double shift_m) {
 }
 
 bool IsFar(const Motion& motion, const Eigen::Matrix<double, 6, 6>& covariance) {
-  return motion.dot(covariance.ldlt().solve(motion)) > kFar * kFar;
+  return motion.dot(Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(covariance).solve(motion)) >
+         kFar * kFar;
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ void ExtrinsicsDriftMonitor::Add(double t_s, const MotionSighting& seen) {
 /// worse.
 ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::MeanOf(const Second& second) {
   Mean mean;
-  const auto factor = second.information.ldlt();
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(second.information);
   mean.motion = factor.solve(second.pull);
   const double scatter = second.squares - mean.motion.dot(second.pull);
   const double excess = std::max(1.0, scatter / (6.0 * (second.seen - 1)));
@@ -97,11 +98,12 @@ ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::Together(const std::deque<M
   Matrix information = Matrix::Zero();
   Motion pull = Motion::Zero();
   for (const Mean& mean : means) {
-    const Matrix of_one = mean.covariance.ldlt().solve(Matrix::Identity());
+    const Matrix of_one =
+        Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(mean.covariance).solve(Matrix::Identity());
     information += of_one;
     pull += of_one * mean.motion;
   }
-  const auto factor = information.ldlt();
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(information);
   return {factor.solve(pull), factor.solve(Matrix::Identity())};
 }
 

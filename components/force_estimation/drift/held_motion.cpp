@@ -96,7 +96,7 @@ void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
       seen->information += weight * row.direction * row.direction.transpose();
       pull += weight * row.distance * row.direction;
     }
-    change = seen->information.ldlt().solve(pull);
+    change = Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(seen->information).solve(pull);
   }
   seen->motion += change;
 }

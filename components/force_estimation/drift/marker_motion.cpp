@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/geometry/rigid_registration.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
 
@@ -34,7 +35,7 @@ Eigen::MatrixXd Unexplained(const MarkerMisfit& misfit) {
   Eigen::MatrixXd information = misfit.response_m.transpose() * weighted;
   // Forces that no marker answers to explain nothing.
   information.diagonal().array() += 1e-12 * information.trace();
-  weight -= weighted * information.ldlt().solve(weighted.transpose());
+  weight -= weighted * linalg::SolveSymmetric(information, Eigen::MatrixXd(weighted.transpose()));
   return weight;
 }
 
@@ -52,7 +53,7 @@ MotionSighting SeeMotion(const MarkerMisfit& misfit, const Eigen::Matrix3Xd& mod
   const Motion pull = motion.transpose() * weight * misfit.residual_m;
   const Eigen::Matrix<double, 6, 6> information =
       motion.transpose() * weight * motion + UnknownMotion();
-  seen.motion = information.ldlt().solve(pull);
+  seen.motion = Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(information).solve(pull);
   const double left = misfit.residual_m.dot(weight * misfit.residual_m) - pull.dot(seen.motion);
   const double freedom = rows - unknowns;
   if (left <= freedom + kFarChi * std::sqrt(2.0 * freedom)) seen.information = information;

@@ -3,8 +3,9 @@
 
 #include "components/force_estimation/fit/actuator_condensation.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
 
@@ -63,10 +64,7 @@ Status ActuatorCondensation::Eliminate(const robot::Compliance& compliance,
     t0_taut_[i] = commands[static_cast<size_t>(cable)].value - compliance.delta_a_free_m()[cable] -
                   compliance.W_aa().row(cable).dot(fixed_);
   }
-  const Eigen::LLT<fem::QpMatrix> factor(W_TT);
-  if (factor.info() != Eigen::Success) return {StatusCode::kUnobservable, {}};
-  inverse_TT_.setIdentity();
-  factor.solveInPlace(inverse_TT_);
+  if (!linalg::InverseSpd(W_TT, &inverse_TT_)) return {StatusCode::kUnobservable, {}};
   T_taut_ = (inverse_TT_ * T_taut_).eval();
   t0_taut_ = (inverse_TT_ * t0_taut_).eval();
   for (Eigen::Index i = 0; i < t; ++i) {

@@ -3,8 +3,9 @@
 
 #include "components/force_estimation/fit/anderson_accelerator.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
 
@@ -56,21 +57,21 @@ bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& st
   if (count_ == 0) return false;
   // What of the step the memory can make vanish, in the directions that it knows apart.
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kDepth, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kDepth, kDepth>;
   Vector along(count_);
   for (int k = 0; k < count_; ++k) {
     along[k] = pairs_[static_cast<std::size_t>(k)].changed.x_m.dot(step.x_m);
   }
   const Vector size = gram_.diagonal().head(count_).cwiseSqrt();
-  const Matrix scaled = size.cwiseInverse().asDiagonal() * gram_.topLeftCorner(count_, count_) *
-                        size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
-  const Vector seen = eigen.eigenvectors().transpose() * along.cwiseQuotient(size);
+  const linalg::SmallMatrix scaled = size.cwiseInverse().asDiagonal() *
+                                     gram_.topLeftCorner(count_, count_) *
+                                     size.cwiseInverse().asDiagonal();
+  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(scaled);
+  const Vector seen = eigen.vectors.transpose() * along.cwiseQuotient(size);
   Vector share = Vector::Zero(count_);
   for (int k = 0; k < count_; ++k) {
-    const double value = eigen.eigenvalues()[k];
+    const double value = eigen.values[k];
     if (value <= kIndependent * count_) continue;
-    share += eigen.eigenvectors().col(k) * (seen[k] / value);
+    share += eigen.vectors.col(k) * (seen[k] / value);
   }
   share = share.cwiseQuotient(size);
   double longest_m2 = 0.0;

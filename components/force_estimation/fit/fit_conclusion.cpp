@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include <Eigen/Eigenvalues>
-
 #include "components/force_estimation/fit/force_fitter.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
 
@@ -11,12 +10,12 @@ namespace {
 
 /// Inverse on the directions that have information; infinite variances are left out by the basis.
 fem::QpMatrix PseudoInverse(const fem::QpMatrix& information) {
-  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(information);
+  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(information);
   fem::QpMatrix inverse = fem::QpMatrix::Zero(information.rows(), information.cols());
   for (Eigen::Index k = 0; k < information.rows(); ++k) {
-    const double value = eigen.eigenvalues()[k];
-    if (value <= 1e-14 * eigen.eigenvalues().maxCoeff()) continue;
-    inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / value;
+    const double value = eigen.values[k];
+    if (value <= 1e-14 * eigen.values.maxCoeff()) continue;
+    inverse += eigen.vectors.col(k) * eigen.vectors.col(k).transpose() / value;
   }
   return inverse;
 }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "libs/linalg/symmetric_eigen.hpp"
+
 namespace palpate::force_estimation {
 
 void ObservableSubspace::AskForEverything(const std::vector<FitSite>& sites) {
@@ -36,11 +38,11 @@ void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,
                                         const fem::QpMatrix& information, double largest_sigma_N) {
   const double limit = largest_sigma_N * largest_sigma_N;
   const fem::QpMatrix reduced = basis_.transpose() * information * basis_;
-  const Eigen::SelfAdjointEigenSolver<fem::QpMatrix> eigen(reduced);
+  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(reduced);
   // What the markers do not see at all gets a variance that is large, yet a number.
-  const fem::QpVector variances = eigen.eigenvalues().cwiseMax(1e-9 / limit).cwiseInverse();
-  const fem::QpMatrix covariance = basis_ * eigen.eigenvectors() * variances.asDiagonal() *
-                                   eigen.eigenvectors().transpose() * basis_.transpose();
+  const fem::QpVector variances = eigen.values.cwiseMax(1e-9 / limit).cwiseInverse();
+  const fem::QpMatrix covariance = basis_ * eigen.vectors * variances.asDiagonal() *
+                                   eigen.vectors.transpose() * basis_.transpose();
   for (size_t s = 0; s < sites.size(); ++s) {
     const auto row = static_cast<Eigen::Index>(3 * s);
     const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);

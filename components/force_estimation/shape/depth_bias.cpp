@@ -3,13 +3,13 @@
 
 #include "components/force_estimation/shape/depth_bias.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "libs/core/check.hpp"
+#include "libs/linalg/cholesky.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
 
@@ -27,10 +27,9 @@ Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd over_sigma =
       (sigma.array() > 0.0).select(sigma.cwiseInverse(), Eigen::VectorXd::Ones(sigma.size()));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(over_sigma.asDiagonal() * covariance *
-                                                              over_sigma.asDiagonal());
-  return sigma.asDiagonal() * solver.eigenvectors() *
-         solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd scaled = over_sigma.asDiagonal() * covariance * over_sigma.asDiagonal();
+  const linalg::SymmetricEigen eigen = linalg::DecomposeSymmetric(scaled);
+  return sigma.asDiagonal() * eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 /// Variance of the mean of `count` values over that of a mean of independent ones: 1 + 2 sum_k
@@ -195,9 +194,9 @@ Status DepthBias::Finish() {
   const double worth = 1.0 / (noise_scale_ * noise_scale_ * MeanInflation(frames_, correlation_));
   const Eigen::Index parameters = information_.rows();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(parameters, parameters);
-  const Eigen::LLT<Eigen::MatrixXd> factor(identity + worth * information_);
-  covariance_ = factor.solve(identity);
-  solution_ = factor.solve(worth * right_side_);
+  const linalg::Cholesky factor(identity + worth * information_);
+  covariance_ = factor.Inverse();
+  solution_ = factor.Solve(Eigen::VectorXd(worth * right_side_));
   known_ = true;
   return Status::Ok();
 }

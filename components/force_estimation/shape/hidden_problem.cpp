@@ -5,9 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <utility>
+
+#include "libs/linalg/svd.hpp"
 
 namespace palpate::force_estimation {
 
@@ -32,10 +33,9 @@ HiddenProblem::HiddenProblem(const CandidateLocations& places, const Observation
 /// The noise becomes I + B B' = V (1 + s^2) V' + the rest; multiplies by its root's inverse.
 void HiddenProblem::Absorb(const Eigen::MatrixXd& columns) {
   if (columns.cols() == 0) return;
-  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
-      columns, Eigen::ComputeThinU);
-  const Eigen::VectorXd lost = 1.0 - (1.0 + svd.singularValues().array().square()).rsqrt();
-  const Eigen::MatrixXd& V = svd.matrixU();
+  const linalg::LeftSvd svd = linalg::DecomposeTall(columns);
+  const Eigen::VectorXd lost = 1.0 - (1.0 + svd.values.array().square()).rsqrt();
+  const Eigen::MatrixXd& V = svd.U;
   residual_ -= V * lost.cwiseProduct(V.transpose() * residual_);
   const Eigen::MatrixXd along = lost.asDiagonal() * (V.transpose() * whitening_);
   whitening_.noalias() -= V * along;

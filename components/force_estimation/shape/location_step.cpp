@@ -3,7 +3,7 @@
 
 #include "components/force_estimation/shape/location_step.hpp"
 
-#include <Eigen/Cholesky>
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
 
@@ -60,11 +60,10 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
   information.noalias() += jacobian_.transpose() * targets.weight.asDiagonal() * jacobian_;
   right_side.noalias() +=
       jacobian_.transpose() * targets.weight.cwiseProduct(fitter_.fit().residual_m);
-  const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  if (factor.info() != Eigen::Success) return {StatusCode::kUnobservable, {}};
-  const Eigen::VectorXd step = factor.solve(right_side);
-  const Eigen::MatrixXd covariance =
-      factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const linalg::Cholesky factor(information);
+  if (!factor.ok()) return {StatusCode::kUnobservable, {}};
+  const Eigen::VectorXd step = factor.Solve(right_side);
+  const Eigen::MatrixXd covariance = factor.Inverse();
   located->resize(sites.size());
   for (Eigen::Index s = 0; s < k; ++s) {
     LocatedForce& one = (*located)[static_cast<size_t>(s)];

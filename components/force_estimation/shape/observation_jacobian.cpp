@@ -3,12 +3,13 @@
 
 #include "components/force_estimation/shape/observation_jacobian.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "libs/core/check.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
 
@@ -18,7 +19,7 @@ namespace {
 struct TautCables {
   Eigen::MatrixXd pull;    ///< [reduced x taut] rows of H_a
   Eigen::MatrixXd motion;  ///< K^-1 pull
-  Eigen::LLT<Eigen::MatrixXd> compliance;
+  std::optional<linalg::Cholesky> compliance;
 
   Status Solve(robot::RobotModel& model, const Eigen::VectorXd& x_m,
                const std::vector<robot::CableCommand>& commands,
@@ -40,8 +41,8 @@ struct TautCables {
     }
     motion = pull;
     linearisation.SolveSingle(motion);
-    compliance.compute(pull.transpose() * motion);
-    if (compliance.info() != Eigen::Success) {
+    compliance.emplace(pull.transpose() * motion);
+    if (!compliance->ok()) {
       return {StatusCode::kUnobservable, "two taut cables act alike"};
     }
     return Status::Ok();
@@ -50,7 +51,7 @@ struct TautCables {
   /// Adds to each column the motion by which the cables keep their length.
   void Hold(Eigen::Ref<Eigen::MatrixXd> columns) const {
     if (pull.cols() == 0) return;
-    const Eigen::MatrixXd tension = compliance.solve(pull.transpose() * columns);
+    const Eigen::MatrixXd tension = compliance->Solve(Eigen::MatrixXd(pull.transpose() * columns));
     columns.noalias() -= motion * tension;
   }
 };

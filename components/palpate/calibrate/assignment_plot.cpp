@@ -198,7 +198,7 @@ class PanelDrawing {
     const auto derivative = projection_.Derivative(point.position_m);
     const Eigen::Matrix2d covariance_px2 =
         derivative * point.covariance_m2 * derivative.transpose();
-    const Eigen::Matrix2d root = covariance_px2.llt().matrixL();
+    const Eigen::Matrix2d root = Eigen::LLT<Eigen::Matrix2d>(covariance_px2).matrixL();
     svg_->Polyline(Ring(at, enlargement_ * kSigmas95InPlane * root), {kPoint, 1.5});
     svg_->Dot(at, 2.5, kPoint);
     const Eigen::Vector3d off_m = panel_.model_m.col(point.marker) - point.position_m;

@@ -5,9 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "libs/linalg/qr.hpp"
 
 namespace palpate::perception {
 
@@ -19,10 +20,10 @@ constexpr double kLargestRadius_m = 0.1;
 
 /// |p|^2 = 2 c p + k, linear in c and k; unknowns (c, R).
 std::optional<Eigen::Vector4d> FitAlgebraically(const Eigen::Matrix3Xd& points_m) {
-  Eigen::MatrixX4d rows(points_m.cols(), 4);
+  Eigen::MatrixXd rows(points_m.cols(), 4);
   rows << 2.0 * points_m.transpose(), Eigen::VectorXd::Ones(points_m.cols());
   const Eigen::VectorXd squares = points_m.colwise().squaredNorm();
-  const Eigen::Vector4d fit = rows.colPivHouseholderQr().solve(squares);
+  const Eigen::Vector4d fit = linalg::LeastSquares(rows, squares);
   const double radius_m2 = fit[3] + fit.head<3>().squaredNorm();
   if (!(radius_m2 > 0.0)) return std::nullopt;
   return Eigen::Vector4d(fit[0], fit[1], fit[2], std::sqrt(radius_m2));
@@ -48,7 +49,7 @@ std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m) {
     const Eigen::RowVectorXd residual_m = distance_m.array() - (*fit)[3];
     sum_squares_m2 = residual_m.squaredNorm();
     information = gradient * gradient.transpose();
-    *fit += information.ldlt().solve(gradient * residual_m.transpose());
+    *fit += Eigen::LDLT<Eigen::Matrix4d>(information).solve(gradient * residual_m.transpose());
     if (!fit->allFinite() || !((*fit)[3] > 0.0) || (*fit)[3] > kLargestRadius_m) {
       return std::nullopt;
     }
@@ -62,7 +63,8 @@ std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m) {
   ball.covered_m = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
   const double variance_m2 =
       std::max(sigma_m, ball.residual_m) * std::max(sigma_m, ball.residual_m);
-  ball.covariance_m2 = variance_m2 * information.ldlt().solve(Eigen::Matrix4d::Identity());
+  ball.covariance_m2 =
+      variance_m2 * Eigen::LDLT<Eigen::Matrix4d>(information).solve(Eigen::Matrix4d::Identity());
   const bool from_outside = ball.center_m.dot(ball.center_m - middle_m) > 0.0;
   if (!from_outside || !ball.covariance_m2.allFinite()) return std::nullopt;
   return ball;

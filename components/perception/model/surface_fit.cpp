@@ -3,11 +3,12 @@
 
 #include "components/perception/model/surface_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::perception {
 
@@ -144,9 +145,8 @@ void SurfaceFit::Improve(const SampleGrid& grid, const Round& round) {
       }
     }
   }
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXf>> factor(normal_matrix_);
-  if (factor.info() != Eigen::Success) return;
-  const Eigen::VectorXf solution = factor.solve(right_side_);
+  Eigen::VectorXf solution;
+  if (!linalg::SolveSpdInPlace(&normal_matrix_, right_side_, &solution)) return;
   if (!solution.allFinite()) return;
   displacement_m_ = Eigen::Map<const Eigen::Matrix3Xf>(solution.data(), 3, unknowns_);
 }

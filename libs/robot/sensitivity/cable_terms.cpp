@@ -3,7 +3,9 @@
 
 #include "libs/robot/sensitivity/cable_terms.hpp"
 
-#include <Eigen/LU>
+#include <utility>
+
+#include "libs/linalg/lu.hpp"
 
 namespace palpate::robot {
 
@@ -77,9 +79,9 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
     W.row(t) = per_tension.row(c);
     W(t, t) -= point_.model().cable(c).compliance_m_N();
   }
-  const Eigen::PartialPivLU<fem::QpMatrix> lu(W);
+  const linalg::SmallLu lu(W);
   constexpr double kAlike = 1e-12;  // rounding may leave a singular matrix its factor
-  if (!(lu.rcond() >= kAlike))
+  if (!(lu.ReciprocalCondition() >= kAlike))
     return {StatusCode::kUnobservable, "two taut cables have linearly dependent effects"};
   for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
     fem::QpVector wanted(count);
@@ -87,7 +89,7 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
       const int c = taut_[static_cast<size_t>(t)];
       wanted[t] = commanded_length_m(c, p) - (*length_m)(c, p);
     }
-    const fem::QpVector tension = lu.solve(wanted);
+    const fem::QpVector tension = lu.Solve(wanted);
     length_m->col(p).noalias() += per_tension.lazyProduct(tension);
     for (Eigen::Index t = 0; t < count; ++t)
       (*tension_N)(taut_[static_cast<size_t>(t)], p) = tension[t];
@@ -97,12 +99,12 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
 
 Status UndoTurns(Eigen::MatrixXd coupling, Eigen::MatrixXd* right) {
   coupling.diagonal().array() += 1.0;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(coupling);
+  const linalg::Lu lu(coupling);
   constexpr double kSingular = 1e-12;
-  if (!(lu.rcond() >= kSingular)) {
+  if (!(lu.ReciprocalCondition() >= kSingular)) {
     return {StatusCode::kUnobservable, "friction leaves the equilibrium undetermined"};
   }
-  if (right->cols() > 0) *right = lu.solve(*right);
+  if (right->cols() > 0) *right = lu.Solve(std::move(*right));
   return Status::Ok();
 }
 

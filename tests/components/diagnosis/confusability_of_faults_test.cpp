@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <memory>
 
+#include "libs/linalg/cholesky.hpp"
 #include "tests/components/diagnosis/toy_causes.hpp"
 
 namespace palpate::diagnosis {
@@ -54,7 +54,7 @@ double Explained(const HypothesisSet& hypotheses, const Eigen::MatrixXd& J, int 
     const Eigen::MatrixXd D = sigma.asDiagonal();
     const Eigen::MatrixXd covariance =
         Eigen::MatrixXd::Identity(J.rows(), J.rows()) + J * D * D * J.transpose();
-    return Eigen::MatrixXd(covariance.inverse());
+    return linalg::InverseSymmetric(covariance);
   };
   const Eigen::VectorXd effect = J.col(withheld);
   const double before = effect.dot(inverse() * effect);

@@ -5,10 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 
+#include "libs/linalg/cholesky.hpp"
 #include "tests/components/diagnosis/toy_causes.hpp"
 
 namespace palpate::diagnosis {
@@ -39,11 +38,10 @@ TEST(LeaveOneOut, PredictsEachRecordingFromTheOthersAlone) {
       (row / 36 == r ? own : others).push_back(row);
     }
     // Conditional normal distribution of the dense covariance.
-    const Eigen::MatrixXd gain = all(own, others) * Eigen::MatrixXd(all(others, others)).inverse();
+    const Eigen::MatrixXd gain = all(own, others) * linalg::InverseSymmetric(all(others, others));
     const Eigen::VectorXd off = y(own) - gain * y(others);
-    const Eigen::LLT<Eigen::MatrixXd> factor(all(own, own) - gain * all(others, own));
-    const double ln_p =
-        -0.5 * off.dot(factor.solve(off)) - factor.matrixLLT().diagonal().array().log().sum();
+    const linalg::Cholesky factor(all(own, own) - gain * all(others, own));
+    const double ln_p = -0.5 * off.dot(factor.Solve(off)) - 0.5 * factor.LnDeterminant();
     const auto k = static_cast<std::size_t>(r);
     EXPECT_NEAR(out.chi_squared[k], off.squaredNorm(), 1e-8 * off.squaredNorm());
     EXPECT_NEAR(out.ln_predicted[k], ln_p, 1e-8 * std::abs(ln_p));

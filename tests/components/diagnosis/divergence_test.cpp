@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <random>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -80,14 +80,15 @@ TEST_F(ExpectedEvidence, IsTheMeanOfWhatDataSay) {
     Eigen::MatrixXd covariance = J * model.covariance * J.transpose();
     covariance.diagonal().array() += 1.0;
     const Eigen::VectorXd off = y - J * model.mean;
-    return -0.5 * (off.dot(covariance.inverse() * off) + std::log(covariance.determinant()));
+    const linalg::Cholesky factor(covariance);
+    return -0.5 * (off.dot(factor.Solve(off)) + factor.LnDeterminant());
   };
-  const Eigen::LLT<Eigen::MatrixXd> root(a.covariance);
+  const Eigen::MatrixXd root = linalg::Cholesky(a.covariance).Lower();
   constexpr int kDraws = 20000;
   double sum = 0.0;
   double squares = 0.0;
   for (int k = 0; k < kDraws; ++k) {
-    const Eigen::VectorXd z = a.mean + root.matrixL() * Eigen::VectorXd(Random(kParameters, 1));
+    const Eigen::VectorXd z = a.mean + root * Eigen::VectorXd(Random(kParameters, 1));
     const Eigen::VectorXd y = J * z + Random(kRows, 1);
     const double said = ln_density(y, a) - ln_density(y, b);
     sum += said;
@@ -101,11 +102,12 @@ TEST_F(ExpectedEvidence, IsTheMeanOfWhatDataSay) {
 TEST_F(ExpectedEvidence, InformationIsWhatAPosteriorShrinksBy) {
   const Posterior before = RandomPosterior();
   const Eigen::MatrixXd J = Random(kRows, kParameters);
-  const Eigen::MatrixXd after = (before.covariance.inverse() + J.transpose() * J).inverse();
+  const Eigen::MatrixXd after =
+      linalg::InverseSymmetric(linalg::InverseSymmetric(before.covariance) + J.transpose() * J);
   const std::vector<Eigen::Index> some = {1, 3};
-  const double ratio =
-      before.covariance(some, some).determinant() / after(some, some).determinant();
-  EXPECT_NEAR(InformationGain(J, before, some), 0.5 * std::log(ratio), 1e-6);
+  const double ln_ratio = linalg::Cholesky(before.covariance(some, some)).LnDeterminant() -
+                          linalg::Cholesky(after(some, some)).LnDeterminant();
+  EXPECT_NEAR(InformationGain(J, before, some), 0.5 * ln_ratio, 1e-6);
   EXPECT_NEAR(InformationGain(0.0 * J, before, some), 0.0, 1e-9);
   Posterior held = before;
   held.covariance.row(1).setZero();

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <random>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -52,15 +53,14 @@ Posterior Dense(const Problem& problem, const GaussianPrior& prior) {
   const Eigen::MatrixXd S = prior.sigma.array().square().matrix().asDiagonal();
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +
                                      problem.J * S * problem.J.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const linalg::Cholesky factor(covariance);
   const Eigen::VectorXd off = problem.y - problem.J * prior.mean;
   Posterior posterior;
-  posterior.misfit = off.dot(factor.solve(off));
-  posterior.ln_evidence =
-      -0.5 * posterior.misfit - factor.matrixLLT().diagonal().array().log().sum();
+  posterior.misfit = off.dot(factor.Solve(off));
+  posterior.ln_evidence = -0.5 * posterior.misfit - 0.5 * factor.LnDeterminant();
   const Eigen::MatrixXd gain = S * problem.J.transpose();
-  posterior.mean = prior.mean + gain * factor.solve(off);
-  posterior.covariance = S - gain * factor.solve(Eigen::MatrixXd(gain.transpose()));
+  posterior.mean = prior.mean + gain * factor.Solve(off);
+  posterior.covariance = S - gain * factor.Solve(Eigen::MatrixXd(gain.transpose()));
   return posterior;
 }
 

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <random>
 #include <vector>
+
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -87,7 +88,7 @@ class LinearModelTest : public testing::Test {
     if (observed_.recordings[static_cast<std::size_t>(recording)].held_until_s) {
       covariance.array() += observed_.reference_sigma_m * observed_.reference_sigma_m;
     }
-    const Eigen::MatrixXd inverse = covariance.inverse();
+    const Eigen::MatrixXd inverse = linalg::InverseSymmetric(covariance);
     Information information(kParameters);
     information.H = J.transpose() * inverse * J;
     information.b = J.transpose() * inverse * y;

@@ -3,11 +3,11 @@
 
 #include "components/diagnosis/inference/other_places.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "components/diagnosis/causes/placed_force.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 #include "tests/components/diagnosis/hidden_causes.hpp"
 
 namespace palpate::diagnosis {
@@ -105,7 +105,7 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
   EXPECT_LT(std::sqrt(own(kAlong, kAlong)), 1.01 * kPlaceSigma_m)
       << "as it is believed to be near its place";
   EXPECT_GT(std::sqrt(all(kAlong, kAlong)), 0.02) << "seed " << kSeed;
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all).eigenvalues().minCoeff(), 0.0);
+  EXPECT_GT(linalg::SymmetricEigenvalues(all).minCoeff(), 0.0);
 }
 
 TEST_F(OtherPlaces, AreOfNoWeightWhereTheDataTell) {

@@ -3,7 +3,7 @@
 
 #include "tests/components/virtual_camera/depth_statistics.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -43,7 +43,8 @@ Eigen::MatrixXd ResidualsOf(const rgbd::Image<double, 1>& disparities, int u0, i
       design.row(i) << u - 7.5, v - 7.5, 1.0;
     }
   }
-  const Eigen::Vector3d plane = (design.transpose() * design).ldlt().solve(design.transpose() * d);
+  const Eigen::Vector3d plane =
+      Eigen::LDLT<Eigen::Matrix3d>(design.transpose() * design).solve(design.transpose() * d);
   const Eigen::VectorXd residuals = d - design * plane;
   if (residuals.cwiseAbs().maxCoeff() > kFlat_px) return {};
   return residuals.reshaped(kPatch_px, kPatch_px);

@@ -106,7 +106,8 @@ Eigen::Matrix3Xd Noise(const std::vector<Eigen::Matrix3d>& covariance_m2, std::m
   std::normal_distribution<double> value;
   Eigen::Matrix3Xd noise(3, static_cast<Eigen::Index>(covariance_m2.size()));
   for (Eigen::Index k = 0; k < noise.cols(); ++k) {
-    const Eigen::Matrix3d L = covariance_m2[static_cast<size_t>(k)].llt().matrixL();
+    const Eigen::Matrix3d L =
+        Eigen::LLT<Eigen::Matrix3d>(covariance_m2[static_cast<size_t>(k)]).matrixL();
     noise.col(k) = L * Eigen::Vector3d::NullaryExpr([&] { return value(random); });
   }
   return noise;
@@ -173,7 +174,8 @@ TEST(RegisterRigidWithCovariances, CovarianceIsThatOfTheErrors) {
     Eigen::Matrix<double, 6, 1> error;
     error << turn.angle() * turn.axis(),
         kMotion.translation_m() - found.T_target_source.translation_m();
-    distance_squared += error.dot(found.covariance.ldlt().solve(error));
+    distance_squared +=
+        error.dot(Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(found.covariance).solve(error));
   }
   EXPECT_NEAR(distance_squared / kRuns, 6.0, 5.0 * std::sqrt(12.0 / kRuns));
 }

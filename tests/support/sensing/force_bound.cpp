@@ -44,7 +44,8 @@ double Sigma(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& variance_m2
   }
   Eigen::Vector<double, 5> along = Eigen::Vector<double, 5>::Zero();
   along.head<3>() = force_N.normalized();
-  return std::sqrt(along.dot(information.ldlt().solve(along))) / force_N.norm();
+  return std::sqrt(along.dot(Eigen::LDLT<Eigen::Matrix<double, 5, 5>>(information).solve(along))) /
+         force_N.norm();
 }
 
 }  // namespace

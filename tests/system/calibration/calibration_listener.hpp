@@ -128,7 +128,8 @@ inline void ExpectRight(const Found& found, const Eigen::Isometry3d& truth) {
   const Eigen::Vector3d off_m = found.T_robot_camera * middle_m - truth * middle_m;
   const Eigen::Matrix3d covariance_m2 =
       CovarianceOfPoint(found, found.T_robot_camera.linear() * middle_m);
-  EXPECT_LT(off_m.dot(covariance_m2.ldlt().solve(off_m)), kChiSquared3) << off_m.transpose();
+  EXPECT_LT(off_m.dot(Eigen::LDLT<Eigen::Matrix3d>(covariance_m2).solve(off_m)), kChiSquared3)
+      << off_m.transpose();
   EXPECT_LT(std::sqrt(covariance_m2.diagonal().maxCoeff()), 1.5e-3);
 }
 

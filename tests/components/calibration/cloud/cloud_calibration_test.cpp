@@ -117,7 +117,8 @@ TEST_F(CloudCalibrationTest, StandardErrorsSayHowFarThePoseIsOff) {
     const Eigen::AngleAxisd turn(truth_.rotation() * found.rotation().conjugate());
     PoseChange error;
     error << turn.angle() * turn.axis(), truth_.translation_m() - found.translation_m();
-    sum += error.dot(fit.joint.pose_covariance.ldlt().solve(error));
+    sum +=
+        error.dot(Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(fit.joint.pose_covariance).solve(error));
   }
   RecordProperty("mean_squared_error", FormatNumber(sum / kClouds));
   EXPECT_GT(sum / kClouds, 3.0);

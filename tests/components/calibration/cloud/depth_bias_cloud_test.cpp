@@ -5,6 +5,7 @@
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "libs/core/text.hpp"
+#include "libs/linalg/cholesky.hpp"
 #include "tests/components/calibration/cloud/cloud_scene.hpp"
 
 namespace palpate::calibration {
@@ -117,7 +118,7 @@ TEST_F(DepthBiasOfClouds, ErrsAsItsCovarianceSays) {
     Eigen::VectorXd error(kPoseRows + true_bias_.coefficients.size());
     error << turn.angle() * turn.axis(), found.translation_m() - truth_.translation_m(),
         fit.joint.depth_bias->coefficients - true_bias_.coefficients;
-    sum += error.dot(fit.joint.pose_and_bias_covariance.ldlt().solve(error));
+    sum += error.dot(linalg::SolveSymmetric(fit.joint.pose_and_bias_covariance, error));
     EXPECT_TRUE(fit.joint.depth_bias->covariance.isApprox(fit.joint.pose_and_bias_covariance));
   }
   RecordProperty("mean_squared_error", FormatNumber(sum / kDraws));

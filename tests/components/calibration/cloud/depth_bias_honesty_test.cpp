@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/cloud/skin_in_view.hpp"
 #include "libs/core/text.hpp"
+#include "libs/linalg/cholesky.hpp"
 #include "tests/components/calibration/cloud/cloud_scene.hpp"
 
 namespace palpate::calibration {
@@ -127,8 +126,8 @@ TEST_F(DepthBiasOfAnotherRobot, PoseAndMapErrAsTheirCovarianceSays) {
     ASSERT_TRUE(fit.depth_bias);
     const Eigen::VectorXd error = Difference(fit.T_robot_camera, fit.depth_bias->coefficients,
                                              truth_, true_bias_.coefficients);
-    sum += error.dot(fit.pose_and_bias_covariance.ldlt().solve(error)) / kSeeds;
-    without += error.dot(fit.depth_bias->covariance.ldlt().solve(error)) / kSeeds;
+    sum += error.dot(linalg::SolveSymmetric(fit.pose_and_bias_covariance, error)) / kSeeds;
+    without += error.dot(linalg::SolveSymmetric(fit.depth_bias->covariance, error)) / kSeeds;
   }
   RecordProperty("mean_squared_error", FormatNumber(sum));
   RecordProperty("mean_squared_error_without_the_skins", FormatNumber(without));
@@ -150,7 +149,7 @@ TEST_F(DepthBiasOfAnotherRobot, CalibrationsDifferAsTheFilesSay) {
     const Eigen::VectorXd difference = Difference(a.T_robot_camera, a.depth_bias->coefficients,
                                                   b.T_robot_camera, b.depth_bias->coefficients);
     const Eigen::MatrixXd covariance = a.depth_bias->covariance + b.depth_bias->covariance;
-    sum += difference.dot(covariance.ldlt().solve(difference)) / kSeeds;
+    sum += difference.dot(linalg::SolveSymmetric(covariance, difference)) / kSeeds;
   }
   RecordProperty("mean_squared_difference", FormatNumber(sum));
   EXPECT_GT(sum, 4.0);

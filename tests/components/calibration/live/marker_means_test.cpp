@@ -30,7 +30,7 @@ std::vector<SeenMarkers> Pictures(double noise_factor = 1.0) {
     for (int m = 0; m < 2; ++m) {
       const Eigen::Vector3d place_m(0.2 * m - 0.1, 0.15, 0.4 + 0.1 * m);
       const Eigen::Matrix3d covariance_m2 = DepthNoise(place_m);
-      const Eigen::Matrix3d root = covariance_m2.llt().matrixL();
+      const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(covariance_m2).matrixL();
       const Eigen::Vector3d draw(noise(random), noise(random), noise(random));
       picture.markers.push_back(
           {.marker = m,

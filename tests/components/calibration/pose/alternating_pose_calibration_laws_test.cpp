@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "libs/linalg/cholesky.hpp"
 #include "tests/components/calibration/table_one.hpp"
 
 namespace palpate::calibration {
@@ -32,7 +32,7 @@ class Algorithm1Laws : public testing::Test {
 
 Eigen::Vector3d NormalNoise(const Eigen::Matrix3d& covariance_m2, std::mt19937& random) {
   std::normal_distribution<double> value;
-  const Eigen::Matrix3d L = covariance_m2.llt().matrixL();
+  const Eigen::Matrix3d L = Eigen::LLT<Eigen::Matrix3d>(covariance_m2).matrixL();
   return L * Eigen::Vector3d::NullaryExpr([&] { return value(random); });
 }
 
@@ -123,7 +123,7 @@ TEST_F(Algorithm1Laws, CovarianceIsThatOfTheLinearisedProblem) {
     };
     J.col(p) = (at(kStep) - at(-kStep)) / (2.0 * kStep * kSigma_m);
   }
-  const Eigen::MatrixXd expected = (J.transpose() * J).inverse();
+  const Eigen::MatrixXd expected = linalg::InverseSymmetric(J.transpose() * J);
   const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd difference =
       scale.asDiagonal() * (found.covariance - expected) * scale.asDiagonal();
@@ -155,7 +155,8 @@ TEST_F(Algorithm1Laws, StandardErrorsHoldTheTruthAsOftenAsTheySay) {
     error << turn.angle() * turn.axis(),
         pose.translation_m() - found.T_robot_camera.translation_m(),
         kTableOneForces_N - found.lambda_a_N;
-    distance_squared += error.dot(found.covariance.ldlt().solve(error)) / kSeeds;
+    distance_squared +=
+        error.dot(linalg::SolveSymmetric(found.covariance, Eigen::VectorXd(error))) / kSeeds;
     chi_squared += found.chi_squared / kSeeds;
     held += static_cast<int>(
         (error.cwiseAbs().array() <= 1.96 * found.covariance.diagonal().cwiseSqrt().array())

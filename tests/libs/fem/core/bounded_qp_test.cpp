@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "libs/linalg/lu.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -52,10 +53,10 @@ double BruteForceMinimum(const BoundedQp& qp) {
       x[i] = rest % 3 == 0 ? qp.lower[i] : rest % 3 == 1 ? qp.upper[i] : 0.0;
     }
     if (!free.empty()) {
-      const Eigen::FullPivLU<Eigen::MatrixXd> factor(Eigen::MatrixXd(qp.H(free, free)));
-      if (!factor.isInvertible()) continue;
+      const linalg::Lu factor(qp.H(free, free));
+      if (!(factor.ReciprocalCondition() > 1e-14)) continue;
       const Eigen::VectorXd gradient = qp.H * x + qp.c;
-      x(free) = factor.solve(-gradient(free));
+      x(free) = factor.Solve(Eigen::VectorXd(-gradient(free)));
     }
     const bool feasible = (x.array() >= qp.lower.array() - 1e-12).all() &&
                           (x.array() <= qp.upper.array() + 1e-12).all();
@@ -176,8 +177,7 @@ TEST(BoundedQp, FallsWithoutEndWhereADirectionOfDescentMeetsNoBound) {
   for (int trial = 0; trial < 500; ++trial) {
     const int n = 2 + trial % 15;
     BoundedQp qp = RandomQp(n, 1 + below(n - 1), false, &engine);
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(qp.H));
-    const QpVector flat = lu.kernel().col(0).normalized();
+    const QpVector flat = linalg::DecomposeSymmetric(qp.H).vectors.col(0);
     qp.c = -qp.H * Eigen::VectorXd(laws::RandomVector(n, 2.0, &engine)) - flat;
     for (int i = 0; i < n; ++i) {
       if (flat[i] > 0.0) qp.upper[i] = kInfinity;

@@ -5,10 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/shape_functions.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -53,7 +52,7 @@ class NodeMatrixOf : public ::testing::TestWithParam<ElementType> {
 TEST_P(NodeMatrixOf, MassIsSymmetricAndPositive) {
   const Eigen::MatrixXd dense = Dense(mass_);
   EXPECT_LE((dense - dense.transpose()).cwiseAbs().maxCoeff(), 1e-18);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues().minCoeff(), 0.0);
+  EXPECT_GT(linalg::SymmetricEigenvalues(dense).minCoeff(), 0.0);
 }
 
 TEST_P(NodeMatrixOf, MassOfAUniformMotionIsTheNodesShareInTheWeight) {

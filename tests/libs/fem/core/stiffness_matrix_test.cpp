@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 #include <thread>
 #include <vector>
 
 #include "libs/fem/sparse/recent_orders.hpp"
+#include "libs/linalg/cholesky.hpp"
 #include "tests/libs/fem/core/laws.hpp"
 
 namespace palpate::fem {
@@ -139,7 +139,7 @@ TEST(StiffnessMatrix, SingleFixedDirectionsStayWhereTheyAre) {
   const Eigen::VectorXd force = laws::RandomVector(24, 1.0, &engine);
   Eigen::VectorXd reduced(K.Size());
   K.Reduce(force, reduced);
-  const Eigen::VectorXd solved = Dense(K).ldlt().solve(reduced);
+  const Eigen::VectorXd solved = linalg::SolveSymmetric(Dense(K), reduced);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(24);
   K.AddExpanded(solved, 1.0, u);
 
@@ -151,7 +151,7 @@ TEST(StiffnessMatrix, SingleFixedDirectionsStayWhereTheyAre) {
       EXPECT_EQ(u[i], 0.0);
   }
   const Eigen::VectorXd expected =
-      full(free_rows, free_rows).ldlt().solve(Eigen::VectorXd(force(free_rows)));
+      linalg::SolveSymmetric(full(free_rows, free_rows), Eigen::VectorXd(force(free_rows)));
   EXPECT_LE((u(free_rows) - expected).norm(), 1e-12 * expected.norm());
 }
 

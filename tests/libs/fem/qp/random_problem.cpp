@@ -3,10 +3,11 @@
 
 #include "tests/libs/fem/qp/random_problem.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "libs/linalg/qr.hpp"
 
 namespace palpate::fem::qp {
 
@@ -56,7 +57,7 @@ Eigen::MatrixXd Root(Family family, int n, Random* random) {
   if (family == Family::kEmptyColumns) {
     for (int i = 0; i < n; ++i) root.row(i) *= random->Below(3) == 0 ? 0.0 : 1.0;
   } else if (family == Family::kConditioned) {
-    const Eigen::MatrixXd Q = root.householderQr().householderQ();
+    const Eigen::MatrixXd Q = linalg::DecomposeQr(root).Q;
     Eigen::VectorXd spread(n);
     for (double& entry : spread) entry = std::pow(10.0, random->Uniform(-4.0, 0.0));
     root = Q * spread.asDiagonal();
