@@ -45,8 +45,8 @@ Eigen::MatrixXd JointCovariance(const std::vector<MarkerSighting>& sightings,
   const Eigen::MatrixXd information = J.transpose() * J;
   Eigen::VectorXd scale = information.diagonal();
   for (double& entry : scale) entry = 1.0 / std::sqrt(std::max(entry, 1e-300));
-  const linalg::SymmetricEigen eigen =
-      linalg::DecomposeSymmetric(scale.asDiagonal() * information * scale.asDiagonal());
+  const Eigen::MatrixXd normalized = scale.asDiagonal() * information * scale.asDiagonal();
+  const linalg::SymmetricEigen eigen = linalg::DecomposeSymmetric(normalized);
   const Eigen::VectorXd variances = eigen.values.cwiseMax(kNothing).cwiseInverse();
   const Eigen::MatrixXd scaled = eigen.vectors * variances.asDiagonal() * eigen.vectors.transpose();
   return scale.asDiagonal() * scaled * scale.asDiagonal();

@@ -10,7 +10,7 @@
 namespace palpate::linalg {
 namespace {
 
-constexpr double kRounding = 1e-10;
+constexpr double kLuRounding = 1e-10;
 
 TEST(Lu, SolvesWhatIsNotSymmetric) {
   for (const Eigen::Index size : {1, 2, 9, 16, 80}) {
@@ -18,10 +18,10 @@ TEST(Lu, SolvesWhatIsNotSymmetric) {
     const Eigen::MatrixXd B = RandomMatrix(size, 3, 2);
     const Eigen::VectorXd b = B.col(0);
     const Lu lu(A);
-    EXPECT_LE((A * lu.Solve(B) - B).norm(), kRounding * B.norm()) << size;
-    EXPECT_LE((A * lu.Solve(b) - b).norm(), kRounding * b.norm()) << size;
+    EXPECT_LE((A * lu.Solve(B) - B).norm(), kLuRounding * B.norm()) << size;
+    EXPECT_LE((A * lu.Solve(b) - b).norm(), kLuRounding * b.norm()) << size;
     if (size <= kMaxSmallSize) {
-      EXPECT_LE((A * SmallLu(A).Solve(b) - b).norm(), kRounding * b.norm()) << size;
+      EXPECT_LE((A * SmallLu(A).Solve(b) - b).norm(), kLuRounding * b.norm()) << size;
     }
   }
 }

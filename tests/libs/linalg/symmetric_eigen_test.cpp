@@ -32,7 +32,8 @@ TEST(SymmetricEigen, ReconstructsTheMatrix) {
 
 TEST(SymmetricEigen, FindsTheNullSpaceOfASingularMatrix) {
   const Eigen::MatrixXd root = RandomMatrix(6, 4, 2);
-  const SymmetricEigen eigen = DecomposeSymmetric(root * root.transpose());
+  const Eigen::MatrixXd A = root * root.transpose();
+  const SymmetricEigen eigen = DecomposeSymmetric(A);
   ASSERT_TRUE(eigen.ok);
   EXPECT_LE(eigen.values.head(2).cwiseAbs().maxCoeff(), 1e-14 * eigen.values[5]);
   EXPECT_LE((root.transpose() * eigen.vectors.leftCols(2)).norm(), 1e-6);
