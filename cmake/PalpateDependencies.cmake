@@ -32,10 +32,21 @@ target_include_directories(palpate_suitesparse SYSTEM INTERFACE ${SUITESPARSE_IN
 target_link_libraries(palpate_suitesparse INTERFACE ${CHOLMOD_LIBRARY}
                       ${SUITESPARSECONFIG_LIBRARY} BLAS::BLAS)
 
-if(PALPATE_BUILD_TESTS)
-  find_package(GTest REQUIRED)
-  find_package(embree 3 REQUIRED)
+# Whoever only builds programs needs no more. Tests and benchmarks are left out where their packages
+# are missing; a later configuration finds what has been installed since.
+find_path(PALPATE_GMOCK_HEADER gmock/gmock.h)
+if(PALPATE_BUILD_TESTS AND PALPATE_GMOCK_HEADER)
+  find_package(GTest QUIET)
+  find_package(embree 3 QUIET)
+endif()
+if(NOT TARGET GTest::gmock OR NOT TARGET embree)
+  message(STATUS "No tests: they need GoogleTest with gmock, and Embree 3")
+  set(PALPATE_BUILD_TESTS OFF)
 endif()
 if(PALPATE_BUILD_BENCHMARKS)
-  find_package(benchmark REQUIRED)
+  find_package(benchmark QUIET)
+endif()
+if(NOT TARGET benchmark::benchmark OR NOT PALPATE_BUILD_TESTS)
+  message(STATUS "No benchmarks: they need Google Benchmark, and all that the tests need")
+  set(PALPATE_BUILD_BENCHMARKS OFF)
 endif()

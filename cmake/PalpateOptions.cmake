@@ -46,13 +46,25 @@ if(PALPATE_TIDY)
   find_program(PALPATE_CLANG_TIDY NAMES clang-tidy REQUIRED)
 endif()
 
-# Ten sources of a target at a time in one run of the compiler: most of a source's time goes into
-# the headers and templates that its neighbours use, too. On in the presets of optimised builds,
-# where tests/style/check_includes.py finds what a source forgets to include; off in debug and tidy.
-option(PALPATE_UNITY "Compile ten sources of a target at a time" OFF)
+# Ten sources of a target (of a test program some sixteen) at a time in one run of the compiler: most
+# of a source's time goes into the headers and templates that its neighbours use, too. On in the
+# presets of optimised builds, where tests/style/check_includes.py finds what a source forgets to
+# include; off in debug and tidy.
+option(PALPATE_UNITY "Compile many sources of a target at a time" OFF)
 
 # Sources of tests are compiled with less optimisation than what they test: a quarter of their time.
 set(PALPATE_TEST_OPTIONS "$<$<CONFIG:Release>:-O1>")
+
+# palpate_even_batches(OUT COUNT WANTED): the batch size near WANTED that leaves of COUNT sources no
+# small rest.
+function(palpate_even_batches out count wanted)
+  math(EXPR batches "(${count} + ${wanted} / 2) / ${wanted}")
+  if(batches LESS 1)
+    set(batches 1)
+  endif()
+  math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
+  set(${out} ${batch} PARENT_SCOPE)
+endfunction()
 
 # palpate_own_code(TARGET [PCH name]): the warnings, the precompiled header where there is one, and,
 # in the tidy preset, clang-tidy.
@@ -70,7 +82,13 @@ function(palpate_own_code target)
     target_compile_options(${target} PRIVATE ${PALPATE_TEST_OPTIONS})
   endif()
   if(PALPATE_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    set(batch 10)
+    if(ARG_PCH STREQUAL palpate_test_pch)
+      get_target_property(sources ${target} SOURCES)
+      list(LENGTH sources count)
+      palpate_even_batches(batch ${count} 16)
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
   endif()
   if(PALPATE_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY

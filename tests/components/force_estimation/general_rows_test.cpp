@@ -14,7 +14,7 @@
 namespace palpate::force_estimation {
 namespace {
 
-const Eigen::Vector3d kTip(0.0, 0.015, 0.03);
+const Eigen::Vector3d kPushedTip(0.0, 0.015, 0.03);
 constexpr double kRadius_m = 0.005;
 const Eigen::Vector3d kGeneralForce_N(0.05, -0.1, -0.3);
 constexpr double kSigma_m = 1e-4;
@@ -69,8 +69,8 @@ class GeneralRows : public testing::Test {
 
 TEST_F(GeneralRows, NormalDisplacementsTellAForceInThreeDirections) {
   const fem::StaticState truth =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
-  fitter_.SetSites({SiteAt(kTip)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)});
+  fitter_.SetSites({SiteAt(kPushedTip)});
   ModelState state = StartState();
   const ForceFit& fit = fitter_.Fit(TargetsAt(truth.x_m), {}, &state);
   ASSERT_TRUE(fit.status.ok());
@@ -88,14 +88,14 @@ TEST_F(GeneralRows, WithoutSitesTheFitIsTheEquilibrium) {
 }
 
 TEST_F(GeneralRows, AKeptFactorComesToTheSameFit) {
-  fitter_.SetSites({SiteAt(kTip)});
+  fitter_.SetSites({SiteAt(kPushedTip)});
   fitter_.KeepFactor(true);
   ModelState state = StartState();
   int linearisations = 0;
   for (int k = 0; k <= 10; ++k) {
     const Eigen::Vector3d force_N = (1.0 + 0.002 * k) * kGeneralForce_N;
     const fem::StaticState truth =
-        SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, force_N)});
+        SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, force_N)});
     fitter_.ForgetFactor();
     if (k > 0) fitter_.KeepFactor(true);
     const ForceFit& fit = fitter_.Fit(TargetsAt(truth.x_m), {}, &state);
@@ -119,7 +119,7 @@ TEST_F(GeneralRows, AKeptFactorComesToTheSameFit) {
 class KeptFactor : public GeneralRows {
  protected:
   KeptFactor() {
-    fitter_.SetSites({SiteAt(kTip)});
+    fitter_.SetSites({SiteAt(kPushedTip)});
     fitter_.KeepFactor(true);
     state_ = StartState();
     EXPECT_TRUE(
@@ -127,7 +127,7 @@ class KeptFactor : public GeneralRows {
   }
 
   RowTargets TargetsUnder(const Eigen::Vector3d& force_N) {
-    return TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, force_N)}).x_m);
+    return TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, force_N)}).x_m);
   }
   fem::TimeBudget Work(double more) { return fitter_.BudgetOfWork(more); }
 
@@ -160,8 +160,8 @@ TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
 
 TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
   const RowTargets targets =
-      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)}).x_m);
-  fitter_.SetSites({SiteAt(kTip)});
+      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)}).x_m);
+  fitter_.SetSites({SiteAt(kPushedTip)});
   ModelState state = StartState();
   const int steps = fitter_.Fit(targets, {}, &state).iterations;
   fitter_.LimitForceStep(0.1 * kGeneralForce_N.norm());
@@ -174,9 +174,9 @@ TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
 
 TEST_F(GeneralRows, APriorHoldsTheForceBack) {
   const fem::StaticState truth =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)});
   const RowTargets targets = TargetsAt(truth.x_m);
-  fitter_.SetSites({SiteAt(kTip)});
+  fitter_.SetSites({SiteAt(kPushedTip)});
   ModelState state = StartState();
   const Eigen::Matrix3d free_covariance = fitter_.Fit(targets, {}, &state).covariance_N2;
   fitter_.SetForcePrior(1e10 * fem::QpMatrix::Identity(3, 3));
@@ -189,7 +189,7 @@ TEST_F(GeneralRows, APriorHoldsTheForceBack) {
 
 TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
   const SurfaceMap map(*model_);
-  const SkinPoint true_place = map.NearestAtRest(kTip - Eigen::Vector3d(0.02, 0, 0));
+  const SkinPoint true_place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
   const fem::StaticState truth =
       SolveTruth(*model_, {}, {LoadAt(*model_, true_place.rest_m, kRadius_m, kGeneralForce_N)});
   const RowTargets targets = TargetsAt(truth.x_m);
@@ -222,9 +222,9 @@ TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
 TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
   SurfaceMap map(*model_);
   const fem::StaticState bent =
-      SolveTruth(*model_, {}, {LoadAt(*model_, kTip, kRadius_m, kGeneralForce_N)});
+      SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)});
   map.Deform(bent.x_m);
-  const SkinPoint at_rest = map.NearestAtRest(kTip + Eigen::Vector3d(-0.03, 0.002, 0.0));
+  const SkinPoint at_rest = map.NearestAtRest(kPushedTip + Eigen::Vector3d(-0.03, 0.002, 0.0));
   const SkinPoint found = map.NearestNow(map.PositionNow_m(at_rest));
   EXPECT_LT((found.rest_m - at_rest.rest_m).norm(), 1e-9);
   EXPECT_LT(found.distance_m, 1e-9);
@@ -235,7 +235,7 @@ TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
 TEST_F(GeneralRows, TheSkinAroundAPointIsOnItsSideOfTheBody) {
   constexpr double kThroughTheBody_m = 0.05;
   const SurfaceMap map(*model_);
-  const SkinPoint place = map.NearestAtRest(kTip - Eigen::Vector3d(0.02, 0, 0));
+  const SkinPoint place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
   const std::vector<int> around = map.TrianglesAround(place, kThroughTheBody_m);
   ASSERT_GT(around.size(), 1U);
   EXPECT_EQ(around.front(), place.triangle);

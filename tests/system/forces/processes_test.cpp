@@ -17,7 +17,7 @@
 #include "tests/system/sample_data.hpp"
 
 /// palpate-player and palpate-force-estimation as processes of their own.
-namespace palpate::system_test {
+namespace palpate::system_test::processes {
 namespace {
 
 using idl::palpate_msgs::ForceArray;
@@ -226,4 +226,4 @@ TEST(Processes, StopCleanlyOnSigterm) {
 }
 
 }  // namespace
-}  // namespace palpate::system_test
+}  // namespace palpate::system_test::processes

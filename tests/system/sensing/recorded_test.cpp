@@ -21,7 +21,7 @@
 
 /// palpate-player, palpate-perception and palpate-force-estimation on recorded images against
 /// `palpate estimate`.
-namespace palpate::system_test {
+namespace palpate::system_test::recorded_images {
 namespace {
 
 using std::chrono::seconds;
@@ -204,4 +204,4 @@ TEST(RecordedImages, GiveTheForcesOfTheDeskToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace palpate::system_test
+}  // namespace palpate::system_test::recorded_images

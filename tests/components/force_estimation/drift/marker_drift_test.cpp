@@ -21,7 +21,7 @@ namespace {
 using State = DriftReport::State;
 using Kind = robot::CableCommand::Kind;
 
-constexpr double kNoise_m = 3e-4;
+constexpr double kMarkerNoise_m = 3e-4;
 constexpr double kPeriod_s = 1.0 / 30.0;
 
 std::unique_ptr<robot::RobotModel> FourLegs() {
@@ -34,7 +34,7 @@ class MarkerDriftTest : public testing::Test {
   void Start(const std::vector<std::string>& contacts) {
     NodeConfig config;
     config.source = "markers";
-    config.marker_sigma_m = kNoise_m;
+    config.marker_sigma_m = kMarkerNoise_m;
     config.contacts = contacts;
     estimator_ = EstimatorMakerOf(config, {})(*robot_);
   }
@@ -69,7 +69,7 @@ class MarkerDriftTest : public testing::Test {
       frame.cables = cables_;
       for (const auto& place_m : places_m.colwise()) {
         const Eigen::Vector3d noise_m(normal_(random_), normal_(random_), normal_(random_));
-        frame.markers.push_back({.valid = true, .position_m = place_m + kNoise_m * noise_m});
+        frame.markers.push_back({.valid = true, .position_m = place_m + kMarkerNoise_m * noise_m});
       }
       last_ = estimator_->Update(input).drift;
       estimator_->AfterUpdate(input);

@@ -51,7 +51,7 @@ rgbd::RgbdFrame Obstacle() {
 struct Rgb {
   double red, green, blue;
 };
-constexpr Rgb kGreen{26, 178, 51};
+constexpr Rgb kGreenDisc{26, 178, 51};
 
 /// Each pixel takes of `rgb` the share of it that lies in a shape: its points at 5 x 5 places.
 void Paint(const std::function<bool(double u, double v)>& inside, const Rgb& rgb,
@@ -97,7 +97,7 @@ void ExpectRejected(const FiducialFrame& found, int FiducialRejections::*reason)
 TEST(FiducialRefusals, ADiscOnAWallIsFoundToAFractionOfAPixel) {
   for (const double offset : {0.0, 0.2, 0.4, 0.6, 0.8}) {
     rgbd::RgbdFrame frame = Obstacle();
-    Paint(Disc(70.0 + offset, 50.0 - 0.5 * offset, 3.4), kGreen, &frame.color);
+    Paint(Disc(70.0 + offset, 50.0 - 0.5 * offset, 3.4), kGreenDisc, &frame.color);
     const FiducialFrame& found = DetectIn(frame);
     ASSERT_EQ(found.fiducials.size(), 1u);
     const Fiducial& disc = found.fiducials[0];
@@ -118,7 +118,7 @@ TEST(FiducialRefusals, EachOfSeveralColors) {
   config.color_rgb.insert(config.color_rgb.end(), {0.1, 0.2, 0.9});
   rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(50.0, 40.0, 3.4), {26, 51, 230}, &frame.color);
-  Paint(Disc(90.0, 80.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(90.0, 80.0, 3.4), kGreenDisc, &frame.color);
   const FiducialFrame& found = DetectIn(frame, config);
   ASSERT_EQ(found.fiducials.size(), 2u);
   EXPECT_EQ(found.fiducials[0].color, 1);
@@ -131,8 +131,8 @@ TEST(FiducialRefusals, AColorThatOnlyOneHasTellsItsName) {
   config.names = {"tip", "leg", "foot"};
   rgbd::RgbdFrame frame = Obstacle();
   Paint(Disc(50.0, 40.0, 3.4), {26, 51, 230}, &frame.color);
-  Paint(Disc(90.0, 80.0, 3.4), kGreen, &frame.color);
-  Paint(Disc(50.0, 90.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(90.0, 80.0, 3.4), kGreenDisc, &frame.color);
+  Paint(Disc(50.0, 90.0, 3.4), kGreenDisc, &frame.color);
   const FiducialFrame& found = DetectIn(frame, config);
   ASSERT_EQ(found.fiducials.size(), 3u);
   EXPECT_EQ(found.fiducials[0].name, "leg");
@@ -142,10 +142,10 @@ TEST(FiducialRefusals, AColorThatOnlyOneHasTellsItsName) {
 
 TEST(FiducialRefusals, TooSmall) {
   rgbd::RgbdFrame frame = Obstacle();
-  Paint(Disc(70.0, 50.0, 0.8), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 0.8), kGreenDisc, &frame.color);
   ExpectRejected(DetectIn(frame), &FiducialRejections::too_small);
   frame = Obstacle();
-  Paint(Disc(70.0, 50.0, 2.5), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 2.5), kGreenDisc, &frame.color);
   FiducialConfig config = GreenConfig();
   config.min_radius_m = config.max_radius_m = 0.004;
   ExpectRejected(DetectIn(frame, config), &FiducialRejections::too_small);
@@ -154,7 +154,7 @@ TEST(FiducialRefusals, TooSmall) {
 TEST(FiducialRefusals, TooLarge) {
   for (const double radius_px : {5.4, 20.0}) {
     rgbd::RgbdFrame frame = Obstacle();
-    Paint(Disc(70.0, 50.0, radius_px), kGreen, &frame.color);
+    Paint(Disc(70.0, 50.0, radius_px), kGreenDisc, &frame.color);
     ExpectRejected(DetectIn(frame), &FiducialRejections::too_large);
   }
 }
@@ -169,14 +169,14 @@ TEST(FiducialRefusals, NotRound) {
       }};
   for (const auto& shape : shapes) {
     rgbd::RgbdFrame frame = Obstacle();
-    Paint(shape, kGreen, &frame.color);
+    Paint(shape, kGreenDisc, &frame.color);
     ExpectRejected(DetectIn(frame), &FiducialRejections::not_round);
   }
 }
 
 TEST(FiducialRefusals, WithoutDepthOrOutOfRange) {
   rgbd::RgbdFrame frame = Obstacle();
-  Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 3.4), kGreenDisc, &frame.color);
   rgbd::RgbdFrame holes = frame;
   for (int v = 46; v < 55; ++v) {
     for (int u = 66; u < 75; ++u) *holes.depth.Pixel(u, v) = 0;
@@ -189,10 +189,10 @@ TEST(FiducialRefusals, WithoutDepthOrOutOfRange) {
 
 TEST(FiducialRefusals, AtAnEdge) {
   rgbd::RgbdFrame frame = Obstacle();
-  Paint(Disc(4.0, 50.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(4.0, 50.0, 3.4), kGreenDisc, &frame.color);
   ExpectRejected(DetectIn(frame), &FiducialRejections::at_edge);  // of the picture
   frame = Obstacle();
-  Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 3.4), kGreenDisc, &frame.color);
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 74; u < kWidth_px; ++u) *frame.depth.Pixel(u, v) = 450;
   }
@@ -203,7 +203,7 @@ TEST(FiducialRefusals, AtAnEdge) {
 TEST(FiducialRefusals, OfTheColorOfWhatIsRoundIt) {
   rgbd::RgbdFrame frame = Obstacle();
   Paint([](double, double) { return true; }, {70, 130, 80}, &frame.color);
-  Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 3.4), kGreenDisc, &frame.color);
   FiducialConfig config = GreenConfig();
   config.color_tolerance = 0.15;
   EXPECT_EQ(DetectIn(frame, config).rejected.wrong_color, 0);
@@ -222,7 +222,7 @@ TEST(FiducialRefusals, DarkOnesAndOtherColorsAreNoSpots) {
 
 TEST(FiducialRefusals, OpenRimsMakeThePlaceLessSure) {
   rgbd::RgbdFrame frame = Obstacle();
-  Paint(Disc(70.0, 50.0, 3.4), kGreen, &frame.color);
+  Paint(Disc(70.0, 50.0, 3.4), kGreenDisc, &frame.color);
   const Eigen::Matrix3d whole_m2 = DetectIn(frame).fiducials.at(0).covariance_m2;
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 77; u < kWidth_px; ++u) *frame.depth.Pixel(u, v) = 450;

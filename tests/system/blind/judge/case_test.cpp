@@ -16,12 +16,12 @@
 namespace palpate::blind {
 namespace {
 
-constexpr std::uint64_t kSeed = 4711;
+constexpr std::uint64_t kFixedSeed = 4711;
 constexpr int kCases = 2000;
 
 TEST(BlindCase, AnyTwentySeedsInARowAreTheMix) {
   const robot::RobotDescription robot = test_support::FourLegRobot();
-  for (const std::uint64_t first : {std::uint64_t{0}, std::uint64_t{13}, kSeed}) {
+  for (const std::uint64_t first : {std::uint64_t{0}, std::uint64_t{13}, kFixedSeed}) {
     std::map<CaseKind, int> kinds;
     for (std::uint64_t i = 0; i < 20; ++i) ++kinds[DrawCase(first + i, robot).kind];
     EXPECT_EQ(kinds[CaseKind::kHealthy], 5);
@@ -34,7 +34,7 @@ TEST(BlindCase, AnyTwentySeedsInARowAreTheMix) {
 
 TEST(BlindCase, FollowsFromItsSeedAlone) {
   const robot::RobotDescription robot = test_support::FourLegRobot();
-  for (std::uint64_t seed = kSeed; seed < kSeed + 40; ++seed) {
+  for (std::uint64_t seed = kFixedSeed; seed < kFixedSeed + 40; ++seed) {
     const BlindCase a = DrawCase(seed, robot);
     const BlindCase b = DrawCase(seed, robot);
     ASSERT_EQ(a.effects.size(), b.effects.size());
@@ -59,7 +59,7 @@ TEST(BlindCase, EveryCauseAndPlaceComesWithParametersThatTheBenchTakes) {
   const robot::RobotDescription robot = test_support::FourLegRobot();
   const scenario::RobotNames names = scenario::NamesOf(robot);
   std::set<std::string> seen;
-  for (const CaseRecord& record : DrawnRecords(kSeed, kCases)) {
+  for (const CaseRecord& record : DrawnRecords(kFixedSeed, kCases)) {
     for (const auto& effect : record.truth) {
       const auto* kind = scenario::FindEffect(effect.id);
       seen.insert(effect.id);
@@ -86,7 +86,7 @@ TEST(BlindCase, TwoCausesDifferInKindAndOneIsWithheldWithAllThatDoTheSame) {
   std::set<Corruption> corruptions;
   bool twin = false;
   bool general = false;
-  for (std::uint64_t seed = kSeed; seed < kSeed + kCases; ++seed) {
+  for (std::uint64_t seed = kFixedSeed; seed < kFixedSeed + kCases; ++seed) {
     const BlindCase drawn = DrawCase(seed, robot);
     corruptions.insert(drawn.corruption);
     if (drawn.kind == CaseKind::kTwoCauses) {

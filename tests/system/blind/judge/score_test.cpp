@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 const ActiveEffect kGain{.id = "cable_gain", .where = {"cable:north"}, .parameters = {{"g", 0.1}}};
 const ActiveEffect kDense{.id = "density", .where = {"body"}, .parameters = {{"factor", 1.2}}};
-const ActiveEffect kLate{.id = "lag", .where = {"body"}, .parameters = {{"delay_s", 0.1}}};
+const ActiveEffect kLateBody{.id = "lag", .where = {"body"}, .parameters = {{"delay_s", 0.1}}};
 
 CaseRecord Case(CaseKind kind, std::vector<ActiveEffect> truth) {
   CaseRecord record{.kind = kind, .truth = std::move(truth)};
@@ -111,9 +111,9 @@ TEST(BlindScore, OfTwoCausesBothOneOrAThird) {
   EXPECT_EQ(score({kDense, kGain}).third.hits, 0);
   EXPECT_EQ(score({kDense}).both.hits, 0);
   EXPECT_EQ(score({kDense}).one.hits, 1);
-  EXPECT_EQ(score({kDense, kGain, kLate}).both.hits, 1);
-  EXPECT_EQ(score({kDense, kGain, kLate}).third.hits, 1);
-  EXPECT_EQ(score({kLate}).one.hits, 0);
+  EXPECT_EQ(score({kDense, kGain, kLateBody}).both.hits, 1);
+  EXPECT_EQ(score({kDense, kGain, kLateBody}).third.hits, 1);
+  EXPECT_EQ(score({kLateBody}).one.hits, 0);
 }
 
 TEST(BlindScore, HealthyRobotsAreAccusedByCausesAndByIndistinguishableOnes) {

@@ -24,7 +24,7 @@
 
 /// The whole system as processes: a push from the camera's frames over GigE Vision to /forces,
 /// perception that dies, joint states that stop.
-namespace palpate::system_test {
+namespace palpate::system_test::live_forces {
 namespace {
 
 using std::chrono::seconds;
@@ -243,4 +243,4 @@ TEST_F(LiveForces, AreFoundAndWhatStopsIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::system_test
+}  // namespace palpate::system_test::live_forces

@@ -16,7 +16,7 @@
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/support/test_folder.hpp"
-#include "tests/system/blind/diagnose_verb/palpate_command.hpp"
+#include "tests/system/blind/palpate_command.hpp"
 #include "tests/system/blind/generator.hpp"
 
 /// `palpate diagnose` as a person calls it, on robots of the virtual bench.

@@ -12,7 +12,7 @@
 #include "libs/core/file.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/support/test_folder.hpp"
-#include "tests/system/blind/diagnose_verb/palpate_command.hpp"
+#include "tests/system/blind/palpate_command.hpp"
 #include "tests/system/blind/picture_camera.hpp"
 
 /// `palpate diagnose` on depth images alone: a robot of few cells before a small camera with noise
