@@ -127,7 +127,8 @@ class KeptFactor : public GeneralRows {
   }
 
   RowTargets TargetsUnder(const Eigen::Vector3d& force_N) {
-    return TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, force_N)}).x_m);
+    return TargetsAt(
+        SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, force_N)}).x_m);
   }
   fem::TimeBudget Work(double more) { return fitter_.BudgetOfWork(more); }
 
@@ -159,8 +160,8 @@ TEST_F(KeptFactor, AFitStoppedByItsWorkSaysSoAndTheNextOnesArrive) {
 }
 
 TEST_F(GeneralRows, ShortForceStepsComeToTheSameFit) {
-  const RowTargets targets =
-      TargetsAt(SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)}).x_m);
+  const RowTargets targets = TargetsAt(
+      SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)}).x_m);
   fitter_.SetSites({SiteAt(kPushedTip)});
   ModelState state = StartState();
   const int steps = fitter_.Fit(targets, {}, &state).iterations;

@@ -7,17 +7,13 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/robot/robot_description.hpp"
-#include "tests/support/test_folder.hpp"
-#include "tests/system/blind/palpate_command.hpp"
-#include "tests/system/blind/generator.hpp"
+#include "tests/system/blind/diagnose_fixture.hpp"
 
 /// `palpate diagnose` as a person calls it, on robots of the virtual bench.
 namespace palpate::blind {
@@ -26,52 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kSource = PALPATE_SOURCE_DIR;
-
-class DiagnoseVerb : public testing::Test {
- protected:
-  /// An experiment of this scenario of config/scenarios with this hidden in it.
-  void Make(const std::string& effect, const std::string& of = "diagnose.yaml") {
-    std::string scenario = ReadFile(kSource / "config/scenarios" / of);
-    Replace(
-        mesh_,
-        mesh_of_truth_.empty() ? (kSource / "config/scenarios" / mesh_).string() : mesh_of_truth_,
-        &scenario);
-    if (!element_of_truth_.empty()) Replace("element: tet10", element_of_truth_, &scenario);
-    Replace("effects: []", "effects: [" + effect + "]", &scenario);
-    if (!recordings_.empty()) scenario = WithRecordings(scenario, recordings_);
-    WriteFile(folder_ / "scenario.yaml", scenario);
-    const auto made =
-        Palpate({"simulate", robot_, "--scenario", (folder_ / "scenario.yaml").string(), "--seed",
-                 seed_, "--out", (folder_ / "exp").string()},
-                folder_ / "simulate.log");
-    ASSERT_EQ(made, 0) << "seed " << seed_ << "\n" << ReadFile(folder_ / "simulate.log");
-  }
-
-  std::optional<int> Diagnose(const std::vector<std::string>& options = {}) {
-    std::vector<std::string> words = {"diagnose", robot_,
-                                      "--data",   (folder_ / "exp").string(),
-                                      "--out",    (folder_ / "out").string()};
-    words.insert(words.end(), options.begin(), options.end());
-    return Palpate(words, folder_ / "diagnose.log");
-  }
-  Json Verdict() const { return Json::parse(ReadFile(folder_ / "out/verdict.json")); }
-
-  test_support::TestFolder own_folder_;
-  const fs::path folder_ = own_folder_.path();
-  std::string robot_ = "four_leg";
-  std::string mesh_ = "four_leg_coarse.msh";  ///< of the scenario
-  std::string mesh_of_truth_;                 ///< in the place of that; empty: that
-  std::string element_of_truth_;              ///< in the place of the scenario's, or empty
-  std::set<std::string> recordings_;          ///< of the scenario; empty: all
-  std::string seed_ = "7";
-};
-
 /// The cables of the rod are between slack and taut at rest, and turn with it by ten degrees.
 class DiagnoseVerbOfARod : public DiagnoseVerb {
  protected:
   DiagnoseVerbOfARod() {
-    robot_ = (kSource / "config/robots/rod.yaml").string();
+    robot_ = (Source() / "config/robots/rod.yaml").string();
     mesh_ = "rod_coarse.msh";
     recordings_ = {"R0_rest",   "RA_a_up", "RA_b_down", "RA_c_left", "RA_d_right",
                    "RB_repeat", "RH_hold", "RS_weight", "RZ_rest"};
@@ -103,7 +58,7 @@ TEST_F(DiagnoseVerbOfARod, NamesItsCreep) {
 class DiagnoseVerbOfCoarseCells : public DiagnoseVerb {
  protected:
   DiagnoseVerbOfCoarseCells() {
-    std::string robot = ReadFile(kSource / "config/robots/four_leg.yaml");
+    std::string robot = ReadFile(Source() / "config/robots/four_leg.yaml");
     Replace("element: tet10", "element: tet4", &robot);
     Replace("file: four_leg.msh", "file: " + file_mesh_, &robot);
     robot_ = (folder_ / "four_leg.yaml").string();
@@ -112,7 +67,7 @@ class DiagnoseVerbOfCoarseCells : public DiagnoseVerb {
                    "RA_west", "RC_pairs", "RS_weight", "RZ_rest"};
   }
 
-  const std::string file_mesh_ = (kSource / "config/robots/four_leg.msh").string();
+  const std::string file_mesh_ = (Source() / "config/robots/four_leg.msh").string();
 };
 
 TEST_F(DiagnoseVerbOfCoarseCells, NamesThemAndWhatIsWrongBesideThem) {
@@ -161,7 +116,7 @@ TEST_F(DiagnoseVerb, NamesASoftBodyAndWritesARobotFileThatOthersTake) {
   const Json& rms_m = verdict["residual_m_rms"];
   EXPECT_LT(rms_m["heldout_after"].get<double>(), 0.5 * rms_m["heldout_before"].get<double>());
   const robot::RobotDescription nominal =
-      robot::ReadRobotFile(kSource / "config/robots/four_leg.yaml", app::LoadYaml);
+      robot::ReadRobotFile(Source() / "config/robots/four_leg.yaml", app::LoadYaml);
   const robot::RobotDescription extended =
       robot::ReadRobotFile(folder_ / "out/robot.extended.yaml", app::LoadYaml);
   EXPECT_NEAR(extended.material.youngs_modulus_Pa, value * nominal.material.youngs_modulus_Pa, 1.0);
@@ -184,43 +139,6 @@ TEST_F(DiagnoseVerb, NamesTheDepthScaleOfTheCameraThatMeasuredTheMarkers) {
   const double half = 0.5 * (s["ci95"][1].get<double>() - s["ci95"][0].get<double>());
   EXPECT_LT(half, 0.1 * std::abs(kScale));
   EXPECT_NEAR(s["value"].get<double>(), kScale, 2.0 * half);  // four sigma
-}
-
-TEST_F(DiagnoseVerb, SaysNothingOfACameraThatStoodStill) {
-  Make("");
-  const fs::path file = folder_ / "exp/recordings/RA_north/markers.csv";
-  std::vector<std::string> lines;
-  std::string text = ReadFile(file);
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  const std::size_t first = 1;
-  const std::string stamp = lines[first].substr(0, lines[first].find(','));
-  std::size_t markers = 0;
-  while (lines[first + markers].starts_with(stamp + ",")) ++markers;
-  for (std::size_t k = first; k < lines.size(); ++k) {
-    const std::string& shown = lines[first + (k - first) % markers];
-    lines[k] = lines[k].substr(0, lines[k].find(',')) + shown.substr(shown.find(','));
-  }
-  text.clear();
-  for (const std::string& line : lines) text += line + "\n";
-  WriteFile(file, text);
-  EXPECT_EQ(Diagnose(), 1);
-  const Json verdict = Verdict();
-  EXPECT_EQ(verdict["verdict"], "data_unfit");
-  EXPECT_TRUE(verdict["causes"].empty());
-  EXPECT_THAT(verdict["reason"].get<std::string>(), testing::HasSubstr("RA_north"));
-  EXPECT_FALSE(fs::exists(folder_ / "out/robot.extended.yaml"));
-}
-
-TEST_F(DiagnoseVerb, RefusesACauseThatDoesNotExist) {
-  EXPECT_EQ(Palpate({"diagnose", "four_leg", "--data", "x", "--out", (folder_ / "out").string(),
-                     "--exclude", "cable_frictoin"},
-                    folder_ / "log"),
-            2);
-  EXPECT_THAT(ReadFile(folder_ / "log"), testing::HasSubstr("cable_friction"));
 }
 
 }  // namespace
