@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "libs/app/key_reference.hpp"
 #include "libs/app/run_main.hpp"
@@ -37,12 +39,17 @@ constexpr std::array<FileKind, 6> kFileKinds{{{"robot", robot::RobotFileKeys},
                                               {"calibration", robot::CalibrationFileKeys},
                                               {"scenario", scenario::ScenarioKeys}}};
 
-const KeyTable& KeysOf(const std::string& name) {
+std::vector<std::string> KindNames() {
   std::vector<std::string> names;
+  for (const FileKind& kind : kFileKinds) names.emplace_back(kind.name);
+  return names;
+}
+
+const KeyTable& KeysOf(const std::string& name) {
   for (const FileKind& kind : kFileKinds) {
     if (kind.name == name) return kind.keys();
-    names.emplace_back(kind.name);
   }
+  const std::vector<std::string> names = KindNames();
   throw InputError("there is no reference of '" + Excerpt(name) + "'" + DidYouMean(name, names) +
                    "; it is one of " + Listed(names));
 }
@@ -72,6 +79,7 @@ app::Verb ReferenceVerb() {
                                   "Kinds of files: robot, experiment, recording, camera, "
                                   "calibration, scenario",
                                   app::Need::kRequired);
+            arguments.Suggest("KIND", KindNames());
             arguments.Choice("--format", &options->format, {"markdown", "json-schema"},
                              "Markdown tables, or a JSON Schema (draft 2020-12) of one kind for "
                              "editors");

@@ -27,7 +27,7 @@ constexpr double kRowsAlike = 6.0;
 /// Sigma of the force of a contact of which nothing else is known.
 constexpr double kUsualForce_N = 1.0;
 /// Places so near to the best one are averaged.
-constexpr double kSameContact_m = 0.03;
+constexpr double kSameLocation_m = 0.03;
 
 struct Look {
   int place = -1;
@@ -159,7 +159,7 @@ void Summarise(const std::vector<Look>& looks, const std::vector<double>& probab
   double same = 0.0;
   for (size_t k = 0; k < looks.size(); ++k) {
     const Eigen::Vector3d place_m = places.positions_m().col(looks[k].place);
-    if ((place_m - best_m).norm() > kSameContact_m) continue;
+    if ((place_m - best_m).norm() > kSameLocation_m) continue;
     same += probability[k];
     posterior->mean_m += probability[k] * place_m;
   }

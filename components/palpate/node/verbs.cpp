@@ -21,7 +21,8 @@ int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(),  InfoVerb(),      ReferenceVerb()};
-  return app::RunVerbs("palpate", "Feels forces on a soft robot by sight.", verbs, words);
+  return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
+                       words);
 }
 
 }  // namespace palpate::command
