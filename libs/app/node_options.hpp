@@ -32,25 +32,22 @@ void DeclareNodeOptions(Arguments& arguments, NodeOptions* options);
 /// Throws InputError for anything wrong in the environment, the file or an override.
 bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* options);
 
-/// All of it for a process without arguments of its own. False: nothing is to be done.
-///
-///   int main(int argc, char** argv) {
-///     return palpate::app::RunMain("palpate-player", [&] {
-///       player::Config config;
-///       app::NodeOptions options;
-///       if (!app::ReadCommandLine("palpate-player", "Plays ...", argc, argv, config, &options)) {
-///         return app::kExitDone;
-///       }
-///       app::StopSignal stop;
-///       app::StartLog("palpate-player", options);
-///       ...
+/// What the command line of a process gives: its settings and the options above. Processes with
+/// arguments of their own derive from it.
 template <typename Config>
-bool ReadCommandLine(const std::string& program, const std::string& purpose, int argc,
-                     const char* const* argv, Config& config, NodeOptions* options) {
-  Arguments arguments(program, purpose);
-  DeclareNodeOptions(arguments, options);
+struct NodeCommand {
+  Config config;
+  NodeOptions options;
+};
+
+/// Reads the whole command line, once a process has declared the arguments of its own: declares the
+/// options above, parses, fills settings and options of `command` (a NodeCommand). False: what was
+/// asked for has been printed, the program is done. Throws InputError.
+template <typename Command>
+bool ReadNodeCommand(Arguments& arguments, int argc, const char* const* argv, Command* command) {
+  DeclareNodeOptions(arguments, &command->options);
   return arguments.Parse(CommandLineWords(argc, argv)) &&
-         SettleNodeOptions(ListSettings(config), options);
+         SettleNodeOptions(ListSettings(command->config), &command->options);
 }
 
 }  // namespace palpate::app

@@ -27,11 +27,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
                    "Calibration file to write; same as --set calibration_file=FILE");
   arguments.Option("--camera-pose POSE", &camera_pose,
                    "Approximate camera pose T_robot_camera; same as --set camera_pose=POSE");
-  app::DeclareNodeOptions(arguments, &command.options);
-  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
-      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
-    return std::nullopt;
-  }
+  if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   if (!out.empty()) command.config.calibration_file = out;
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
   if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");

@@ -12,9 +12,7 @@
 
 namespace palpate::calibration {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
 };
 

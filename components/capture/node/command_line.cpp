@@ -41,11 +41,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   arguments.Positionals("ADDRESS", &command.addresses,
                         "With --list: IPv4 address of a camera outside the local network",
                         app::Need::kOptional);
-  app::DeclareNodeOptions(arguments, &command.options);
-  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
-      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
-    return std::nullopt;
-  }
+  if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   CheckAddresses(command);
   if (!camera.empty() && !replay.empty())
     throw InputError("--camera and --replay exclude each other: give one");

@@ -13,9 +13,7 @@
 
 namespace palpate::capture {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   bool list = false;  ///< show the cameras, and nothing else
   std::vector<std::string> addresses;
 };

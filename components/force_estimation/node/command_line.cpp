@@ -61,11 +61,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   std::string camera_pose;
   arguments.Option("--camera-pose POSE", &camera_pose,
                    "Camera pose T_robot_camera; same as --set camera_pose=POSE");
-  app::DeclareNodeOptions(arguments, &command.options);
-  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
-      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
-    return std::nullopt;
-  }
+  if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
   auto& sites = command.config.contacts;
   sites.insert(sites.end(), contacts.begin(), contacts.end());

@@ -12,9 +12,7 @@
 
 namespace palpate::force_estimation {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
   std::filesystem::path calibration;  ///< empty: the moduli of the robot file
 };

@@ -11,10 +11,7 @@
 
 namespace palpate::perception {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
-};
+using Command = app::NodeCommand<NodeConfig>;
 
 /// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);

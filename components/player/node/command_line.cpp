@@ -51,11 +51,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
                  "Publish each frame when /forces has answered the last one; loses no frame");
   arguments.Flag("--as-fast-as-possible", &as_fast_as_possible, "Publish frames without waiting");
   arguments.Flag("--loop", &command.playback.loop, "Begin again at the end");
-  app::DeclareNodeOptions(arguments, &command.options);
-  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
-      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
-    return std::nullopt;
-  }
+  if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   if (command.data.empty()) {
     throw InputError("--data is required: give an experiment or recording folder");
   }

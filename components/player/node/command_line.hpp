@@ -13,9 +13,7 @@
 
 namespace palpate::player {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   Playback playback;
   std::filesystem::path data;
   std::string recording;  ///< empty: all

@@ -46,11 +46,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
                    "Scenario file that the virtual robot runs; required to run");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
                    "Random seed of the virtual robot");
-  app::DeclareNodeOptions(arguments, &command.options);
-  if (!arguments.Parse(app::CommandLineWords(argc, argv)) ||
-      !app::SettleNodeOptions(app::ListSettings(command.config), &command.options)) {
-    return std::nullopt;
-  }
+  if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
   if (command.scenario.empty())
     throw InputError("--scenario is required: give the scenario file of the virtual robot");

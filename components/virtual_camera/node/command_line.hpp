@@ -12,9 +12,7 @@
 
 namespace palpate::virtual_camera {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
   std::filesystem::path scenario;
   int seed = 1;

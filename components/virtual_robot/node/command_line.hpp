@@ -13,9 +13,7 @@
 
 namespace palpate::virtual_robot {
 
-struct Command {
-  NodeConfig config;
-  app::NodeOptions options;
+struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
   std::filesystem::path scenario;
   int seed = 1;

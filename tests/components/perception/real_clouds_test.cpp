@@ -17,6 +17,7 @@
 
 #include "components/perception/perception.hpp"
 #include "libs/experiment/cloud/point_cloud.hpp"
+#include "libs/experiment/images/rgbd_sequence.hpp"
 #include "libs/rgbd/png.hpp"
 #include "tests/support/measured_data.hpp"
 
@@ -42,15 +43,7 @@ fs::path CloudFolder() { return test_support::MeasuredDataFolder() / "rgbd_cloud
 
 /// The Kinect's, as the points of these files have it: u = 525 x / z + 319.5.
 rgbd::RgbdCamera Kinect() {
-  rgbd::RgbdCamera camera;
-  camera.depth = {.width_px = 640,
-                  .height_px = 480,
-                  .fx_px = 525.0,
-                  .fy_px = 525.0,
-                  .cx_px = 319.5,
-                  .cy_px = 239.5};
-  camera.color = camera.depth;
-  camera.color_registered = true;
+  rgbd::RgbdCamera camera = experiment::TumCamera();
   camera.depth_unit_m = 1e-3;
   camera.baseline_m = 0.075;
   return camera;

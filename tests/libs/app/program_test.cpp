@@ -212,17 +212,17 @@ class NodeOptionsTest : public ::testing::Test {
   bool Read(const Words& words) {
     std::vector<const char*> argv{"palpate-x"};
     for (const std::string& word : words) argv.push_back(word.c_str());
-    options_ = {};
-    config_ = {};
-    return ReadCommandLine("palpate-x", "Does.", static_cast<int>(argv.size()), argv.data(),
-                           config_, &options_);
+    command_ = {};
+    Arguments arguments("palpate-x", "Does.");
+    return ReadNodeCommand(arguments, static_cast<int>(argv.size()), argv.data(), &command_);
   }
   std::string RefusalOf(const Words& words) {
     return ProgramRefusal([&] { Read(words); });
   }
 
-  Config config_;
-  NodeOptions options_;
+  NodeCommand<Config> command_;
+  const Config& config_ = command_.config;
+  const NodeOptions& options_ = command_.options;
 };
 
 TEST_F(NodeOptionsTest, TheCommandLineWinsOverTheFileAndTheFileOverTheDefault) {
