@@ -46,7 +46,7 @@ if(PALPATE_TIDY)
   find_program(PALPATE_CLANG_TIDY NAMES clang-tidy REQUIRED)
 endif()
 
-# Ten sources of a target (of a test program some sixteen) at a time in one run of the compiler: most
+# Ten sources of a target at a time in one run of the compiler, some sixteen of a test program: most
 # of a source's time goes into the headers and templates that its neighbours use, too. On in the
 # presets of optimised builds, where tests/style/check_includes.py finds what a source forgets to
 # include; off in debug and tidy.
