@@ -3,6 +3,8 @@
 
 #include "libs/linalg/cholesky.hpp"
 
+#include <limits>
+
 #include "libs/core/check.hpp"
 
 namespace palpate::linalg {
@@ -21,6 +23,19 @@ void CheckRows(const Eigen::MatrixXd& A, Eigen::Index rows) {
 template <typename Factor>
 bool HasFactor(const Factor& factor) {
   return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().allFinite();
+}
+
+/// Eigen takes a pivot of NaN for zero, and leaves it out.
+template <typename Columns>
+void SolveByLdlt(const Eigen::MatrixXd& A, Columns* columns) {
+  CheckSquare(A);
+  CheckRows(A, columns->rows());
+  const Eigen::LDLT<Eigen::MatrixXd> factor(A);
+  if (factor.vectorD().allFinite()) {
+    factor.solveInPlace(*columns);
+  } else {
+    columns->setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 }  // namespace
@@ -71,15 +86,13 @@ bool SolveSpdInPlace(Eigen::MatrixXf* A, const Eigen::VectorXf& b, Eigen::Vector
 }
 
 Eigen::VectorXd SolveSymmetric(const Eigen::MatrixXd& A, Eigen::VectorXd b) {
-  CheckSquare(A);
-  CheckRows(A, b.rows());
-  return Eigen::LDLT<Eigen::MatrixXd>(A).solve(b);
+  SolveByLdlt(A, &b);
+  return b;
 }
 
 Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& A, Eigen::MatrixXd B) {
-  CheckSquare(A);
-  CheckRows(A, B.rows());
-  return Eigen::LDLT<Eigen::MatrixXd>(A).solve(B);
+  SolveByLdlt(A, &B);
+  return B;
 }
 
 Eigen::MatrixXd InverseSymmetric(const Eigen::MatrixXd& A) {
