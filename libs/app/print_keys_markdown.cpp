@@ -60,6 +60,8 @@ bool IsVector3(const ValueType& type) {
          type.min_items == 3 && type.max_items == 3;
 }
 
+bool HasManyAlternatives(const ValueType& type) { return type.parts.size() > kMostAlternatives; }
+
 std::string TypeText(const ValueType& type);
 
 std::string ListText(const ValueType& list) {
@@ -68,12 +70,13 @@ std::string ListText(const ValueType& list) {
   if (item.kind == ValueKind::kNumber) {
     return WithRange("list of " + CountOf(list) + "numbers", item.rule) + AtLeast(list);
   }
+  if (HasManyAlternatives(item)) return "list of maps";
   if (IsVector3(item)) return "list of " + CountOf(list) + "points `[x, y, z]`" + AtLeast(list);
   return "list of " + CountOf(list) + TypeText(item) + AtLeast(list);
 }
 
 std::string EitherText(const ValueType& type) {
-  if (type.parts.size() > kMostAlternatives) return "map";
+  if (HasManyAlternatives(type)) return "map";
   std::string text;
   for (const ValueType& part : type.parts) text += (text.empty() ? "" : " or ") + TypeText(part);
   return text;
@@ -139,7 +142,7 @@ std::string Rules(const KeyTable& table) {
 
 void ListMapsIn(const ValueType& type, std::vector<const KeyTable*>* maps) {
   if (type.kind == ValueKind::kMap) maps->push_back(type.keys);
-  if (type.parts.size() > kMostAlternatives) return;
+  if (HasManyAlternatives(type)) return;
   for (const ValueType& part : type.parts) ListMapsIn(part, maps);
 }
 

@@ -346,7 +346,8 @@ const KeyTable& ScenarioKeys() {
           {"body", value::Map(BodyKeys()), kOptional,
            "The virtual robot's body where it differs from the robot file."},
           {"motion", value::Map(MotionKeys()), kOptional, "How it moves."},
-          {"effects", value::List(AnyEffect()), kOptional, "Hidden effects. Absent: none."},
+          {"effects", value::List(AnyEffect()), kOptional,
+           "Hidden effects, see the table of effects. Absent: none."},
           {"clutter", value::Real(kClutter), Default(defaults.clutter),
            "Manufacturing tolerances: the standard deviation of each parameter of the "
            "catalogue, in its tolerances. 0: exactly as the robot file says."},
