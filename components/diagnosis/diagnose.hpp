@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/diagnosis_result.hpp"
+#include "components/diagnosis/design/plan_files.hpp"
 #include "components/diagnosis/inference/selection.hpp"
-#include "components/diagnosis/plan/plan_files.hpp"
-#include "components/diagnosis/skin/skin_source.hpp"
+#include "components/diagnosis/surface/surface_source.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/calibration_file.hpp"

@@ -11,11 +11,11 @@
 #include <memory>
 #include <optional>
 
-#include "components/diagnosis/causes/catalogue.hpp"
 #include "components/diagnosis/diagnose.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
 #include "components/diagnosis/report/report_html.hpp"
 #include "components/diagnosis/report/verdict_json.hpp"
-#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
 #include "components/palpate/find_robot.hpp"

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "components/diagnosis/causes/catalogue.hpp"
-#include "components/diagnosis/inference/screening.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
+#include "components/diagnosis/inference/forward_selection.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "tests/support/robots.hpp"

@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/diagnosis/causes/fault_model.hpp"
 #include "components/diagnosis/data/observed_experiment.hpp"
+#include "components/diagnosis/forward/fault_model.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/inference/fitter.hpp"
-#include "components/diagnosis/model/simulator.hpp"
 #include "libs/robot/robot_body.hpp"
 
 namespace palpate::benchmarks {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/data/skin_sighting.hpp"
+#include "components/diagnosis/data/surface_measurement.hpp"
 #include "components/diagnosis/data/timeline.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/rgbd/camera_model.hpp"

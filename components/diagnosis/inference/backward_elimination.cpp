@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/diagnosis/inference/fault_size.hpp"
+#include "components/diagnosis/inference/forward_selection.hpp"
 
 namespace palpate::diagnosis {
 

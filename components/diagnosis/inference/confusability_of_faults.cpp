@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "components/diagnosis/inference/screening.hpp"
+#include "components/diagnosis/inference/forward_selection.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {

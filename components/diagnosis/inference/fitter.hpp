@@ -5,10 +5,10 @@
 
 #include <vector>
 
+#include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/inference/hypothesis_set.hpp"
 #include "components/diagnosis/inference/linear_model.hpp"
 #include "components/diagnosis/inference/time_limit.hpp"
-#include "components/diagnosis/model/simulator.hpp"
 #include "libs/robot/robot_body.hpp"
 
 namespace palpate::diagnosis {

@@ -3,12 +3,69 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/inference/fitter.hpp"
+#include "components/diagnosis/inference/linear_model.hpp"
 
 namespace palpate::diagnosis {
+
+/// What of whitened residuals tells that something is left in them: sums of squares and products,
+/// all in units of the noise's chi-squared, so that they can be compared with a misfit.
+/// - the misfit of all recordings;
+/// and of each recording
+/// - its misfit;
+/// - how neighbouring moments hang together (runs);
+/// - how neighbouring markers do, and neighbouring features of the skin (the products of Moran's
+/// I);
+/// - what goes along with the commands, and with how fast they change, beyond a constant.
+class ResidualStatistics {
+ public:
+  /// `rest_m` [3 x markers]: of the undeformed body.
+  ResidualStatistics(const ObservedExperiment& observed, const Eigen::Matrix3Xd& rest_m,
+                     const LinearModel& model);
+
+  Eigen::Index count() const { return 1 + kKinds * std::ssize(recordings_); }
+  /// [count] of a residual [rows].
+  Eigen::VectorXd Of(const Eigen::VectorXd& residual) const;
+  /// "misfit of recording RH_hold", "runs in recording RB_repeat", ...
+  std::string NameOf(Eigen::Index test) const;
+  /// The misfit of the same recording.
+  Eigen::Index MisfitBeside(Eigen::Index test) const;
+
+ private:
+  enum Kind { kMisfit, kRuns, kNeighbours, kCommands, kRates, kKinds };
+
+  struct Pair {
+    Eigen::Index one, other;  ///< rows
+    double weight;
+  };
+  struct Recording {
+    std::string name;
+    std::vector<Eigen::Index> rows;
+    std::vector<Pair> in_time, on_body;
+  };
+  /// Rows of one recording and coordinate, and what goes along with them, orthonormal.
+  struct Series {
+    Eigen::Index recording, first_row;
+    Eigen::MatrixXd commands, rates;  ///< [rows x directions]
+  };
+
+  Eigen::Index IndexOf(Kind kind, Eigen::Index recording) const {
+    return 1 + kind * std::ssize(recordings_) + recording;
+  }
+  void PairInTime(const ObservedExperiment& observed, const LinearModel& model);
+  void PairOnBody(const Eigen::Matrix3Xd& rest_m, const ObservedExperiment& observed,
+                  const LinearModel& model);
+  void CutIntoSeries(const ObservedExperiment& observed, const LinearModel& model);
+
+  std::vector<Recording> recordings_;
+  std::vector<Series> series_;
+};
 
 /// Whether what a fit leaves over is what noise and belief would leave.
 struct GoodnessOfFit {

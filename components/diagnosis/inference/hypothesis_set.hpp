@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/causes/fault_model.hpp"
+#include "components/diagnosis/forward/fault_model.hpp"
 #include "components/diagnosis/inference/evidence.hpp"
 
 namespace palpate::diagnosis {

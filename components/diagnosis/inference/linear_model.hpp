@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/diagnosis/data/observed_experiment.hpp"
-#include "components/diagnosis/model/simulation.hpp"
+#include "components/diagnosis/forward/simulation.hpp"
 
 namespace palpate::diagnosis {
 

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "components/diagnosis/inference/fitter.hpp"
-#include "components/diagnosis/inference/forward_selection_step.hpp"
+#include "components/diagnosis/inference/forward_selection.hpp"
 #include "components/diagnosis/inference/goodness_of_fit.hpp"
-#include "components/diagnosis/inference/screening.hpp"
 
 namespace palpate::diagnosis {
 

@@ -7,7 +7,7 @@
 #include "components/diagnosis/report/html_table.hpp"
 #include "components/diagnosis/report/report_style.hpp"
 #include "components/diagnosis/report/report_tables.hpp"
-#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
 
 namespace palpate::diagnosis {
 

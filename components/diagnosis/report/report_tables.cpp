@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "components/diagnosis/report/html_table.hpp"
-#include "components/diagnosis/report/number_text.hpp"
-#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/vocabulary/number_text.hpp"
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
 #include "libs/plot/axis_ticks.hpp"
 
 namespace palpate::diagnosis {

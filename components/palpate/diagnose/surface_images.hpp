@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "components/diagnosis/skin/skin_source.hpp"
+#include "components/diagnosis/surface/surface_source.hpp"
 #include "components/palpate/images/robot_viewer.hpp"
 #include "libs/experiment/experiment.hpp"
 

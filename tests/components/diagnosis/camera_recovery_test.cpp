@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
 #include "components/diagnosis/inference/selection.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 

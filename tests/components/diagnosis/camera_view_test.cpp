@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/model/camera_view.hpp"
+#include "components/diagnosis/forward/camera_view.hpp"
 
 #include <gtest/gtest.h>
 

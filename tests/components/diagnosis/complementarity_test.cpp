@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/model/complementarity.hpp"
+#include "components/diagnosis/forward/complementarity.hpp"
 
 #include <gtest/gtest.h>
 

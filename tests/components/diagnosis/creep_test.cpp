@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

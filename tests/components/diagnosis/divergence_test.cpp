@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/plan/divergence.hpp"
+#include "components/diagnosis/design/divergence.hpp"
 
 #include <gtest/gtest.h>
 

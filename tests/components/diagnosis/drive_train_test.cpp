@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/model/drive_train.hpp"
+#include "components/diagnosis/forward/actuator_chain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/exchanged_cables.hpp"
+#include "components/diagnosis/prepare/exchanged_cables.hpp"
 
-#include "components/diagnosis/causes/makers.hpp"
+#include "components/diagnosis/faults/makers.hpp"
 #include "tests/components/diagnosis/hidden_causes.hpp"
 
 namespace palpate::diagnosis {

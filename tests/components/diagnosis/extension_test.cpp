@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <set>
 
-#include "components/diagnosis/causes/catalogue.hpp"
-#include "components/diagnosis/finer_mesh.hpp"
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
+#include "components/diagnosis/forward/mesh_error.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 #include "tests/support/robots.hpp"

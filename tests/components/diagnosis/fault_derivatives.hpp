@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/causes/catalogue.hpp"
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/inference/fault_size.hpp"
+#include "components/diagnosis/inference/forward_selection.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/data/fitness.hpp"
+#include "components/diagnosis/prepare/data_checks.hpp"
 
 #include <gmock/gmock.h>
 
@@ -51,7 +51,7 @@ class PicturesOfARecording : public testing::Test {
           seen.height_m[f] = height_m(f, picture) + noise_m(random);
       }
     }
-    return WhyUnfit(observed, clouds);
+    return CheckImages(observed, clouds).message();
   }
 
   /// To and fro by 4 mm, as a robot with a fault may be off its model.

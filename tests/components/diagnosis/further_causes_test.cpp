@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/inference/further_causes.hpp"
+#include "components/diagnosis/inference/model_averaging.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
 #include "components/diagnosis/inference/fitter.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
+#include "components/diagnosis/forward/sample_solver.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/inference/fitter.hpp"
 #include "components/diagnosis/inference/selection.hpp"
-#include "components/diagnosis/model/sample_solver.hpp"
-#include "components/diagnosis/model/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "components/diagnosis/model/sample_differentiator.hpp"
+#include "components/diagnosis/forward/sample_differentiator.hpp"
 #include "tests/components/diagnosis/hidden_causes.hpp"
 
 namespace palpate::diagnosis {

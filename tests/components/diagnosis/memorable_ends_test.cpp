@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/model/mesh_error.hpp"
+#include "components/diagnosis/forward/mesh_error.hpp"
 
 #include <gtest/gtest.h>
 
-#include "components/diagnosis/finer_mesh.hpp"
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

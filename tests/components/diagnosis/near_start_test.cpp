@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/hidden_causes.hpp"
 
 namespace palpate::diagnosis {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/plan/next_experiment.hpp"
+#include "components/diagnosis/design/next_experiment.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/diagnosis/causes/catalogue.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/inference/other_places.hpp"
+#include "components/diagnosis/inference/model_averaging.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "components/diagnosis/causes/placed_force.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 #include "tests/components/diagnosis/hidden_causes.hpp"
 
@@ -102,7 +101,7 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
   const Eigen::Index first = hypotheses_.first(near);
   const Eigen::MatrixXd own = fit.posterior.covariance.block<6, 6>(first, first);
   const Eigen::MatrixXd all = CovarianceOverPlaces(fitter, fit, near);
-  EXPECT_LT(std::sqrt(own(kAlong, kAlong)), 1.01 * kPlaceSigma_m)
+  EXPECT_LT(std::sqrt(own(kAlong, kAlong)), 1.01 * hypotheses_.cause(force).parameters()[kAlong].fault)
       << "as it is believed to be near its place";
   EXPECT_GT(std::sqrt(all(kAlong, kAlong)), 0.02) << "seed " << kSeed;
   EXPECT_GT(linalg::SymmetricEigenvalues(all).minCoeff(), 0.0);

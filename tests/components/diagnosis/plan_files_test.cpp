@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/plan/plan_files.hpp"
+#include "components/diagnosis/design/plan_files.hpp"
 
 #include <gmock/gmock.h>
 

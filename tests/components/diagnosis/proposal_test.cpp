@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/plan/proposal.hpp"
+#include "components/diagnosis/design/proposal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <numeric>
 #include <set>
 
-#include "components/diagnosis/causes/catalogue.hpp"
-#include "components/diagnosis/plan/places_to_hang.hpp"
-#include "components/diagnosis/plan/planned_experiment.hpp"
+#include "components/diagnosis/design/places_to_hang.hpp"
+#include "components/diagnosis/design/planned_experiment.hpp"
+#include "components/diagnosis/faults/catalogue.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

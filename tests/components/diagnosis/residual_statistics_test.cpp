@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/inference/residual_statistics.hpp"
+#include "components/diagnosis/inference/goodness_of_fit.hpp"
 
 #include <gtest/gtest.h>
 

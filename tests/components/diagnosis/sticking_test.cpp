@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/model/sticking.hpp"
+#include "components/diagnosis/forward/sticking.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-#include "components/diagnosis/model/eyelet_slides.hpp"
-#include "components/diagnosis/model/simulator.hpp"
+#include "components/diagnosis/forward/eyelet_slides.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
 #include "tests/components/diagnosis/small_robot.hpp"
 
 namespace palpate::diagnosis {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "components/diagnosis/diagnosis_result.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
 
 namespace palpate::diagnosis {
 

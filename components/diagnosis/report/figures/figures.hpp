@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "components/diagnosis/diagnosis_result.hpp"
 #include "components/diagnosis/report/figures/figure.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
 
 namespace palpate::diagnosis {
 

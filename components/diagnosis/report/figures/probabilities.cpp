@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "components/diagnosis/report/figures/figures.hpp"
-#include "components/diagnosis/report/number_text.hpp"
-#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/vocabulary/number_text.hpp"
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
 #include "libs/plot/plot_area.hpp"
 #include "libs/plot/text_width.hpp"
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "components/diagnosis/report/figures/figures.hpp"
-#include "components/diagnosis/report/number_text.hpp"
+#include "components/diagnosis/vocabulary/number_text.hpp"
 #include "libs/plot/plot_area.hpp"
 #include "libs/plot/text_width.hpp"
 

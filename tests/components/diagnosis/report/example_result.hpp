@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "components/diagnosis/diagnosis_result.hpp"
+#include "components/diagnosis/vocabulary/diagnosis_result.hpp"
 
 namespace palpate::diagnosis {
 

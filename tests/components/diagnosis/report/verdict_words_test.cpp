@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/report/verdict_words.hpp"
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "components/diagnosis/report/number_text.hpp"
+#include "components/diagnosis/vocabulary/number_text.hpp"
 #include "tests/components/diagnosis/report/example_result.hpp"
 #include "tests/support/not_a_number.hpp"
 

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/design/next_experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "components/diagnosis/design/divergence.hpp"
+#include "components/diagnosis/design/planned_experiment.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+constexpr double kInQuestion = 10.0;   ///< ln BF below the best
+constexpr double kSomeEvidence = 3.0;  ///< ln BF against the healthy robot
+constexpr std::size_t kMostRivals = 6;
+
+Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int> faults,
+                        int cause) {
+  Hypothesis hypothesis;
+  hypothesis.name = fitter.hypotheses().cause(cause).name();
+  hypothesis.posterior = fitter.Guess(about, faults);
+  hypothesis.faults = std::move(faults);
+  return hypothesis;
+}
+
+/// The named causes with one of them exchanged, the one for which that fits best.
+Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival) {
+  Hypothesis best;
+  best.posterior.ln_evidence = -std::numeric_limits<double>::infinity();
+  for (const Choice& choice : selection.named) {
+    std::vector<int> faults = selection.best.faults;
+    std::replace(faults.begin(), faults.end(), choice.cause, rival);
+    Hypothesis one = HypothesisOf(fitter, selection.best, std::move(faults), rival);
+    if (one.posterior.ln_evidence > best.posterior.ln_evidence) best = std::move(one);
+  }
+  return best;
+}
+
+/// Numbers of the causes that the first named one is to be told from.
+std::vector<int> RivalsOf(const Selection& selection) {
+  std::vector<int> rivals;
+  const auto add = [&](int cause) {
+    const auto& faults = selection.best.faults;
+    const bool known = std::find(faults.begin(), faults.end(), cause) != faults.end() ||
+                       std::find(rivals.begin(), rivals.end(), cause) != rivals.end();
+    if (!known && rivals.size() < kMostRivals) rivals.push_back(cause);
+  };
+  for (const Candidate& alike : selection.alike) add(alike.cause);
+  const auto& candidates = selection.candidates;
+  const auto first = std::find_if(candidates.begin(), candidates.end(), [&](const auto& one) {
+    return one.cause == selection.named.front().cause;
+  });
+  if (first == candidates.end()) return rivals;
+  for (const Candidate& one : candidates) {
+    if (one.ruled_out) continue;
+    if (one.ln_bayes_factor > first->ln_bayes_factor - kInQuestion) add(one.cause);
+  }
+  return rivals;
+}
+
+/// Where none was named: the causes that there is some evidence for, the most first.
+std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
+  std::vector<Candidate> some = selection.candidates;
+  std::erase_if(some, [](const Candidate& one) {
+    return one.ruled_out || one.ln_bayes_factor < kSomeEvidence;
+  });
+  SortByEvidence(&some);
+  if (some.size() > kMostRivals) some.resize(kMostRivals);
+  return some;
+}
+
+/// Causes that any hypothesis believes in.
+std::vector<int> ColumnsOf(const HypothesisSet& hypotheses, const Question& question) {
+  std::set<int> columns;
+  const auto add = [&](const Hypothesis& hypothesis) {
+    const GaussianPrior prior = hypotheses.PriorWith(hypothesis.faults);
+    for (int k = 0; k < hypotheses.size(); ++k) {
+      if (!prior.sigma.segment(hypotheses.first(k), hypotheses.count(k)).isZero(0.0))
+        columns.insert(k);
+    }
+  };
+  add(question.best);
+  for (const Hypothesis& rival : question.rivals) add(rival);
+  return {columns.begin(), columns.end()};
+}
+
+/// What is expected of one proposal, whose rows these are.
+RankedProposal Rank(const Proposal& proposal, const Eigen::MatrixXd& J, const Question& question,
+                    const std::vector<Eigen::Index>& parameters) {
+  RankedProposal ranked{.proposal = proposal, .worst_rival = {}};
+  ranked.expected_ln_bayes_factor = std::numeric_limits<double>::infinity();
+  const Posterior& best = question.best.posterior;
+  for (const Hypothesis& rival : question.rivals) {
+    const double expected = std::min(ExpectedLnBayesFactor(J, best, rival.posterior),
+                                     ExpectedLnBayesFactor(J, rival.posterior, best));
+    if (expected >= ranked.expected_ln_bayes_factor) continue;
+    ranked.expected_ln_bayes_factor = expected;
+    ranked.worst_rival = rival.name;
+  }
+  ranked.information = InformationGain(J, best, parameters);
+  return ranked;
+}
+
+bool IsBetter(const RankedProposal& a, const RankedProposal& b) {
+  constexpr double kTie = 0.1;
+  const double of_a = std::round(a.expected_ln_bayes_factor / kTie);
+  const double of_b = std::round(b.expected_ln_bayes_factor / kTie);
+  return of_a != of_b ? of_a > of_b : a.information > b.information;
+}
+
+}  // namespace
+
+Question QuestionOf(const Fitter& fitter, const Selection& selection) {
+  Question question;
+  const Fit& best = selection.best;
+  if (!selection.named.empty()) {
+    question.best = HypothesisOf(fitter, best, best.faults, selection.named.front().cause);
+    for (const int rival : RivalsOf(selection)) {
+      question.rivals.push_back(Exchanged(fitter, selection, rival));
+    }
+    return question;
+  }
+  if (!selection.goodness_of_fit.passed) return question;
+  const std::vector<Candidate> some = WithSomeEvidence(selection);
+  if (some.empty()) return question;
+  question.best = {.name = {"no_fault", {"body"}}, .faults = {}, .posterior = best.posterior};
+  for (const Candidate& one : some) {
+    question.rivals.push_back(HypothesisOf(fitter, best, {one.cause}, one.cause));
+  }
+  const double of_all_causes = std::log(static_cast<double>(selection.candidates.size()));
+  if (some.front().ln_bayes_factor > of_all_causes) std::swap(question.best, question.rivals[0]);
+  return question;
+}
+
+std::vector<RankedProposal> RankProposals(const experiment::Experiment& experiment,
+                                          const ObservedExperiment& observed,
+                                          const robot::RobotBody& body, const Fitter& fitter,
+                                          const Selection& selection, const Question& question,
+                                          int threads) {
+  if (question.rivals.empty()) return {};
+  const std::vector<Proposal> proposals = BenchProposals(body, observed);
+  if (proposals.empty()) return {};
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const ObservedExperiment planned = ObserveProposals(experiment, observed, body, proposals);
+  const LinearModel model =
+      PredictProposals(planned, body, hypotheses, selection.best, ColumnsOf(hypotheses, question),
+                       fitter.noise(), threads);
+  const std::vector<int>& in_question =
+      question.best.faults.empty() ? question.rivals.front().faults : question.best.faults;
+  const std::vector<Eigen::Index> parameters = hypotheses.ParametersOf({in_question.front()});
+  std::vector<RankedProposal> ranked;
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < planned.recordings.size(); ++r) {
+    const Eigen::Index rows = model.of_recording[r].rows;
+    if (rows > 0) {
+      const RankedProposal one = Rank(proposals[r - observed.recordings.size()],
+                                      model.J.middleRows(first, rows), question, parameters);
+      if (std::isfinite(one.expected_ln_bayes_factor)) ranked.push_back(one);
+    }
+    first += rows;
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), IsBetter);
+  return ranked;
+}
+
+std::vector<ExperimentProposal> Describe(const Question& question,
+                                         const std::vector<RankedProposal>& ranked) {
+  std::vector<ExperimentProposal> told;
+  for (const RankedProposal& one : ranked) {
+    told.push_back({.title = one.proposal.title,
+                    .by_hand = one.proposal.by_hand,
+                    .first = question.best.name,
+                    .second = one.worst_rival,
+                    .expected_ln_bayes_factor = one.expected_ln_bayes_factor});
+  }
+  return told;
+}
+
+}  // namespace palpate::diagnosis

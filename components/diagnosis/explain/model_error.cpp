@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/explain/model_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Squares of what is left of the coordinates that were seen.
+struct Squares {
+  double sum_m2 = 0.0;
+  int count = 0;
+
+  void Add(const Eigen::VectorXd& residual_m) {
+    for (const double value : residual_m) {
+      if (std::isnan(value)) continue;
+      sum_m2 += value * value;
+      ++count;
+    }
+  }
+  void Add(const Squares& other) {
+    sum_m2 += other.sum_m2;
+    count += other.count;
+  }
+  double Rms_m() const {
+    return count > 0 ? std::sqrt(sum_m2 / count) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// [samples] [coordinates] measured - predicted; NaN: not known.
+using Residuals = std::vector<Eigen::VectorXd>;
+
+Eigen::VectorXd Residual_m(const ObservedExperiment& observed, const Fit& fit, std::size_t sample,
+                           const Eigen::VectorXd& z) {
+  const SimulatedSample& simulated = fit.simulation.samples[sample];
+  const Eigen::VectorXd moved_m = simulated.jacobian_m * (z - fit.z);
+  Eigen::VectorXd measured_m(observed.CoordinateCount());
+  for (Eigen::Index k = 0; k < measured_m.size(); ++k) {
+    measured_m[k] = Measured_m(observed.samples[sample], k);
+  }
+  return measured_m - simulated.seen_m - moved_m;
+}
+
+/// What a shape in which the body was held may be off by is no fault of the simulation: of each
+/// marker a constant, at most twice as large as such shapes are off by.
+void TakeOffReference(const ObservedExperiment& observed, int recording, Residuals* residuals_m) {
+  constexpr double kAtMost = 2.0;
+  if (!observed.recordings[static_cast<std::size_t>(recording)].held_until_s) return;
+  const double most_m = kAtMost * observed.reference_sigma_m;
+  for (Eigen::Index k = 0; k < 3 * std::ssize(observed.markers); ++k) {
+    double sum_m = 0.0;
+    int count = 0;
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      const double value_m = (*residuals_m)[s][k];
+      if (observed.samples[s].recording != recording || std::isnan(value_m)) continue;
+      sum_m += value_m;
+      ++count;
+    }
+    if (count == 0) continue;
+    const double off_m = std::clamp(sum_m / count, -most_m, most_m);
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      if (observed.samples[s].recording == recording) (*residuals_m)[s][k] -= off_m;
+    }
+  }
+}
+
+/// Of a fit at parameters, of each recording their own: z [recordings], or one for all.
+Residuals ResidualsOf(const ObservedExperiment& observed, const Fit& fit,
+                      const std::vector<Eigen::VectorXd>& z) {
+  Residuals residuals_m;
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const auto r = static_cast<std::size_t>(observed.samples[s].recording);
+    residuals_m.push_back(Residual_m(observed, fit, s, z.size() == 1 ? z.front() : z[r]));
+  }
+  for (int r = 0; r < std::ssize(observed.recordings); ++r) {
+    TakeOffReference(observed, r, &residuals_m);
+  }
+  return residuals_m;
+}
+
+Eigen::VectorXd Noise_m(const ObservedExperiment& observed, std::size_t sample) {
+  const Sample& seen = observed.samples[sample];
+  Eigen::VectorXd noise_m(observed.CoordinateCount());
+  for (Eigen::Index k = 0; k < noise_m.size(); ++k) {
+    noise_m[k] =
+        IsMeasured(seen, k) ? Sigma_m(observed, seen, k) : std::numeric_limits<double>::quiet_NaN();
+  }
+  return noise_m;
+}
+
+/// Places of what is measured [3 x places], robot frame: residuals of markers as they are, of the
+/// skin along its normal.
+Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
+                        const Eigen::VectorXd& residual_m) {
+  const Sample& seen = observed.samples[sample];
+  const ObservedRecording& recording =
+      observed.recordings[static_cast<std::size_t>(seen.recording)];
+  const Eigen::Index markers = std::ssize(observed.markers);
+  Eigen::Matrix3Xd on_body_m = Eigen::Matrix3Xd::Constant(
+      3, markers + observed.feature_rest_m.cols(), std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Matrix3d R_robot_measurement = recording.T_measurement_robot.linear().transpose();
+  on_body_m.leftCols(markers) =
+      R_robot_measurement * residual_m.head(3 * markers).reshaped(3, markers);
+  for (std::size_t f = 0; f < seen.skin.size(); ++f) {
+    if (seen.skin[f].count == 0) continue;
+    const auto feature = static_cast<Eigen::Index>(f);
+    on_body_m.col(markers + feature) =
+        residual_m[3 * markers + feature] *
+        (recording.T_camera_robot->linear().transpose() * seen.skin[f].normal.normalized());
+  }
+  return on_body_m;
+}
+
+/// Of one recording, over its samples.
+struct Sums {
+  Squares before, healthy, after, heldout_before, heldout_after, noise;
+  int samples = 0;
+};
+
+/// Parameters with these causes, of each recording their own or one for all (ResidualsOf).
+using Parameters = std::vector<Eigen::VectorXd>(const HypothesisSet&, const Fit&,
+                                                const std::vector<int>& causes);
+
+/// As all other recordings have them.
+std::vector<Eigen::VectorXd> LeftOut(const HypothesisSet& hypotheses, const Fit& fit,
+                                     const std::vector<int>& causes) {
+  std::vector<Eigen::VectorXd> z;
+  for (std::size_t r = 0; r < fit.model.of_recording.size(); ++r) {
+    z.push_back(hypotheses.InferWithin(fit.model.AllBut(r), causes).mean);
+  }
+  return z;
+}
+
+std::vector<Eigen::VectorXd> AsFitted(const HypothesisSet& hypotheses, const Fit& fit,
+                                      const std::vector<int>& causes) {
+  return {hypotheses.InferWithin(fit.model.All(), causes).mean};
+}
+
+double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
+                      const Selection& selection, int cause, const Parameters& parameters) {
+  const Fit& best = selection.best;
+  const Fit& healthy = selection.healthy;
+  const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
+    return ResidualsOf(observed, fit, parameters(hypotheses, fit, causes));
+  };
+  std::vector<int> others = best.faults;
+  std::erase(others, cause);
+  const Residuals healthy_m = left_m(healthy, healthy.faults);
+  // The only one is far from none: the healthy robot's own fit knows better than a linear model.
+  const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
+  const Residuals with_m = left_m(best, best.faults);
+  std::vector<Squares> of_healthy(observed.recordings.size());
+  std::vector<Squares> without(of_healthy), with(of_healthy), noise(of_healthy);
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    if (!healthy.simulation.samples[s].status.ok()) continue;
+    const auto r = static_cast<std::size_t>(observed.samples[s].recording);
+    of_healthy[r].Add(healthy_m[s]);
+    without[r].Add(without_m[s]);
+    with[r].Add(with_m[s]);
+    noise[r].Add(Noise_m(observed, s));
+  }
+  double excess_m2 = 0.0;
+  double back_m2 = 0.0;
+  for (std::size_t r = 0; r < noise.size(); ++r) {
+    const double floor_m2 = std::max(noise[r].sum_m2, with[r].sum_m2);
+    excess_m2 += std::max(0.0, of_healthy[r].sum_m2 - noise[r].sum_m2);
+    back_m2 += std::max(0.0, without[r].sum_m2 - floor_m2);
+  }
+  return excess_m2 > 0.0 ? std::min(back_m2 / excess_m2, 1.0) : 0.0;
+}
+
+void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& body,
+                  DiagnosisResult* result) {
+  result->cables = observed.timeline.cables;
+  for (const bool by_tension : observed.timeline.by_tension) {
+    result->cable_units.emplace_back(by_tension ? "N" : "m");
+  }
+  result->markers = observed.markers;
+  result->marker_rest_m.resize(3, std::ssize(body.markers) + observed.feature_rest_m.cols());
+  for (std::size_t m = 0; m < body.markers.size(); ++m) {
+    result->marker_rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+  }
+  result->marker_rest_m.rightCols(observed.feature_rest_m.cols()) = observed.feature_rest_m;
+  for (Eigen::Index f = 0; f < observed.feature_rest_m.cols(); ++f) {
+    result->markers.push_back("skin " + std::to_string(f + 1));
+  }
+  result->surface_m = body.mesh.nodes_m;
+  const Eigen::Matrix3Xi triangles = body.boundary.CornerTriangles();
+  for (Eigen::Index k = 0; k < triangles.cols(); ++k) {
+    result->triangles.push_back({triangles(0, k), triangles(1, k), triangles(2, k)});
+  }
+}
+
+}  // namespace
+
+double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
+                      const Selection& selection, int cause) {
+  return std::max(ExplainedShare(observed, hypotheses, selection, cause, AsFitted),
+                  ExplainedShare(observed, hypotheses, selection, cause, LeftOut));
+}
+
+void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
+                 const HypothesisSet& hypotheses, const Fit& as_built, const Selection& selection,
+                 DiagnosisResult* result) {
+  DescribeBody(observed, body, result);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(hypotheses.parameter_count());
+  const Fit& best = selection.best;
+  const Fit& healthy = selection.healthy;
+  const Residuals before_m = ResidualsOf(observed, as_built, {none});
+  const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
+  const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
+  const Residuals heldout_before_m =
+      ResidualsOf(observed, healthy, LeftOut(hypotheses, healthy, healthy.faults));
+  const Residuals heldout_after_m =
+      ResidualsOf(observed, best, LeftOut(hypotheses, best, best.faults));
+  std::vector<Sums> sums(observed.recordings.size());
+  for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+    const Sample& sample = observed.samples[s];
+    const auto r = static_cast<std::size_t>(sample.recording);
+    if (!as_built.simulation.samples[s].status.ok()) continue;
+    sums[r].before.Add(before_m[s]);
+    sums[r].healthy.Add(healthy_m[s]);
+    sums[r].after.Add(after_m[s]);
+    sums[r].heldout_before.Add(heldout_before_m[s]);
+    sums[r].heldout_after.Add(heldout_after_m[s]);
+    sums[r].noise.Add(Noise_m(observed, s));
+    ++sums[r].samples;
+    result->moments.push_back({.recording = sample.recording,
+                               .t_s = sample.t_s,
+                               .command = observed.timeline.CommandAt(sample.t_s),
+                               .before_m = OnBody(observed, s, before_m[s]),
+                               .after_m = OnBody(observed, s, after_m[s])});
+  }
+  Sums all;
+  for (std::size_t r = 0; r < sums.size(); ++r) {
+    const Sums& one = sums[r];
+    result->recordings.push_back({.name = observed.recordings[r].name,
+                                  .kind = observed.recordings[r].kind,
+                                  .samples = one.samples,
+                                  .before_m = one.before.Rms_m(),
+                                  .healthy_m = one.healthy.Rms_m(),
+                                  .after_m = one.after.Rms_m(),
+                                  .heldout_before_m = one.heldout_before.Rms_m(),
+                                  .heldout_after_m = one.heldout_after.Rms_m(),
+                                  .noise_m = one.noise.Rms_m()});
+    all.before.Add(one.before);
+    all.after.Add(one.after);
+    all.heldout_after.Add(one.heldout_after);
+    all.noise.Add(one.noise);
+  }
+  result->gap = {.before_m = all.before.Rms_m(),
+                 .after_m = all.after.Rms_m(),
+                 .heldout_before_m = all.before.Rms_m(),
+                 .heldout_after_m = all.heldout_after.Rms_m(),
+                 .noise_m = all.noise.Rms_m()};
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/explain/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "components/diagnosis/explain/model_error.hpp"
+#include "components/diagnosis/inference/confusability_of_faults.hpp"
+#include "components/diagnosis/inference/model_averaging.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// The least probability of an unmodelled cause, in general and where a residual that is not noise
+/// has no named cause.
+constexpr double kOtherAtLeast = 0.01;
+constexpr double kOtherWhereNoneIsNamed = 0.5;
+
+NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
+                    const std::vector<FurtherCause>& further, double other_probability,
+                    const Choice& choice) {
+  constexpr double kSeen = 1.0;  // of ln p
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const FaultModel& cause = hypotheses.cause(choice.cause);
+  const Eigen::VectorXd z =
+      fit.posterior.mean.segment(hypotheses.first(choice.cause), hypotheses.count(choice.cause));
+  const Eigen::MatrixXd covariance = CovarianceBeside(
+      hypotheses, fit, choice.cause, further, CovarianceOverPlaces(fitter, fit, choice.cause));
+  const Eigen::VectorXd undeformed_m = fitter.DraftAt(fit).body.mesh.nodes_m.reshaped();
+  NamedCause named{.name = cause.name(),
+                   .words = cause.words(),
+                   .parameters = cause.Report(z, covariance, undeformed_m),
+                   .probability = (1.0 - other_probability) * choice.probability,
+                   .ln_bayes_factor = choice.ln_bayes_factor,
+                   .cross_validated = choice.held_out.clear,
+                   .seen_in = {}};
+  for (std::size_t r = 0; r < choice.ln_gain_of_recording.size(); ++r) {
+    if (choice.ln_gain_of_recording[r] > kSeen) {
+      named.seen_in.push_back(observed.recordings[r].name);
+    }
+  }
+  return named;
+}
+
+/// Of something that the catalogue does not hold, in the place of what is named or where nothing
+/// is.
+double OtherProbability(const HypothesisSet& hypotheses, const Selection& selection) {
+  const bool passed = selection.goodness_of_fit.passed;
+  if (selection.named.empty()) return passed ? kOtherAtLeast : kOtherWhereNoneIsNamed;
+  return std::max(kOtherAtLeast,
+                  ProbabilityOfConfusion(hypotheses, selection.healthy, selection.best, passed));
+}
+
+}  // namespace
+
+void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
+  const GoodnessOfFit& goodness_of_fit = selection.goodness_of_fit;
+  const std::string left = "what is left is not noise (" + goodness_of_fit.worst + ")";
+  if (selection.named.empty()) {
+    result->verdict = goodness_of_fit.passed ? Verdict::kNoFault : Verdict::kUnexplained;
+    result->reason = goodness_of_fit.passed
+                         ? "What the simulation gets wrong is within noise and building tolerances."
+                         : "No cause of the catalogue explains the gap: " + left + ".";
+  } else if (!goodness_of_fit.passed) {
+    result->verdict = Verdict::kPartlyExplained;
+    result->reason = "The cause explains a part; " + left + ".";
+  } else if (!selection.alike.empty()) {
+    result->verdict = Verdict::kIndistinguishable;
+    result->reason = "Other causes fit these data as well.";
+  } else {
+    result->verdict = Verdict::kCause;
+    result->reason = "The causes that are named explain the gap.";
+  }
+  result->leftover = {goodness_of_fit.passed, goodness_of_fit.worst, goodness_of_fit.surprise,
+                      goodness_of_fit.surprise_limit, goodness_of_fit.excess};
+  result->search_complete = selection.complete;
+  if (!selection.complete) {
+    result->reason += " The time was over: fits ended early, and not all causes were tried.";
+  }
+}
+
+void DescribeCauses(const ObservedExperiment& observed, const Fitter& fitter,
+                    const Selection& selection, DiagnosisResult* result) {
+  result->other_probability = OtherProbability(fitter.hypotheses(), selection);
+  if (selection.named.empty()) return;
+  const std::vector<FurtherCause> further = FurtherCauses(fitter, selection.best);
+  for (const Choice& choice : selection.named) {
+    NamedCause named =
+        Describe(observed, fitter, selection.best, further, result->other_probability, choice);
+    named.explained_share = ExplainedShare(observed, fitter.hypotheses(), selection, choice.cause);
+    result->causes.push_back(std::move(named));
+  }
+}
+
+void DescribeRivals(const HypothesisSet& hypotheses, const Selection& selection,
+                    DiagnosisResult* result) {
+  const auto& candidates = selection.candidates;
+  const double ln_share =
+      -std::log(static_cast<double>(std::max<std::size_t>(1, candidates.size())));
+  std::vector<double> ln_weights{0.0};  // of no fault, then of the candidates
+  for (const Candidate& one : candidates) {
+    ln_weights.push_back(one.ruled_out ? -std::numeric_limits<double>::infinity()
+                                       : one.ln_bayes_factor + ln_share);
+  }
+  const double ln_most = *std::max_element(ln_weights.begin(), ln_weights.end());
+  double all = 0.0;
+  for (const double ln_weight : ln_weights) all += std::exp(ln_weight - ln_most);
+  const double other = result->other_probability;
+  result->no_fault_probability = (1.0 - other) * std::exp(-ln_most) / all;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& one = candidates[k];
+    const bool named = std::any_of(selection.named.begin(), selection.named.end(),
+                                   [&](const Choice& choice) { return choice.cause == one.cause; });
+    if (named) continue;
+    result->rivals.push_back(
+        {.name = hypotheses.cause(one.cause).name(),
+         .words = hypotheses.cause(one.cause).words(),
+         .probability = (1.0 - other) * std::exp(ln_weights[k + 1] - ln_most) / all,
+         .ln_bayes_factor = one.ln_bayes_factor,
+         .canonical_correlation = one.canonical_correlation,
+         .why_not = one.why_not});
+  }
+  for (const int cause : selection.compared) {
+    result->correlation_names.push_back(hypotheses.cause(cause).words());
+  }
+  result->correlation = selection.canonical_correlation;
+  for (const Candidate& one : selection.alike) {
+    result->indistinguishable_from.push_back(hypotheses.cause(one.cause).name());
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/faults/makers.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+class CableGainCause final : public FaultModel {
+ public:
+  CableGainCause(const std::string& cable, int index)
+      : FaultModel({"cable_gain", {"cable:" + cable}}, "gain of the drive of cable " + cable,
+                   {{.name = "g",
+                     .tolerance = 0.005,
+                     .fault = 0.08,
+                     .least = -0.9,
+                     .plausible = 0.2}}),  // a drum is not a fifth too large
+        index_(index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.gain[index_] += z[0];
+  }
+
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              std::vector<robot::CalibratedDrive>* drives) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.gain += z[0];
+    return true;
+  }
+
+ private:
+  Eigen::Index index_;
+};
+
+}  // namespace
+
+void MakeCableGainCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    causes->push_back(
+        std::make_unique<CableGainCause>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+class CableOffsetCause final : public FaultModel {
+ public:
+  CableOffsetCause(const std::string& cable, int index)
+      : FaultModel({"cable_offset", {"cable:" + cable}}, "zero of the drive of cable " + cable,
+                   {{.name = "offset_m", .tolerance = 3e-4, .fault = 4e-3}}),
+        index_(index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.offset_m[index_] += z[0];
+  }
+
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
+              std::vector<robot::CalibratedDrive>* drives) const override {
+    DriveOf(name().where.front().substr(std::string("cable:").size()), drives).drive.offset_m +=
+        z[0];
+    return true;
+  }
+
+ private:
+  Eigen::Index index_;
+};
+
+}  // namespace
+
+void MakeCableOffsetCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.observed.timeline.by_tension[c]) continue;
+    causes->push_back(
+        std::make_unique<CableOffsetCause>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+/// The play begins in its middle; of z the size counts.
+
+class Backlash final : public FaultModel {
+ public:
+  Backlash(const std::string& cable, int index)
+      : FaultModel({"backlash", {"cable:" + cable}}, "play in the drive of cable " + cable,
+                   {{.name = "play_m", .tolerance = 1e-4, .fault = 4e-3, .least = 0.0}}),
+        index_(index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.play_m[index_] += z[0];
+  }
+
+ private:
+  Eigen::Index index_;
+};
+
+}  // namespace
+
+void MakeBacklash(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.observed.timeline.by_tension[c]) continue;
+    causes->push_back(std::make_unique<Backlash>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+class DriveCouplingCause final : public FaultModel {
+ public:
+  DriveCouplingCause(const robot::BodyCable& driven, int driven_index, const robot::BodyCable& by,
+                     int by_index)
+      : FaultModel({"drive_coupling", {"cable:" + driven.name, "cable:" + by.name}},
+                   "cable " + driven.name + " moving along with cable " + by.name,
+                   {{.name = "coupling", .fault = 0.1}}),
+        driven_(driven_index),
+        by_(by_index) {}
+
+  bool OnDrives() const override { return true; }
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->drives.mixing(driven_, by_) += z[0];
+  }
+
+ private:
+  Eigen::Index driven_;
+  Eigen::Index by_;
+};
+
+}  // namespace
+
+void MakeDriveCoupling(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  const std::vector<robot::BodyCable>& cables = world.body.cables;
+  for (std::size_t driven = 0; driven < cables.size(); ++driven) {
+    for (std::size_t by = 0; by < cables.size(); ++by) {
+      if (by == driven) continue;
+      causes->push_back(std::make_unique<DriveCouplingCause>(
+          cables[driven], static_cast<int>(driven), cables[by], static_cast<int>(by)));
+    }
+  }
+}
+
+}  // namespace palpate::diagnosis

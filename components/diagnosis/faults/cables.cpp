@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <utility>
+
+#include "components/diagnosis/faults/makers.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Capstan friction in the eyelets that a cable runs through (model/sticking.hpp); one with a knot
+/// only has none.
+class CableFrictionCause final : public FaultModel {
+ public:
+  CableFrictionCause(const std::string& cable, int index)
+      : FaultModel({"cable_friction", {"cable:" + cable}}, "friction of cable " + cable,
+                   {{.name = "mu", .tolerance = 0.02, .fault = 0.3, .least = 0.0}}),
+        index_(index) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.cables[static_cast<std::size_t>(index_)].friction_coefficient +=
+        std::max(0.0, z[0]);
+  }
+
+  /// More of it sticks for longer, which OnBody leaves out.
+  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
+
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->cables[static_cast<std::size_t>(index_)].friction_coefficient += z[0];
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const FaultContext& /*at*/) const override {
+    return robot::CableFrictionCoefficient(index_);
+  }
+
+ private:
+  int index_;
+};
+
+}  // namespace
+
+void MakeCableFriction(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.body.cables[c].eyelets.size() < 2) continue;
+    causes->push_back(
+        std::make_unique<CableFrictionCause>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+/// What a healthy robot's simulation has of it, m/N, beside what all cables have (CableEnds): a
+/// cable ends in a point, at which every mesh gives way by something else. Two meshes of four_leg
+/// of like fineness differ by 0.03 to 0.09 mm/N.
+constexpr double kOfMesh_m_N = 5e-5;
+
+/// z is the compliance, m/N.
+class CableElasticity final : public FaultModel {
+ public:
+  CableElasticity(const std::string& cable, int index)
+      : FaultModel({"cable_elasticity", {"cable:" + cable}}, "stretch of cable " + cable,
+                   {{.name = "k_N_m",
+                     .tolerance = kOfMesh_m_N,
+                     .fault = 1e-3,
+                     .least = 0.0,
+                     .scale = FaultParameter::Scale::kInverse}}),
+        index_(index) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->cable_compliance_m_N[index_] += std::max(0.0, z[0]);
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const FaultContext& /*at*/) const override {
+    return robot::CableCompliance(index_);
+  }
+
+  /// What the mesh gives way by is in what was fitted, and nobody knows how much it is.
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
+                                      const Eigen::VectorXd& undeformed_m) const override {
+    return FaultModel::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
+  }
+
+ private:
+  int index_;
+};
+
+}  // namespace
+
+void MakeCableElasticity(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    if (world.observed.timeline.by_tension[c]) continue;
+    causes->push_back(
+        std::make_unique<CableElasticity>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+/// Nobody mounts a guide so far beside its place.
+constexpr double kFarthest_m = 0.02;
+
+/// The point that the cable is pulled from sits elsewhere; the drive is zeroed with it there.
+class CableRouting final : public FaultModel {
+ public:
+  CableRouting(const std::string& cable, int index)
+      : FaultModel({"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
+                   {{.name = "dx_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
+                    {.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
+                    {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m}}),
+        index_(index) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->body.cables[static_cast<std::size_t>(index_)].pull_point_m += z;
+  }
+
+  bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot->cables[static_cast<std::size_t>(index_)].path_m.col(0) += z;
+    return true;
+  }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& /*z*/,
+                             const FaultContext& at) const override {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter);
+    auto sum = std::make_unique<SumOfParameters>();
+    sum->Add(1.0, robot::PullPointMove(index_, direction, robot::CableZero::kKept));
+    if (at.observed.timeline.by_tension[static_cast<std::size_t>(index_)]) return sum;
+    // Zeroed in the shape of that time, which a bent body no longer has.
+    const robot::BodyCable& cable = at.hypothesis.body.cables[static_cast<std::size_t>(index_)];
+    const Eigen::Vector3d last_m =
+        cable.pull_point_m - cable.eyelets.front().weights.Position(at.hypothesis.assembled_m);
+    Eigen::VectorXd change_m = Eigen::VectorXd::Zero(std::ssize(at.hypothesis.body.cables));
+    change_m[index_] = -last_m.normalized().dot(direction);
+    sum->Add(1.0, CommandChange(std::move(change_m)));
+    return sum;
+  }
+
+ private:
+  int index_;
+};
+
+}  // namespace
+
+void MakeCableRouting(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
+    causes->push_back(
+        std::make_unique<CableRouting>(world.body.cables[c].name, static_cast<int>(c)));
+  }
+}
+
+namespace {
+
+/// z = 1: each of two drives pulls the other's cable; 0: its own. Nothing between is believed in.
+class SwappedCables final : public FaultModel {
+ public:
+  SwappedCables(const CauseWorld& world, int a, int b)
+      : FaultModel(
+            {"swapped_cables", {"cable:" + NameOf(world, a), "cable:" + NameOf(world, b)}},
+            "cables " + NameOf(world, a) + " and " + NameOf(world, b) + " swapped",
+            {{.name = "swapped", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
+        a_(a),
+        b_(b) {}
+
+  bool OnDrives() const override { return true; }
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    Eigen::MatrixXd& mixing = hypothesis->drives.mixing;
+    const Eigen::RowVectorXd row_a = mixing.row(a_);
+    const Eigen::RowVectorXd row_b = mixing.row(b_);
+    mixing.row(a_) += z[0] * (row_b - row_a);
+    mixing.row(b_) += z[0] * (row_a - row_b);
+  }
+
+  /// Each drive keeps its name and its limits, and pulls what the other one pulled.
+  bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
+              std::vector<robot::CalibratedDrive>* /*drives*/) const override {
+    robot::CableSettings& a = robot->cables[static_cast<std::size_t>(a_)];
+    robot::CableSettings& b = robot->cables[static_cast<std::size_t>(b_)];
+    std::swap(a.path_m, b.path_m);
+    std::swap(a.guide_radius_m, b.guide_radius_m);
+    std::swap(a.friction_coefficient, b.friction_coefficient);
+    return true;
+  }
+
+  std::vector<FittedParameter> Report(const Eigen::VectorXd& /*z*/,
+                                      const Eigen::MatrixXd& /*covariance*/,
+                                      const Eigen::VectorXd& /*undeformed_m*/) const override {
+    return {};
+  }
+
+ private:
+  static const std::string& NameOf(const CauseWorld& world, int cable) {
+    return world.body.cables[static_cast<std::size_t>(cable)].name;
+  }
+
+  Eigen::Index a_;
+  Eigen::Index b_;
+};
+
+}  // namespace
+
+void MakeSwappedCables(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  const auto cables = static_cast<int>(world.body.cables.size());
+  for (int a = 0; a < cables; ++a) {
+    for (int b = a + 1; b < cables; ++b) {
+      causes->push_back(std::make_unique<SwappedCables>(world, a, b));
+    }
+  }
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "components/diagnosis/faults/makers.hpp"
+#include "components/diagnosis/faults/seen_move.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// A point force gives way by some 0.2 / (E h) in cells of size h, without end as these get
+/// smaller, and a real cable's end by what it is spread out over. Against the mesh of four_leg (4.4
+/// mm) one of 6.1 mm has 0.15 mm/N less and one twice as fine some 0.3 mm/N more, or 0.07 and 0.13
+/// / (E h).
+constexpr double kShare = 0.08;
+
+double SizeOfCell_m(const fem::TetMesh& mesh, int cell) {
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return mesh.nodes_m.col(mesh.cells(k, cell));
+  };
+  const Eigen::Vector3d a = corner(1) - corner(0);
+  const Eigen::Vector3d b = corner(2) - corner(0);
+  const Eigen::Vector3d c = corner(3) - corner(0);
+  return std::cbrt(a.cross(b).dot(c) / 6.0);
+}
+
+/// [cables] m/N, one sigma.
+Eigen::VectorXd GiveWay(const robot::RobotBody& body) {
+  Eigen::VectorXd give_way_m_N(std::ssize(body.cables));
+  for (Eigen::Index c = 0; c < give_way_m_N.size(); ++c) {
+    const int cell = body.cables[static_cast<std::size_t>(c)].eyelets.back().cell;
+    const auto material =
+        static_cast<std::size_t>(body.material_of_cell[static_cast<std::size_t>(cell)]);
+    give_way_m_N[c] =
+        kShare / (body.materials[material].youngs_modulus_Pa * SizeOfCell_m(body.mesh, cell));
+  }
+  return give_way_m_N;
+}
+
+/// By how much more, or less, than the mesh has it the body gives way where its cables end: at all
+/// of them alike, which is no fault. Here z is of one sigma.
+class CableEnds final : public FaultModel {
+ public:
+  explicit CableEnds(Eigen::VectorXd give_way_m_N)
+      : FaultModel({"cable_ends", {"body"}}, "what the mesh gives way by where cables end",
+                   {{.name = "sigmas", .tolerance = 1.0, .fault = 1.0}}),
+        give_way_m_N_(std::move(give_way_m_N)) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->cable_compliance_m_N += z[0] * give_way_m_N_;
+  }
+
+  robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
+                             const FaultContext& /*at*/) const override {
+    auto all = std::make_unique<SumOfParameters>();
+    for (Eigen::Index c = 0; c < give_way_m_N_.size(); ++c) {
+      all->Add(give_way_m_N_[c], robot::CableCompliance(static_cast<int>(c)));
+    }
+    return all;
+  }
+
+ private:
+  Eigen::VectorXd give_way_m_N_;
+};
+
+}  // namespace
+
+void MakeCableEnds(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  if (world.body.cables.empty()) return;
+  causes->push_back(std::make_unique<CableEnds>(GiveWay(world.body)));
+}
+
+namespace {
+
+/// What measures something in a recording.
+struct Eye {
+  int recording = 0;
+  Target target = Target::kMarkers;
+
+  bool operator==(const Eye&) const = default;
+};
+
+/// Where recordings were measured from, as far as it is not known: no fault of the robot's.
+class Extrinsics final : public FaultModel {
+ public:
+  /// `of`: the eyes that stand where one camera, or tracker, does.
+  Extrinsics(std::vector<Eye> of, const Eigen::Vector3d& middle_m, double sigma_m, double sigma_rad)
+      : FaultModel({"extrinsics", {"camera"}}, "pose of the camera",
+                   {Known("translation_m", sigma_m), Known("translation_m", sigma_m),
+                    Known("translation_m", sigma_m), Known("rotation_rad", sigma_rad),
+                    Known("rotation_rad", sigma_rad), Known("rotation_rad", sigma_rad)}),
+        eyes_(std::move(of)),
+        middle_m_(middle_m) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    const Eigen::Isometry3d move = SeenMove(z, middle_m_);
+    for (const Eye& eye : eyes_) {
+      auto& of_target = eye.target == Target::kSkin ? hypothesis->T_skin_seen : hypothesis->T_seen;
+      Eigen::Isometry3d& T_seen = of_target[static_cast<std::size_t>(eye.recording)];
+      T_seen = move * T_seen;
+    }
+  }
+
+  void OnView(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
+              Eigen::Matrix3Xd* motion_m) const override {
+    const int pose_of = at.recording().pose_of;
+    const int from = pose_of >= 0 ? pose_of : at.seen().recording;
+    const bool here = std::find(eyes_.begin(), eyes_.end(), Eye{from, at.target}) != eyes_.end();
+    if (here) AddSeenMove(parameter, z, middle_m_, Eigen::Isometry3d::Identity(), at, motion_m);
+  }
+
+ private:
+  static FaultParameter Known(const std::string& name, double sigma) {
+    return {.name = name, .tolerance = sigma, .fault = sigma};
+  }
+
+  std::vector<Eye> eyes_;
+  Eigen::Vector3d middle_m_;
+};
+
+/// What is known of a pose that is given, and one that was fitted to these data.
+constexpr double kGiven_m = 5e-4;
+constexpr double kGiven_rad = 2e-3;
+constexpr double kFitted_m = 0.02;
+constexpr double kFitted_rad = 0.05;
+
+/// Where an eye stands.
+struct View {
+  Eye eye;
+  Eigen::Isometry3d T_measurement_robot;
+  bool known;
+};
+
+bool SamePose(const View& a, const View& b) {
+  return a.known == b.known && a.T_measurement_robot.isApprox(b.T_measurement_robot, 1e-12);
+}
+
+/// Those whose pose may be off. Pictures and markers that are in the camera's frame have one pose.
+std::vector<View> Views(const CauseWorld& world) {
+  std::vector<View> views;
+  const std::vector<ObservedRecording>& recordings = world.observed.recordings;
+  for (int k = 0; k < std::ssize(recordings); ++k) {
+    const ObservedRecording& one = recordings[static_cast<std::size_t>(k)];
+    if (one.camera_frame || world.extrinsics_m > 0.0)
+      views.push_back({{k, Target::kMarkers}, one.T_measurement_robot, one.knows_pose});
+    if (one.T_camera_robot) views.push_back({{k, Target::kSkin}, *one.T_camera_robot, true});
+  }
+  return views;
+}
+
+}  // namespace
+
+void MakeExtrinsics(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
+  const std::vector<View> views = Views(world);
+  std::vector<bool> taken(views.size(), false);
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    if (taken[k]) continue;
+    std::vector<Eye> alike;
+    for (std::size_t l = k; l < views.size(); ++l) {
+      if (!SamePose(views[k], views[l])) continue;
+      taken[l] = true;
+      alike.push_back(views[l].eye);
+    }
+    const bool given = views[k].known;
+    const double sigma_m = world.extrinsics_m > 0.0 ? world.extrinsics_m : kGiven_m;
+    const double sigma_rad = world.extrinsics_rad > 0.0 ? world.extrinsics_rad : kGiven_rad;
+    causes->push_back(std::make_unique<Extrinsics>(
+        std::move(alike), middle_m, given ? sigma_m : kFitted_m, given ? sigma_rad : kFitted_rad));
+  }
+}
+
+namespace {
+
+/// Of each coefficient, as a share of the distance: stereo cameras err by 0.2 to 0.5 % of it. The
+/// constant is beside what DepthScale allows.
+constexpr double kSigma = 0.003;
+constexpr double kSigmaOfConstant = 0.002;
+/// Over what a camera sees from several places, a finer one than over a robot that stays in the
+/// middle of its picture.
+constexpr geometry::DepthBiasBasis kBasis{.order = 4, .span = 0.4};
+
+/// Depth that is off by a smooth share over the picture, as every depth camera's is: no fault.
+class DepthBias final : public FaultModel {
+ public:
+  explicit DepthBias(const geometry::DepthBiasBasis& basis)
+      : FaultModel({"depth_bias", {"camera"}}, "smooth error of the depth", Coefficients(basis)),
+        basis_(basis) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.bias_basis = basis_;
+    hypothesis->camera.bias = z;
+  }
+
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
+                     Eigen::Matrix3Xd* motion_m) const override {
+    for (Eigen::Index k = 0; k < motion_m->cols(); ++k) {
+      motion_m->col(k) += at.sight.camera->ByBias(at.sight.point(k), basis_, parameter);
+    }
+  }
+
+ private:
+  static std::vector<FaultParameter> Coefficients(const geometry::DepthBiasBasis& basis) {
+    std::vector<FaultParameter> coefficients;
+    for (const std::string& name : NamesOf(basis)) {
+      const double sigma = coefficients.empty() ? kSigmaOfConstant : kSigma;
+      coefficients.push_back({.name = name, .tolerance = sigma, .fault = sigma});
+    }
+    return coefficients;
+  }
+
+  geometry::DepthBiasBasis basis_;
+};
+
+}  // namespace
+
+void MakeDepthBias(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  if (!world.observed.HasSkin()) return;
+  causes->push_back(std::make_unique<DepthBias>(kBasis));
+}
+
+namespace {
+
+/// px, of each of the two.
+constexpr double kSigma_px = 0.05;
+
+/// Interpolation between whole pixels pulls the disparities of a stereo camera towards some of
+/// them, so that depth errs by a wave whose length is one pixel of disparity (M. Shimizu and M.
+/// Okutomi, Precise sub-pixel estimation on area-based matching, ICCV 2001): no fault. Half a metre
+/// away it is some tenths of a millimetre, and goes up and down as the body moves by some
+/// millimetres.
+class StereoRipple final : public FaultModel {
+ public:
+  StereoRipple()
+      : FaultModel({"stereo_ripple", {"camera"}}, "sub-pixel error of the depth",
+                   {Wave("cosine_px"), Wave("sine_px")}) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->camera.ripple_px += z;
+  }
+
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
+                     Eigen::Matrix3Xd* motion_m) const override {
+    if (at.target != Target::kSkin) return;
+    for (Eigen::Index f = 0; f < motion_m->cols(); ++f) {
+      const SkinSighting& feature = at.seen().skin[static_cast<std::size_t>(f)];
+      if (feature.count == 0) continue;
+      motion_m->col(f) +=
+          feature.ripple_m_px[parameter] / feature.normal.squaredNorm() * feature.normal;
+    }
+  }
+
+ private:
+  static FaultParameter Wave(const std::string& name) {
+    return {.name = name, .tolerance = kSigma_px, .fault = kSigma_px};
+  }
+};
+
+}  // namespace
+
+void MakeStereoRipple(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  const auto& recordings = world.observed.recordings;
+  const bool stereo = std::any_of(recordings.begin(), recordings.end(),
+                                  [](const auto& one) { return one.stereo_px_m > 0.0; });
+  if (stereo && world.observed.HasSkin()) causes->push_back(std::make_unique<StereoRipple>());
+}
+
+namespace {
+
+/// Facets of the mesh lie off the skin, and where the camera errs less smoothly than DepthBias.
+constexpr double kSigma_m = 3e-4;
+
+/// Every feature of the skin is off along its normal by a constant of its own, in all recordings:
+/// no fault.
+class SkinOffset final : public FaultModel {
+ public:
+  explicit SkinOffset(Eigen::Index features)
+      : FaultModel({"skin_offset", {"body"}}, "where the skin is drawn",
+                   std::vector<FaultParameter>(
+                       static_cast<std::size_t>(features),
+                       {.name = "offset_m", .tolerance = kSigma_m, .fault = kSigma_m})) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    hypothesis->skin_offset_m += z;
+  }
+
+  void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
+                     Eigen::Matrix3Xd* motion_m) const override {
+    if (at.target == Target::kSkin) motion_m->col(parameter) += at.sight.point(parameter).normal;
+  }
+};
+
+}  // namespace
+
+void MakeSkinOffset(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+  if (!world.observed.HasSkin()) return;
+  causes->push_back(std::make_unique<SkinOffset>(world.observed.feature_rest_m.cols()));
+}
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/faults/makers.hpp"
+#include "libs/robot/sensitivity/parameters.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// One Prony term with a relaxation time near one that it is looked for at. What it does at a
+/// moment is the force of a stress: the elastic ones of the past, as far as they have not faded
+/// (Memory::Fading), which have stayed with the material.
+class ViscoelasticCreep final : public FaultModel {
+ public:
+  ViscoelasticCreep(double tau_s, double tolerance)
+      : FaultModel({"viscoelastic_creep", {"body"}}, "creep of the body",
+                   {{.name = "g", .tolerance = tolerance, .fault = 0.25, .least = 0.0},
+                    {.name = "tau_s",
+                     .nominal = tau_s,
+                     .fault = 0.6,
+                     .scale = FaultParameter::Scale::kFactor,
+                     .qualifies = true}}) {}
+
+  void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
+    if (z[0] == 0.0) return;
+    hypothesis->creep.push_back({.g = z[0], .tau_s = parameters()[1].ValueOf(z[1])});
+  }
+
+  /// What stresses of the past answer to g is of the order of g.
+  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
+
+  robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
+                             const FaultContext& at) const override {
+    const double tau_s = parameters()[1].ValueOf(z[1]);
+    if (parameter == 0) return Force(at, -at.history.Fading(tau_s).row(at.sample));
+    if (z[0] == 0.0) return nullptr;
+    constexpr double kStep = 1e-3;
+    return Force(at, -z[0] / kStep *
+                         (at.history.Fading(tau_s * std::exp(kStep)).row(at.sample) -
+                          at.history.Fading(tau_s).row(at.sample)));
+  }
+
+ private:
+  /// Of the elastic stresses of all samples, so weighted.
+  static robot::ParameterPtr Force(const FaultContext& at, const Eigen::RowVectorXd& weights) {
+    PointStresses stress_Pa = PointStresses::Zero(6, at.points.PointCount());
+    AddRemembered(at.simulation, weights.transpose(), &stress_Pa);
+    Eigen::VectorXd force_N = Eigen::VectorXd::Zero(at.shape.state.x_m.size());
+    at.points.AddForces(stress_Pa.cast<double>(), at.shape.state.x_m, &force_N);
+    return robot::NodalForce(std::move(force_N));
+  }
+};
+
+}  // namespace
+
+void MakeViscoelasticCreep(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
+  constexpr double kHealthy = 0.02;
+  constexpr double kHealthyTau_s = 10.0;
+  for (const double tau_s : {1.0, 3.0, kHealthyTau_s, 30.0, 100.0}) {
+    causes->push_back(
+        std::make_unique<ViscoelasticCreep>(tau_s, tau_s == kHealthyTau_s ? kHealthy : 0.0));
+  }
+}
+
+}  // namespace palpate::diagnosis

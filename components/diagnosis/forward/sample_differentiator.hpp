@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "components/diagnosis/forward/actuator_chain.hpp"
+#include "components/diagnosis/forward/fault_model.hpp"
+#include "components/diagnosis/forward/sample_solver.hpp"
+#include "libs/robot/sensitivity/point_sensitivity.hpp"
+#include "libs/robot/sensitivity/sensitivity_solver.hpp"
+
+namespace palpate::diagnosis {
+
+/// [parameters][cables x samples] what dz of each parameter changes of what the drives take in;
+/// empty for those of causes that do not act on drives, or are not `wanted` [causes]. `drives` are
+/// those at `z`.
+std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelHypothesis& nominal,
+                                          const FaultModelList& causes, const Eigen::VectorXd& z,
+                                          const std::vector<bool>& wanted,
+                                          const DriveSettings& drives);
+
+/// How what is measured moves with the parameters of causes. What compliant cables give way by when
+/// their tension changes is counted, what a compliant base then turns by is not. For one thread.
+class SampleDifferentiator {
+ public:
+  /// All must outlive it. `solver` is prepared for each sample before.
+  SampleDifferentiator(const ModelHypothesis& hypothesis, const FaultModelList& causes,
+                       const Eigen::VectorXd& z, const std::vector<bool>& wanted,
+                       const std::vector<Eigen::MatrixXd>& drive_change,
+                       const ObservedExperiment& observed, SampleSolver* solver);
+
+  /// [coordinates x parameters] m per z; 0 for causes that are not wanted, and for what nobody
+  /// measured. NaN where there are no derivatives.
+  Eigen::MatrixXd At(const FaultContext& at);
+
+ private:
+  struct WantedParameter {
+    const FaultModel* cause;
+    int number;           ///< of the cause's
+    Eigen::Index column;  ///< among those of all causes
+    Eigen::VectorXd z;    ///< [parameters of the cause]
+  };
+
+  static std::vector<WantedParameter> Wanted(const FaultModelList& causes, const Eigen::VectorXd& z,
+                                             const std::vector<bool>& wanted);
+  void Collect(const FaultContext& at);
+  Status AddPushes(const FaultContext& at, Eigen::MatrixXd* jacobian_m);
+  void Observe(const FaultContext& at);
+  void ShowTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
+  void ShowSkinTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
+
+  const ModelHypothesis& hypothesis_;
+  std::vector<WantedParameter> parameters_;  ///< one cause after the other
+  Eigen::Index parameter_count_;             ///< of all causes, those that are not wanted, too
+  const std::vector<Eigen::MatrixXd>& drive_change_;
+  SampleSolver& solver_;
+  bool markers_seen_;  ///< of any marker there is a measurement
+  std::vector<robot::ObservationRow> marker_rows_;
+  std::vector<robot::ObservationRow> rows_;  ///< what is measured here, on the body
+  std::vector<Eigen::Index> coordinate_of_;  ///< [rows]
+  robot::PointSensitivity of_rows_;
+  robot::SensitivitySolver of_body_;
+  std::vector<robot::ParameterPtr> acting_;  ///< on the body, here
+  std::vector<Eigen::Index> column_of_;      ///< [acting] of the parameter
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "components/diagnosis/forward/marker_normals.hpp"
+#include "components/diagnosis/forward/measured_points.hpp"
+#include "components/diagnosis/forward/model_hypothesis.hpp"
+#include "components/diagnosis/forward/obstacle_balance.hpp"
+#include "components/diagnosis/forward/simulation.hpp"
+#include "libs/fem/interpolation_weights.hpp"
+#include "libs/robot/robot_model.hpp"
+#include "libs/robot/sensitivity/sensitivity_solver.hpp"
+
+namespace palpate::diagnosis {
+
+/// Equilibria of a draft's robot at single samples. For one thread.
+class SampleSolver {
+ public:
+  /// Both must outlive it.
+  SampleSolver(const ModelHypothesis& hypothesis, const ObservedExperiment& observed);
+
+  robot::RobotModel& model() { return model_; }
+  const fem::PointStress& points() const { return points_; }
+  /// [markers] points of the body that the markers sit at, offsets included.
+  const std::vector<fem::InterpolationWeights>& markers() const { return markers_; }
+
+  /// [3n] where the nodes would be on the finer mesh of which the draft has the error, of a body
+  /// with its nodes at `x_m` [3n].
+  Eigen::VectorXd OnFinerMesh(const Eigen::VectorXd& x_m) const;
+  /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
+  Sight SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
+  /// The same of the skin; features that nobody saw then are nowhere (0). A camera is there
+  /// wherever the recording has pictures.
+  Sight SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const;
+
+  /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
+  /// sample with `taken_in` [cables], a compliant base at what it gives way by.
+  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const HistoryVariables& past,
+             SimulatedSample* solved);
+  /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
+  bool IsNearObstacle(const fem::StaticState& state) const;
+  /// What a body will remember of where it is in the middle of `solved`; nothing (0) of one that
+  /// failed.
+  Memorable WhatIsMemorable(const HistoryVariables& past, const SimulatedSample& solved);
+  /// The same at rest with every command at zero and nothing on the body.
+  Memorable Rest();
+  /// Puts the model's moduli and gravity to what they are at a sample.
+  void Prepare(const Sample& sample, const HistoryVariables& past);
+  /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the drives.
+  void SetSliding(const Eigen::VectorXd& sliding);
+  /// [RubbingEyelets] friction coefficients.
+  Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, hypothesis_.body); }
+  /// About `shape`, which was solved last.
+  EyeletSlides SlidesAboutShape(const HeldShape& shape);
+
+ private:
+  std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
+  std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
+  Status Balance(const fem::LoadState& loads, HeldShape* shape);
+  Status GiveWay(fem::LoadState loads, HeldShape* shape);
+  Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
+  fem::LoadState LoadsOf(const Sample& sample,
+                         const std::vector<robot::CableCommand>& commands) const;
+  void HoldBase(fem::LoadState* loads) const;
+  void See(const Sample& sample, SimulatedSample* solved) const;
+  Eigen::VectorXd MeshErrorAt(const Eigen::VectorXd& x_m) const;
+
+  const ModelHypothesis& hypothesis_;
+  const ObservedExperiment& observed_;
+  fem::PointStress points_;
+  KeptStress kept_;                            ///< the first constraint after the cables
+  std::unique_ptr<ObstacleContact> obstacle_;  ///< the draft's, or none: the last
+  robot::RobotModel model_;
+  std::vector<RubbingEyelet> eyelets_;
+  std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the wall
+  robot::SensitivitySolver sensitivity_;
+  std::vector<fem::InterpolationWeights> markers_;
+  MarkerSkin skin_;
+  Eigen::VectorXd cell_volume_m3_;
+  Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
+  Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d base_middle_m_;
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "components/diagnosis/forward/eyelet_slides.hpp"
+#include "components/diagnosis/forward/kept_stress.hpp"
+#include "libs/core/status.hpp"
+#include "libs/fem/load_state.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::diagnosis {
+
+/// A shape of the body and what holds it.
+struct HeldShape {
+  double share = 1.0;    ///< of a sample's frames that it stands for
+  std::size_t part = 0;  ///< of its parts, in which it is
+  fem::StaticState state;
+  std::vector<robot::CableCommand> commands;
+  /// [nodes of ObstacleSurface] with which the draft's wall presses on the body; empty: nowhere.
+  Eigen::VectorXd obstacle_force_N;
+  Eigen::VectorXd seen_m;  ///< [coordinates] as SimulatedSample::seen_m
+
+  bool AtObstacle() const { return obstacle_force_N.size() > 0; }
+};
+
+/// What the past leaves for a sample: the body answers 1 + scale times as stiff, keeps stresses,
+/// and its cells are softened.
+struct HistoryVariables {
+  double scale = 0.0;
+  PointStresses stress_Pa;      ///< or empty: none
+  Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
+};
+
+/// What a body may remember of a moment.
+struct Memorable {
+  PointStresses elastic_Pa;     ///< without what the body remembers itself
+  Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material
+};
+
+/// One sample of a simulated experiment.
+struct SimulatedSample {
+  Status status;
+  HeldShape middle;
+  /// In a motion: one shape for each other set of cables that are taut in parts of it.
+  std::vector<HeldShape> beside;
+  std::size_t parts = 0;     ///< that these were chosen among; 0: not simulated yet
+  int choices = 0;           ///< how often they were chosen
+  bool turns_round = false;  ///< its parts differ in what slides, and each was simulated
+  Memorable in_the_middle;
+  /// In order of time, of robots with eyelets that rub: about the middle, or of all parts where it
+  /// turns_round. Empty: not known.
+  std::vector<EyeletSlides> slides;
+  /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
+  /// it is no other than in the middle.
+  std::array<Memorable, 2> at_ends;
+  /// [coordinates] mean over the sample: x, y, z of each marker, measurement frame, then each
+  /// feature of the skin along its normal (SkinSighting::measured_m); NaN: not known, or nobody
+  /// measured it.
+  Eigen::VectorXd seen_m;
+  Eigen::Index markers = 0;
+  Eigen::VectorXd bend_m;      ///< [coordinates] by which that mean is not where the middle is
+  bool bend_is_own = true;     ///< and not that of another robot
+  Eigen::MatrixXd jacobian_m;  ///< [coordinates x parameters] of them; 0: nobody measured it
+
+  /// [3 x markers] of seen_m.
+  Eigen::Map<const Eigen::Matrix3Xd> markers_m() const { return {seen_m.data(), 3, markers}; }
+};
+
+/// A simulated experiment.
+struct Simulation {
+  Status status;  ///< of the first sample that failed
+  std::vector<SimulatedSample> samples;
+  Memorable at_rest;                   ///< with every command at zero, as between recordings
+  Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (damage.hpp)
+  std::vector<HistoryVariables> past;  ///< [samples] with which they are in balance
+};
+
+/// What a column of Memory stands for.
+const Memorable& MemorableOf(const Simulation& simulation, Eigen::Index column);
+
+/// Adds the elastic stresses of all moments of Memory, each so often: `weights` [columns of it], of
+/// which those that matter nowhere are left out.
+void AddRemembered(const Simulation& simulation, const Eigen::VectorXd& weights,
+                   PointStresses* stress_Pa);
+
+}  // namespace palpate::diagnosis

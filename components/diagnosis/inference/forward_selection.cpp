@@ -1,0 +1,484 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/forward_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "components/diagnosis/inference/model_averaging.hpp"
+#include "libs/core/text.hpp"
+#include "libs/linalg/cholesky.hpp"
+#include "libs/linalg/qr.hpp"
+#include "libs/linalg/svd.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// ln of the mean of exp.
+double LogMeanExp(const std::vector<double>& values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double value : values) sum += std::exp(value - most);
+  return most + std::log(sum / static_cast<double>(values.size()));
+}
+
+/// Which of one name to simulate; `of_name`: the most probable first.
+std::vector<int> StartsOf(const HypothesisSet& hypotheses, const std::vector<Candidate>& of_name) {
+  constexpr std::size_t kMost = 3;
+  std::vector<int> starts;
+  for (const Candidate& one : of_name) {
+    const bool there = std::any_of(starts.begin(), starts.end(), [&](int k) {
+      return hypotheses.cause(k).Start() == hypotheses.cause(one.cause).Start();
+    });
+    if (!there && starts.size() < kMost) starts.push_back(one.cause);
+  }
+  return starts;
+}
+
+}  // namespace
+
+std::vector<int> With(std::vector<int> faults, int cause) {
+  faults.push_back(cause);
+  return faults;
+}
+
+std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
+                              const std::vector<int>& faults) {
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    const CauseName& name = hypotheses.cause(k).name();
+    const bool named = std::any_of(faults.begin(), faults.end(),
+                                   [&](int f) { return hypotheses.cause(f).name() == name; });
+    if (named || !hypotheses.CanBeFault(k)) continue;
+    const double ln_bayes_factor =
+        fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
+    by_name[{name.id, name.where}].push_back(
+        {.cause = k, .ln_bayes_factor = ln_bayes_factor, .ln_guessed = ln_bayes_factor});
+  }
+  std::vector<Candidate> candidates;
+  for (auto& [name, of_name] : by_name) {
+    std::stable_sort(of_name.begin(), of_name.end(), [](const auto& a, const auto& b) {
+      return a.ln_bayes_factor > b.ln_bayes_factor;
+    });
+    std::vector<double> values;
+    for (const Candidate& one : of_name) values.push_back(one.ln_bayes_factor);
+    Candidate best = of_name.front();
+    best.ln_bayes_factor = LogMeanExp(values);
+    best.starts = StartsOf(hypotheses, of_name);
+    candidates.push_back(std::move(best));
+  }
+  SortByEvidence(&candidates);
+  return candidates;
+}
+
+void SortByEvidence(std::vector<Candidate>* candidates) {
+  std::sort(candidates->begin(), candidates->end(),
+            [](const auto& a, const auto& b) { return a.ln_bayes_factor > b.ln_bayes_factor; });
+}
+
+double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
+                            int b) {
+  const GaussianPrior prior = hypotheses.PriorWith({});
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
+    const bool own = (p >= hypotheses.first(a) && p < hypotheses.first(a) + hypotheses.count(a)) ||
+                     (p >= hypotheses.first(b) && p < hypotheses.first(b) + hypotheses.count(b));
+    if (prior.sigma[p] > 0.0 && !own) free.push_back(p);
+  }
+  const Eigen::VectorXd sigma = prior.sigma(free);
+  const Eigen::MatrixXd clutter = model.J(Eigen::all, free) * sigma.asDiagonal();
+  Eigen::MatrixXd A = clutter.transpose() * clutter;
+  A.diagonal().array() += 1.0;
+  const linalg::Cholesky factor(A);
+  const auto basis = [&](int k) -> Eigen::MatrixXd {
+    Eigen::MatrixXd effect = model.J.middleCols(hypotheses.first(k), hypotheses.count(k));
+    effect -= clutter * factor.Solve(Eigen::MatrixXd(clutter.transpose() * effect));
+    return linalg::OrthonormalBasis(effect);
+  };
+  const Eigen::MatrixXd of_a = basis(a);
+  const Eigen::MatrixXd of_b = basis(b);
+  if (of_a.size() == 0 || of_b.size() == 0) return 0.0;
+  return std::min(1.0, linalg::SingularValues(of_a.transpose() * of_b)[0]);
+}
+
+namespace {
+
+constexpr double kBeyondTolerance = 3.0;
+
+/// By how many sigmas the data exclude a healthy robot, of a cause with sizes that begin at nothing
+/// beside such as a healthy robot may have: of these the likeliest where the others are nothing. 0:
+/// it has none of them. Data may tell the sum of a delay and a time constant, and neither of them.
+double SigmasFromHealthy(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+  std::vector<Eigen::Index> tolerated;
+  std::vector<double> tolerance;
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
+    const Eigen::Index column = hypotheses.first(cause) + p;
+    const FaultParameter& parameter =
+        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)];
+    if (!(posterior.covariance(column, column) > 0.0)) continue;  // it is at its bound
+    if (const double own = hypotheses.ToleranceOf(cause, static_cast<int>(p)); own > 0.0) {
+      tolerated.push_back(column);
+      tolerance.push_back(own);
+    } else if (parameter.scale == FaultParameter::Scale::kLinear && parameter.least == 0.0) {
+      others.push_back(column);
+    }
+  }
+  if (others.empty()) return 0.0;
+  const Eigen::MatrixXd& covariance = posterior.covariance;
+  const Eigen::VectorXd gone = posterior.mean(others);
+  const Eigen::VectorXd reach =
+      kBeyondTolerance * Eigen::VectorXd::Map(tolerance.data(), std::ssize(tolerance));
+  const Eigen::MatrixXd covariance_of_others = covariance(others, others);
+  const Eigen::MatrixXd both = covariance(tolerated, others);
+  const Eigen::VectorXd likeliest =
+      posterior.mean(tolerated) - both * linalg::SolveSymmetric(covariance_of_others, gone);
+  Eigen::VectorXd off(std::ssize(tolerated) + std::ssize(others));
+  off << posterior.mean(tolerated) - likeliest.cwiseMax(-reach).cwiseMin(reach), gone;
+  std::vector<Eigen::Index> all = tolerated;
+  all.insert(all.end(), others.begin(), others.end());
+  const Eigen::MatrixXd covariance_of_all = covariance(all, all);
+  return std::sqrt(off.dot(linalg::SolveSymmetric(covariance_of_all, off)));
+}
+
+/// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
+/// robot has nothing of, of which the evidence says all.
+double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+  double most = -1.0;
+  double squares = 0.0;
+  int components = 0;
+  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
+    const double tolerance = hypotheses.ToleranceOf(cause, static_cast<int>(p));
+    if (tolerance <= 0.0) continue;
+    const double size = std::abs(posterior.mean[hypotheses.first(cause) + p]) / tolerance;
+    if (hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)].component) {
+      squares += size * size;
+      ++components;
+    } else {
+      most = std::max(most, size);
+    }
+  }
+  // The tolerance of a vector's length is by that root more than that of each of its components.
+  if (components > 0) most = std::max(most, std::sqrt(squares / components));
+  const bool beyond = SigmasFromHealthy(hypotheses, posterior, cause) > kBeyondTolerance;
+  return most < 0.0 || beyond ? std::numeric_limits<double>::infinity() : most;
+}
+
+/// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence
+/// for such a one is of fits that did not come to their ends. A wall that nearly touches is one.
+bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+  constexpr double kClearly_sigmas = 2.0;
+  if (hypotheses.cause(cause).Start()) return false;
+  std::vector<Eigen::Index> sizes;
+  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
+    const Eigen::Index column = hypotheses.first(cause) + p;
+    const bool qualifies =
+        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)].qualifies;
+    if (!qualifies && posterior.covariance(column, column) > 0.0) sizes.push_back(column);
+  }
+  if (sizes.empty()) return false;
+  const Eigen::VectorXd z = posterior.mean(sizes);
+  const Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
+  return z.dot(linalg::SolveSymmetric(covariance, z)) <
+         kClearly_sigmas * kClearly_sigmas * static_cast<double>(sizes.size());
+}
+
+}  // namespace
+
+std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+  if (SizeInTolerances(hypotheses, posterior, cause) < kBeyondTolerance) {
+    return "it is within what a healthy robot may have";
+  }
+  if (MayBeNothing(hypotheses, posterior, cause)) {
+    return "what is known of its size does not exclude that there is nothing of it";
+  }
+  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
+    const FaultParameter& parameter =
+        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)];
+    const double z = posterior.mean[hypotheses.first(cause) + p];
+    if (std::abs(z) <= parameter.plausible) continue;
+    return "no robot has so much of it (" + parameter.name + " = " +
+           FormatNumber(parameter.ValueOf(z)) + "): something else looks like it";
+  }
+  return {};
+}
+
+namespace {
+
+constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
+constexpr double kMayGetClear = 5.0;     ///< ln BF that a further cause promises before
+constexpr std::size_t kMostRefined = 4;  ///< in a round
+constexpr int kMostRounds = 2;
+constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
+
+}  // namespace
+
+double AlikeWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival) {
+  constexpr double kSameEffect = 0.95;
+  const bool same =
+      rival.canonical_correlation > kSameEffect && !hypotheses.IsSpecialCase(rival.cause, named);
+  return same ? kClearEvidence : kAlikeEvidence;
+}
+
+bool ForwardSelectionStep::Look() {
+  candidates_ = Screen(fitter_, before_, before_.faults);
+  if (likely_) TryOut(*likely_);
+  if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlikeEvidence) {
+    Explain();
+    return false;
+  }
+  const CrossValidation held_out = LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
+  for (int round = 0; round < kMostRounds && found_ >= candidates_.size(); ++round) {
+    if (round > 0 && !AreOthersPromising()) break;
+    RefineTheBest();
+    FindOneThatIsClear(held_out);
+  }
+  Explain();
+  return found_ < candidates_.size();
+}
+
+std::vector<Candidate> ForwardSelectionStep::Alike() const {
+  std::vector<Candidate> alike;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const Candidate& rival = candidates_[k];
+    const double behind = candidates_[found_].ln_bayes_factor - rival.ln_bayes_factor;
+    if (k == found_ || rival.ruled_out || IsSpecialCaseOf(found_, k)) continue;
+    const double within = AlikeWithin(fitter_.hypotheses(), candidates_[found_].cause, rival);
+    if (behind < within) alike.push_back(rival);
+  }
+  return alike;
+}
+
+bool ForwardSelectionStep::IsSpecialCaseOf(std::size_t special, std::size_t k) const {
+  return fitter_.hypotheses().IsSpecialCase(candidates_[special].cause, candidates_[k].cause);
+}
+
+void ForwardSelectionStep::TryOut(const CauseName& name) {
+  const auto tried = std::find_if(
+      candidates_.begin(), candidates_.end(),
+      [&](const Candidate& one) { return fitter_.hypotheses().cause(one.cause).name() == name; });
+  if (tried == candidates_.end()) return;
+  tried_ = fitter_.WithFaults(With(before_.faults, tried->cause), before_);
+  if (!tried_.status.ok()) return;
+  tried->ln_guessed = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;
+  tried->ln_bayes_factor = tried->ln_guessed;
+  SortByEvidence(&candidates_);
+}
+
+bool ForwardSelectionStep::AreOthersPromising() const {
+  const std::size_t next = fits_.size();
+  if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
+  if (candidates_[next].ln_bayes_factor < kClearEvidence) return false;
+  for (std::size_t k = 0; k < fits_.size(); ++k) {
+    const Candidate& tried = candidates_[k];
+    const bool can_be = !tried.ruled_out && tried.ln_bayes_factor >= kClearEvidence;
+    if (can_be && !PromisesAnotherMoreThan(k)) return false;
+  }
+  return true;
+}
+
+bool ForwardSelectionStep::PromisesAnotherMoreThan(std::size_t k) const {
+  const std::size_t next = fits_.size();
+  return next < candidates_.size() &&
+         candidates_[next].ln_bayes_factor > candidates_[k].ln_bayes_factor + kWorthALook;
+}
+
+void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& held_out) {
+  for (std::size_t k = 0; k < fits_.size(); ++k) {
+    if (!candidates_[k].why_not.empty() || PromisesAnotherMoreThan(k)) continue;
+    if (!IsClear(held_out, k)) continue;
+    found_ = k;
+    return;
+  }
+}
+
+void ForwardSelectionStep::PutSpecialCasesNext(std::size_t first, std::size_t end) {
+  for (std::size_t k = first; k < end; ++k) {
+    for (std::size_t special = k + 1; special < candidates_.size(); ++special) {
+      if (!IsSpecialCaseOf(special, k)) continue;
+      const auto next = candidates_.begin() + static_cast<std::ptrdiff_t>(k + 1);
+      std::rotate(next, candidates_.begin() + static_cast<std::ptrdiff_t>(special),
+                  candidates_.begin() + static_cast<std::ptrdiff_t>(special + 1));
+    }
+  }
+}
+
+void ForwardSelectionStep::RefineTheBest() {
+  const std::size_t first = fits_.size();
+  const std::size_t end = std::min(first + kMostRefined, candidates_.size());
+  PutSpecialCasesNext(first, end);
+  const double least = before_.faults.empty() ? kAlikeEvidence : kMayGetClear;
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = first; k < end; ++k) {
+    Candidate& candidate = candidates_[k];
+    const bool special = k > first && IsSpecialCaseOf(k, k - 1);
+    if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
+    if (k > 0 && fitter_.IsOutOfTime()) break;
+    Fit fit = RefineFromItsStarts(&candidate);
+    const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
+    candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_guessed : kImpossible;
+    candidate.refined = true;
+    // Where one gains on what was guessed of it, another may, too.
+    best = std::max(best, std::min(candidate.ln_guessed, candidate.ln_bayes_factor));
+    fits_.push_back(std::move(fit));
+  }
+  SortRefined();
+  // Out of time, only what may be named is completed (IsClear).
+  for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
+    const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
+    // How likely a further one is that cannot get clear, nobody asks.
+    if (behind < kAlikeEvidence && candidates_[k].ln_bayes_factor >= least) Complete(k);
+  }
+  SortRefined();
+}
+
+Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
+  constexpr int kRoundsToCompare = 3;
+  if (candidate->starts.size() < 2) {
+    const std::vector<int> faults = With(before_.faults, candidate->cause);
+    const bool was_tried = tried_.status.ok() && tried_.faults == faults;
+    return fitter_.Refine(faults, was_tried ? tried_ : before_);
+  }
+  Fit best;
+  for (const int cause : candidate->starts) {
+    if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
+    Fit fit =
+        fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare, Detail::kMiddles);
+    const bool better = fit.status.ok() && (!best.status.ok() ||
+                                            fit.posterior.ln_evidence > best.posterior.ln_evidence);
+    if (!better && !best.faults.empty()) continue;
+    candidate->cause = cause;
+    best = std::move(fit);
+  }
+  const bool hopeless = best.posterior.ln_evidence < before_.posterior.ln_evidence;
+  if (!best.status.ok() || hopeless) return best;
+  return fitter_.Refine(best.faults, best);
+}
+
+void ForwardSelectionStep::Complete(std::size_t k) {
+  if (fits_[k].arrived) return;
+  const double before = fits_[k].posterior.ln_evidence;
+  fits_[k] = AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].cause);
+  const double now = fits_[k].posterior.ln_evidence;
+  candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
+}
+
+void ForwardSelectionStep::SortRefined() {
+  std::vector<std::size_t> order(fits_.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return candidates_[a].ln_bayes_factor > candidates_[b].ln_bayes_factor;
+  });
+  std::vector<Candidate> sorted = candidates_;
+  std::vector<Fit> fits;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    sorted[k] = candidates_[order[k]];
+    fits.push_back(std::move(fits_[order[k]]));
+  }
+  candidates_ = std::move(sorted);
+  fits_ = std::move(fits);
+}
+
+bool ForwardSelectionStep::IsClear(const CrossValidation& before, std::size_t k) {
+  Candidate& candidate = candidates_[k];
+  if (candidate.ln_bayes_factor >= kClearEvidence) Complete(k);
+  if (candidate.ln_bayes_factor < kClearEvidence) {
+    candidate.why_not = "the evidence for it is not clear (ln BF " +
+                        FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+    return false;
+  }
+  candidate.why_not = WhyNoFault(fitter_.hypotheses(), fits_[k].posterior, candidate.cause);
+  candidate.ruled_out = !candidate.why_not.empty();
+  if (candidate.ruled_out) return false;
+  const CrossValidation after = LeaveOneOut(fitter_.hypotheses(), fits_[k].model, fits_[k].faults);
+  Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
+  choice.held_out = Compare(before, after);
+  for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
+    choice.ln_gain_of_recording.push_back(after.ln_predicted[r] - before.ln_predicted[r]);
+  }
+  if (!choice.held_out.clear && SeenIn(k) > 1 && !KeepsTolerances(k)) {
+    candidate.why_not =
+        "with it recordings that it was not fitted to are predicted no better (ln BF " +
+        FormatNumber(std::round(10.0 * choice.held_out.ln_gain) / 10.0) + ", " +
+        FormatNumber(std::round(100.0 * choice.held_out.relative)) +
+        " % of the error beyond the noise)";
+    return false;
+  }
+  choice.probability = Probability(k);
+  choice_ = std::move(choice);
+  return true;
+}
+
+double ForwardSelectionStep::Probability(std::size_t k) const {
+  const double ln_share = -std::log(static_cast<double>(candidates_.size()));
+  double others = std::exp(-candidates_[k].ln_bayes_factor - ln_share);
+  for (std::size_t other = 0; other < candidates_.size(); ++other) {
+    if (candidates_[other].ruled_out) continue;
+    others += std::exp(candidates_[other].ln_bayes_factor - candidates_[k].ln_bayes_factor);
+  }
+  return 1.0 / others;
+}
+
+bool ForwardSelectionStep::KeepsTolerances(std::size_t k) const {
+  const std::vector<Eigen::Index> own = fitter_.hypotheses().ParametersOf(fits_[k].faults);
+  const GaussianPrior prior = fitter_.hypotheses().PriorWith({});
+  const auto off = [&](const Fit& fit) {
+    double sum = 0.0;
+    for (Eigen::Index p = 0; p < prior.sigma.size(); ++p) {
+      const bool is_own = std::find(own.begin(), own.end(), p) != own.end();
+      if (is_own || prior.sigma[p] == 0.0) continue;
+      sum += std::pow(fit.posterior.mean[p] / prior.sigma[p], 2);
+    }
+    return sum;
+  };
+  return off(before_) - off(fits_[k]) > 2.0 * kClearEvidence;
+}
+
+int ForwardSelectionStep::SeenIn(std::size_t k) const {
+  constexpr double kClearly = 5.0;
+  int recordings = 0;
+  Eigen::Index first = 0;
+  Eigen::Index first_before = 0;
+  for (std::size_t r = 0; r < observed_.recordings.size(); ++r) {
+    const auto misfit = [&](const Fit& fit, Eigen::Index begin) {
+      const Eigen::Index rows = fit.model.of_recording[r].rows;
+      return (fit.model.y.segment(begin, rows) -
+              fit.model.J.middleRows(begin, rows) * fit.posterior.mean)
+          .squaredNorm();
+    };
+    const double gain = 0.5 * (misfit(before_, first_before) - misfit(fits_[k], first));
+    if (gain > kClearly) ++recordings;
+    first += fits_[k].model.of_recording[r].rows;
+    first_before += before_.model.of_recording[r].rows;
+  }
+  return recordings;
+}
+
+void ForwardSelectionStep::Explain() {
+  const HypothesisSet& hypotheses = fitter_.hypotheses();
+  const int first = found_ < candidates_.size() ? candidates_[found_].cause : -1;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    Candidate& candidate = candidates_[k];
+    if (first >= 0 && k != found_) {
+      candidate.canonical_correlation =
+          CanonicalCorrelation(hypotheses, before_.model, first, candidate.cause);
+    }
+    if (k == found_ || !candidate.why_not.empty()) continue;
+    if (k < fits_.size() && PromisesAnotherMoreThan(k)) {
+      candidate.why_not = "another cause that promises more was not simulated";
+      continue;
+    }
+    candidate.why_not =
+        first >= 0 ? "another cause explains more"
+                   : "the evidence for it is not clear (ln BF " +
+                         FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
+  }
+}
+
+}  // namespace palpate::diagnosis

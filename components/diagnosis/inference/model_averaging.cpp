@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/inference/model_averaging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "components/diagnosis/inference/forward_selection.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// What a linear model says of the cause at another of its places.
+struct Elsewhere {
+  int cause = -1;
+  Posterior posterior;
+};
+
+std::vector<int> Moved(std::vector<int> faults, int from, int to) {
+  std::replace(faults.begin(), faults.end(), from, to);
+  return faults;
+}
+
+std::vector<Elsewhere> LookElsewhere(const Fitter& fitter, const Fit& fit, int cause) {
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  std::vector<Elsewhere> places;
+  for (int k = 0; k < hypotheses.size(); ++k) {
+    if (k == cause || !(hypotheses.cause(k).name() == hypotheses.cause(cause).name())) continue;
+    places.push_back({k, fitter.Guess(fit, Moved(fit.faults, cause, k))});
+  }
+  return places;
+}
+
+/// z of the one's parameters [parameters], counted from where the other's count.
+Eigen::VectorXd CountedFrom(const FaultModel& other, const FaultModel& one, Eigen::VectorXd z) {
+  for (std::size_t p = 0; p < one.parameters().size(); ++p) {
+    const FaultParameter& from = one.parameters()[p];
+    const FaultParameter& to = other.parameters()[p];
+    if (from.nominal == to.nominal) continue;
+    z[static_cast<Eigen::Index>(p)] += from.scale == FaultParameter::Scale::kFactor
+                                           ? std::log(from.nominal / to.nominal)
+                                           : from.nominal - to.nominal;
+  }
+  return z;
+}
+
+}  // namespace
+
+Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* cause) {
+  constexpr int kMostMoves = 2;
+  constexpr double kClearly = 2.0;                                        // of ln evidence
+  if (fitter.hypotheses().cause(*cause).Start().has_value()) return fit;  // all were tried
+  for (int move = 0; move < kMostMoves && fit.status.ok() && !fitter.IsOutOfTime(); ++move) {
+    const std::vector<Elsewhere> places = LookElsewhere(fitter, fit, *cause);
+    const auto best =
+        std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
+          return a.posterior.ln_evidence < b.posterior.ln_evidence;
+        });
+    const double least = fit.posterior.ln_evidence + kClearly;
+    if (best == places.end() || best->posterior.ln_evidence < least) break;
+    Fit there = fitter.Complete(fitter.Refine(Moved(fit.faults, *cause, best->cause), fit));
+    if (!there.status.ok() || there.posterior.ln_evidence < least) break;
+    *cause = best->cause;
+    fit = std::move(there);
+  }
+  return fit;
+}
+
+Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int cause) {
+  const HypothesisSet& hypotheses = fitter.hypotheses();
+  const Eigen::Index first = hypotheses.first(cause);
+  const Eigen::Index count = hypotheses.count(cause);
+  Eigen::MatrixXd sum = fit.posterior.covariance.block(first, first, count, count);
+  if (hypotheses.cause(cause).Start().has_value()) return sum;
+  const Eigen::VectorXd mean = fit.posterior.mean.segment(first, count);
+  double weights = 1.0;
+  for (const auto& [k, posterior] : LookElsewhere(fitter, fit, cause)) {
+    // No more than the fit's own: what promised more did not keep it.
+    const double weight =
+        std::exp(std::min(0.0, posterior.ln_evidence - fit.posterior.ln_evidence));
+    const Eigen::VectorXd off = CountedFrom(hypotheses.cause(cause), hypotheses.cause(k),
+                                            posterior.mean.segment(hypotheses.first(k), count)) -
+                                mean;
+    sum += weight *
+           (posterior.covariance.block(hypotheses.first(k), hypotheses.first(k), count, count) +
+            off * off.transpose());
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+std::vector<FurtherCause> FurtherCauses(const Fitter& fitter, const Fit& fit) {
+  constexpr double kOfWeight = 0.02;
+  const std::vector<Candidate> candidates = Screen(fitter, fit, fit.faults);
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, candidates.size()));
+  std::vector<FurtherCause> further;
+  for (const Candidate& candidate : candidates) {
+    // A linear model that says more was not borne out, or it would have been named.
+    const double weight = std::min(1.0, share * std::exp(candidate.ln_bayes_factor));
+    if (weight < kOfWeight) continue;
+    further.push_back({.cause = candidate.cause,
+                       .weight = weight,
+                       .posterior = fitter.Guess(fit, With(fit.faults, candidate.cause))});
+  }
+  return further;
+}
+
+Eigen::MatrixXd CovarianceBeside(const HypothesisSet& hypotheses, const Fit& fit, int cause,
+                                 const std::vector<FurtherCause>& further,
+                                 const Eigen::MatrixXd& without) {
+  const Eigen::Index first = hypotheses.first(cause);
+  const Eigen::Index count = hypotheses.count(cause);
+  Eigen::MatrixXd sum = without;
+  double weights = 1.0;
+  for (const FurtherCause& other : further) {
+    const Eigen::VectorXd off =
+        other.posterior.mean.segment(first, count) - fit.posterior.mean.segment(first, count);
+    sum += other.weight *
+           (other.posterior.covariance.block(first, first, count, count) + off * off.transpose());
+    weights += other.weight;
+  }
+  return sum / weights;
+}
+
+}  // namespace palpate::diagnosis

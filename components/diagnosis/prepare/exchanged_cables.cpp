@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/prepare/exchanged_cables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "components/diagnosis/faults/makers.hpp"
+#include "components/diagnosis/forward/simulator.hpp"
+#include "components/diagnosis/surface/surface_matcher.hpp"
+#include "libs/geometry/closest_point.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// Points that lie farther off the skin are of something else, or on a leg that is elsewhere.
+constexpr double kFarthest_m = 0.03;
+/// Points of a picture that are looked at, about as many.
+constexpr Eigen::Index kPoints = 500;
+/// Another robot is taken for it where the mean square of what points are off by is so much less.
+constexpr double kClearlyLess = 0.5;
+
+/// How much more of its way than all cables in the mean one is pulled; NaN: it is not driven then.
+double PulledApart(const Timeline& timeline, const Eigen::VectorXd& most, const Sample& sample,
+                   Eigen::Index cable) {
+  const double t_s = 0.5 * (sample.frame_t_s.front() + sample.frame_t_s.back());
+  const Eigen::VectorXd share = timeline.CommandAt(t_s).cwiseQuotient(most);
+  return share[cable] - share.array().isNaN().select(0.0, share.array()).mean();
+}
+
+bool SeesTheRobot(const Sample& sample, bool in_pictures) {
+  return in_pictures ? !sample.pictures.empty() : (sample.count.array() > 0).any();
+}
+
+/// The samples that see the robot in which each of the cables is pulled apart from the others the
+/// most.
+ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_pictures) {
+  const Timeline& timeline = observed.timeline;
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
+  for (const Eigen::VectorXd& command : timeline.command) {
+    most = command.array().isNaN().select(most, command.cwiseMax(most));
+  }
+  std::set<std::size_t> telling;
+  for (Eigen::Index c = 0; c < most.size(); ++c) {
+    double farthest = 0.0;
+    std::size_t best = observed.samples.size();
+    for (std::size_t s = 0; s < observed.samples.size(); ++s) {
+      if (!SeesTheRobot(observed.samples[s], in_pictures)) continue;
+      const double apart = PulledApart(timeline, most, observed.samples[s], c);
+      if (!(apart > farthest)) continue;
+      farthest = apart;
+      best = s;
+    }
+    if (best < observed.samples.size()) telling.insert(best);
+  }
+  std::vector<Sample> samples;
+  for (const std::size_t s : telling) samples.push_back(std::move(observed.samples[s]));
+  observed.samples = std::move(samples);
+  return observed;
+}
+
+/// What a robot's simulation is off by from where it was seen: mean squares, m2; NaN where that is
+/// not known.
+class Distance {
+ public:
+  /// Both must outlive it. Looks at the pictures from where `as_in_file` stands.
+  Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
+           SkinSource* pictures, const ModelHypothesis& as_in_file)
+      : telling_(telling),
+        simulator_(telling, threads),
+        surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
+    if (pictures == nullptr) return;
+    SkinMatcher matcher(body);
+    matcher.Look(telling, simulator_.Shapes(as_in_file, simulator_.Run(as_in_file)), pictures);
+    clouds_ = matcher.clouds();
+  }
+
+  double MeanSquareOf_m2(const ModelHypothesis& hypothesis) {
+    const Simulation simulation = simulator_.Run(hypothesis);
+    if (!simulation.status.ok()) return std::numeric_limits<double>::quiet_NaN();
+    sum_m2_ = 0.0;
+    count_ = 0.0;
+    if (clouds_.empty()) {
+      AddMarkers(simulation);
+    } else {
+      AddClouds(simulator_.Shapes(hypothesis, simulation));
+    }
+    return sum_m2_ / count_;
+  }
+
+ private:
+  void Add(double distance_m) {
+    sum_m2_ += std::pow(std::min(distance_m, kFarthest_m), 2);
+    ++count_;
+  }
+
+  void AddMarkers(const Simulation& simulation) {
+    for (std::size_t s = 0; s < telling_.samples.size(); ++s) {
+      const Sample& sample = telling_.samples[s];
+      for (Eigen::Index m = 0; m < sample.count.size(); ++m) {
+        if (sample.count[m] == 0) continue;
+        Add((simulation.samples[s].markers_m().col(m) - sample.position_m.col(m)).norm());
+      }
+    }
+  }
+
+  void AddClouds(const std::vector<ShapesInTime>& shapes) {
+    for (std::size_t s = 0; s < clouds_.size(); ++s) {
+      const auto r = static_cast<std::size_t>(telling_.samples[s].recording);
+      const Eigen::Isometry3d T_robot_camera = telling_.recordings[r].T_camera_robot->inverse();
+      for (const SeenCloud& seen : clouds_[s]) {
+        surface_.Refit(shapes[s].At(seen.picture.t_s, shapes[s].nodes_m).cast<double>());
+        const Eigen::Index step = std::max<Eigen::Index>(1, seen.cloud.points_m.cols() / kPoints);
+        for (Eigen::Index k = 0; k < seen.cloud.points_m.cols(); k += step) {
+          Add(surface_.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>())
+                  .distance_m);
+        }
+      }
+    }
+  }
+
+  const ObservedExperiment& telling_;
+  Simulator simulator_;
+  geometry::SurfaceIndex surface_;
+  SkinClouds clouds_;
+  double sum_m2_ = 0.0;
+  double count_ = 0.0;
+};
+
+}  // namespace
+
+NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
+                                 int threads, SkinSource* pictures) {
+  NearestRobot nearest{.hypothesis = DraftOf(body, observed)};
+  const ModelHypothesis as_in_file = nearest.hypothesis;
+  const ObservedExperiment telling = OfMostPulled(observed, pictures != nullptr);
+  Distance distance(body, telling, threads, pictures, as_in_file);
+  double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
+  std::vector<FaultModelPtr> exchanges;
+  MakeSwappedCables({.body = body, .observed = telling}, &exchanges);
+  for (const FaultModelPtr& exchange : exchanges) {
+    ModelHypothesis hypothesis = as_in_file;
+    exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
+    const double mean_m2 = distance.MeanSquareOf_m2(hypothesis);
+    if (!(mean_m2 < least_m2)) continue;
+    least_m2 = mean_m2;
+    nearest = {std::move(hypothesis), exchange->name()};
+  }
+  return nearest;
+}
+
+}  // namespace palpate::diagnosis

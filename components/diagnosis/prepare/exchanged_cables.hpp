@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+
+#include "components/diagnosis/forward/fault_model.hpp"
+#include "components/diagnosis/surface/surface_source.hpp"
+
+namespace palpate::diagnosis {
+
+/// A robot and what it has that the file's has not.
+struct NearestRobot {
+  ModelHypothesis hypothesis;
+  std::optional<CauseName> exchanged = {};  ///< the cables; none: it is the file's
+};
+
+/// Which robot stands nearest to where it was seen: the robot file's, or one with two of its cables
+/// exchanged, if that is clearly nearer. Exchanged cables bend it so far to another side that a
+/// linear model about the file's tells nothing of them, and little of its skin would be matched.
+/// All are tried, at one moment for each cable, of when that is pulled the most. `pictures`:
+/// nullptr where there are none; what they show goes before markers.
+NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
+                                 int threads, SkinSource* pictures);
+
+}  // namespace palpate::diagnosis

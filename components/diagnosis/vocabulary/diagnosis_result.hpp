@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpate::diagnosis {
+
+/// A parameter of a cause with its 95 % interval; name and unit as in DIAGNOSIS, "Conventions".
+struct FittedParameter {
+  std::string name;
+  double value = 0.0;
+  double ci95_low = 0.0;
+  double ci95_high = 0.0;
+};
+
+/// What is said of a robot's simulation (DIAGNOSIS, "Method").
+enum class Verdict {
+  kNoFault,            ///< what it gets wrong is within noise and building tolerances
+  kCause,              ///< the causes named explain the gap
+  kIndistinguishable,  ///< there is a gap, and these data fit two causes or more alike
+  kPartlyExplained,    ///< a cause is named, and a gap beyond the noise remains
+  kUnexplained,        ///< there is a gap that no cause of the catalogue explains
+  kDataUnfit,          ///< the data cannot tell; `reason` says why
+};
+
+/// As verdict.json spells them: no_fault, cause, indistinguishable, ...
+std::string ToString(Verdict verdict);
+
+/// A cause of the catalogue at one place of the robot.
+struct CauseName {
+  std::string id;                  ///< of DIAGNOSIS, "Catalogue"
+  std::vector<std::string> where;  ///< "cable:north", "region:leg_north", "body", "base", "camera"
+
+  bool operator==(const CauseName&) const = default;
+};
+
+/// A cause that was named.
+struct NamedCause {
+  CauseName name;
+  std::string words;  ///< for people: "friction of cable north"
+  std::vector<FittedParameter> parameters;
+  double probability = 0.0;          ///< in (0, 0.99]
+  double ln_bayes_factor = 0.0;      ///< against the same model without it
+  double explained_share = 0.0;      ///< of what tolerances leave beyond noise (gap.hpp)
+  bool cross_validated = false;      ///< it lowers the error in recordings it was not fitted to
+  std::vector<std::string> seen_in;  ///< recordings that speak for it
+};
+
+/// A cause that was not named, and why.
+struct Rival {
+  CauseName name;
+  std::string words;
+  double probability = 0.0;
+  double ln_bayes_factor = 0.0;  ///< against the healthy robot
+  double canonical_correlation =
+      0.0;  ///< canonical correlation with the first named cause, in [0, 1]
+  std::string why_not;
+};
+
+/// RMS over the coordinates of all markers in one recording, m. NaN where it is not known.
+struct RecordingGap {
+  std::string name;
+  std::string kind;
+  int samples = 0;                ///< moments that were compared
+  double before_m = 0.0;          ///< the simulation as the robot file has it
+  double healthy_m = 0.0;         ///< fitted within the building tolerances
+  double after_m = 0.0;           ///< with the causes that were named
+  double heldout_before_m = 0.0;  ///< healthy robot, fitted to the other recordings
+  double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
+  double noise_m = 0.0;           ///< what measuring alone leaves
+};
+
+/// RMS over all recordings, m.
+struct GapSummary {
+  double before_m = 0.0;
+  double after_m = 0.0;
+  double heldout_before_m = 0.0;  ///< as built, which is fitted to none
+  double heldout_after_m = 0.0;
+  double noise_m = 0.0;
+};
+
+/// One moment that simulation and robot were compared at.
+struct ComparedMoment {
+  int recording = 0;  ///< index into DiagnosisResult::recordings
+  double t_s = 0.0;
+  Eigen::VectorXd command;    ///< [cables] m or N as commanded; NaN: not driven
+  Eigen::Matrix3Xd before_m;  ///< [3 x markers] measured - simulated, robot frame; NaN: not seen
+  Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the healthy robot's fit)
+};
+
+/// What tells the causes apart that are left.
+struct ExperimentProposal {
+  std::string title;        ///< "ramp of cable north to 8 mm"
+  std::string by_hand;      ///< what a person does, empty: nothing: "hang 30 g on the tip"
+  CauseName first, second;  ///< the pair that it separates least well of those it is to separate
+  double expected_ln_bayes_factor = 0.0;
+};
+
+/// Forces on the body, in one recording throughout, that would do what the simulation leaves there.
+/// Without columns where nobody looked for forces.
+struct ResidualForces {
+  std::string recording;
+  Eigen::Matrix3Xd place_m;   ///< [3 x places] of the undeformed body, robot frame
+  Eigen::Matrix3Xd before_N;  ///< for what the robot file leaves, robot frame
+  Eigen::Matrix3Xd after_N;   ///< for what the named causes leave
+};
+
+/// The test of what is left that is least like noise (GoodnessOfFit).
+struct Leftover {
+  bool is_noise = false;
+  std::string test;
+  double surprise = 0.0;
+  double surprise_limit = 0.0;
+  double excess = 0.0;
+};
+
+/// Everything that a report says. Lists are sorted, the most important first.
+struct DiagnosisResult {
+  Verdict verdict = Verdict::kDataUnfit;
+  std::string reason;           ///< a sentence or two
+  bool search_complete = true;  ///< else it ended at its time limit
+  std::vector<NamedCause> causes;
+  std::vector<Rival> rivals;
+  std::vector<CauseName> indistinguishable_from;  ///< of the first cause
+  double no_fault_probability = 0.0;
+  double other_probability = 0.0;  ///< of something that the catalogue does not hold
+  Leftover leftover;
+  GapSummary gap;
+  std::vector<RecordingGap> recordings;
+  ResidualForces residual_forces;
+  std::vector<std::string> identities;  ///< what no data of this kind can tell, for people
+  std::vector<ExperimentProposal> experiments;
+
+  // What the figures are drawn from.
+  std::vector<std::string> cables;
+  std::vector<std::string> cable_units;  ///< [cables] "m" or "N" of ComparedMoment::command
+  std::vector<std::string> markers;
+  Eigen::Matrix3Xd marker_rest_m;              ///< [3 x markers], robot frame
+  Eigen::Matrix3Xd surface_m;                  ///< [3 x nodes] of the undeformed body
+  std::vector<std::array<int, 3>> triangles;   ///< of the surface
+  std::vector<ComparedMoment> moments;         ///< by recording and time
+  std::vector<std::string> correlation_names;  ///< causes of `correlation`
+  Eigen::MatrixXd correlation;                 ///< between the effects of the causes, in [-1, 1]
+
+  // How to repeat it.
+  std::string robot;      ///< name in the robot file
+  std::string data;       ///< as it was given
+  std::string data_hash;  ///< "sha256-..."
+  std::string version;
+  std::string command;
+  double duration_s = 0.0;
+};
+
+}  // namespace palpate::diagnosis

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/diagnosis/vocabulary/verdict_words.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "components/diagnosis/vocabulary/number_text.hpp"
+
+namespace palpate::diagnosis {
+
+namespace {
+
+/// More parameters than these stand in the table only.
+constexpr std::size_t kMostParameters = 2;
+constexpr std::size_t kMostRuledOut = 4;
+/// Who is less probable than that counts as ruled out.
+constexpr double kRuledOut = 0.05;
+
+std::string Capitalised(std::string text) {
+  if (!text.empty()) {
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  }
+  return text;
+}
+
+/// A sentence ends with one full stop.
+std::string Sentence(std::string text) {
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text.empty() ? text : text + ".";
+}
+
+std::string JoinedOrNone(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+  return text.empty() ? "none" : text;
+}
+
+std::string WordsOf(const NamedCause& cause, const DiagnosisResult& result) {
+  return WordsFor(cause.name, result);
+}
+
+/// "friction of cable north, mu = 0.21 ± 0.02 (95 %), p = 0.97"
+std::string CauseText(const NamedCause& cause, const DiagnosisResult& result) {
+  std::string text = WordsOf(cause, result);
+  const std::size_t shown = std::min(cause.parameters.size(), kMostParameters);
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += ", " + DescribeParameter(cause.parameters[i]).whole;
+  }
+  const bool fitted = std::any_of(
+      cause.parameters.begin(), cause.parameters.end(),
+      [](const FittedParameter& parameter) { return parameter.ci95_high > parameter.ci95_low; });
+  if (fitted) text += " (95 %)";
+  return text + ", p = " + ProbabilityText(cause.probability);
+}
+
+std::string CausesText(const DiagnosisResult& result) {
+  std::vector<std::string> texts;
+  for (const NamedCause& cause : result.causes) texts.push_back(CauseText(cause, result));
+  std::string text;
+  for (const std::string& one : texts) text += (text.empty() ? "" : "; and ") + one;
+  return Capitalised(text);
+}
+
+std::vector<std::string> Names(const std::vector<CauseName>& names, const DiagnosisResult& result) {
+  std::vector<std::string> words;
+  for (const CauseName& name : names) words.push_back(WordsFor(name, result));
+  return words;
+}
+
+std::vector<std::string> RuledOut(const DiagnosisResult& result) {
+  std::vector<std::string> words;
+  const auto& alike = result.indistinguishable_from;
+  for (const Rival& rival : result.rivals) {
+    const bool is_alike = std::find(alike.begin(), alike.end(), rival.name) != alike.end();
+    if (is_alike || !(rival.probability < kRuledOut) || words.size() == kMostRuledOut) continue;
+    words.push_back(WordsFor(rival.name, result));
+  }
+  return words;
+}
+
+std::vector<std::string> SeenIn(const DiagnosisResult& result) {
+  std::vector<std::string> names;
+  for (const NamedCause& cause : result.causes) {
+    for (const std::string& name : cause.seen_in) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::string Explained(const DiagnosisResult& result) {
+  const std::string of = " of the excess residual";
+  if (result.causes.size() == 1) return PercentText(result.causes[0].explained_share) + of;
+  std::vector<std::string> texts;
+  for (const NamedCause& cause : result.causes) {
+    texts.push_back(WordsOf(cause, result) + " " + PercentText(cause.explained_share));
+  }
+  return JoinedOrNone(texts) + of;
+}
+
+/// "4.1 → 0.8 mm (noise 0.7 mm)"
+std::string Change(double before_m, double after_m, double noise_m) {
+  return MillimetreText(before_m) + " \u2192 " + LengthText(after_m) + " (noise " +
+         LengthText(noise_m) + ")";
+}
+
+/// What the causes change.
+std::string Gain(const GapSummary& gap) {
+  if (std::isfinite(gap.heldout_before_m) && std::isfinite(gap.heldout_after_m)) {
+    return Change(gap.heldout_before_m, gap.heldout_after_m, gap.noise_m);
+  }
+  return "not known; where it was fitted " + Change(gap.before_m, gap.after_m, gap.noise_m);
+}
+
+/// What is wrong where no cause was named.
+std::string Error(const GapSummary& gap) {
+  std::string text = LengthText(gap.before_m) + " as the robot file has it";
+  if (std::isfinite(gap.heldout_before_m)) {
+    text += ", " + LengthText(gap.heldout_before_m) + " held out";
+  }
+  return text + " (noise " + LengthText(gap.noise_m) + ")";
+}
+
+void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
+  details->push_back({"Explains", Explained(result)});
+  details->push_back({"Held-out error", Gain(result.gap)});
+  details->push_back({"Seen in", JoinedOrNone(SeenIn(result))});
+  std::vector<std::string> once;
+  for (const NamedCause& cause : result.causes) {
+    if (!cause.cross_validated) once.push_back(WordsOf(cause, result));
+  }
+  if (!once.empty()) details->push_back({"Not cross-validated", JoinedOrNone(once)});
+  details->push_back({"Ruled out", JoinedOrNone(RuledOut(result))});
+  details->push_back(
+      {"Cannot be told apart from", JoinedOrNone(Names(result.indistinguishable_from, result))});
+}
+
+}  // namespace
+
+std::string Enumeration(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? " and " : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {
+  for (const NamedCause& cause : result.causes) {
+    if (cause.name == name && !cause.words.empty()) return cause.words;
+  }
+  for (const Rival& rival : result.rivals) {
+    if (rival.name == name && !rival.words.empty()) return rival.words;
+  }
+  if (name.id == "no_fault") return "a healthy robot";
+  return name.where.empty() ? name.id : name.id + " (" + JoinedOrNone(name.where) + ")";
+}
+
+std::string VerdictLabel(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoFault: return "No fault";
+    case Verdict::kCause: return "Cause found";
+    case Verdict::kIndistinguishable: return "Causes that cannot be told apart";
+    case Verdict::kPartlyExplained: return "Partly explained";
+    case Verdict::kUnexplained: return "Unexplained";
+    case Verdict::kDataUnfit: break;
+  }
+  return "Data unfit";
+}
+
+std::string VerdictHeadline(const DiagnosisResult& result) {
+  const std::string causes = CausesText(result);
+  switch (result.verdict) {
+    case Verdict::kNoFault:
+      return "What the simulation gets wrong is within noise and building tolerances, p = " +
+             ProbabilityText(result.no_fault_probability) + ".";
+    case Verdict::kCause: return Sentence(causes);
+    case Verdict::kIndistinguishable: {
+      std::vector<std::string> alike;
+      for (const NamedCause& cause : result.causes) alike.push_back(WordsOf(cause, result));
+      for (const std::string& name : Names(result.indistinguishable_from, result)) {
+        if (std::find(alike.begin(), alike.end(), name) == alike.end()) alike.push_back(name);
+      }
+      return "There is a fault, and these data fit " + std::to_string(alike.size()) +
+             " causes alike: " + Sentence(Enumeration(alike));
+    }
+    case Verdict::kPartlyExplained:
+      return Sentence(causes) + " A gap beyond the noise remains that this does not explain.";
+    case Verdict::kUnexplained:
+      return "There is a gap of " + LengthText(result.gap.before_m) + " (noise " +
+             LengthText(result.gap.noise_m) + ") that no cause of the catalogue explains.";
+    case Verdict::kDataUnfit: break;
+  }
+  return "These data cannot tell: " +
+         Sentence(result.reason.empty() ? "no reason was given" : result.reason);
+}
+
+std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result) {
+  std::vector<VerdictDetail> details;
+  const bool reason_said = result.verdict == Verdict::kDataUnfit || result.reason.empty();
+  if (!reason_said) details.push_back({"Why", Sentence(Capitalised(result.reason))});
+  if (!result.causes.empty()) {
+    AddCauses(result, &details);
+  } else if (std::isfinite(result.gap.before_m)) {
+    details.push_back({"Error", Error(result.gap)});
+  }
+  if (!result.experiments.empty() && result.verdict != Verdict::kNoFault) {
+    const ExperimentProposal& next = result.experiments.front();
+    details.push_back(
+        {"Do next", next.title + (next.by_hand.empty() ? "" : "; by hand: " + next.by_hand)});
+  }
+  return details;
+}
+
+std::string VerdictParagraph(const DiagnosisResult& result) {
+  std::string text = VerdictHeadline(result);
+  for (const VerdictDetail& detail : VerdictDetails(result)) {
+    text += " " + detail.label + ": " + Sentence(detail.text);
+  }
+  return text;
+}
+
+}  // namespace palpate::diagnosis
