@@ -28,12 +28,12 @@ namespace palpate::diagnosis {
 namespace {
 
 double Tolerance(const experiment::Experiment& experiment, const std::string& key) {
-  const auto told = experiment.tolerances.find(key);
-  return told == experiment.tolerances.end() ? 0.0 : told->second;
+  const auto given = experiment.tolerances.find(key);
+  return given == experiment.tolerances.end() ? 0.0 : given->second;
 }
 
 /// What is told of each marker's coordinates is of the length of its offset, too.
-std::map<std::string, double> CauseTolerances(const experiment::Experiment& experiment) {
+std::map<std::string, double> FaultTolerances(const experiment::Experiment& experiment) {
   std::map<std::string, double> tolerances = experiment.tolerances;
   const auto marker = tolerances.find("marker_bias_m");
   if (marker != tolerances.end()) {
@@ -49,9 +49,9 @@ double FirstFrame_s(const experiment::Recording& recording) {
                                         : recording.depth_images.front().t_s();
 }
 
-bool HasPictures(const ObservedExperiment& observed) {
+bool HasDepthFrames(const ObservedExperiment& observed) {
   return std::any_of(observed.samples.begin(), observed.samples.end(),
-                     [](const Sample& sample) { return !sample.pictures.empty(); });
+                     [](const Sample& sample) { return !sample.depth_frames.empty(); });
 }
 
 bool IsAmong(const HypothesisSet& hypotheses, const std::optional<CauseName>& name) {
@@ -60,7 +60,7 @@ bool IsAmong(const HypothesisSet& hypotheses, const std::optional<CauseName>& na
                              [&](const FaultModel* cause) { return cause->name() == *name; });
 }
 
-experiment::Experiment WithoutPictures(experiment::Experiment experiment) {
+experiment::Experiment WithoutDepthFrames(experiment::Experiment experiment) {
   for (experiment::Recording& recording : experiment.recordings) {
     recording.depth_images.clear();
     recording.color_images.clear();
@@ -121,7 +121,7 @@ class DiagnosisRun {
   robot::RobotBody body_;
   ObservedExperiment observed_;
   std::optional<NearestRobot> nearest_;
-  std::optional<SkinMatcher> matcher_;  ///< where depth frames show the surface
+  std::optional<SurfaceMatcher> matcher_;  ///< where depth frames show the surface
   std::optional<HypothesisSet> hypotheses_;
   std::optional<Fitter> fitter_;
   Fit as_built_;
@@ -136,15 +136,15 @@ Diagnosis DiagnosisRun::Refused(const Status& status) const {
 }
 
 Status DiagnosisRun::Prepare() {
-  const bool with_pictures = settings_.pictures != nullptr;
-  experiment_ = OnOneClock(with_pictures ? as_recorded_ : WithoutPictures(as_recorded_));
+  const bool with_depth_frames = settings_.surface_source != nullptr;
+  experiment_ = OnOneTimebase(with_depth_frames ? as_recorded_ : WithoutDepthFrames(as_recorded_));
   Status status = CheckTables(experiment_);
   if (!status.ok()) return status;
   body_ = robot::BuildRobotBody(robot_);
   observed_ = Observe(experiment_, body_,
                       {.most_samples = settings_.most_samples,
                        .depth_cameras = settings_.depth_cameras,
-                       .with_pictures = with_pictures});
+                       .with_depth_frames = with_depth_frames});
   return status;
 }
 
@@ -152,41 +152,42 @@ Status DiagnosisRun::RegisterAndSwap() {
   const int threads = settings_.threads;
   Status status = RegisterUnknownPoses(body_, threads, &observed_);
   if (!status.ok()) return status;
-  SkinSource* pictures = HasPictures(observed_) ? settings_.pictures : nullptr;
-  report_(0, steps(), "trying exchanged cables");
-  nearest_ = FindExchangedCables(body_, observed_, threads, pictures);
-  if (pictures == nullptr) return status;
-  report_(0, steps(), "looking at the pictures");
+  SurfaceSource* source = HasDepthFrames(observed_) ? settings_.surface_source : nullptr;
+  report_(0, steps(), "testing exchanged cables");
+  nearest_ = FindExchangedCables(body_, observed_, threads, source);
+  if (source == nullptr) return status;
+  report_(0, steps(), "matching depth frames with the body");
   matcher_.emplace(body_);
-  return ObserveSurface(nearest_->hypothesis, threads, pictures, &*matcher_, &observed_);
+  return ObserveSurface(nearest_->hypothesis, threads, source, &*matcher_, &observed_);
 }
 
 Status DiagnosisRun::BuildHypotheses() {
   const int threads = settings_.threads;
-  report_(0, steps(), "simulating the robot as its file has it");
-  const Simulation simulation = Simulator(observed_, threads).Run(DraftOf(body_, observed_));
-  const CauseWorld world = {
+  report_(0, steps(), "simulating the nominal robot");
+  const Simulation simulation =
+      Simulator(observed_, threads).Run(NominalHypothesis(body_, observed_));
+  const CatalogueInputs inputs = {
       .body = body_,
       .observed = observed_,
       .extrinsics_m = Tolerance(experiment_, "extrinsics_m"),
       .extrinsics_rad = Tolerance(experiment_, "extrinsics_rad"),
       .as_built = &simulation,
       .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, simulation, threads)};
-  hypotheses_.emplace(MakeCauses(world, settings_.without), CauseTolerances(experiment_));
+  hypotheses_.emplace(MakeFaultModels(inputs, settings_.excluded), FaultTolerances(experiment_));
   fitter_.emplace(observed_, body_, *hypotheses_, settings_.noise, threads, limit_);
   as_built_ = fitter_->AsBuilt(&simulation);
   return CheckAgainstNominal(observed_, as_built_.simulation);
 }
 
 void DiagnosisRun::Select() {
-  LookAgain look_again;
+  Rematch rematch;
   if (matcher_) {
-    look_again = [this](const Fit& fit) {
-      matcher_->Match(fitter_->DraftAt(fit), fitter_->Shapes(fit), &observed_);
+    rematch = [this](const Fit& fit) {
+      matcher_->Match(fitter_->HypothesisAt(fit), fitter_->Shapes(fit), &observed_);
     };
   }
   selection_ =
-      SelectCauses(observed_, *fitter_, as_built_, settings_.most_causes, report_, look_again,
+      SelectFaults(observed_, *fitter_, as_built_, settings_.most_causes, report_, rematch,
                    IsAmong(*hypotheses_, nearest_->exchanged) ? nearest_->exchanged : std::nullopt);
   if (matcher_) as_built_ = fitter_->Resimulated(std::move(as_built_));
 }
@@ -202,10 +203,10 @@ Diagnosis DiagnosisRun::Explain() {
 }
 
 void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
-  DescribeGap(observed_, body_, *hypotheses_, as_built_, selection_, result);
-  for (ComparedMoment& moment : result->moments) {
-    const auto r = static_cast<std::size_t>(moment.recording);
-    moment.t_s -=
+  DescribeModelError(observed_, body_, *hypotheses_, as_built_, selection_, result);
+  for (ComparedSample& compared : result->compared_samples) {
+    const auto r = static_cast<std::size_t>(compared.recording);
+    compared.t_s -=
         FirstFrame_s(experiment_.recordings[r]) - FirstFrame_s(as_recorded_.recordings[r]);
   }
   DescribeVerdict(selection_, result);
@@ -218,9 +219,9 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
 void DiagnosisRun::Extend(Diagnosis* diagnosis) const {
   std::vector<robot::CalibratedDrive> drives;
   for (const Choice& choice : selection_.named) {
-    const FaultModel& cause = hypotheses_->cause(choice.cause);
+    const FaultModel& cause = hypotheses_->model(choice.fault);
     const Eigen::VectorXd z = selection_.best.posterior.mean.segment(
-        hypotheses_->first(choice.cause), hypotheses_->count(choice.cause));
+        hypotheses_->first(choice.fault), hypotheses_->count(choice.fault));
     if (!cause.Extend(z, &diagnosis->extended, &drives)) {
       diagnosis->not_in_files.push_back(cause.words());
     }
@@ -233,7 +234,7 @@ void DiagnosisRun::Extend(Diagnosis* diagnosis) const {
 
 bool DiagnosisRun::NamedTheMesh() const {
   return !selection_.named.empty() &&
-         hypotheses_->cause(selection_.named.back().cause).BeginsAnew();
+         hypotheses_->model(selection_.named.back().fault).RestartsSearch();
 }
 
 Diagnosis DiagnosisRun::OnTheFinerMesh() const {
@@ -246,7 +247,7 @@ Diagnosis DiagnosisRun::OnTheFinerMesh() const {
 void DiagnosisRun::PlanNext(Diagnosis* diagnosis) const {
   const Question question = QuestionOf(*fitter_, selection_);
   if (question.rivals.empty()) return;
-  report_(steps() - 1, steps(), "ranking what to do next");
+  report_(steps() - 1, steps(), "ranking the next experiments");
   std::vector<RankedProposal> ranked = RankProposals(experiment_, observed_, body_, *fitter_,
                                                      selection_, question, settings_.threads);
   DiagnosisResult& result = diagnosis->result;
@@ -268,7 +269,7 @@ DiagnosisResult Unfit(const std::string& reason) {
   result.verdict = Verdict::kDataUnfit;
   result.reason = reason;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  result.gap = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  result.model_error = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   return result;
 }
 

@@ -21,7 +21,7 @@
 namespace palpate::diagnosis {
 
 struct DiagnosisSettings {
-  std::vector<std::string> without;  ///< ids of causes that are not believed in
+  std::vector<std::string> excluded;  ///< ids of causes that are not believed in
   int most_causes = 4;
   int most_samples = 120;  ///< moments that are compared
   int threads = 2;
@@ -31,7 +31,7 @@ struct DiagnosisSettings {
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};
   /// What pictures show of the robot, which outlives the diagnosis; nullptr: it is of markers
   /// alone.
-  SkinSource* pictures = nullptr;
+  SurfaceSource* surface_source = nullptr;
 };
 
 /// What a diagnosis found, for people and for the other verbs.

@@ -10,10 +10,10 @@ namespace palpate::diagnosis {
 namespace {
 
 /// Squares beyond the noise, as a robot within its tolerances leaves them; m^2 times moments.
-double Excess(const std::vector<RecordingGap>& recordings) {
+double Excess(const std::vector<RecordingError>& recordings) {
   double sum = 0.0;
-  for (const RecordingGap& one : recordings) {
-    const double excess_m2 = one.healthy_m * one.healthy_m - one.noise_m * one.noise_m;
+  for (const RecordingError& one : recordings) {
+    const double excess_m2 = one.null_model_m * one.null_model_m - one.noise_m * one.noise_m;
     if (excess_m2 > 0.0) sum += one.samples * excess_m2;
   }
   return sum;
@@ -21,18 +21,18 @@ double Excess(const std::vector<RecordingGap>& recordings) {
 
 /// The gap was there as the robot file has it.
 void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
-  result->gap.before_m = of_file.gap.before_m;
-  result->gap.heldout_before_m = of_file.gap.heldout_before_m;
+  result->model_error.before_m = of_file.model_error.before_m;
+  result->model_error.heldout_before_m = of_file.model_error.heldout_before_m;
   for (std::size_t r = 0; r < result->recordings.size(); ++r) {
     result->recordings[r].before_m = of_file.recordings[r].before_m;
-    result->recordings[r].healthy_m = of_file.recordings[r].healthy_m;
+    result->recordings[r].null_model_m = of_file.recordings[r].null_model_m;
     result->recordings[r].heldout_before_m = of_file.recordings[r].heldout_before_m;
   }
-  for (ComparedMoment& moment : result->moments) {
-    for (const ComparedMoment& before : of_file.moments) {
-      const bool same = before.recording == moment.recording && before.t_s == moment.t_s;
-      if (same && before.before_m.cols() == moment.before_m.cols())
-        moment.before_m = before.before_m;
+  for (ComparedSample& compared : result->compared_samples) {
+    for (const ComparedSample& before : of_file.compared_samples) {
+      const bool same = before.recording == compared.recording && before.t_s == compared.t_s;
+      if (same && before.before_m.cols() == compared.before_m.cols())
+        compared.before_m = before.before_m;
     }
   }
 }
@@ -48,7 +48,7 @@ Diagnosis Joined(Diagnosis of_file, Diagnosis of_finer) {
   const DiagnosisResult& before = of_file.result;
   DiagnosisResult& result = of_finer.result;
   if (result.verdict == Verdict::kDataUnfit) {
-    of_file.result.reason += " The finer mesh tells no more: " + result.reason + ".";
+    of_file.result.reason += " The finer mesh gave no diagnosis: " + result.reason + ".";
     of_file.result.search_complete = false;
     return of_file;
   }
@@ -59,8 +59,7 @@ Diagnosis Joined(Diagnosis of_file, Diagnosis of_finer) {
   result.causes.front().explained_share = 1.0 - left;
   if (result.verdict == Verdict::kNoFault) {
     result.verdict = Verdict::kCause;
-    result.reason =
-        "On a finer mesh, what the simulation gets wrong is within noise and building tolerances.";
+    result.reason = "On a finer mesh the residuals are within noise and manufacturing tolerances.";
   }
   if (result.verdict == Verdict::kUnexplained) result.verdict = Verdict::kPartlyExplained;
   result.rivals = before.rivals;

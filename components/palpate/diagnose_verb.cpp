@@ -118,13 +118,13 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
     }
     diagnosis::Diagnosis diagnosis =
         diagnosis::Diagnose(robot, experiment,
-                            {.without = ExcludedCauses(options),
+                            {.excluded = ExcludedCauses(options),
                              .most_samples = options.most_samples,
                              .threads = options.threads,
                              .longest_s = 60.0 * options.most_minutes,
                              .noise = {},
                              .depth_cameras = DepthCamerasOf(experiment),
-                             .pictures = images ? &*images : nullptr},
+                             .surface_source = images ? &*images : nullptr},
                             report);
     diagnosis.result.data_hash = HashOf(experiment);
     return diagnosis;
@@ -147,7 +147,7 @@ void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
   calibration.date_utc = UtcText(std::time(nullptr));
   calibration.data = diagnosis->result.data;
   calibration.data_hash = diagnosis->result.data_hash;
-  calibration.residual_rms_m = diagnosis->result.gap.after_m;
+  calibration.residual_rms_m = diagnosis->result.model_error.after_m;
   WriteCalibrationFile(calibration, folder / "calibration.extended.yaml");
 }
 
@@ -183,7 +183,7 @@ void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& r
 
 int Diagnose(const DiagnoseOptions& options) {
   for (const std::string& id : ExcludedCauses(options)) CheckCause(id, diagnosis::CatalogueIds());
-  if (!options.explain.empty()) CheckCause(options.explain, diagnosis::KnownCauses());
+  if (!options.explain.empty()) CheckCause(options.explain, diagnosis::SearchedFaults());
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
@@ -220,7 +220,7 @@ app::Verb DiagnoseVerb() {
             arguments.Suggest("--exclude", diagnosis::CatalogueIds());
             arguments.Option("--explain ID", &options->explain,
                              "Print why this cause was named, or why not");
-            arguments.Suggest("--explain", diagnosis::KnownCauses());
+            arguments.Suggest("--explain", diagnosis::SearchedFaults());
             arguments.Choice("--from", &options->from, {"all", "markers", "depth"},
                              "Data to use: markers only, depth images and point clouds only "
                              "(depth), or all");

@@ -39,11 +39,11 @@ experiment::Experiment MakeExperiment() {
 DiagnosedRobot::DiagnosedRobot()
     : body_(robot::BuildRobotBody(test_support::FourLegRobot())),
       observed_(diagnosis::Observe(MakeExperiment(), body_)),
-      book_(diagnosis::MakeCauses({.body = body_, .observed = observed_}, {}), {}),
+      book_(diagnosis::MakeFaultModels({.body = body_, .observed = observed_}, {}), {}),
       causes_(book_.All()),
       fitter_(observed_, body_, book_, {}, kThreads),
       simulator_(observed_, kThreads),
-      nominal_(diagnosis::DraftOf(body_, observed_)),
+      nominal_(diagnosis::NominalHypothesis(body_, observed_)),
       as_built_(simulator_.Run(nominal_)) {
   if (!as_built_.status.ok()) throw RunError(as_built_.status.message());
 }

@@ -31,7 +31,7 @@ class DiagnosedRobot {
   /// From nothing: simulates, differentiates, and compares all causes by the linear model.
   void ScreenAll();
 
-  double Moments() const { return static_cast<double>(observed_.samples.size()); }
+  double ComparedSamples() const { return static_cast<double>(observed_.samples.size()); }
   double Parameters() const { return static_cast<double>(book_.parameter_count()); }
 
  private:

@@ -57,7 +57,7 @@ Benchmark Timed(const Robot& robot, const std::string& name,
               [robot, work](benchmark::State& state) {
                 DiagnosedRobot& one = robot->Get();
                 for ([[maybe_unused]] auto iteration : state) work(one);
-                state.counters["moments"] = one.Moments();
+                state.counters["moments"] = one.ComparedSamples();
                 state.counters["parameters"] = one.Parameters();
               },
           .threads = DiagnosedRobot::kThreads,

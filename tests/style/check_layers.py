@@ -32,6 +32,22 @@ LIBRARIES = {
     "robot": {"core", "linalg", "geometry", "fem"},
     "dds": {"core", "geometry", "rgbd"},
 }
+# Which folders of a component each of its folders may include, besides itself and its subfolders.
+# Files at the component's top join the folders. A component without an entry: no circles, only.
+COMPONENT_LAYERS = {
+    "diagnosis": {
+        "vocabulary": set(),
+        "data": set(),
+        "forward": {"vocabulary", "data"},
+        "surface": {"data", "forward"},
+        "faults": {"vocabulary", "data", "forward"},
+        "prepare": {"vocabulary", "data", "forward", "surface", "faults"},
+        "inference": {"vocabulary", "data", "forward"},
+        "design": {"vocabulary", "data", "forward", "inference"},
+        "explain": {"vocabulary", "data", "inference"},
+        "report": {"vocabulary"},
+    },
+}
 NOT_FOR_ALGORITHMS = {"app", "dds"}
 
 # Third-party headers that stay behind one library: pattern, libraries, what to use instead.
@@ -161,6 +177,24 @@ def layer_of(path):
     return parts[:2], "/".join(parts[2:-1] or parts[2:])
 
 
+def check_component_layers(path, header):
+    """The rule of COMPONENT_LAYERS that `path` breaks by including `header`, or ""."""
+    source, target = (pathlib.PurePosixPath(one).parts for one in (path, header))
+    if len(source) < 4 or source[0] != "components" or source[:2] != target[:2]:
+        return ""
+    layers = COMPONENT_LAYERS.get(source[1])
+    if layers is None or source[2] == "node":
+        return ""
+    own = "/".join(source[:3])
+    if source[2] not in layers:
+        return f"{own} is not in COMPONENT_LAYERS of tests/style/check_layers.py"
+    folder = target[2] if len(target) > 3 else "the component's top"
+    if folder == source[2] or folder in layers[source[2]]:
+        return ""
+    allowed = ", ".join(sorted(layers[source[2]])) or "nothing else of its component"
+    return f"{own} may include {allowed}, not {folder}"
+
+
 def check_circles(includes):
     """`includes`: (file, line, header) of our own. One violation for each library or component
     with a circle, at an include that closes it."""
@@ -207,7 +241,8 @@ def check_tree(root):
                 continue
             header = match[1] or match[2]
             includes.append((path.as_posix(), number, header))
-            rule = check_include(source, header, match[2] is not None, messages)
+            rule = (check_include(source, header, match[2] is not None, messages)
+                    or check_component_layers(path.as_posix(), header))
             if rule:
                 violations.append(Violation(path.as_posix(), number, f'"{header}": {rule}'))
     return violations + list(check_circles(includes)), len(sources)

@@ -126,6 +126,26 @@ class CheckLayers(TreeTest):
         self.assert_broken("libs/fem/a.cpp", '"tet_mesh.hpp"', "from the root")
         self.assert_broken("libs/fem/a.cpp", '"tests/libs/fem/b.hpp"', "only tests include tests")
 
+    def test_folders_of_a_component_include_what_their_table_allows(self):
+        self.plant("components/diagnosis/data/a.hpp", "")
+        self.plant("components/diagnosis/diagnose.hpp",
+                   '#include "components/diagnosis/data/a.hpp"\n')
+        self.plant("components/diagnosis/forward/b.hpp",
+                   '#include "components/diagnosis/data/a.hpp"\n')
+        self.assertEqual(self.rules(check_layers.check_tree(self.root)[0]), "")
+        self.plant("components/diagnosis/report/figures/c.hpp",
+                   '#include "components/diagnosis/data/a.hpp"\n')
+        self.assertIn("report may include vocabulary, not data",
+                      self.rules(check_layers.check_tree(self.root)[0]))
+        self.plant("components/diagnosis/report/figures/c.hpp",
+                   '#include "components/diagnosis/diagnose.hpp"\n')
+        self.assertIn("not the component's top", self.rules(check_layers.check_tree(self.root)[0]))
+        self.plant("components/diagnosis/report/figures/c.hpp", "")
+        self.plant("components/diagnosis/other/d.hpp",
+                   '#include "components/diagnosis/data/a.hpp"\n')
+        self.assertIn("is not in COMPONENT_LAYERS",
+                      self.rules(check_layers.check_tree(self.root)[0]))
+
     def test_folders_of_a_component_are_layers(self):
         self.plant("components/view/scene.hpp", "")
         self.plant("components/view/draw/line.hpp", '#include "components/view/scene.hpp"\n')

@@ -52,17 +52,17 @@ bool CountsFromUndeformed(const Recording& recording) {
          recording.reference->shape == experiment::ReferenceShape::kUndeformed;
 }
 
-std::vector<Picture> PicturesOf(const Recording& recording) {
+std::vector<DepthFrame> DepthFramesOf(const Recording& recording) {
   const auto& files = recording.depth_images.empty() ? recording.clouds : recording.depth_images;
-  std::vector<Picture> pictures;
+  std::vector<DepthFrame> depth_frames;
   for (const experiment::StampedFile& file : files) {
-    pictures.push_back({static_cast<int>(pictures.size()), file.t_s()});
+    depth_frames.push_back({static_cast<int>(depth_frames.size()), file.t_s()});
   }
-  return pictures;
+  return depth_frames;
 }
 
 ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
-                                    const Recording& recording, bool with_pictures) {
+                                    const Recording& recording, bool with_depth_frames) {
   ObservedRecording seen{.name = recording.name, .kind = ToString(recording.kind)};
   seen.camera_frame = FrameOf(experiment, recording) == experiment::MeasurementFrame::kCamera;
   const auto pose = RobotFromMarkers(experiment, recording);
@@ -71,7 +71,7 @@ ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
   } else {
     seen.knows_pose = false;
   }
-  if (with_pictures && !PicturesOf(recording).empty()) {
+  if (with_depth_frames && !DepthFramesOf(recording).empty()) {
     const auto camera = RobotFromCamera(experiment, recording);
     const auto* T_robot_camera = std::get_if<Eigen::Isometry3d>(&camera);
     if (T_robot_camera != nullptr) seen.T_camera_robot = T_robot_camera->inverse();
@@ -154,16 +154,16 @@ Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<
   return sample;
 }
 
-/// A few of those in a window: as many as a motion has parts (DriveTrain::PartsAt).
-std::vector<Picture> Few(const Recording& recording, const std::vector<Picture>& pictures,
-                         const TimeWindow& window, bool first) {
+/// A few of those in a window: as many as a motion has parts (ActuatorChain::PartsAt).
+std::vector<DepthFrame> Few(const Recording& recording, const std::vector<DepthFrame>& depth_frames,
+                            const TimeWindow& window, bool first) {
   constexpr std::size_t kMost = 5;
-  std::vector<Picture> inside;
-  for (const Picture& picture : pictures) {
-    if (IsInside(recording, picture.t_s, window, first)) inside.push_back(picture);
+  std::vector<DepthFrame> inside;
+  for (const DepthFrame& frame : depth_frames) {
+    if (IsInside(recording, frame.t_s, window, first)) inside.push_back(frame);
   }
   if (inside.size() <= kMost) return inside;
-  std::vector<Picture> few;
+  std::vector<DepthFrame> few;
   for (std::size_t k = 0; k < kMost; ++k) {
     few.push_back(inside[(2 * k + 1) * inside.size() / (2 * kMost)]);
   }
@@ -171,10 +171,10 @@ std::vector<Picture> Few(const Recording& recording, const std::vector<Picture>&
 }
 
 /// A sample that only pictures were taken of.
-void TakeStamps(const std::vector<Picture>& pictures, Sample* sample) {
-  for (const Picture& picture : pictures) {
-    sample->frame_t_s.push_back(picture.t_s);
-    sample->t_s += picture.t_s / static_cast<double>(pictures.size());
+void TakeStamps(const std::vector<DepthFrame>& depth_frames, Sample* sample) {
+  for (const DepthFrame& frame : depth_frames) {
+    sample->frame_t_s.push_back(frame.t_s);
+    sample->t_s += frame.t_s / static_cast<double>(depth_frames.size());
   }
 }
 
@@ -188,13 +188,13 @@ class Sampler {
         timeline_(observed.timeline),
         marker_count_(std::ssize(observed.markers)) {
     const auto& seen = observed.recordings[static_cast<std::size_t>(index)];
-    if (seen.T_camera_robot) pictures_ = PicturesOf(recording);
+    if (seen.T_camera_robot) depth_frames_ = DepthFramesOf(recording);
     if (!recording.markers) return;
     columns_ = ColumnsOf(recording, observed.markers);
     reference_m_ = ReferenceOf(recording, columns_, body, seen.T_measurement_robot);
   }
 
-  bool HasSomething() const { return recording_.markers || !pictures_.empty(); }
+  bool HasSomething() const { return recording_.markers || !depth_frames_.empty(); }
 
   void AddTo(const Cut& cut, std::vector<Sample>* samples, Scatter* scatter) const {
     const auto i = static_cast<std::size_t>(index_);
@@ -206,13 +206,14 @@ class Sampler {
       for (const TimeWindow& window : WindowsOf(piece, WindowCount(piece, cut))) {
         const bool is_first = std::exchange(first, false);
         const auto frames = FramesIn(recording_, window, is_first);
-        const std::vector<Picture> pictures = Few(recording_, pictures_, window, is_first);
-        if (frames.empty() && pictures.empty()) continue;
+        const std::vector<DepthFrame> depth_frames =
+            Few(recording_, depth_frames_, window, is_first);
+        if (frames.empty() && depth_frames.empty()) continue;
         scatter->Add(frames);
         Sample sample = Average(frames, columns_, marker_count_);
-        if (frames.empty()) TakeStamps(pictures, &sample);
+        if (frames.empty()) TakeStamps(depth_frames, &sample);
         if (reference_m_.size() > 0) sample.position_m -= reference_m_;
-        sample.pictures = pictures;
+        sample.depth_frames = depth_frames;
         sample.recording = index_;
         sample.piece_begin_s = piece.begin_s;
         sample.piece_end_s = piece.end_s;
@@ -232,7 +233,7 @@ class Sampler {
   Eigen::Index marker_count_;
   std::vector<int> columns_;  ///< empty: the recording has no markers
   Eigen::Matrix3Xd reference_m_;
-  std::vector<Picture> pictures_;
+  std::vector<DepthFrame> depth_frames_;
 };
 
 /// A depth camera measures nothing behind itself.
@@ -254,13 +255,13 @@ void FindDepthCameras(const std::map<std::string, rgbd::CameraModel>& cameras,
 
 std::string WhatIsMissing(const experiment::Experiment& experiment,
                           const ObservationSettings& settings) {
-  const bool pictures =
+  const bool depth_frames =
       std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
-                  [](const Recording& recording) { return !PicturesOf(recording).empty(); });
-  if (!settings.with_pictures) return ": no recording has markers.csv";
-  if (!pictures) return ": no recording has markers.csv, depth/ or clouds/";
-  return ": nobody says where the camera stood that took its pictures: write T_robot_camera into "
-         "experiment.yaml (palpate calibrate finds it)";
+                  [](const Recording& recording) { return !DepthFramesOf(recording).empty(); });
+  if (!settings.with_depth_frames) return ": no recording has markers.csv";
+  if (!depth_frames) return ": no recording has markers.csv, depth/ or clouds/";
+  return ": the camera pose of its depth frames is missing: set T_robot_camera in experiment.yaml "
+         "(palpate calibrate estimates it)";
 }
 
 }  // namespace
@@ -276,20 +277,20 @@ bool IsMeasured(const Sample& sample, Eigen::Index coordinate) {
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate < of_markers) return sample.count[coordinate / 3] > 0;
   const auto feature = static_cast<std::size_t>(coordinate - of_markers);
-  return feature < sample.skin.size() && sample.skin[feature].count > 0;
+  return feature < sample.surface.size() && sample.surface[feature].count > 0;
 }
 
 double Measured_m(const Sample& sample, Eigen::Index coordinate) {
   if (!IsMeasured(sample, coordinate)) return std::numeric_limits<double>::quiet_NaN();
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate < of_markers) return sample.position_m.reshaped()[coordinate];
-  return sample.skin[static_cast<std::size_t>(coordinate - of_markers)].measured_m;
+  return sample.surface[static_cast<std::size_t>(coordinate - of_markers)].measured_m;
 }
 
 double Sigma_m(const ObservedExperiment& observed, const Sample& sample, Eigen::Index coordinate) {
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate >= of_markers) {
-    return sample.skin[static_cast<std::size_t>(coordinate - of_markers)].sigma_m;
+    return sample.surface[static_cast<std::size_t>(coordinate - of_markers)].sigma_m;
   }
   return observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[coordinate / 3]);
 }
@@ -304,7 +305,8 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
   for (std::size_t i = 0; i < experiment.recordings.size(); ++i) {
     const Recording& recording = experiment.recordings[i];
     CheckCables(recording, cables);
-    observed.recordings.push_back(DescribeRecording(experiment, recording, settings.with_pictures));
+    observed.recordings.push_back(
+        DescribeRecording(experiment, recording, settings.with_depth_frames));
     if (recording.markers) CheckMarkers(recording, observed.markers);
     const Sampler sampler(recording, static_cast<int>(i), body, observed);
     if (sampler.HasSomething()) samplers.push_back(sampler);
@@ -319,9 +321,9 @@ ObservedExperiment Observe(const experiment::Experiment& experiment, const robot
     for (const Sampler& sampler : samplers) sampler.AddTo(cut, &observed.samples, &scatter);
     if (static_cast<int>(observed.samples.size()) <= settings.most_samples) break;
   }
-  const auto told = experiment.tolerances.find("marker_bias_m");
+  const auto given = experiment.tolerances.find("marker_bias_m");
   observed.reference_sigma_m =
-      told != experiment.tolerances.end() ? told->second : kReferenceSigma_m;
+      given != experiment.tolerances.end() ? given->second : kReferenceSigma_m;
   observed.sigma_m = scatter.Sigma_m(experiment.markers_sigma_m);
   FindDepthCameras(settings.depth_cameras, &observed);
   return observed;

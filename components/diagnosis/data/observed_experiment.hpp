@@ -33,8 +33,8 @@ struct Sample {
   Eigen::Matrix3Xd position_m;               ///< [3 x markers] measurement frame; NaN: not seen
   Eigen::VectorXi count;                     ///< [markers] frames that saw it
   std::vector<experiment::KnownLoad> loads;  ///< robot frame
-  std::vector<Picture> pictures;             ///< that were taken then
-  std::vector<SkinSighting> skin;            ///< [features] what they show (skin/skin_matcher.hpp)
+  std::vector<DepthFrame> depth_frames;      ///< that were taken then
+  std::vector<SurfaceMeasurement> surface;   ///< [features] what they show (skin/skin_matcher.hpp)
 };
 
 struct ObservedRecording {
@@ -77,7 +77,7 @@ struct ObservedExperiment {
   double reference_sigma_m = 0.0;
   Eigen::Matrix3Xd feature_rest_m;  ///< [3 x features] of the skin, undeformed; empty: no pictures
 
-  bool HasSkin() const { return feature_rest_m.cols() > 0; }
+  bool HasSurface() const { return feature_rest_m.cols() > 0; }
   /// Of a sample: x, y, z of each marker, then each feature of the skin along its normal.
   Eigen::Index CoordinateCount() const { return 3 * std::ssize(markers) + feature_rest_m.cols(); }
 };
@@ -93,7 +93,7 @@ struct ObservationSettings {
   int most_samples = 120;  ///< moments of all recordings together
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};
-  bool with_pictures = false;  ///< depth images and clouds count, too
+  bool with_depth_frames = false;  ///< depth images and clouds count, too
 };
 
 /// Whether a depth camera saw the markers, or the skin, of any recording.

@@ -10,7 +10,7 @@
 namespace palpate::diagnosis {
 
 /// One of a recording's depth images or clouds.
-struct Picture {
+struct DepthFrame {
   int number = 0;  ///< in the recording, by time
   double t_s = 0.0;
 };
@@ -18,7 +18,7 @@ struct Picture {
 /// Where a depth camera has the skin about one feature point of the body, along the normal alone:
 /// of how it moves along the skin a cloud tells nothing. Point and normal are held where the cloud
 /// was matched with a shape of the body; the measured coordinate is linear about there.
-struct SkinSighting {
+struct SurfaceMeasurement {
   int count = 0;  ///< pictures that show it; 0: none does, and all else says nothing
   fem::InterpolationWeights point;  ///< of the body, in the middle of its cloud points
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< of that point, undeformed, robot frame

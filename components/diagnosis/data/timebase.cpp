@@ -55,7 +55,7 @@ void Shift(double by_s, experiment::Recording* recording) {
 
 }  // namespace
 
-experiment::Experiment OnOneClock(experiment::Experiment experiment) {
+experiment::Experiment OnOneTimebase(experiment::Experiment experiment) {
   const double rest_s = experiment.rest_between_s.value_or(kForgotten_s);
   double end_s = -std::numeric_limits<double>::infinity();
   for (experiment::Recording& recording : experiment.recordings) {

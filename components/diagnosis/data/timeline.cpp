@@ -18,8 +18,9 @@ constexpr double kNotDriven = std::numeric_limits<double>::quiet_NaN();
 const experiment::CableColumn* ColumnOf(const experiment::Recording& recording,
                                         const std::string& cable) {
   if (!recording.actuation) return nullptr;
-  const auto* told = recording.actuation->Find(cable, CableQuantity::kDisplacement);
-  return told != nullptr ? told : recording.actuation->Find(cable, CableQuantity::kTension);
+  const auto* displacement = recording.actuation->Find(cable, CableQuantity::kDisplacement);
+  return displacement != nullptr ? displacement
+                                 : recording.actuation->Find(cable, CableQuantity::kTension);
 }
 
 Eigen::VectorXd CommandOf(const experiment::Recording& recording,

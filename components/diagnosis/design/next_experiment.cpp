@@ -20,10 +20,10 @@ constexpr double kSomeEvidence = 3.0;  ///< ln BF against the healthy robot
 constexpr std::size_t kMostRivals = 6;
 
 Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int> faults,
-                        int cause) {
+                        int fault) {
   Hypothesis hypothesis;
-  hypothesis.name = fitter.hypotheses().cause(cause).name();
-  hypothesis.posterior = fitter.Guess(about, faults);
+  hypothesis.name = fitter.hypotheses().model(fault).name();
+  hypothesis.posterior = fitter.LinearPosterior(about, faults);
   hypothesis.faults = std::move(faults);
   return hypothesis;
 }
@@ -34,7 +34,7 @@ Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival
   best.posterior.ln_evidence = -std::numeric_limits<double>::infinity();
   for (const Choice& choice : selection.named) {
     std::vector<int> faults = selection.best.faults;
-    std::replace(faults.begin(), faults.end(), choice.cause, rival);
+    std::replace(faults.begin(), faults.end(), choice.fault, rival);
     Hypothesis one = HypothesisOf(fitter, selection.best, std::move(faults), rival);
     if (one.posterior.ln_evidence > best.posterior.ln_evidence) best = std::move(one);
   }
@@ -44,21 +44,22 @@ Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival
 /// Numbers of the causes that the first named one is to be told from.
 std::vector<int> RivalsOf(const Selection& selection) {
   std::vector<int> rivals;
-  const auto add = [&](int cause) {
+  const auto add = [&](int fault) {
     const auto& faults = selection.best.faults;
-    const bool known = std::find(faults.begin(), faults.end(), cause) != faults.end() ||
-                       std::find(rivals.begin(), rivals.end(), cause) != rivals.end();
-    if (!known && rivals.size() < kMostRivals) rivals.push_back(cause);
+    const bool known = std::find(faults.begin(), faults.end(), fault) != faults.end() ||
+                       std::find(rivals.begin(), rivals.end(), fault) != rivals.end();
+    if (!known && rivals.size() < kMostRivals) rivals.push_back(fault);
   };
-  for (const Candidate& alike : selection.alike) add(alike.cause);
+  for (const Candidate& indistinguishable : selection.indistinguishable)
+    add(indistinguishable.fault);
   const auto& candidates = selection.candidates;
   const auto first = std::find_if(candidates.begin(), candidates.end(), [&](const auto& one) {
-    return one.cause == selection.named.front().cause;
+    return one.fault == selection.named.front().fault;
   });
   if (first == candidates.end()) return rivals;
   for (const Candidate& one : candidates) {
     if (one.ruled_out) continue;
-    if (one.ln_bayes_factor > first->ln_bayes_factor - kInQuestion) add(one.cause);
+    if (one.ln_bayes_factor > first->ln_bayes_factor - kInQuestion) add(one.fault);
   }
   return rivals;
 }
@@ -119,7 +120,7 @@ Question QuestionOf(const Fitter& fitter, const Selection& selection) {
   Question question;
   const Fit& best = selection.best;
   if (!selection.named.empty()) {
-    question.best = HypothesisOf(fitter, best, best.faults, selection.named.front().cause);
+    question.best = HypothesisOf(fitter, best, best.faults, selection.named.front().fault);
     for (const int rival : RivalsOf(selection)) {
       question.rivals.push_back(Exchanged(fitter, selection, rival));
     }
@@ -130,7 +131,7 @@ Question QuestionOf(const Fitter& fitter, const Selection& selection) {
   if (some.empty()) return question;
   question.best = {.name = {"no_fault", {"body"}}, .faults = {}, .posterior = best.posterior};
   for (const Candidate& one : some) {
-    question.rivals.push_back(HypothesisOf(fitter, best, {one.cause}, one.cause));
+    question.rivals.push_back(HypothesisOf(fitter, best, {one.fault}, one.fault));
   }
   const double of_all_causes = std::log(static_cast<double>(selection.candidates.size()));
   if (some.front().ln_bayes_factor > of_all_causes) std::swap(question.best, question.rivals[0]);
@@ -170,15 +171,15 @@ std::vector<RankedProposal> RankProposals(const experiment::Experiment& experime
 
 std::vector<ExperimentProposal> Describe(const Question& question,
                                          const std::vector<RankedProposal>& ranked) {
-  std::vector<ExperimentProposal> told;
+  std::vector<ExperimentProposal> proposals;
   for (const RankedProposal& one : ranked) {
-    told.push_back({.title = one.proposal.title,
-                    .by_hand = one.proposal.by_hand,
-                    .first = question.best.name,
-                    .second = one.worst_rival,
-                    .expected_ln_bayes_factor = one.expected_ln_bayes_factor});
+    proposals.push_back({.title = one.proposal.title,
+                         .by_hand = one.proposal.by_hand,
+                         .first = question.best.name,
+                         .second = one.worst_rival,
+                         .expected_ln_bayes_factor = one.expected_ln_bayes_factor});
   }
-  return told;
+  return proposals;
 }
 
 }  // namespace palpate::diagnosis

@@ -73,9 +73,9 @@ std::string Rounded(double value) { return FormatNumber(std::round(10.0 * value)
 std::string ByHandText(const PlannedRecording& plan) {
   const Proposal& proposal = plan.ranked.proposal;
   std::string text = "Next experiment: " + proposal.title + ".\n";
-  text += "It is to tell " + plan.tells + ": expected ln Bayes factor " +
+  text += "It separates " + plan.tells + ": expected ln Bayes factor " +
           Rounded(plan.ranked.expected_ln_bayes_factor) + " (3 is some, 10 clear evidence).\n\n";
-  std::vector<std::string> steps = {"Leave camera, markers and drives as they were."};
+  std::vector<std::string> steps = {"Leave camera, markers and actuators unchanged."};
   if (!proposal.by_hand.empty()) {
     std::string step = proposal.by_hand;
     step.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(step.front())));
@@ -83,16 +83,17 @@ std::string ByHandText(const PlannedRecording& plan) {
   }
   steps.push_back("Let the robot rest with all commands at zero for " + Rounded(plan.rest_s) +
                   " s.");
-  steps.push_back(proposal.recording.actuation
-                      ? "Drive the cables through actuation.csv (its rows are joined by straight "
-                        "lines; " +
-                            Rounded(proposal.duration_s) +
-                            " s) and record throughout what the others show."
-                      : "Record what the others show for " + Rounded(proposal.duration_s) + " s.");
+  steps.push_back(
+      proposal.recording.actuation
+          ? "Drive the cables through actuation.csv (its rows are joined by straight "
+            "lines; " +
+                Rounded(proposal.duration_s) + " s) and record the same data as in the others."
+          : "Record the same data as in the others for " + Rounded(proposal.duration_s) + " s.");
   steps.push_back(
       "Make the folder recordings/" + plan.name +
       " of the experiment from this one with markers.csv, or depth/ and camera.yaml, beside (and "
-      "actuation.csv as the drives report it, on the same clock), and run palpate diagnose again.");
+      "actuation.csv as the actuators report it, on the same clock), and run palpate diagnose "
+      "again.");
   for (std::size_t k = 0; k < steps.size(); ++k) {
     text += std::to_string(k + 1) + ". " + steps[k] + "\n";
   }

@@ -70,14 +70,14 @@ experiment::MarkerTracks Frames(const ObservedExperiment& observed, const robot:
 }
 
 /// The skin as a recording's pictures show it where most of it is in view; empty: none do.
-std::vector<SkinSighting> SkinOf(const ObservedExperiment& observed, int recording) {
-  const auto seen = [](const std::vector<SkinSighting>& skin) {
-    return std::count_if(skin.begin(), skin.end(),
-                         [](const SkinSighting& one) { return one.count > 0; });
+std::vector<SurfaceMeasurement> SurfaceOf(const ObservedExperiment& observed, int recording) {
+  const auto seen = [](const std::vector<SurfaceMeasurement>& surface) {
+    return std::count_if(surface.begin(), surface.end(),
+                         [](const SurfaceMeasurement& one) { return one.count > 0; });
   };
-  std::vector<SkinSighting> best;
+  std::vector<SurfaceMeasurement> best;
   for (const Sample& sample : observed.samples) {
-    if (sample.recording == recording && seen(sample.skin) > seen(best)) best = sample.skin;
+    if (sample.recording == recording && seen(sample.surface) > seen(best)) best = sample.surface;
   }
   return best;
 }
@@ -143,10 +143,10 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
     recording.focal_px = like.focal_px;
   }
   planned.feature_rest_m = observed.feature_rest_m;
-  const std::vector<SkinSighting> skin = SkinOf(observed, plain);
+  const std::vector<SurfaceMeasurement> surface = SurfaceOf(observed, plain);
   for (Sample& sample : planned.samples) {
     sample.frame_t_s = {sample.t_s};
-    sample.skin = skin;
+    sample.surface = surface;
   }
   planned.reference_sigma_m = observed.reference_sigma_m;
   planned.timeline.begin_s.front() = observed.timeline.begin_s.front();
@@ -157,20 +157,20 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
 LinearModel PredictProposals(const ObservedExperiment& planned, const robot::RobotBody& body,
                              const HypothesisSet& hypotheses, const Fit& fit,
                              const std::vector<int>& of, const NoiseModel& noise, int threads) {
-  const FaultModelList causes = hypotheses.All();
-  std::vector<bool> wanted(causes.size(), false);
+  const FaultModelList models = hypotheses.All();
+  std::vector<bool> wanted(models.size(), false);
   for (const int k : of) wanted[static_cast<std::size_t>(k)] = true;
-  const ModelHypothesis nominal = DraftOf(body, planned);
-  ModelHypothesis hypothesis = DraftWith(nominal, causes, fit.z);
+  const ModelHypothesis nominal = NominalHypothesis(body, planned);
+  ModelHypothesis hypothesis = HypothesisWith(nominal, models, fit.z);
   for (std::size_t k = 0; k < planned.recordings.size(); ++k) {
     const int pose_of = planned.recordings[k].pose_of;
     if (pose_of < 0) continue;
     hypothesis.T_seen[k] = hypothesis.T_seen[static_cast<std::size_t>(pose_of)];
-    hypothesis.T_skin_seen[k] = hypothesis.T_skin_seen[static_cast<std::size_t>(pose_of)];
+    hypothesis.T_surface_seen[k] = hypothesis.T_surface_seen[static_cast<std::size_t>(pose_of)];
   }
   const Simulator simulator(planned, threads);
   Simulation simulation = simulator.Run(hypothesis);
-  simulator.Differentiate(hypothesis, causes, fit.z, wanted, nominal, &simulation);
+  simulator.Differentiate(hypothesis, models, fit.z, wanted, nominal, &simulation);
   LeaveOutWhatFailed(planned, &simulation);
   Eigen::Matrix3Xd rest_m(3, std::ssize(body.markers));
   for (std::size_t m = 0; m < body.markers.size(); ++m) {

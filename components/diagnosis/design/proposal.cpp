@@ -37,19 +37,19 @@ struct Drives {
         used(Eigen::VectorXd::Zero(std::ssize(timeline.cables))) {
     double largest_m = 0.0;
     double largest_N = 0.0;
-    std::vector<bool> told(cables.size(), false);
+    std::vector<bool> commanded(cables.size(), false);
     for (const Eigen::VectorXd& command : timeline.command) {
       for (std::size_t c = 0; c < cables.size(); ++c) {
         const double value = std::abs(command[static_cast<Eigen::Index>(c)]);
         if (std::isnan(value)) continue;
-        told[c] = true;
+        commanded[c] = true;
         double& largest = by_tension[c] ? largest_N : largest_m;
         largest = std::max(largest, value);
       }
     }
-    const bool none = std::find(told.begin(), told.end(), true) == told.end();
+    const bool none = std::find(commanded.begin(), commanded.end(), true) == commanded.end();
     for (std::size_t c = 0; c < cables.size(); ++c) {
-      if (none || told[c]) driven.push_back(static_cast<int>(c));
+      if (none || commanded[c]) driven.push_back(static_cast<int>(c));
       const double largest = by_tension[c] ? largest_N : largest_m;
       used[static_cast<Eigen::Index>(c)] = largest > 0.0 ? largest : Default(body, c);
     }
@@ -81,7 +81,7 @@ struct Drives {
 class Script {
  public:
   explicit Script(const Drives& drives)
-      : drives_(drives), now_(Eigen::VectorXd::Zero(std::ssize(drives.cables))) {
+      : actuators_(drives), now_(Eigen::VectorXd::Zero(std::ssize(drives.cables))) {
     for (const int c : drives.driven) {
       const auto i = static_cast<std::size_t>(c);
       actuation_.columns.push_back({.cable = drives.cables[i],
@@ -96,7 +96,7 @@ class Script {
 
   /// Goes there in so long.
   Script& To(const std::vector<int>& cables, double share, double in_s) {
-    for (const int c : cables) now_[c] = drives_.At(c, share);
+    for (const int c : cables) now_[c] = actuators_.At(c, share);
     return Stay(in_s);
   }
   Script& Stay(double for_s) {
@@ -117,12 +117,12 @@ class Script {
  private:
   void Add() {
     actuation_.t_s.push_back(t_s_);
-    for (std::size_t k = 0; k < drives_.driven.size(); ++k) {
-      actuation_.columns[k].samples.emplace_back(now_[drives_.driven[k]]);
+    for (std::size_t k = 0; k < actuators_.driven.size(); ++k) {
+      actuation_.columns[k].samples.emplace_back(now_[actuators_.driven[k]]);
     }
   }
 
-  const Drives& drives_;
+  const Drives& actuators_;
   double t_s_ = 0.0;
   Eigen::VectorXd now_;
   experiment::Actuation actuation_;

@@ -43,30 +43,34 @@ std::vector<std::string> Identities(const ObservedExperiment& observed) {
       observed.recordings.begin(), observed.recordings.end(),
       [](const ObservedRecording& recording) { return !recording.base_rotation.isIdentity(); });
   std::vector<std::string> identities = {
-      "A negative zero of a drive and a slack cable are the same.",
-      "A mass on the body, that of its markers, too, and a force downwards are the same, however "
-      "the "
-      "base is tilted.",
-      "A cable that ends where it first touches the body stretches and cuts in alike."};
+      "A negative zero offset of an actuator and a slack cable are not identifiable.",
+      "A mass on the body (of markers, too) and a downward force are not identifiable at any base "
+      "tilt.",
+      "Stretch and cutting-in of a cable that ends where it first touches the body are not "
+      "identifiable."};
   if (!loaded) {
     identities.emplace_back(
-        "Without a known load only density over modulus and force over modulus can be told: hang a "
-        "known weight on the robot.");
+        "Without a known load only density over modulus and force over modulus are identifiable: "
+        "hang "
+        "a known weight on the robot.");
   }
   if (loaded && PlacesOfLoads(observed) == 1) {
     identities.emplace_back(
-        "A known load that acts at one place only does not tell where exactly: one that acts "
-        "higher or lower looks like another modulus. Hang it elsewhere, too.");
+        "The place of a known load that acts at one place only is not identifiable from the "
+        "modulus: "
+        "hang it elsewhere, too.");
   }
   if (!tilted) {
     identities.emplace_back(
-        "Without a tilted base gravity's direction and a sideways force are nearly the same: tilt "
+        "Without a tilted base gravity's direction and a sideways force are hardly identifiable: "
+        "tilt "
         "the base by 15 degrees.");
   }
   if (SeenFromOnePlace(observed)) {
     identities.emplace_back(
-        "From one place a camera's depth scale and its distance are nearly the same, and its image "
-        "centre and where it looks: record again from another place that is known.");
+        "From one camera pose depth scale and distance, and image centre and viewing direction, "
+        "are "
+        "hardly identifiable: record again from another known pose.");
   }
   return identities;
 }

@@ -107,19 +107,19 @@ Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
   const Eigen::Matrix3d R_robot_measurement = recording.T_measurement_robot.linear().transpose();
   on_body_m.leftCols(markers) =
       R_robot_measurement * residual_m.head(3 * markers).reshaped(3, markers);
-  for (std::size_t f = 0; f < seen.skin.size(); ++f) {
-    if (seen.skin[f].count == 0) continue;
+  for (std::size_t f = 0; f < seen.surface.size(); ++f) {
+    if (seen.surface[f].count == 0) continue;
     const auto feature = static_cast<Eigen::Index>(f);
     on_body_m.col(markers + feature) =
         residual_m[3 * markers + feature] *
-        (recording.T_camera_robot->linear().transpose() * seen.skin[f].normal.normalized());
+        (recording.T_camera_robot->linear().transpose() * seen.surface[f].normal.normalized());
   }
   return on_body_m;
 }
 
 /// Of one recording, over its samples.
 struct Sums {
-  Squares before, healthy, after, heldout_before, heldout_after, noise;
+  Squares before, null_model, after, heldout_before, heldout_after, noise;
   int samples = 0;
 };
 
@@ -145,22 +145,22 @@ std::vector<Eigen::VectorXd> AsFitted(const HypothesisSet& hypotheses, const Fit
 double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
                       const Selection& selection, int cause, const Parameters& parameters) {
   const Fit& best = selection.best;
-  const Fit& healthy = selection.healthy;
+  const Fit& null_model = selection.null_model;
   const auto left_m = [&](const Fit& fit, const std::vector<int>& causes) {
     return ResidualsOf(observed, fit, parameters(hypotheses, fit, causes));
   };
   std::vector<int> others = best.faults;
   std::erase(others, cause);
-  const Residuals healthy_m = left_m(healthy, healthy.faults);
+  const Residuals null_model_m = left_m(null_model, null_model.faults);
   // The only one is far from none: the healthy robot's own fit knows better than a linear model.
-  const Residuals without_m = others.empty() ? healthy_m : left_m(best, others);
+  const Residuals without_m = others.empty() ? null_model_m : left_m(best, others);
   const Residuals with_m = left_m(best, best.faults);
-  std::vector<Squares> of_healthy(observed.recordings.size());
-  std::vector<Squares> without(of_healthy), with(of_healthy), noise(of_healthy);
+  std::vector<Squares> of_null_model(observed.recordings.size());
+  std::vector<Squares> without(of_null_model), with(of_null_model), noise(of_null_model);
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-    if (!healthy.simulation.samples[s].status.ok()) continue;
+    if (!null_model.simulation.samples[s].status.ok()) continue;
     const auto r = static_cast<std::size_t>(observed.samples[s].recording);
-    of_healthy[r].Add(healthy_m[s]);
+    of_null_model[r].Add(null_model_m[s]);
     without[r].Add(without_m[s]);
     with[r].Add(with_m[s]);
     noise[r].Add(Noise_m(observed, s));
@@ -169,7 +169,7 @@ double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& h
   double back_m2 = 0.0;
   for (std::size_t r = 0; r < noise.size(); ++r) {
     const double floor_m2 = std::max(noise[r].sum_m2, with[r].sum_m2);
-    excess_m2 += std::max(0.0, of_healthy[r].sum_m2 - noise[r].sum_m2);
+    excess_m2 += std::max(0.0, of_null_model[r].sum_m2 - noise[r].sum_m2);
     back_m2 += std::max(0.0, without[r].sum_m2 - floor_m2);
   }
   return excess_m2 > 0.0 ? std::min(back_m2 / excess_m2, 1.0) : 0.0;
@@ -205,18 +205,18 @@ double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& h
                   ExplainedShare(observed, hypotheses, selection, cause, LeftOut));
 }
 
-void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
-                 const HypothesisSet& hypotheses, const Fit& as_built, const Selection& selection,
-                 DiagnosisResult* result) {
+void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBody& body,
+                        const HypothesisSet& hypotheses, const Fit& as_built,
+                        const Selection& selection, DiagnosisResult* result) {
   DescribeBody(observed, body, result);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(hypotheses.parameter_count());
   const Fit& best = selection.best;
-  const Fit& healthy = selection.healthy;
+  const Fit& null_model = selection.null_model;
   const Residuals before_m = ResidualsOf(observed, as_built, {none});
-  const Residuals healthy_m = ResidualsOf(observed, healthy, {healthy.posterior.mean});
+  const Residuals null_model_m = ResidualsOf(observed, null_model, {null_model.posterior.mean});
   const Residuals after_m = ResidualsOf(observed, best, {best.posterior.mean});
   const Residuals heldout_before_m =
-      ResidualsOf(observed, healthy, LeftOut(hypotheses, healthy, healthy.faults));
+      ResidualsOf(observed, null_model, LeftOut(hypotheses, null_model, null_model.faults));
   const Residuals heldout_after_m =
       ResidualsOf(observed, best, LeftOut(hypotheses, best, best.faults));
   std::vector<Sums> sums(observed.recordings.size());
@@ -225,17 +225,17 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     const auto r = static_cast<std::size_t>(sample.recording);
     if (!as_built.simulation.samples[s].status.ok()) continue;
     sums[r].before.Add(before_m[s]);
-    sums[r].healthy.Add(healthy_m[s]);
+    sums[r].null_model.Add(null_model_m[s]);
     sums[r].after.Add(after_m[s]);
     sums[r].heldout_before.Add(heldout_before_m[s]);
     sums[r].heldout_after.Add(heldout_after_m[s]);
     sums[r].noise.Add(Noise_m(observed, s));
     ++sums[r].samples;
-    result->moments.push_back({.recording = sample.recording,
-                               .t_s = sample.t_s,
-                               .command = observed.timeline.CommandAt(sample.t_s),
-                               .before_m = OnBody(observed, s, before_m[s]),
-                               .after_m = OnBody(observed, s, after_m[s])});
+    result->compared_samples.push_back({.recording = sample.recording,
+                                        .t_s = sample.t_s,
+                                        .command = observed.timeline.CommandAt(sample.t_s),
+                                        .before_m = OnBody(observed, s, before_m[s]),
+                                        .after_m = OnBody(observed, s, after_m[s])});
   }
   Sums all;
   for (std::size_t r = 0; r < sums.size(); ++r) {
@@ -244,7 +244,7 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
                                   .kind = observed.recordings[r].kind,
                                   .samples = one.samples,
                                   .before_m = one.before.Rms_m(),
-                                  .healthy_m = one.healthy.Rms_m(),
+                                  .null_model_m = one.null_model.Rms_m(),
                                   .after_m = one.after.Rms_m(),
                                   .heldout_before_m = one.heldout_before.Rms_m(),
                                   .heldout_after_m = one.heldout_after.Rms_m(),
@@ -254,11 +254,11 @@ void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& bod
     all.heldout_after.Add(one.heldout_after);
     all.noise.Add(one.noise);
   }
-  result->gap = {.before_m = all.before.Rms_m(),
-                 .after_m = all.after.Rms_m(),
-                 .heldout_before_m = all.before.Rms_m(),
-                 .heldout_after_m = all.heldout_after.Rms_m(),
-                 .noise_m = all.noise.Rms_m()};
+  result->model_error = {.before_m = all.before.Rms_m(),
+                         .after_m = all.after.Rms_m(),
+                         .heldout_before_m = all.before.Rms_m(),
+                         .heldout_after_m = all.heldout_after.Rms_m(),
+                         .noise_m = all.noise.Rms_m()};
 }
 
 }  // namespace palpate::diagnosis

@@ -12,9 +12,9 @@ namespace palpate::diagnosis {
 /// Fills what a result says of the gap between simulation and robot: in each recording and in all,
 /// as built, within tolerances, with the causes that were named, and in recordings left out; and
 /// the moments that figures are drawn from.
-void DescribeGap(const ObservedExperiment& observed, const robot::RobotBody& body,
-                 const HypothesisSet& hypotheses, const Fit& as_built, const Selection& selection,
-                 DiagnosisResult* result);
+void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBody& body,
+                        const HypothesisSet& hypotheses, const Fit& as_built,
+                        const Selection& selection, DiagnosisResult* result);
 
 /// Share of the squares beyond the noise, as a robot within its tolerances leaves them in
 /// recordings that have any, that would come back without one of the named causes, the others and

@@ -23,22 +23,22 @@ constexpr double kOtherAtLeast = 0.01;
 constexpr double kOtherWhereNoneIsNamed = 0.5;
 
 NamedCause Describe(const ObservedExperiment& observed, const Fitter& fitter, const Fit& fit,
-                    const std::vector<FurtherCause>& further, double other_probability,
+                    const std::vector<FurtherFault>& further, double other_probability,
                     const Choice& choice) {
   constexpr double kSeen = 1.0;  // of ln p
   const HypothesisSet& hypotheses = fitter.hypotheses();
-  const FaultModel& cause = hypotheses.cause(choice.cause);
+  const FaultModel& cause = hypotheses.model(choice.fault);
   const Eigen::VectorXd z =
-      fit.posterior.mean.segment(hypotheses.first(choice.cause), hypotheses.count(choice.cause));
-  const Eigen::MatrixXd covariance = CovarianceBeside(
-      hypotheses, fit, choice.cause, further, CovarianceOverPlaces(fitter, fit, choice.cause));
-  const Eigen::VectorXd undeformed_m = fitter.DraftAt(fit).body.mesh.nodes_m.reshaped();
+      fit.posterior.mean.segment(hypotheses.first(choice.fault), hypotheses.count(choice.fault));
+  const Eigen::MatrixXd covariance = CovarianceOverFurtherFaults(
+      hypotheses, fit, choice.fault, further, CovarianceOverPlaces(fitter, fit, choice.fault));
+  const Eigen::VectorXd undeformed_m = fitter.HypothesisAt(fit).body.mesh.nodes_m.reshaped();
   NamedCause named{.name = cause.name(),
                    .words = cause.words(),
                    .parameters = cause.Report(z, covariance, undeformed_m),
                    .probability = (1.0 - other_probability) * choice.probability,
                    .ln_bayes_factor = choice.ln_bayes_factor,
-                   .cross_validated = choice.held_out.clear,
+                   .cross_validated = choice.cross_validation.clear,
                    .seen_in = {}};
   for (std::size_t r = 0; r < choice.ln_gain_of_recording.size(); ++r) {
     if (choice.ln_gain_of_recording[r] > kSeen) {
@@ -54,34 +54,36 @@ double OtherProbability(const HypothesisSet& hypotheses, const Selection& select
   const bool passed = selection.goodness_of_fit.passed;
   if (selection.named.empty()) return passed ? kOtherAtLeast : kOtherWhereNoneIsNamed;
   return std::max(kOtherAtLeast,
-                  ProbabilityOfConfusion(hypotheses, selection.healthy, selection.best, passed));
+                  ProbabilityOfConfusion(hypotheses, selection.null_model, selection.best, passed));
 }
 
 }  // namespace
 
 void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
   const GoodnessOfFit& goodness_of_fit = selection.goodness_of_fit;
-  const std::string left = "what is left is not noise (" + goodness_of_fit.worst + ")";
+  const std::string left =
+      "the residuals are not white (goodness-of-fit test failed: " + goodness_of_fit.worst + ")";
   if (selection.named.empty()) {
     result->verdict = goodness_of_fit.passed ? Verdict::kNoFault : Verdict::kUnexplained;
-    result->reason = goodness_of_fit.passed
-                         ? "What the simulation gets wrong is within noise and building tolerances."
-                         : "No cause of the catalogue explains the gap: " + left + ".";
+    result->reason =
+        goodness_of_fit.passed
+            ? "The residuals are within noise and manufacturing tolerances (null model)."
+            : "No fault of the catalogue explains the residuals: " + left + ".";
   } else if (!goodness_of_fit.passed) {
     result->verdict = Verdict::kPartlyExplained;
-    result->reason = "The cause explains a part; " + left + ".";
-  } else if (!selection.alike.empty()) {
+    result->reason = "The named causes explain part of the residuals; " + left + ".";
+  } else if (!selection.indistinguishable.empty()) {
     result->verdict = Verdict::kIndistinguishable;
-    result->reason = "Other causes fit these data as well.";
+    result->reason = "The first cause is not identifiable: other faults fit these data as well.";
   } else {
     result->verdict = Verdict::kCause;
-    result->reason = "The causes that are named explain the gap.";
+    result->reason = "The named causes explain the residuals.";
   }
-  result->leftover = {goodness_of_fit.passed, goodness_of_fit.worst, goodness_of_fit.surprise,
-                      goodness_of_fit.surprise_limit, goodness_of_fit.excess};
+  result->residual_test = {goodness_of_fit.passed, goodness_of_fit.worst, goodness_of_fit.surprise,
+                           goodness_of_fit.surprise_limit, goodness_of_fit.excess};
   result->search_complete = selection.complete;
   if (!selection.complete) {
-    result->reason += " The time was over: fits ended early, and not all causes were tried.";
+    result->reason += " Time limit reached: fits ended early, and not all faults were tested.";
   }
 }
 
@@ -89,11 +91,11 @@ void DescribeCauses(const ObservedExperiment& observed, const Fitter& fitter,
                     const Selection& selection, DiagnosisResult* result) {
   result->other_probability = OtherProbability(fitter.hypotheses(), selection);
   if (selection.named.empty()) return;
-  const std::vector<FurtherCause> further = FurtherCauses(fitter, selection.best);
+  const std::vector<FurtherFault> further = FurtherFaults(fitter, selection.best);
   for (const Choice& choice : selection.named) {
     NamedCause named =
         Describe(observed, fitter, selection.best, further, result->other_probability, choice);
-    named.explained_share = ExplainedShare(observed, fitter.hypotheses(), selection, choice.cause);
+    named.explained_share = ExplainedShare(observed, fitter.hypotheses(), selection, choice.fault);
     result->causes.push_back(std::move(named));
   }
 }
@@ -116,22 +118,22 @@ void DescribeRivals(const HypothesisSet& hypotheses, const Selection& selection,
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& one = candidates[k];
     const bool named = std::any_of(selection.named.begin(), selection.named.end(),
-                                   [&](const Choice& choice) { return choice.cause == one.cause; });
+                                   [&](const Choice& choice) { return choice.fault == one.fault; });
     if (named) continue;
     result->rivals.push_back(
-        {.name = hypotheses.cause(one.cause).name(),
-         .words = hypotheses.cause(one.cause).words(),
+        {.name = hypotheses.model(one.fault).name(),
+         .words = hypotheses.model(one.fault).words(),
          .probability = (1.0 - other) * std::exp(ln_weights[k + 1] - ln_most) / all,
          .ln_bayes_factor = one.ln_bayes_factor,
          .canonical_correlation = one.canonical_correlation,
          .why_not = one.why_not});
   }
   for (const int cause : selection.compared) {
-    result->correlation_names.push_back(hypotheses.cause(cause).words());
+    result->correlation_names.push_back(hypotheses.model(cause).words());
   }
   result->correlation = selection.canonical_correlation;
-  for (const Candidate& one : selection.alike) {
-    result->indistinguishable_from.push_back(hypotheses.cause(one.cause).name());
+  for (const Candidate& one : selection.indistinguishable) {
+    result->indistinguishable_from.push_back(hypotheses.model(one.fault).name());
   }
 }
 

@@ -7,10 +7,10 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class CableGainCause final : public FaultModel {
+class CableGainFault final : public FaultModel {
  public:
-  CableGainCause(const std::string& cable, int index)
-      : FaultModel({"cable_gain", {"cable:" + cable}}, "gain of the drive of cable " + cable,
+  CableGainFault(const std::string& cable, int index)
+      : FaultModel({"cable_gain", {"cable:" + cable}}, "gain of the actuator of cable " + cable,
                    {{.name = "g",
                      .tolerance = 0.005,
                      .fault = 0.08,
@@ -18,9 +18,9 @@ class CableGainCause final : public FaultModel {
                      .plausible = 0.2}}),  // a drum is not a fifth too large
         index_(index) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.gain[index_] += z[0];
+    hypothesis->actuators.gain[index_] += z[0];
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
@@ -35,25 +35,26 @@ class CableGainCause final : public FaultModel {
 
 }  // namespace
 
-void MakeCableGainCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    causes->push_back(
-        std::make_unique<CableGainCause>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeCableGain(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    faults->push_back(
+        std::make_unique<CableGainFault>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
 namespace {
 
-class CableOffsetCause final : public FaultModel {
+class CableOffsetFault final : public FaultModel {
  public:
-  CableOffsetCause(const std::string& cable, int index)
-      : FaultModel({"cable_offset", {"cable:" + cable}}, "zero of the drive of cable " + cable,
+  CableOffsetFault(const std::string& cable, int index)
+      : FaultModel({"cable_offset", {"cable:" + cable}},
+                   "zero offset of the actuator of cable " + cable,
                    {{.name = "offset_m", .tolerance = 3e-4, .fault = 4e-3}}),
         index_(index) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.offset_m[index_] += z[0];
+    hypothesis->actuators.offset_m[index_] += z[0];
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* /*robot*/,
@@ -69,11 +70,11 @@ class CableOffsetCause final : public FaultModel {
 
 }  // namespace
 
-void MakeCableOffsetCause(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    if (world.observed.timeline.by_tension[c]) continue;
-    causes->push_back(
-        std::make_unique<CableOffsetCause>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeCableOffset(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    if (inputs.observed.timeline.by_tension[c]) continue;
+    faults->push_back(
+        std::make_unique<CableOffsetFault>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
@@ -84,13 +85,13 @@ namespace {
 class Backlash final : public FaultModel {
  public:
   Backlash(const std::string& cable, int index)
-      : FaultModel({"backlash", {"cable:" + cable}}, "play in the drive of cable " + cable,
+      : FaultModel({"backlash", {"cable:" + cable}}, "backlash in the actuator of cable " + cable,
                    {{.name = "play_m", .tolerance = 1e-4, .fault = 4e-3, .least = 0.0}}),
         index_(index) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.play_m[index_] += z[0];
+    hypothesis->actuators.play_m[index_] += z[0];
   }
 
  private:
@@ -99,28 +100,28 @@ class Backlash final : public FaultModel {
 
 }  // namespace
 
-void MakeBacklash(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    if (world.observed.timeline.by_tension[c]) continue;
-    causes->push_back(std::make_unique<Backlash>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeBacklash(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    if (inputs.observed.timeline.by_tension[c]) continue;
+    faults->push_back(std::make_unique<Backlash>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
 namespace {
 
-class DriveCouplingCause final : public FaultModel {
+class DriveCouplingFault final : public FaultModel {
  public:
-  DriveCouplingCause(const robot::BodyCable& driven, int driven_index, const robot::BodyCable& by,
+  DriveCouplingFault(const robot::BodyCable& driven, int driven_index, const robot::BodyCable& by,
                      int by_index)
       : FaultModel({"drive_coupling", {"cable:" + driven.name, "cable:" + by.name}},
-                   "cable " + driven.name + " moving along with cable " + by.name,
+                   "cable " + driven.name + " coupled to cable " + by.name,
                    {{.name = "coupling", .fault = 0.1}}),
         driven_(driven_index),
         by_(by_index) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.mixing(driven_, by_) += z[0];
+    hypothesis->actuators.mixing(driven_, by_) += z[0];
   }
 
  private:
@@ -130,12 +131,12 @@ class DriveCouplingCause final : public FaultModel {
 
 }  // namespace
 
-void MakeDriveCoupling(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const std::vector<robot::BodyCable>& cables = world.body.cables;
+void MakeDriveCoupling(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const std::vector<robot::BodyCable>& cables = inputs.body.cables;
   for (std::size_t driven = 0; driven < cables.size(); ++driven) {
     for (std::size_t by = 0; by < cables.size(); ++by) {
       if (by == driven) continue;
-      causes->push_back(std::make_unique<DriveCouplingCause>(
+      faults->push_back(std::make_unique<DriveCouplingFault>(
           cables[driven], static_cast<int>(driven), cables[by], static_cast<int>(by)));
     }
   }

@@ -12,9 +12,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class BaseComplianceCause final : public FaultModel {
+class BaseComplianceFault final : public FaultModel {
  public:
-  explicit BaseComplianceCause(const Eigen::Vector3d& middle_m)
+  explicit BaseComplianceFault(const Eigen::Vector3d& middle_m)
       : FaultModel({"base_compliance", {"base"}}, "compliance of the base",
                    {{.name = "compliance_rad_Nm", .fault = 0.15, .least = 0.0}}),
         middle_m_(middle_m) {}
@@ -36,8 +36,8 @@ class BaseComplianceCause final : public FaultModel {
 
 }  // namespace
 
-void MakeBaseCompliance(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<BaseComplianceCause>(MiddleOfBase(world.body)));
+void MakeBaseCompliance(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<BaseComplianceFault>(MiddleOfBase(inputs.body)));
 }
 
 namespace {
@@ -45,7 +45,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The base stands askew by R = Ry(theta_y) Rx(theta_x).
-Eigen::Matrix3d Askew(const Eigen::Vector2d& theta_deg) {
+Eigen::Matrix3d TiltError(const Eigen::Vector2d& theta_deg) {
   return (Eigen::AngleAxisd(theta_deg.y() * kDegree, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(theta_deg.x() * kDegree, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
@@ -59,12 +59,12 @@ class GravityDirection final : public FaultModel {
                     {.name = "theta_y_deg", .tolerance = 0.3, .fault = 4.0}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->R_askew = hypothesis->R_askew * Askew(z.head<2>());
+    hypothesis->R_tilt_error = hypothesis->R_tilt_error * TiltError(z.head<2>());
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot->gravity_m_s2 = Askew(z.head<2>()).transpose() * robot->gravity_m_s2;
+    robot->gravity_m_s2 = TiltError(z.head<2>()).transpose() * robot->gravity_m_s2;
     return true;
   }
 
@@ -72,10 +72,10 @@ class GravityDirection final : public FaultModel {
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const FaultContext& at) const override {
     const Eigen::Matrix3d& R_tilt = at.recording().base_rotation;
-    const Eigen::Matrix3d R = R_tilt * at.hypothesis.R_askew;
+    const Eigen::Matrix3d R = R_tilt * at.hypothesis.R_tilt_error;
     // Ry Rx: the turn about y comes before the one about x.
     const Eigen::Vector3d axis =
-        Askew({-z[0], 0.0}) * Eigen::Vector3d(Eigen::Vector3d::Unit(parameter));
+        TiltError({-z[0], 0.0}) * Eigen::Vector3d(Eigen::Vector3d::Unit(parameter));
     // R' v turns by -axis x R' v with a further turn of R on its right.
     const auto turned = [&](const Eigen::Vector3d& v_world) -> Eigen::Vector3d {
       return -kDegree * axis.cross(R.transpose() * v_world);
@@ -100,9 +100,9 @@ class GravityDirection final : public FaultModel {
 
 }  // namespace
 
-void MakeGravityDirection(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (world.body.gravity_m_s2.isZero()) return;
-  causes->push_back(std::make_unique<GravityDirection>());
+void MakeGravityDirection(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (inputs.body.gravity_m_s2.isZero()) return;
+  faults->push_back(std::make_unique<GravityDirection>());
 }
 
 }  // namespace palpate::diagnosis

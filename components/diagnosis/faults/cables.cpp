@@ -12,9 +12,9 @@ namespace {
 
 /// Capstan friction in the eyelets that a cable runs through (model/sticking.hpp); one with a knot
 /// only has none.
-class CableFrictionCause final : public FaultModel {
+class CableFrictionFault final : public FaultModel {
  public:
-  CableFrictionCause(const std::string& cable, int index)
+  CableFrictionFault(const std::string& cable, int index)
       : FaultModel({"cable_friction", {"cable:" + cable}}, "friction of cable " + cable,
                    {{.name = "mu", .tolerance = 0.02, .fault = 0.3, .least = 0.0}}),
         index_(index) {}
@@ -25,7 +25,7 @@ class CableFrictionCause final : public FaultModel {
   }
 
   /// More of it sticks for longer, which OnBody leaves out.
-  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
+  bool NeedsSimulation(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
@@ -44,19 +44,19 @@ class CableFrictionCause final : public FaultModel {
 
 }  // namespace
 
-void MakeCableFriction(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    if (world.body.cables[c].eyelets.size() < 2) continue;
-    causes->push_back(
-        std::make_unique<CableFrictionCause>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeCableFriction(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    if (inputs.body.cables[c].eyelets.size() < 2) continue;
+    faults->push_back(
+        std::make_unique<CableFrictionFault>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
 namespace {
 
-/// What a healthy robot's simulation has of it, m/N, beside what all cables have (CableEnds): a
-/// cable ends in a point, at which every mesh gives way by something else. Two meshes of four_leg
-/// of like fineness differ by 0.03 to 0.09 mm/N.
+/// What a healthy robot's simulation has of it, m/N, beside what all cables have
+/// (AnchorCompliance): a cable ends in a point, at which every mesh gives way by something else.
+/// Two meshes of four_leg of like fineness differ by 0.03 to 0.09 mm/N.
 constexpr double kOfMesh_m_N = 5e-5;
 
 /// z is the compliance, m/N.
@@ -92,11 +92,11 @@ class CableElasticity final : public FaultModel {
 
 }  // namespace
 
-void MakeCableElasticity(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    if (world.observed.timeline.by_tension[c]) continue;
-    causes->push_back(
-        std::make_unique<CableElasticity>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeCableElasticity(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    if (inputs.observed.timeline.by_tension[c]) continue;
+    faults->push_back(
+        std::make_unique<CableElasticity>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
@@ -147,10 +147,10 @@ class CableRouting final : public FaultModel {
 
 }  // namespace
 
-void MakeCableRouting(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (std::size_t c = 0; c < world.body.cables.size(); ++c) {
-    causes->push_back(
-        std::make_unique<CableRouting>(world.body.cables[c].name, static_cast<int>(c)));
+void MakeCableRouting(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (std::size_t c = 0; c < inputs.body.cables.size(); ++c) {
+    faults->push_back(
+        std::make_unique<CableRouting>(inputs.body.cables[c].name, static_cast<int>(c)));
   }
 }
 
@@ -159,18 +159,18 @@ namespace {
 /// z = 1: each of two drives pulls the other's cable; 0: its own. Nothing between is believed in.
 class SwappedCables final : public FaultModel {
  public:
-  SwappedCables(const CauseWorld& world, int a, int b)
+  SwappedCables(const CatalogueInputs& inputs, int a, int b)
       : FaultModel(
-            {"swapped_cables", {"cable:" + NameOf(world, a), "cable:" + NameOf(world, b)}},
-            "cables " + NameOf(world, a) + " and " + NameOf(world, b) + " swapped",
+            {"swapped_cables", {"cable:" + NameOf(inputs, a), "cable:" + NameOf(inputs, b)}},
+            "cables " + NameOf(inputs, a) + " and " + NameOf(inputs, b) + " swapped",
             {{.name = "swapped", .fault = 0.02, .fault_at = 1.0, .least = 0.0, .most = 1.0}}),
         a_(a),
         b_(b) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    Eigen::MatrixXd& mixing = hypothesis->drives.mixing;
+    Eigen::MatrixXd& mixing = hypothesis->actuators.mixing;
     const Eigen::RowVectorXd row_a = mixing.row(a_);
     const Eigen::RowVectorXd row_b = mixing.row(b_);
     mixing.row(a_) += z[0] * (row_b - row_a);
@@ -195,8 +195,8 @@ class SwappedCables final : public FaultModel {
   }
 
  private:
-  static const std::string& NameOf(const CauseWorld& world, int cable) {
-    return world.body.cables[static_cast<std::size_t>(cable)].name;
+  static const std::string& NameOf(const CatalogueInputs& inputs, int cable) {
+    return inputs.body.cables[static_cast<std::size_t>(cable)].name;
   }
 
   Eigen::Index a_;
@@ -205,11 +205,11 @@ class SwappedCables final : public FaultModel {
 
 }  // namespace
 
-void MakeSwappedCables(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const auto cables = static_cast<int>(world.body.cables.size());
+void MakeSwappedCables(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const auto cables = static_cast<int>(inputs.body.cables.size());
   for (int a = 0; a < cables; ++a) {
     for (int b = a + 1; b < cables; ++b) {
-      causes->push_back(std::make_unique<SwappedCables>(world, a, b));
+      faults->push_back(std::make_unique<SwappedCables>(inputs, a, b));
     }
   }
 }

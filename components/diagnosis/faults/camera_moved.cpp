@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "components/diagnosis/faults/seen_move.hpp"
+#include "components/diagnosis/faults/view_motion.hpp"
 
 namespace palpate::diagnosis {
 
@@ -29,12 +29,12 @@ class CameraMoved final : public FaultModel {
   }
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
+    const Eigen::Isometry3d moved = ViewMotion(z, middle_m_);
     for (auto k = static_cast<std::size_t>(from_recording_); k < T_view_robot_.size(); ++k) {
       const Eigen::Isometry3d& T = T_view_robot_[k];
       const Eigen::Isometry3d in_robot_frame = T.inverse() * moved * T;
       if (moves_markers_[k]) hypothesis->T_seen[k] = in_robot_frame * hypothesis->T_seen[k];
-      hypothesis->T_skin_seen[k] = in_robot_frame * hypothesis->T_skin_seen[k];
+      hypothesis->T_surface_seen[k] = in_robot_frame * hypothesis->T_surface_seen[k];
     }
   }
 
@@ -43,19 +43,20 @@ class CameraMoved final : public FaultModel {
     const ObservedRecording& recording = at.recording();
     const int from = recording.pose_of >= 0 ? recording.pose_of : at.seen().recording;
     const auto source = static_cast<std::size_t>(from);
-    const bool moves = at.target == Target::kSkin || moves_markers_[source];
+    const bool moves = at.target == Target::kSurface || moves_markers_[source];
     if (from < from_recording_ || !moves) return;
-    const Eigen::Isometry3d& T_seen = at.target == Target::kSkin ? at.hypothesis.T_skin_seen[source]
-                                                                 : at.hypothesis.T_seen[source];
+    const Eigen::Isometry3d& T_seen = at.target == Target::kSurface
+                                          ? at.hypothesis.T_surface_seen[source]
+                                          : at.hypothesis.T_seen[source];
     const Eigen::Isometry3d T_after =
-        T_seen * at.T_measurement_robot().inverse() * SeenMove(z, middle_m_).inverse();
-    AddSeenMove(parameter, z, middle_m_, T_after, at, motion_m);
+        T_seen * at.T_measurement_robot().inverse() * ViewMotion(z, middle_m_).inverse();
+    AddViewMotion(parameter, z, middle_m_, T_after, at, motion_m);
   }
 
   /// How far the camera itself is from where it was, and by how much it turned.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& /*undeformed_m*/) const override {
-    const Eigen::Isometry3d moved = SeenMove(z, middle_m_);
+    const Eigen::Isometry3d moved = ViewMotion(z, middle_m_);
     const Eigen::Vector3d turned_m = moved.linear() * middle_m_;
     Eigen::Matrix<double, 3, 6> slope;
     slope << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
@@ -83,12 +84,12 @@ class CameraMoved final : public FaultModel {
 
 }  // namespace
 
-void MakeCameraMoved(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
-  const std::vector<ObservedRecording>& recordings = world.observed.recordings;
+void MakeCameraMoved(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const Eigen::Vector3d middle_m = inputs.body.mesh.nodes_m.rowwise().mean();
+  const std::vector<ObservedRecording>& recordings = inputs.observed.recordings;
   for (std::size_t k = 1; k < recordings.size(); ++k) {
     if (!recordings[k].camera_frame && !recordings[k].T_camera_robot) continue;
-    causes->push_back(std::make_unique<CameraMoved>(static_cast<int>(k), recordings, middle_m));
+    faults->push_back(std::make_unique<CameraMoved>(static_cast<int>(k), recordings, middle_m));
   }
 }
 

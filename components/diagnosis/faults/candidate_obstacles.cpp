@@ -65,7 +65,7 @@ Eigen::Vector3d MiddleOn(const Obstacle& obstacle, const Simulation& as_built) {
   double weight = 0.0;
   for (const SimulatedSample& sample : as_built.samples) {
     if (!sample.status.ok()) continue;
-    const Beyond beyond = LookBeyond(obstacle, sample.middle.state.x_m);
+    const Beyond beyond = BeyondObstacle(obstacle, sample.middle.state.x_m);
     sum_m += beyond.depth_m * beyond.middle_m;
     weight += beyond.depth_m;
   }
@@ -75,7 +75,7 @@ Eigen::Vector3d MiddleOn(const Obstacle& obstacle, const Simulation& as_built) {
 
 }  // namespace
 
-Beyond LookBeyond(const Obstacle& obstacle, const Eigen::VectorXd& x_m) {
+Beyond BeyondObstacle(const Obstacle& obstacle, const Eigen::VectorXd& x_m) {
   Beyond beyond;
   double sum_m = 0.0;
   for (const int node : obstacle.surface->nodes) {

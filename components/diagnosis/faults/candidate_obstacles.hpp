@@ -29,7 +29,7 @@ struct Beyond {
   double depth_m = 0.0;                                ///< mean by these shares
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  ///< of them, by these shares
 };
-Beyond LookBeyond(const Obstacle& obstacle, const Eigen::VectorXd& x_m);
+Beyond BeyondObstacle(const Obstacle& obstacle, const Eigen::VectorXd& x_m);
 
 /// In the directions in which the body goes farthest out of where it is undeformed, some gaps up to
 /// how far it goes. `undeformed_m` [3n].

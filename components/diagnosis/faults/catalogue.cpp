@@ -15,7 +15,7 @@ namespace {
 
 struct Entry {
   const char* id;
-  void (*make)(const CauseWorld&, std::vector<FaultModelPtr>*);
+  void (*make)(const CatalogueInputs&, std::vector<FaultModelPtr>*);
 };
 
 constexpr Entry kCatalogue[] = {
@@ -37,8 +37,8 @@ constexpr Entry kCatalogue[] = {
     {"hidden_obstacle", MakeHiddenObstacle},
     {"cable_friction", MakeCableFriction},
     {"cable_elasticity", MakeCableElasticity},
-    {"cable_gain", MakeCableGainCause},
-    {"cable_offset", MakeCableOffsetCause},
+    {"cable_gain", MakeCableGain},
+    {"cable_offset", MakeCableOffset},
     {"backlash", MakeBacklash},
     {"cable_routing", MakeCableRouting},
     {"swapped_cables", MakeSwappedCables},
@@ -63,34 +63,34 @@ constexpr const char* kNotLookedFor[] = {
 
 }  // namespace
 
-std::vector<std::string> KnownCauses() {
+std::vector<std::string> SearchedFaults() {
   std::vector<std::string> ids;
   for (const Entry& entry : kCatalogue) ids.emplace_back(entry.id);
   return ids;
 }
 
 std::vector<std::string> CatalogueIds() {
-  std::vector<std::string> ids = KnownCauses();
+  std::vector<std::string> ids = SearchedFaults();
   ids.insert(ids.end(), std::begin(kNotLookedFor), std::end(kNotLookedFor));
   return ids;
 }
 
-std::vector<FaultModelPtr> MakeCauses(const CauseWorld& world,
-                                      const std::vector<std::string>& without) {
+std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
+                                           const std::vector<std::string>& without) {
   const std::vector<std::string> ids = CatalogueIds();
   for (const std::string& id : without) {
     if (!IndexOf(id, ids)) throw InputError(Unknown("cause", id, ids));
   }
-  std::vector<FaultModelPtr> causes;
+  std::vector<FaultModelPtr> faults;
   for (const Entry& entry : kCatalogue) {
-    if (!IndexOf(entry.id, without)) entry.make(world, &causes);
+    if (!IndexOf(entry.id, without)) entry.make(inputs, &faults);
   }
-  MakeCableEnds(world, &causes);
-  MakeExtrinsics(world, &causes);
-  MakeDepthBias(world, &causes);
-  MakeStereoRipple(world, &causes);
-  MakeSkinOffset(world, &causes);
-  return causes;
+  MakeAnchorCompliance(inputs, &faults);
+  MakeExtrinsics(inputs, &faults);
+  MakeDepthBias(inputs, &faults);
+  MakeStereoRipple(inputs, &faults);
+  MakeSurfaceOffset(inputs, &faults);
+  return faults;
 }
 
 }  // namespace palpate::diagnosis

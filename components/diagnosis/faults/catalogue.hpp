@@ -12,7 +12,7 @@
 namespace palpate::diagnosis {
 
 /// What the causes of a robot are made from.
-struct CauseWorld {
+struct CatalogueInputs {
   const robot::RobotBody& body;
   const ObservedExperiment& observed;
   double extrinsics_m = 0.0;  ///< sigma of given poses, where it is known (experiment.yaml)
@@ -26,11 +26,11 @@ struct CauseWorld {
 /// `cable_ends`, `extrinsics`, `depth_bias`, `stereo_ripple` and `skin_offset`, which are never
 /// faults.
 /// `without`: ids that are left out. Throws InputError for one that is not of the catalogue.
-std::vector<FaultModelPtr> MakeCauses(const CauseWorld& world,
-                                      const std::vector<std::string>& without);
+std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
+                                           const std::vector<std::string>& without);
 
 /// Ids of the catalogue that are looked for.
-std::vector<std::string> KnownCauses();
+std::vector<std::string> SearchedFaults();
 /// All ids of the catalogue, those that nobody looks for yet, too.
 std::vector<std::string> CatalogueIds();
 

@@ -23,15 +23,15 @@ class DepthScale final : public FaultModel {
   void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-      motion_m->col(m) += at.sight.camera->ByDepthScale(at.sight.point(m));
+      motion_m->col(m) += at.measured_points.camera->ByDepthScale(at.measured_points.point(m));
     }
   }
 };
 
 }  // namespace
 
-void MakeDepthScale(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (HasDepthCamera(world.observed)) causes->push_back(std::make_unique<DepthScale>());
+void MakeDepthScale(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (HasDepthCamera(inputs.observed)) faults->push_back(std::make_unique<DepthScale>());
 }
 
 namespace {
@@ -40,7 +40,7 @@ namespace {
 class DepthIncidenceBias final : public FaultModel {
  public:
   DepthIncidenceBias()
-      : FaultModel({"depth_incidence_bias", {"camera"}}, "depth of surfaces seen askew",
+      : FaultModel({"depth_incidence_bias", {"camera"}}, "depth error at oblique incidence",
                    {{.name = "b_m", .fault = 3e-3}}) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
@@ -50,15 +50,15 @@ class DepthIncidenceBias final : public FaultModel {
   void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-      motion_m->col(m) += at.sight.camera->ByIncidence(at.sight.point(m));
+      motion_m->col(m) += at.measured_points.camera->ByIncidence(at.measured_points.point(m));
     }
   }
 };
 
 }  // namespace
 
-void MakeDepthIncidenceBias(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (HasDepthCamera(world.observed)) causes->push_back(std::make_unique<DepthIncidenceBias>());
+void MakeDepthIncidenceBias(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (HasDepthCamera(inputs.observed)) faults->push_back(std::make_unique<DepthIncidenceBias>());
 }
 
 namespace {
@@ -81,9 +81,10 @@ class Intrinsics final : public FaultModel {
   void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-      const CameraView& camera = *at.sight.camera;
-      motion_m->col(m) += parameter == 0 ? camera.ByFocal(at.sight.point(m))
-                                         : camera.ByCentre(at.sight.point(m), parameter - 1);
+      const CameraView& camera = *at.measured_points.camera;
+      motion_m->col(m) += parameter == 0
+                              ? camera.ByFocal(at.measured_points.point(m))
+                              : camera.ByCentre(at.measured_points.point(m), parameter - 1);
     }
   }
 
@@ -101,15 +102,15 @@ class Intrinsics final : public FaultModel {
 
 }  // namespace
 
-void MakeIntrinsics(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (!HasDepthCamera(world.observed)) return;
-  const auto& recordings = world.observed.recordings;
+void MakeIntrinsics(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (!HasDepthCamera(inputs.observed)) return;
+  const auto& recordings = inputs.observed.recordings;
   const bool with_centre =
       std::all_of(recordings.begin(), recordings.end(), [](const ObservedRecording& recording) {
         const bool seen = recording.by_depth_camera || recording.T_camera_robot;
         return !seen || recording.focal_px.has_value();
       });
-  causes->push_back(std::make_unique<Intrinsics>(with_centre));
+  faults->push_back(std::make_unique<Intrinsics>(with_centre));
 }
 
 namespace {
@@ -128,15 +129,15 @@ class LensDistortion final : public FaultModel {
   void OnMeasurement(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-      motion_m->col(m) += at.sight.camera->ByDistortion(at.sight.point(m));
+      motion_m->col(m) += at.measured_points.camera->ByDistortion(at.measured_points.point(m));
     }
   }
 };
 
 }  // namespace
 
-void MakeLensDistortion(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (HasDepthCamera(world.observed)) causes->push_back(std::make_unique<LensDistortion>());
+void MakeLensDistortion(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (HasDepthCamera(inputs.observed)) faults->push_back(std::make_unique<LensDistortion>());
 }
 
 namespace {
@@ -165,17 +166,17 @@ class WarmUpDrift final : public FaultModel {
     const double depth_m = parameter == 0 ? DriftShare(at.observed, at.seen(), tau_s)
                                           : z[0] * DriftShareByTau(at.observed, at.seen(), tau_s);
     for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
-      motion_m->col(m) += depth_m * at.sight.camera->ByDrift(at.sight.point(m));
+      motion_m->col(m) += depth_m * at.measured_points.camera->ByDrift(at.measured_points.point(m));
     }
   }
 };
 
 }  // namespace
 
-void MakeWarmUpDrift(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (!HasDepthCamera(world.observed)) return;
+void MakeWarmUpDrift(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (!HasDepthCamera(inputs.observed)) return;
   for (const double tau_s : {20.0, 60.0, 200.0, 600.0}) {
-    causes->push_back(std::make_unique<WarmUpDrift>(tau_s));
+    faults->push_back(std::make_unique<WarmUpDrift>(tau_s));
   }
 }
 

@@ -29,7 +29,7 @@ class Discretisation final : public FaultModel {
                                       const Eigen::VectorXd& /*undeformed_m*/) const override {
     return {{"relative_error", error_->relative, error_->relative, error_->relative}};
   }
-  bool BeginsAnew() const override { return true; }
+  bool RestartsSearch() const override { return true; }
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     hypothesis->mesh_error = error_;
@@ -38,17 +38,18 @@ class Discretisation final : public FaultModel {
 
   void OnView(int /*parameter*/, const Eigen::VectorXd& /*z*/, const FaultContext& at,
               Eigen::Matrix3Xd* motion_m) const override {
-    const bool of_skin = at.target == Target::kSkin;
+    const bool of_skin = at.target == Target::kSurface;
     const Eigen::VectorXd farther_m =
         (of_skin ? error_->of_nodes : error_->of_markers) *
         error_->BendIn(at.shape.state.x_m - at.hypothesis.body.mesh.nodes_m.reshaped());
     const auto recording = static_cast<std::size_t>(at.seen().recording);
     const Eigen::Matrix3d R_seen =
-        (of_skin ? at.hypothesis.T_skin_seen : at.hypothesis.T_seen)[recording].linear();
+        (of_skin ? at.hypothesis.T_surface_seen : at.hypothesis.T_seen)[recording].linear();
     for (Eigen::Index k = 0; k < motion_m->cols(); ++k) {
       motion_m->col(k) +=
-          R_seen * (of_skin ? at.seen().skin[static_cast<std::size_t>(k)].point.Position(farther_m)
-                            : farther_m.segment<3>(3 * k));
+          R_seen * (of_skin
+                        ? at.seen().surface[static_cast<std::size_t>(k)].point.Position(farther_m)
+                        : farther_m.segment<3>(3 * k));
     }
   }
 
@@ -64,8 +65,8 @@ class Discretisation final : public FaultModel {
 
 }  // namespace
 
-void MakeDiscretisation(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (world.mesh_error) causes->push_back(std::make_unique<Discretisation>(world.mesh_error));
+void MakeDiscretisation(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (inputs.mesh_error) faults->push_back(std::make_unique<Discretisation>(inputs.mesh_error));
 }
 
 }  // namespace palpate::diagnosis

@@ -14,9 +14,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-class YoungsModulusCause final : public FaultModel {
+class YoungsModulusFault final : public FaultModel {
  public:
-  YoungsModulusCause()
+  YoungsModulusFault()
       : FaultModel({"youngs_modulus", {"body"}}, "Young's modulus of the body",
                    {{.name = "factor",
                      .nominal = 1.0,
@@ -52,8 +52,8 @@ class YoungsModulusCause final : public FaultModel {
 
 }  // namespace
 
-void MakeYoungsModulus(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<YoungsModulusCause>());
+void MakeYoungsModulus(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<YoungsModulusFault>());
 }
 
 namespace {
@@ -95,19 +95,19 @@ class RegionalStiffness final : public FaultModel {
 
 }  // namespace
 
-void MakeRegionalStiffness(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const std::vector<std::string>& regions = world.body.region_names;
+void MakeRegionalStiffness(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const std::vector<std::string>& regions = inputs.body.region_names;
   for (std::size_t k = 0; k < regions.size(); ++k) {
-    causes->push_back(std::make_unique<RegionalStiffness>(regions[k], static_cast<int>(k) + 1));
+    faults->push_back(std::make_unique<RegionalStiffness>(regions[k], static_cast<int>(k) + 1));
   }
 }
 
 namespace {
 
 /// nu of the whole body, Young's modulus as it is.
-class PoissonsRatioCause final : public FaultModel {
+class PoissonsRatioFault final : public FaultModel {
  public:
-  explicit PoissonsRatioCause(double nominal)
+  explicit PoissonsRatioFault(double nominal)
       : FaultModel({"poissons_ratio", {"body"}}, "Poisson's ratio of the body",
                    {{.name = "nu",
                      .nominal = nominal,
@@ -141,8 +141,8 @@ class PoissonsRatioCause final : public FaultModel {
 
 }  // namespace
 
-void MakePoissonsRatio(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<PoissonsRatioCause>(world.body.nominal_poissons_ratio));
+void MakePoissonsRatio(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<PoissonsRatioFault>(inputs.body.nominal_poissons_ratio));
 }
 
 namespace {
@@ -207,11 +207,11 @@ class Stiffening final : public FaultModel {
 }  // namespace
 
 /// Nearly incompressible tet10 averages its dilatation, which Yeoh's material does not do here.
-void MakeStiffening(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  for (const fem::Material& material : world.body.materials) {
+void MakeStiffening(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  for (const fem::Material& material : inputs.body.materials) {
     if (material.volumetric != fem::Volumetric::kPointwise) return;
   }
-  causes->push_back(std::make_unique<Stiffening>(world.body));
+  faults->push_back(std::make_unique<Stiffening>(inputs.body));
 }
 
 namespace {
@@ -244,8 +244,8 @@ class Temperature final : public FaultModel {
 
 }  // namespace
 
-void MakeTemperature(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<Temperature>());
+void MakeTemperature(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<Temperature>());
 }
 
 namespace {
@@ -281,8 +281,8 @@ class Density final : public FaultModel {
 
 }  // namespace
 
-void MakeDensity(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<Density>());
+void MakeDensity(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<Density>());
 }
 
 }  // namespace palpate::diagnosis

@@ -16,7 +16,7 @@ namespace {
 constexpr double kTiltSigma_rad = 0.2;
 constexpr double kMostTilt_rad = 0.6;
 /// By which the model's skin of nodes may lie off the body's, one sigma.
-constexpr double kSkin_m = 3e-4;
+constexpr double kSurface_m = 3e-4;
 
 /// z: whether the wall is there (1; 0: not; nothing between is believed in), how much farther from
 /// the body than where it is looked for, and two turns about the middle of where it is met there.
@@ -68,23 +68,23 @@ class HiddenObstacle final : public FaultModel {
     const Obstacle obstacle = ObstacleAt(z);
     Push push{.force_N = {},
               .times = Eigen::VectorXd::Zero(z.size()),
-              .give_way_m = Eigen::VectorXd::Zero(z.size())};
+              .displacement_m = Eigen::VectorXd::Zero(z.size())};
     if (IsThere(z)) {
       if (!at.shape.AtObstacle()) return std::nullopt;
       push.force_N = NodalForces_N(obstacle, at.shape.obstacle_force_N, x_m.size());
       push.times[0] = 1.0;
       return push;
     }
-    const Beyond beyond = LookBeyond(obstacle, x_m);
+    const Beyond beyond = BeyondObstacle(obstacle, x_m);
     if (beyond.share.empty()) return std::nullopt;
     push.force_N = Eigen::VectorXd::Zero(x_m.size());
     for (const auto& [node, share] : beyond.share) {
       push.force_N.segment<3>(3 * node) = share * obstacle.normal;
     }
-    push.give_way_m[0] = beyond.depth_m;
+    push.displacement_m[0] = beyond.depth_m;
     for (int p = 1; p < std::ssize(parameters()); ++p) {
       const Eigen::Vector3d turn = NormalChange(p, z);
-      push.give_way_m[p] = OffsetChange(p, turn) - turn.dot(beyond.middle_m);
+      push.displacement_m[p] = OffsetChange(p, turn) - turn.dot(beyond.middle_m);
     }
     return push;
   }
@@ -107,7 +107,7 @@ class HiddenObstacle final : public FaultModel {
     }
     std::vector<FittedParameter> report;
     for (int k = 0; k < 4; ++k) {
-      const double of_skin_m2 = k == 0 ? kSkin_m * kSkin_m : 0.0;
+      const double of_skin_m2 = k == 0 ? kSurface_m * kSurface_m : 0.0;
       const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance) + of_skin_m2);
       // A wall that stands in the model's skin touches it.
       const double least = k == 0 ? 0.0 : -1.0;
@@ -159,12 +159,12 @@ class HiddenObstacle final : public FaultModel {
 
 }  // namespace
 
-void MakeHiddenObstacle(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (world.as_built == nullptr) return;
-  const auto surface = std::make_shared<const ObstacleSurface>(SurfaceForObstacles(world.body));
-  const Eigen::VectorXd undeformed_m = world.body.mesh.nodes_m.reshaped();
-  for (const CandidateObstacle& at : CandidateObstacles(surface, undeformed_m, *world.as_built)) {
-    causes->push_back(std::make_unique<HiddenObstacle>(at, surface));
+void MakeHiddenObstacle(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (inputs.as_built == nullptr) return;
+  const auto surface = std::make_shared<const ObstacleSurface>(SurfaceForObstacles(inputs.body));
+  const Eigen::VectorXd undeformed_m = inputs.body.mesh.nodes_m.reshaped();
+  for (const CandidateObstacle& at : CandidateObstacles(surface, undeformed_m, *inputs.as_built)) {
+    faults->push_back(std::make_unique<HiddenObstacle>(at, surface));
   }
 }
 

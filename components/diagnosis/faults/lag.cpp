@@ -20,7 +20,7 @@ namespace {
 class Lag final : public FaultModel {
  public:
   Lag()
-      : FaultModel({"lag", {"body"}}, "lag of the drives",
+      : FaultModel({"lag", {"body"}}, "lag of the actuators",
                    {{.name = "late_s", .tolerance = 0.01, .fault = 0.2, .least = 0.0},
                     {.name = "rounded",
                      .nominal = 0.5,
@@ -29,11 +29,11 @@ class Lag final : public FaultModel {
                      .most = 0.5,
                      .qualifies = true}}) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
     const double late_s = std::max(0.0, z[0]);
-    hypothesis->drives.tau_s += late_s * Share(z[1]);
-    hypothesis->drives.delay_s += late_s * (1.0 - Share(z[1]));
+    hypothesis->actuators.tau_s += late_s * Share(z[1]);
+    hypothesis->actuators.delay_s += late_s * (1.0 - Share(z[1]));
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
@@ -67,9 +67,9 @@ class Lag final : public FaultModel {
 
 }  // namespace
 
-void MakeLag(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (world.body.cables.empty()) return;
-  causes->push_back(std::make_unique<Lag>());
+void MakeLag(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (inputs.body.cables.empty()) return;
+  faults->push_back(std::make_unique<Lag>());
 }
 
 }  // namespace palpate::diagnosis

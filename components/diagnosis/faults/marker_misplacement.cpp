@@ -65,16 +65,16 @@ class MarkerMisplacement final : public FaultModel {
 
 }  // namespace
 
-void MakeMarkerMisplacement(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
+void MakeMarkerMisplacement(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
   const bool only_skin =
-      world.observed.HasSkin() &&
-      std::all_of(world.observed.samples.begin(), world.observed.samples.end(),
+      inputs.observed.HasSurface() &&
+      std::all_of(inputs.observed.samples.begin(), inputs.observed.samples.end(),
                   [](const Sample& sample) { return (sample.count.array() == 0).all(); });
   if (only_skin) return;
-  const fem::PointLocator locator(world.body.mesh);
-  for (std::size_t m = 0; m < world.body.markers.size(); ++m) {
-    causes->push_back(
-        std::make_unique<MarkerMisplacement>(world.body.markers[m], static_cast<int>(m), locator));
+  const fem::PointLocator locator(inputs.body.mesh);
+  for (std::size_t m = 0; m < inputs.body.markers.size(); ++m) {
+    faults->push_back(
+        std::make_unique<MarkerMisplacement>(inputs.body.markers[m], static_cast<int>(m), locator));
   }
 }
 

@@ -21,7 +21,7 @@ namespace {
 class Mullins final : public FaultModel {
  public:
   explicit Mullins(double m_J_m3)
-      : FaultModel({"mullins", {"body"}}, "softening of the body where it was strained before",
+      : FaultModel({"mullins", {"body"}}, "strain softening of the body (Mullins effect)",
                    {{.name = "softening", .fault = 0.4, .least = 0.0, .most = 1.0},
                     {.name = "m",
                      .nominal = m_J_m3,
@@ -37,15 +37,16 @@ class Mullins final : public FaultModel {
   }
 
   /// What energies answer to the softening is up to twice 1 / r of it.
-  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.02; }
+  bool NeedsSimulation(const Eigen::VectorXd& z) const override { return z[0] > 0.02; }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const FaultContext& at) const override {
     if (parameter == 1 && z[0] == 0.0) return nullptr;
     const double m_J_m3 = parameters()[1].ValueOf(z[1]);
-    const Eigen::Array<double, Eigen::Dynamic, HistoryOperator::kLooks> below =
+    const Eigen::Array<double, Eigen::Dynamic, HistoryOperator::kTimesPerSample> below =
         at.simulation.below_largest_J_m3
-            .middleCols<HistoryOperator::kLooks>(HistoryOperator::kLooks * at.sample)
+            .middleCols<HistoryOperator::kTimesPerSample>(HistoryOperator::kTimesPerSample *
+                                                          at.sample)
             .cast<double>()
             .array() /
         m_J_m3;
@@ -97,7 +98,7 @@ class Mullins final : public FaultModel {
     body.SetCellFactors(ones);
     body.AddForces(x_m, once_N);
     const Eigen::VectorXd& factor =
-        at.simulation.past[static_cast<std::size_t>(at.sample)].cell_factor;
+        at.simulation.history_variables[static_cast<std::size_t>(at.sample)].cell_factor;
     if (factor.size() > 0) body.SetCellFactors(factor);
     return more_N - once_N;
   }
@@ -105,9 +106,9 @@ class Mullins final : public FaultModel {
 
 }  // namespace
 
-void MakeMullins(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
+void MakeMullins(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
   for (const double m_J_m3 : {30.0, 100.0, 300.0, 1000.0, 3000.0}) {
-    causes->push_back(std::make_unique<Mullins>(m_J_m3));
+    faults->push_back(std::make_unique<Mullins>(m_J_m3));
   }
 }
 

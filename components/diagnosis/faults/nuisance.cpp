@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/diagnosis/faults/makers.hpp"
-#include "components/diagnosis/faults/seen_move.hpp"
+#include "components/diagnosis/faults/view_motion.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -29,66 +29,68 @@ double SizeOfCell_m(const fem::TetMesh& mesh, int cell) {
 }
 
 /// [cables] m/N, one sigma.
-Eigen::VectorXd GiveWay(const robot::RobotBody& body) {
-  Eigen::VectorXd give_way_m_N(std::ssize(body.cables));
-  for (Eigen::Index c = 0; c < give_way_m_N.size(); ++c) {
+Eigen::VectorXd AnchorCompliance_m_N(const robot::RobotBody& body) {
+  Eigen::VectorXd compliance_m_N(std::ssize(body.cables));
+  for (Eigen::Index c = 0; c < compliance_m_N.size(); ++c) {
     const int cell = body.cables[static_cast<std::size_t>(c)].eyelets.back().cell;
     const auto material =
         static_cast<std::size_t>(body.material_of_cell[static_cast<std::size_t>(cell)]);
-    give_way_m_N[c] =
+    compliance_m_N[c] =
         kShare / (body.materials[material].youngs_modulus_Pa * SizeOfCell_m(body.mesh, cell));
   }
-  return give_way_m_N;
+  return compliance_m_N;
 }
 
 /// By how much more, or less, than the mesh has it the body gives way where its cables end: at all
 /// of them alike, which is no fault. Here z is of one sigma.
-class CableEnds final : public FaultModel {
+class AnchorCompliance final : public FaultModel {
  public:
-  explicit CableEnds(Eigen::VectorXd give_way_m_N)
-      : FaultModel({"cable_ends", {"body"}}, "what the mesh gives way by where cables end",
+  explicit AnchorCompliance(Eigen::VectorXd compliance_m_N)
+      : FaultModel({"cable_ends", {"body"}},
+                   "mesh-dependent local compliance at cable anchor points",
                    {{.name = "sigmas", .tolerance = 1.0, .fault = 1.0}}),
-        give_way_m_N_(std::move(give_way_m_N)) {}
+        compliance_m_N_(std::move(compliance_m_N)) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->cable_compliance_m_N += z[0] * give_way_m_N_;
+    hypothesis->cable_compliance_m_N += z[0] * compliance_m_N_;
   }
 
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
                              const FaultContext& /*at*/) const override {
     auto all = std::make_unique<SumOfParameters>();
-    for (Eigen::Index c = 0; c < give_way_m_N_.size(); ++c) {
-      all->Add(give_way_m_N_[c], robot::CableCompliance(static_cast<int>(c)));
+    for (Eigen::Index c = 0; c < compliance_m_N_.size(); ++c) {
+      all->Add(compliance_m_N_[c], robot::CableCompliance(static_cast<int>(c)));
     }
     return all;
   }
 
  private:
-  Eigen::VectorXd give_way_m_N_;
+  Eigen::VectorXd compliance_m_N_;
 };
 
 }  // namespace
 
-void MakeCableEnds(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (world.body.cables.empty()) return;
-  causes->push_back(std::make_unique<CableEnds>(GiveWay(world.body)));
+void MakeAnchorCompliance(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (inputs.body.cables.empty()) return;
+  faults->push_back(std::make_unique<AnchorCompliance>(AnchorCompliance_m_N(inputs.body)));
 }
 
 namespace {
 
 /// What measures something in a recording.
-struct Eye {
+struct Viewpoint {
   int recording = 0;
   Target target = Target::kMarkers;
 
-  bool operator==(const Eye&) const = default;
+  bool operator==(const Viewpoint&) const = default;
 };
 
 /// Where recordings were measured from, as far as it is not known: no fault of the robot's.
 class Extrinsics final : public FaultModel {
  public:
   /// `of`: the eyes that stand where one camera, or tracker, does.
-  Extrinsics(std::vector<Eye> of, const Eigen::Vector3d& middle_m, double sigma_m, double sigma_rad)
+  Extrinsics(std::vector<Viewpoint> of, const Eigen::Vector3d& middle_m, double sigma_m,
+             double sigma_rad)
       : FaultModel({"extrinsics", {"camera"}}, "pose of the camera",
                    {Known("translation_m", sigma_m), Known("translation_m", sigma_m),
                     Known("translation_m", sigma_m), Known("rotation_rad", sigma_rad),
@@ -97,9 +99,10 @@ class Extrinsics final : public FaultModel {
         middle_m_(middle_m) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    const Eigen::Isometry3d move = SeenMove(z, middle_m_);
-    for (const Eye& eye : eyes_) {
-      auto& of_target = eye.target == Target::kSkin ? hypothesis->T_skin_seen : hypothesis->T_seen;
+    const Eigen::Isometry3d move = ViewMotion(z, middle_m_);
+    for (const Viewpoint& eye : eyes_) {
+      auto& of_target =
+          eye.target == Target::kSurface ? hypothesis->T_surface_seen : hypothesis->T_seen;
       Eigen::Isometry3d& T_seen = of_target[static_cast<std::size_t>(eye.recording)];
       T_seen = move * T_seen;
     }
@@ -109,8 +112,9 @@ class Extrinsics final : public FaultModel {
               Eigen::Matrix3Xd* motion_m) const override {
     const int pose_of = at.recording().pose_of;
     const int from = pose_of >= 0 ? pose_of : at.seen().recording;
-    const bool here = std::find(eyes_.begin(), eyes_.end(), Eye{from, at.target}) != eyes_.end();
-    if (here) AddSeenMove(parameter, z, middle_m_, Eigen::Isometry3d::Identity(), at, motion_m);
+    const bool here =
+        std::find(eyes_.begin(), eyes_.end(), Viewpoint{from, at.target}) != eyes_.end();
+    if (here) AddViewMotion(parameter, z, middle_m_, Eigen::Isometry3d::Identity(), at, motion_m);
   }
 
  private:
@@ -118,7 +122,7 @@ class Extrinsics final : public FaultModel {
     return {.name = name, .tolerance = sigma, .fault = sigma};
   }
 
-  std::vector<Eye> eyes_;
+  std::vector<Viewpoint> eyes_;
   Eigen::Vector3d middle_m_;
 };
 
@@ -130,7 +134,7 @@ constexpr double kFitted_rad = 0.05;
 
 /// Where an eye stands.
 struct View {
-  Eye eye;
+  Viewpoint eye;
   Eigen::Isometry3d T_measurement_robot;
   bool known;
 };
@@ -140,37 +144,38 @@ bool SamePose(const View& a, const View& b) {
 }
 
 /// Those whose pose may be off. Pictures and markers that are in the camera's frame have one pose.
-std::vector<View> Views(const CauseWorld& world) {
+std::vector<View> Views(const CatalogueInputs& inputs) {
   std::vector<View> views;
-  const std::vector<ObservedRecording>& recordings = world.observed.recordings;
+  const std::vector<ObservedRecording>& recordings = inputs.observed.recordings;
   for (int k = 0; k < std::ssize(recordings); ++k) {
     const ObservedRecording& one = recordings[static_cast<std::size_t>(k)];
-    if (one.camera_frame || world.extrinsics_m > 0.0)
+    if (one.camera_frame || inputs.extrinsics_m > 0.0)
       views.push_back({{k, Target::kMarkers}, one.T_measurement_robot, one.knows_pose});
-    if (one.T_camera_robot) views.push_back({{k, Target::kSkin}, *one.T_camera_robot, true});
+    if (one.T_camera_robot) views.push_back({{k, Target::kSurface}, *one.T_camera_robot, true});
   }
   return views;
 }
 
 }  // namespace
 
-void MakeExtrinsics(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const Eigen::Vector3d middle_m = world.body.mesh.nodes_m.rowwise().mean();
-  const std::vector<View> views = Views(world);
+void MakeExtrinsics(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const Eigen::Vector3d middle_m = inputs.body.mesh.nodes_m.rowwise().mean();
+  const std::vector<View> views = Views(inputs);
   std::vector<bool> taken(views.size(), false);
   for (std::size_t k = 0; k < views.size(); ++k) {
     if (taken[k]) continue;
-    std::vector<Eye> alike;
+    std::vector<Viewpoint> same_pose;
     for (std::size_t l = k; l < views.size(); ++l) {
       if (!SamePose(views[k], views[l])) continue;
       taken[l] = true;
-      alike.push_back(views[l].eye);
+      same_pose.push_back(views[l].eye);
     }
     const bool given = views[k].known;
-    const double sigma_m = world.extrinsics_m > 0.0 ? world.extrinsics_m : kGiven_m;
-    const double sigma_rad = world.extrinsics_rad > 0.0 ? world.extrinsics_rad : kGiven_rad;
-    causes->push_back(std::make_unique<Extrinsics>(
-        std::move(alike), middle_m, given ? sigma_m : kFitted_m, given ? sigma_rad : kFitted_rad));
+    const double sigma_m = inputs.extrinsics_m > 0.0 ? inputs.extrinsics_m : kGiven_m;
+    const double sigma_rad = inputs.extrinsics_rad > 0.0 ? inputs.extrinsics_rad : kGiven_rad;
+    faults->push_back(std::make_unique<Extrinsics>(std::move(same_pose), middle_m,
+                                                   given ? sigma_m : kFitted_m,
+                                                   given ? sigma_rad : kFitted_rad));
   }
 }
 
@@ -199,7 +204,8 @@ class DepthBias final : public FaultModel {
   void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
     for (Eigen::Index k = 0; k < motion_m->cols(); ++k) {
-      motion_m->col(k) += at.sight.camera->ByBias(at.sight.point(k), basis_, parameter);
+      motion_m->col(k) +=
+          at.measured_points.camera->ByBias(at.measured_points.point(k), basis_, parameter);
     }
   }
 
@@ -218,9 +224,9 @@ class DepthBias final : public FaultModel {
 
 }  // namespace
 
-void MakeDepthBias(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (!world.observed.HasSkin()) return;
-  causes->push_back(std::make_unique<DepthBias>(kBasis));
+void MakeDepthBias(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (!inputs.observed.HasSurface()) return;
+  faults->push_back(std::make_unique<DepthBias>(kBasis));
 }
 
 namespace {
@@ -245,9 +251,9 @@ class StereoRipple final : public FaultModel {
 
   void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
-    if (at.target != Target::kSkin) return;
+    if (at.target != Target::kSurface) return;
     for (Eigen::Index f = 0; f < motion_m->cols(); ++f) {
-      const SkinSighting& feature = at.seen().skin[static_cast<std::size_t>(f)];
+      const SurfaceMeasurement& feature = at.seen().surface[static_cast<std::size_t>(f)];
       if (feature.count == 0) continue;
       motion_m->col(f) +=
           feature.ripple_m_px[parameter] / feature.normal.squaredNorm() * feature.normal;
@@ -262,11 +268,11 @@ class StereoRipple final : public FaultModel {
 
 }  // namespace
 
-void MakeStereoRipple(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const auto& recordings = world.observed.recordings;
+void MakeStereoRipple(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const auto& recordings = inputs.observed.recordings;
   const bool stereo = std::any_of(recordings.begin(), recordings.end(),
                                   [](const auto& one) { return one.stereo_px_m > 0.0; });
-  if (stereo && world.observed.HasSkin()) causes->push_back(std::make_unique<StereoRipple>());
+  if (stereo && inputs.observed.HasSurface()) faults->push_back(std::make_unique<StereoRipple>());
 }
 
 namespace {
@@ -276,29 +282,30 @@ constexpr double kSigma_m = 3e-4;
 
 /// Every feature of the skin is off along its normal by a constant of its own, in all recordings:
 /// no fault.
-class SkinOffset final : public FaultModel {
+class SurfaceOffset final : public FaultModel {
  public:
-  explicit SkinOffset(Eigen::Index features)
-      : FaultModel({"skin_offset", {"body"}}, "where the skin is drawn",
+  explicit SurfaceOffset(Eigen::Index features)
+      : FaultModel({"skin_offset", {"body"}}, "offset of the drawn surface",
                    std::vector<FaultParameter>(
                        static_cast<std::size_t>(features),
                        {.name = "offset_m", .tolerance = kSigma_m, .fault = kSigma_m})) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->skin_offset_m += z;
+    hypothesis->surface_offset_m += z;
   }
 
   void OnMeasurement(int parameter, const Eigen::VectorXd& /*z*/, const FaultContext& at,
                      Eigen::Matrix3Xd* motion_m) const override {
-    if (at.target == Target::kSkin) motion_m->col(parameter) += at.sight.point(parameter).normal;
+    if (at.target == Target::kSurface)
+      motion_m->col(parameter) += at.measured_points.point(parameter).normal;
   }
 };
 
 }  // namespace
 
-void MakeSkinOffset(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  if (!world.observed.HasSkin()) return;
-  causes->push_back(std::make_unique<SkinOffset>(world.observed.feature_rest_m.cols()));
+void MakeSurfaceOffset(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  if (!inputs.observed.HasSurface()) return;
+  faults->push_back(std::make_unique<SurfaceOffset>(inputs.observed.feature_rest_m.cols()));
 }
 
 }  // namespace palpate::diagnosis

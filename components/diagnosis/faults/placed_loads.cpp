@@ -32,35 +32,36 @@ struct CandidatePlaces {
 
 /// Up to 32 feature points of the body that are far from its fixed nodes, where a force moves
 /// little.
-CandidatePlaces PlacesFor(const CauseWorld& world) {
+CandidatePlaces PlacesFor(const CatalogueInputs& inputs) {
   constexpr std::size_t kMost = 32;
   constexpr double kFarFromBase = 0.25;  // of the body's reach from the middle of its base
   CandidatePlaces places;
-  places.locator = std::make_shared<fem::PointLocator>(world.body.mesh);
-  const Eigen::Vector3d middle_m = MiddleOfBase(world.body);
-  Eigen::VectorXd least_m(std::ssize(world.body.feature_points));
+  places.locator = std::make_shared<fem::PointLocator>(inputs.body.mesh);
+  const Eigen::Vector3d middle_m = MiddleOfBase(inputs.body);
+  Eigen::VectorXd least_m(std::ssize(inputs.body.feature_points));
   for (Eigen::Index k = 0; k < least_m.size(); ++k) {
-    const auto& rest_m = world.body.feature_points[static_cast<std::size_t>(k)].rest_m;
+    const auto& rest_m = inputs.body.feature_points[static_cast<std::size_t>(k)].rest_m;
     least_m[k] = std::numeric_limits<double>::infinity();
-    for (int node = 0; node < world.body.mesh.NodeCount(); ++node) {
-      if (!world.body.fixed.col(node).all()) continue;
-      least_m[k] = std::min(least_m[k], (rest_m - world.body.mesh.nodes_m.col(node)).norm());
+    for (int node = 0; node < inputs.body.mesh.NodeCount(); ++node) {
+      if (!inputs.body.fixed.col(node).all()) continue;
+      least_m[k] = std::min(least_m[k], (rest_m - inputs.body.mesh.nodes_m.col(node)).norm());
     }
   }
-  const double reach_m = (world.body.mesh.nodes_m.colwise() - middle_m).colwise().norm().maxCoeff();
+  const double reach_m =
+      (inputs.body.mesh.nodes_m.colwise() - middle_m).colwise().norm().maxCoeff();
   for (Eigen::Index k = 0; k < least_m.size() && places.point_m.size() < kMost; ++k) {
     if (least_m[k] < kFarFromBase * reach_m) continue;
-    places.point_m.push_back(world.body.feature_points[static_cast<std::size_t>(k)].rest_m);
+    places.point_m.push_back(inputs.body.feature_points[static_cast<std::size_t>(k)].rest_m);
   }
   return places;
 }
 
 /// Adds a fault of this kind, made of a point and the locator, for each candidate place.
 template <typename PlacedFault>
-void AddAtPlaces(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const CandidatePlaces places = PlacesFor(world);
+void AddAtPlaces(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const CandidatePlaces places = PlacesFor(inputs);
   for (const Eigen::Vector3d& point_m : places.point_m) {
-    causes->push_back(std::make_unique<PlacedFault>(point_m, places.locator));
+    faults->push_back(std::make_unique<PlacedFault>(point_m, places.locator));
   }
 }
 
@@ -103,8 +104,8 @@ class Payload final : public FaultModel {
 
 }  // namespace
 
-void MakePayload(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  AddAtPlaces<Payload>(world, causes);
+void MakePayload(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  AddAtPlaces<Payload>(inputs, faults);
 }
 
 namespace {
@@ -147,8 +148,8 @@ class PermanentForce final : public FaultModel {
 
 }  // namespace
 
-void MakePermanentForce(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  AddAtPlaces<PermanentForce>(world, causes);
+void MakePermanentForce(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  AddAtPlaces<PermanentForce>(inputs, faults);
 }
 
 }  // namespace palpate::diagnosis

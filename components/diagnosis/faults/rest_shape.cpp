@@ -49,8 +49,8 @@ class GeometryScale final : public FaultModel {
 
 }  // namespace
 
-void MakeGeometryScale(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  causes->push_back(std::make_unique<GeometryScale>(MiddleOfBase(world.body)));
+void MakeGeometryScale(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  faults->push_back(std::make_unique<GeometryScale>(MiddleOfBase(inputs.body)));
 }
 
 namespace {
@@ -98,14 +98,14 @@ class RestTwist final : public FaultModel {
 
 }  // namespace
 
-void MakeRestTwist(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  const Eigen::Vector3d middle_m = MiddleOfBase(world.body);
-  const Eigen::Vector3d along_m = world.body.mesh.nodes_m.rowwise().mean() - middle_m;
+void MakeRestTwist(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  const Eigen::Vector3d middle_m = MiddleOfBase(inputs.body);
+  const Eigen::Vector3d along_m = inputs.body.mesh.nodes_m.rowwise().mean() - middle_m;
   if (along_m.norm() == 0.0) return;
   const Eigen::Vector3d axis = along_m.normalized();
   const double length_m =
-      (axis.transpose() * (world.body.mesh.nodes_m.colwise() - middle_m)).maxCoeff();
-  causes->push_back(std::make_unique<RestTwist>(middle_m, axis, length_m));
+      (axis.transpose() * (inputs.body.mesh.nodes_m.colwise() - middle_m)).maxCoeff();
+  faults->push_back(std::make_unique<RestTwist>(middle_m, axis, length_m));
 }
 
 namespace {
@@ -197,10 +197,10 @@ class PlasticSet final : public FaultModel {
 
 }  // namespace
 
-void MakePlasticSet(const CauseWorld& world, std::vector<FaultModelPtr>* causes) {
-  SoftShapes soft = SoftestShapes(world.body);
+void MakePlasticSet(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults) {
+  SoftShapes soft = SoftestShapes(inputs.body);
   if (soft.nodal.size() == 0) return;
-  causes->push_back(std::make_unique<PlasticSet>(std::move(soft)));
+  faults->push_back(std::make_unique<PlasticSet>(std::move(soft)));
 }
 
 }  // namespace palpate::diagnosis

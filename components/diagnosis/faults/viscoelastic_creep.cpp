@@ -28,7 +28,7 @@ class ViscoelasticCreep final : public FaultModel {
   }
 
   /// What stresses of the past answer to g is of the order of g.
-  bool NeedsRuns(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
+  bool NeedsSimulation(const Eigen::VectorXd& z) const override { return z[0] > 0.05; }
 
   robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                              const FaultContext& at) const override {
@@ -45,7 +45,7 @@ class ViscoelasticCreep final : public FaultModel {
   /// Of the elastic stresses of all samples, so weighted.
   static robot::ParameterPtr Force(const FaultContext& at, const Eigen::RowVectorXd& weights) {
     PointStresses stress_Pa = PointStresses::Zero(6, at.points.PointCount());
-    AddRemembered(at.simulation, weights.transpose(), &stress_Pa);
+    AddHistoryStress(at.simulation, weights.transpose(), &stress_Pa);
     Eigen::VectorXd force_N = Eigen::VectorXd::Zero(at.shape.state.x_m.size());
     at.points.AddForces(stress_Pa.cast<double>(), at.shape.state.x_m, &force_N);
     return robot::NodalForce(std::move(force_N));
@@ -54,12 +54,12 @@ class ViscoelasticCreep final : public FaultModel {
 
 }  // namespace
 
-void MakeViscoelasticCreep(const CauseWorld& /*world*/, std::vector<FaultModelPtr>* causes) {
-  constexpr double kHealthy = 0.02;
-  constexpr double kHealthyTau_s = 10.0;
-  for (const double tau_s : {1.0, 3.0, kHealthyTau_s, 30.0, 100.0}) {
-    causes->push_back(
-        std::make_unique<ViscoelasticCreep>(tau_s, tau_s == kHealthyTau_s ? kHealthy : 0.0));
+void MakeViscoelasticCreep(const CatalogueInputs& /*inputs*/, std::vector<FaultModelPtr>* faults) {
+  constexpr double kNominal = 0.02;
+  constexpr double kNominalTau_s = 10.0;
+  for (const double tau_s : {1.0, 3.0, kNominalTau_s, 30.0, 100.0}) {
+    faults->push_back(
+        std::make_unique<ViscoelasticCreep>(tau_s, tau_s == kNominalTau_s ? kNominal : 0.0));
   }
 }
 

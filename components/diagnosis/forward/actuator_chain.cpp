@@ -15,13 +15,13 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-DriveSettings::DriveSettings(int cables)
+ActuatorSettings::ActuatorSettings(int cables)
     : mixing(Eigen::MatrixXd::Identity(cables, cables)),
       gain(Eigen::VectorXd::Zero(cables)),
       offset_m(Eigen::VectorXd::Zero(cables)),
       play_m(Eigen::VectorXd::Zero(cables)) {}
 
-DriveTrain::DriveTrain(const ObservedExperiment& observed) : observed_(observed) {
+ActuatorChain::ActuatorChain(const ObservedExperiment& observed) : observed_(observed) {
   t_s_ = observed.timeline.t_s;
   for (const Sample& sample : observed.samples) {
     t_s_.insert(t_s_.end(), sample.frame_t_s.begin(), sample.frame_t_s.end());
@@ -38,35 +38,35 @@ DriveTrain::DriveTrain(const ObservedExperiment& observed) : observed_(observed)
 }
 
 /// After mixing and delay. A cable that gets nothing but commands of drives that are off is off.
-Eigen::VectorXd DriveTrain::Told(const DriveSettings& settings, double t_s) const {
+Eigen::VectorXd ActuatorChain::Commanded(const ActuatorSettings& settings, double t_s) const {
   const Eigen::VectorXd command = observed_.timeline.CommandAt(t_s - settings.delay_s);
-  Eigen::VectorXd told(command.size());
-  for (Eigen::Index cable = 0; cable < told.size(); ++cable) {
+  Eigen::VectorXd commanded(command.size());
+  for (Eigen::Index cable = 0; cable < commanded.size(); ++cable) {
     double sum = 0.0;
     bool driven = false;
-    for (Eigen::Index drive = 0; drive < told.size(); ++drive) {
+    for (Eigen::Index drive = 0; drive < commanded.size(); ++drive) {
       const double share = settings.mixing(cable, drive);
       if (share == 0.0 || std::isnan(command[drive])) continue;
       sum += share * command[drive];
       driven = true;
     }
-    told[cable] = driven ? sum : kUnknown;
+    commanded[cable] = driven ? sum : kUnknown;
   }
-  return told;
+  return commanded;
 }
 
-void DriveTrain::GoTo(double t_s, const DriveSettings& settings, Place* now) const {
-  const Eigen::VectorXd next = Told(settings, t_s);
+void ActuatorChain::GoTo(double t_s, const ActuatorSettings& settings, Place* now) const {
+  const Eigen::VectorXd next = Commanded(settings, t_s);
   const double h_s = t_s - now->t_s;
   for (Eigen::Index c = 0; c < next.size(); ++c) {
     // tau dy/dt + y = u, exactly for u that goes linearly.
-    const double told = now->told[c];
+    const double commanded = now->commanded[c];
     double& followed = now->followed[c];
-    const double behind = h_s > 0.0 ? (next[c] - told) / h_s * settings.tau_s : 0.0;
+    const double behind = h_s > 0.0 ? (next[c] - commanded) / h_s * settings.tau_s : 0.0;
     const bool lags = settings.tau_s > 0.0 && h_s > 0.0 && !std::isnan(followed + behind);
-    followed = lags
-                   ? next[c] - behind + (followed - told + behind) * std::exp(-h_s / settings.tau_s)
-                   : next[c];
+    followed =
+        lags ? next[c] - behind + (followed - commanded + behind) * std::exp(-h_s / settings.tau_s)
+             : next[c];
     const bool by_tension = observed_.timeline.by_tension[static_cast<std::size_t>(c)];
     const double geared =
         (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
@@ -77,18 +77,18 @@ void DriveTrain::GoTo(double t_s, const DriveSettings& settings, Place* now) con
                    : std::clamp(taken_in, std::min(geared - half, geared + half),
                                 std::max(geared - half, geared + half));
   }
-  now->told = next;
+  now->commanded = next;
   now->t_s = t_s;
 }
 
-Eigen::MatrixXd DriveTrain::Path(const DriveSettings& settings) const {
+Eigen::MatrixXd ActuatorChain::Path(const ActuatorSettings& settings) const {
   const std::vector<double>& turns_s = observed_.timeline.t_s;
   Eigen::MatrixXd path(std::ssize(observed_.timeline.cables), std::ssize(t_s_));
-  const Eigen::VectorXd told = Told(settings, t_s_.front());
+  const Eigen::VectorXd commanded = Commanded(settings, t_s_.front());
   Place now{.t_s = t_s_.front(),
-            .told = told,
-            .followed = told,
-            .taken_in = Eigen::VectorXd::Constant(told.size(), kUnknown)};
+            .commanded = commanded,
+            .followed = commanded,
+            .taken_in = Eigen::VectorXd::Constant(commanded.size(), kUnknown)};
   auto turn = turns_s.begin();
   for (Eigen::Index k = 0; k < path.cols(); ++k) {
     const double t_s = t_s_[static_cast<std::size_t>(k)];
@@ -102,7 +102,7 @@ Eigen::MatrixXd DriveTrain::Path(const DriveSettings& settings) const {
   return path;
 }
 
-Eigen::MatrixXd DriveTrain::At(const DriveSettings& settings) const {
+Eigen::MatrixXd ActuatorChain::At(const ActuatorSettings& settings) const {
   const Eigen::MatrixXd path = Path(settings);
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(path.rows(), std::ssize(times_of_));
   for (std::size_t s = 0; s < times_of_.size(); ++s) {
@@ -113,7 +113,8 @@ Eigen::MatrixXd DriveTrain::At(const DriveSettings& settings) const {
   return mean;
 }
 
-std::vector<std::vector<SamplePart>> DriveTrain::PartsAt(const DriveSettings& settings) const {
+std::vector<std::vector<SamplePart>> ActuatorChain::PartsAt(
+    const ActuatorSettings& settings) const {
   constexpr std::size_t kMostParts = 5;
   const Eigen::MatrixXd path = Path(settings);
   std::vector<std::vector<SamplePart>> parts;
@@ -137,7 +138,7 @@ std::vector<std::vector<SamplePart>> DriveTrain::PartsAt(const DriveSettings& se
   return parts;
 }
 
-Eigen::MatrixXi DriveTrain::Sliding(const DriveSettings& settings) const {
+Eigen::MatrixXi ActuatorChain::Sliding(const ActuatorSettings& settings) const {
   constexpr double kStill = 1e-9;
   const Eigen::MatrixXd path = Path(settings);
   Eigen::MatrixXi way = Eigen::MatrixXi::Zero(path.rows(), path.cols());

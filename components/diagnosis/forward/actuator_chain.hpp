@@ -11,8 +11,8 @@
 namespace palpate::diagnosis {
 
 /// How drives turn what they are told into cable. At first as told.
-struct DriveSettings {
-  explicit DriveSettings(int cables);
+struct ActuatorSettings {
+  explicit ActuatorSettings(int cables);
 
   Eigen::MatrixXd mixing;  ///< [cables x drives] what share of each drive's command a cable gets
   double delay_s = 0.0;
@@ -21,51 +21,51 @@ struct DriveSettings {
   Eigen::VectorXd offset_m;  ///< [cables] takes in so much more
   Eigen::VectorXd play_m;    ///< [cables] full width
 
-  bool operator==(const DriveSettings&) const = default;
+  bool operator==(const ActuatorSettings&) const = default;
 };
 
 /// A part of a sample's frames, over which the body may be taken to stand still.
 struct SamplePart {
   double share = 0.0;        ///< of the sample's frames
   double t_s = 0.0;          ///< mean of their stamps
-  Eigen::VectorXd taken_in;  ///< [cables] as DriveTrain::At, mean over the part
-  std::vector<int> times;    ///< of its frames, among DriveTrain::t_s
+  Eigen::VectorXd taken_in;  ///< [cables] as ActuatorChain::At, mean over the part
+  std::vector<int> times;    ///< of its frames, among ActuatorChain::t_s
   Eigen::VectorXd sliding;   ///< [eyelets that rub] mean CableFriction::sliding; empty: 1
 };
 
 /// The drives through the whole experiment: mixing, lag, gain and offset, play, in
 /// this order; the play begins in its middle. Offset and play are of cables that are told a
 /// displacement.
-class DriveTrain {
+class ActuatorChain {
  public:
   /// `observed` must outlive it.
-  explicit DriveTrain(const ObservedExperiment& observed);
+  explicit ActuatorChain(const ObservedExperiment& observed);
 
   /// [cables x samples] what the drives take in, m, or pull with, N: mean over the frames of each
   /// sample; NaN: not driven.
-  Eigen::MatrixXd At(const DriveSettings& settings) const;
+  Eigen::MatrixXd At(const ActuatorSettings& settings) const;
   /// [samples] parts in order of time: one of a sample in which nothing is moved, up to five of a
   /// motion, in which a cable may get taut.
-  std::vector<std::vector<SamplePart>> PartsAt(const DriveSettings& settings) const;
+  std::vector<std::vector<SamplePart>> PartsAt(const ActuatorSettings& settings) const;
   /// [cables x samples] 1 where a cable was last taken in, -1 let out, 0: not moved yet.
-  Eigen::MatrixXi Sliding(const DriveSettings& settings) const;
+  Eigen::MatrixXi Sliding(const ActuatorSettings& settings) const;
   /// [times] all stamps of commands and frames, rising.
   const std::vector<double>& t_s() const { return t_s_; }
   /// [cables x times] what the drives take in or pull with.
-  Eigen::MatrixXd Path(const DriveSettings& settings) const;
+  Eigen::MatrixXd Path(const ActuatorSettings& settings) const;
 
  private:
   /// Where drives are, [cables] each.
   struct Place {
     double t_s;
-    Eigen::VectorXd told;
+    Eigen::VectorXd commanded;
     Eigen::VectorXd followed;
     Eigen::VectorXd taken_in;  ///< NaN: not known yet
   };
 
-  Eigen::VectorXd Told(const DriveSettings& settings, double t_s) const;
+  Eigen::VectorXd Commanded(const ActuatorSettings& settings, double t_s) const;
   /// On to a later time, before which the command does not turn.
-  void GoTo(double t_s, const DriveSettings& settings, Place* now) const;
+  void GoTo(double t_s, const ActuatorSettings& settings, Place* now) const;
 
   const ObservedExperiment& observed_;
   std::vector<double> t_s_;

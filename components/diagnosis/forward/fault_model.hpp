@@ -71,7 +71,7 @@ struct FaultContext {
   const fem::PointStress& points;
   /// Of that shape, where a cause is asked what it shows.
   Target target = Target::kMarkers;
-  Sight sight = {};
+  MeasuredPoints measured_points = {};
 
   const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
   const SimulatedSample& simulated() const {
@@ -82,16 +82,18 @@ struct FaultContext {
   }
   /// From where the target is measured.
   const Eigen::Isometry3d& T_measurement_robot() const {
-    return target == Target::kSkin ? *recording().T_camera_robot : recording().T_measurement_robot;
+    return target == Target::kSurface ? *recording().T_camera_robot
+                                      : recording().T_measurement_robot;
   }
 };
 
 /// What something in the body's way does to it as a whole: a force on the body as it is without
 /// what the draft has in its way. Per z of each of a cause's parameters
 struct Push {
-  Eigen::VectorXd force_N;     ///< [3n]
-  Eigen::VectorXd times;       ///< [parameters] so many times that force, and
-  Eigen::VectorXd give_way_m;  ///< [parameters] as often as makes force' x (in N) grow by so much
+  Eigen::VectorXd force_N;  ///< [3n]
+  Eigen::VectorXd times;    ///< [parameters] so many times that force, and
+  Eigen::VectorXd
+      displacement_m;  ///< [parameters] as often as makes force' x (in N) grow by so much
 };
 
 /// Something that a simulation may get wrong, at one place of the robot (DIAGNOSIS, "Catalogue").
@@ -130,12 +132,12 @@ class FaultModel {
   virtual std::string SpecialCase() const { return {}; }
   /// Whether more is known of the robot file that it extends than what Apply makes: once it is
   /// named, the search begins anew with that.
-  virtual bool BeginsAnew() const { return false; }
+  virtual bool RestartsSearch() const { return false; }
   /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
-  virtual bool OnDrives() const { return false; }
+  virtual bool OnActuators() const { return false; }
   /// Whether OnBody leaves out at `z` what matters, as of a body that answers to its own past: then
-  /// differences of simulations tell it (Simulator::DifferentiateByRuns).
-  virtual bool NeedsRuns(const Eigen::VectorXd& /*z*/) const { return false; }
+  /// differences of simulations tell it (Simulator::DifferentiateBySimulation).
+  virtual bool NeedsSimulation(const Eigen::VectorXd& /*z*/) const { return false; }
   /// What dz of one parameter does to the body where this cause is at `z` [parameters];
   /// nullptr: nothing.
   virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
@@ -144,7 +146,7 @@ class FaultModel {
   virtual std::optional<Push> PushOf(const Eigen::VectorXd& z, const FaultContext& at) const;
   /// Adds what it does to where markers, or features of the skin, are seen with the body where it
   /// is, [3 x markers or features], m, frame of the robot as it is seen (ModelHypothesis::T_seen,
-  /// T_skin_seen).
+  /// T_surface_seen).
   virtual void OnView(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
                       Eigen::Matrix3Xd* motion_m) const;
   /// Adds what it does to where a depth camera measures them (FaultContext::sight has one) while

@@ -136,10 +136,10 @@ const Eigen::MatrixXd& HistoryOperator::Fading(double tau_s) const {
   const std::scoped_lock lock(mutex_);
   const auto known = fading_.find(tau_s);
   if (known != fading_.end()) return known->second;
-  return fading_.emplace(tau_s, WorkOutFading(tau_s)).first->second;
+  return fading_.emplace(tau_s, ComputeFading(tau_s)).first->second;
 }
 
-Eigen::MatrixXd HistoryOperator::WorkOutFading(double tau_s) const {
+Eigen::MatrixXd HistoryOperator::ComputeFading(double tau_s) const {
   const auto samples = std::ssize(observed_.samples);
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(samples, ColumnCount());
   Eigen::RowVectorXd now = Eigen::RowVectorXd::Zero(ColumnCount());
@@ -180,7 +180,7 @@ HistoryOperator::Course HistoryOperator::Follow(const Eigen::MatrixXf& values) c
     }
     return there;
   };
-  const Eigen::Index looks = kLooks * std::ssize(observed_.samples);
+  const Eigen::Index looks = kTimesPerSample * std::ssize(observed_.samples);
   Course course{Eigen::MatrixXf(values.rows(), looks), Eigen::MatrixXf(values.rows(), looks)};
   if (looks == 0) return course;
   std::size_t node = 0;  // the next one
@@ -189,9 +189,9 @@ HistoryOperator::Course HistoryOperator::Follow(const Eigen::MatrixXf& values) c
   Eigen::VectorXf largest = Eigen::VectorXf::Zero(values.rows());
   for (Eigen::Index look = 0; look < looks; ++look) {
     const std::vector<double>& frames_s =
-        observed_.samples[static_cast<std::size_t>(look / kLooks)].frame_t_s;
-    const auto frame = static_cast<std::size_t>(2 * (look % kLooks) + 1) * frames_s.size() /
-                       static_cast<std::size_t>(2 * kLooks);
+        observed_.samples[static_cast<std::size_t>(look / kTimesPerSample)].frame_t_s;
+    const auto frame = static_cast<std::size_t>(2 * (look % kTimesPerSample) + 1) *
+                       frames_s.size() / static_cast<std::size_t>(2 * kTimesPerSample);
     const double t_s = frames_s[frame];
     for (; node < nodes_.size() && nodes_[node].t_s <= t_s; ++node) {
       before = next;
@@ -223,25 +223,25 @@ Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh) {
 Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulation& simulation) {
   Eigen::MatrixXf root(simulation.at_rest.energy_J_m3.size(), history.ColumnCount());
   for (Eigen::Index column = 0; column < root.cols(); ++column) {
-    root.col(column) = MemorableOf(simulation, column).energy_J_m3.cwiseMax(0.0F).cwiseSqrt();
+    root.col(column) = HistoryInputOf(simulation, column).energy_J_m3.cwiseMax(0.0F).cwiseSqrt();
   }
   const HistoryOperator::Course course = history.Follow(root);
   return course.largest.cwiseAbs2() - course.now.cwiseAbs2();
 }
 
 void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
-            const Simulation& simulation, std::vector<HistoryVariables>* past) {
+            const Simulation& simulation, std::vector<HistoryVariables>* history_variables) {
   const Eigen::MatrixXf below_J_m3 = BelowLargest_J_m3(history, simulation);
-  past->resize(simulation.samples.size());
-  for (std::size_t s = 0; s < past->size(); ++s) {
-    Eigen::VectorXd& factor = (*past)[s].cell_factor;
+  history_variables->resize(simulation.samples.size());
+  for (std::size_t s = 0; s < history_variables->size(); ++s) {
+    Eigen::VectorXd& factor = (*history_variables)[s].cell_factor;
     if (factor.size() == 0) factor.setOnes(below_J_m3.rows());
     const Eigen::VectorXf& density_J_m3 = simulation.samples[s].in_the_middle.energy_J_m3;
     for (Eigen::Index cell = 0; cell < factor.size(); ++cell) {
-      const Eigen::Array<double, HistoryOperator::kLooks, 1> below =
+      const Eigen::Array<double, HistoryOperator::kTimesPerSample, 1> below =
           below_J_m3.row(cell)
-              .segment<HistoryOperator::kLooks>(HistoryOperator::kLooks *
-                                                static_cast<Eigen::Index>(s))
+              .segment<HistoryOperator::kTimesPerSample>(HistoryOperator::kTimesPerSample *
+                                                         static_cast<Eigen::Index>(s))
               .transpose()
               .cast<double>()
               .array() /
@@ -260,20 +260,20 @@ namespace {
 
 /// What of creep is left for each sample.
 void Creep(const std::vector<CreepTerm>& terms, const HistoryOperator& history,
-           const Simulation& simulation, std::vector<HistoryVariables>* past) {
+           const Simulation& simulation, std::vector<HistoryVariables>* history_variables) {
   const auto samples = std::ssize(simulation.samples);
-  for (HistoryVariables& left : *past) {
+  for (HistoryVariables& left : *history_variables) {
     left.scale = 0.0;
     left.stress_Pa.setZero(6, simulation.at_rest.elastic_Pa.cols());
   }
   for (const CreepTerm& term : terms) {
     const Eigen::MatrixXd& fading = history.Fading(term.tau_s);
     for (Eigen::Index s = 0; s < samples; ++s) {
-      HistoryVariables& left = (*past)[static_cast<std::size_t>(s)];
+      HistoryVariables& left = (*history_variables)[static_cast<std::size_t>(s)];
       Eigen::VectorXd weights = fading.row(s).transpose();
       left.scale += term.g * weights[s];
       weights[s] = 0.0;
-      AddRemembered(simulation, term.g * weights, &left.stress_Pa);
+      AddHistoryStress(simulation, term.g * weights, &left.stress_Pa);
     }
   }
 }
@@ -309,16 +309,17 @@ double Difference_J_m3(const HistoryVariables& a, const HistoryVariables& b,
 
 }  // namespace
 
-bool Remembers(const ModelHypothesis& hypothesis) {
+bool HasHistory(const ModelHypothesis& hypothesis) {
   return !hypothesis.creep.empty() || hypothesis.mullins;
 }
 
 std::vector<bool> UpdateHistory(const ModelHypothesis& hypothesis, const HistoryOperator& history,
-                                const Simulation& simulation, std::vector<HistoryVariables>* past) {
+                                const Simulation& simulation,
+                                std::vector<HistoryVariables>* history_variables) {
   constexpr double kLittle = 1e-4;
-  const std::vector<HistoryVariables> before = *past;
-  if (!hypothesis.creep.empty()) Creep(hypothesis.creep, history, simulation, past);
-  if (hypothesis.mullins) Soften(*hypothesis.mullins, history, simulation, past);
+  const std::vector<HistoryVariables> before = *history_variables;
+  if (!hypothesis.creep.empty()) Creep(hypothesis.creep, history, simulation, history_variables);
+  if (hypothesis.mullins) Soften(*hypothesis.mullins, history, simulation, history_variables);
   double most_Pa = 0.0;
   double most_J_m3 = 0.0;
   for (const SimulatedSample& sample : simulation.samples) {
@@ -326,11 +327,12 @@ std::vector<bool> UpdateHistory(const ModelHypothesis& hypothesis, const History
     most_J_m3 = std::max(most_J_m3, double{sample.in_the_middle.energy_J_m3.sum()});
   }
   const double little = kLittle * StrengthOf(hypothesis);
-  std::vector<bool> is_other(past->size());
-  for (std::size_t s = 0; s < past->size(); ++s) {
-    const Memorable& now = simulation.samples[s].in_the_middle;
-    const double stress_Pa = Difference_Pa((*past)[s], before[s], double{now.elastic_Pa.norm()});
-    const double energy_J_m3 = Difference_J_m3((*past)[s], before[s], now.energy_J_m3);
+  std::vector<bool> is_other(history_variables->size());
+  for (std::size_t s = 0; s < history_variables->size(); ++s) {
+    const HistoryInput& now = simulation.samples[s].in_the_middle;
+    const double stress_Pa =
+        Difference_Pa((*history_variables)[s], before[s], double{now.elastic_Pa.norm()});
+    const double energy_J_m3 = Difference_J_m3((*history_variables)[s], before[s], now.energy_J_m3);
     is_other[s] = stress_Pa > little * most_Pa || energy_J_m3 > little * most_J_m3;
   }
   return is_other;

@@ -35,7 +35,7 @@ class HistoryOperator {
 
   /// Times in the course of a sample at which all is looked at that goes up to its largest: each
   /// stands for alike many of its frames.
-  static constexpr Eigen::Index kLooks = 5;
+  static constexpr Eigen::Index kTimesPerSample = 5;
   struct Course {
     Eigen::MatrixXf now;
     Eigen::MatrixXf largest;  ///< that it was until then
@@ -50,7 +50,7 @@ class HistoryOperator {
     Eigen::RowVectorXd share;  ///< [columns]
     bool sure = true;          ///< else carried on from parts of a sample
   };
-  Eigen::MatrixXd WorkOutFading(double tau_s) const;
+  Eigen::MatrixXd ComputeFading(double tau_s) const;
   void AddPiece(std::size_t first, std::size_t last);
   std::vector<Node> NodesOf(std::size_t first, std::size_t last) const;
   void Add(Node node);
@@ -78,15 +78,16 @@ Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulati
 /// A step of the damage of all samples towards what MullinsSoftening asks for after the energies of
 /// `simulation`, the shorter the more these will answer (under a given load they go as 1 / eta^2).
 void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
-            const Simulation& simulation, std::vector<HistoryVariables>* past);
+            const Simulation& simulation, std::vector<HistoryVariables>* history_variables);
 
 /// Whether a robot as a draft has it remembers anything.
-bool Remembers(const ModelHypothesis& hypothesis);
+bool HasHistory(const ModelHypothesis& hypothesis);
 
 /// Brings `past` [samples] to what `simulation`, which had another past, leaves of creep and of
 /// softening. [samples] whether that is another by more than 1e-4 of all that could be left where
 /// the body holds most.
 std::vector<bool> UpdateHistory(const ModelHypothesis& hypothesis, const HistoryOperator& history,
-                                const Simulation& simulation, std::vector<HistoryVariables>* past);
+                                const Simulation& simulation,
+                                std::vector<HistoryVariables>* history_variables);
 
 }  // namespace palpate::diagnosis

@@ -23,7 +23,7 @@ Eigen::Vector3d AreaNormal(const Eigen::Vector3i& corners, const Eigen::VectorXd
 
 }  // namespace
 
-MarkerSkin::MarkerSkin(const ModelHypothesis& hypothesis) {
+MarkerNormals::MarkerNormals(const ModelHypothesis& hypothesis) {
   const geometry::SurfaceIndex& surface = hypothesis.places->surface();
   const Eigen::Matrix3Xi triangles = hypothesis.places->boundary().CornerTriangles();
   const Eigen::VectorXd rest_m = hypothesis.places->mesh().nodes_m.reshaped();
@@ -41,7 +41,7 @@ MarkerSkin::MarkerSkin(const ModelHypothesis& hypothesis) {
   }
 }
 
-Eigen::Vector3d MarkerSkin::Normal(std::size_t marker, const Eigen::VectorXd& x_m) const {
+Eigen::Vector3d MarkerNormals::Normal(std::size_t marker, const Eigen::VectorXd& x_m) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& corners : faces_[marker].colwise()) sum += AreaNormal(corners, x_m);
   return sum.normalized();

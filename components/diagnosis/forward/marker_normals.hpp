@@ -11,9 +11,9 @@
 namespace palpate::diagnosis {
 
 /// The body's skin about each marker.
-class MarkerSkin {
+class MarkerNormals {
  public:
-  explicit MarkerSkin(const ModelHypothesis& hypothesis);
+  explicit MarkerNormals(const ModelHypothesis& hypothesis);
 
   /// Mean over that skin with the nodes at `x_m` [3n]; unit, outward, robot frame.
   Eigen::Vector3d Normal(std::size_t marker, const Eigen::VectorXd& x_m) const;

@@ -23,7 +23,7 @@ std::optional<CameraView> ViewOf(const CameraErrors& errors, const ObservedExper
                                  const Sample& sample, Target target) {
   const auto& recording = observed.recordings[static_cast<std::size_t>(sample.recording)];
   const bool seen =
-      target == Target::kSkin ? recording.T_camera_robot.has_value() : recording.by_depth_camera;
+      target == Target::kSurface ? recording.T_camera_robot.has_value() : recording.by_depth_camera;
   if (!seen || sample.frame_t_s.empty()) return std::nullopt;
   double drift_m = 0.0;
   for (const DepthDrift& drift : errors.drifts) {

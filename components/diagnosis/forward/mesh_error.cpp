@@ -99,7 +99,8 @@ std::shared_ptr<const MeshError> CompareWithFinerMesh(const robot::RobotDescript
   }
   // Ends with the first sample that fails: cells so bad that ten nodes buckle fail all, and slowly.
   const Simulation nothing;
-  const Simulation on_finer = Simulator(few, threads).Run(DraftOf(finer_body, few), &nothing);
+  const Simulation on_finer =
+      Simulator(few, threads).Run(NominalHypothesis(finer_body, few), &nothing);
   const auto error = CompareMeshes(body, coarse, finer_body, on_finer);
   return error ? std::make_shared<const MeshError>(*error) : nullptr;
 }

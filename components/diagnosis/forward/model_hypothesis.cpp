@@ -5,20 +5,22 @@
 
 namespace palpate::diagnosis {
 
-ModelHypothesis DraftOf(const robot::RobotBody& body, const ObservedExperiment& observed) {
+ModelHypothesis NominalHypothesis(const robot::RobotBody& body,
+                                  const ObservedExperiment& observed) {
   ModelHypothesis hypothesis(body);
   hypothesis.places = std::make_shared<fem::PointLocator>(body.mesh);
   hypothesis.assembled_m = body.mesh.nodes_m.reshaped();
   hypothesis.cable_compliance_m_N = Eigen::VectorXd::Zero(std::ssize(body.cables));
   hypothesis.marker_offset_m = Eigen::Matrix3Xd::Zero(3, std::ssize(observed.markers));
   hypothesis.T_seen.assign(observed.recordings.size(), Eigen::Isometry3d::Identity());
-  hypothesis.T_skin_seen = hypothesis.T_seen;
-  hypothesis.skin_offset_m = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
+  hypothesis.T_surface_seen = hypothesis.T_seen;
+  hypothesis.surface_offset_m = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
   return hypothesis;
 }
 
 Eigen::Vector3d GravityIn(const ModelHypothesis& hypothesis, const ObservedRecording& recording) {
-  return (recording.base_rotation * hypothesis.R_askew).transpose() * hypothesis.body.gravity_m_s2;
+  return (recording.base_rotation * hypothesis.R_tilt_error).transpose() *
+         hypothesis.body.gravity_m_s2;
 }
 
 Eigen::Vector3d MiddleOfBase(const robot::RobotBody& body) {

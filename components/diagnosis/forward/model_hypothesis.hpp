@@ -46,10 +46,10 @@ struct WorldForce {
 };
 
 /// Everything that a robot's simulation in an experiment is made of. It begins as the robot file
-/// has it (DraftOf), and causes change it.
+/// has it (NominalHypothesis), and causes change it.
 struct ModelHypothesis {
   explicit ModelHypothesis(const robot::RobotBody& of)
-      : body(of), drives(static_cast<int>(of.cables.size())) {}
+      : body(of), actuators(static_cast<int>(of.cables.size())) {}
 
   robot::RobotBody body;
   /// The robot file's body, on which places are named: where the body is of another shape, what
@@ -58,12 +58,12 @@ struct ModelHypothesis {
   /// [3n] the shape at which the drives were zeroed; that of the body unless something was bent
   /// afterwards.
   Eigen::VectorXd assembled_m;
-  DriveSettings drives;
+  ActuatorSettings actuators;
   Eigen::VectorXd cable_compliance_m_N;  ///< [cables] stretch per tension at the drive; < 0: less
                                          ///< than the mesh gives way by
   /// The base stands askew by so much beside what is known of its tilt: gravity in the robot frame
-  /// is (R_tilt R_askew)' g.
-  Eigen::Matrix3d R_askew = Eigen::Matrix3d::Identity();
+  /// is (R_tilt R_tilt_error)' g.
+  Eigen::Matrix3d R_tilt_error = Eigen::Matrix3d::Identity();
   std::vector<CarriedMass> masses;
   std::vector<WorldForce> forces;
   double base_compliance_rad_Nm = 0.0;
@@ -78,13 +78,13 @@ struct ModelHypothesis {
   /// T_measurement_robot.
   std::vector<Eigen::Isometry3d> T_seen;
   /// [recordings] the same of what pictures show, before T_camera_robot.
-  std::vector<Eigen::Isometry3d> T_skin_seen;
-  Eigen::VectorXd skin_offset_m;  ///< [features] by which the skin is seen beyond the body's
-  CameraErrors camera;            ///< of the depth camera, in recordings that one saw
+  std::vector<Eigen::Isometry3d> T_surface_seen;
+  Eigen::VectorXd surface_offset_m;  ///< [features] by which the skin is seen beyond the body's
+  CameraErrors camera;               ///< of the depth camera, in recordings that one saw
 };
 
 /// The robot file's.
-ModelHypothesis DraftOf(const robot::RobotBody& body, const ObservedExperiment& observed);
+ModelHypothesis NominalHypothesis(const robot::RobotBody& body, const ObservedExperiment& observed);
 
 /// Known loads this much along what gravity was believed to be (cosine; a degree) are weights.
 inline constexpr double kHangs = 0.99985;

@@ -85,7 +85,7 @@ Status ObstacleBalance::StepTogether(const std::vector<robot::CableCommand>& cab
     const double step_m = (next_.x_m - state->x_m).cwiseAbs().maxCoeff();
     std::swap(state->x_m, next_.x_m);
     std::swap(state->multipliers_N, next_.multipliers_N);
-    const double error_m = LookAtDepths(*state);
+    const double error_m = UpdateDepths(*state);
     if (step_m < kBalanced_m && error_m < kBalanced_m) {
       return fem::CheckLargestMultipliers(linearisation, *loads, state->x_m, state->multipliers_N,
                                           kBalanced_m);
@@ -94,12 +94,12 @@ Status ObstacleBalance::StepTogether(const std::vector<robot::CableCommand>& cab
     before_m = renew ? std::numeric_limits<double>::infinity() : step_m;
     if (error_m < kBalanced_m) continue;
     if (compliance_of_ != linearisation.factor_count() || !CoversWhatTouches()) {
-      const Status known = LookAtCompliance(cables, *state);
+      const Status known = UpdateCompliance(cables, *state);
       if (!known.ok()) return known;
     }
-    PressAnew();
+    PressAgain();
   }
-  return {StatusCode::kNotConverged, "body and wall do not come to rest"};
+  return {StatusCode::kNotConverged, "contact with the obstacle did not converge"};
 }
 
 /// With a new tangent, or the one that is there.
@@ -121,20 +121,20 @@ Status ObstacleBalance::BalanceInTurn(const std::vector<robot::CableCommand>& ca
     loads->external_force_N = others_N + NodalForces_N(obstacle_, force_N_, state->x_m.size());
     const Status balanced = model_.static_solver().Solve(*loads, state).status;
     if (!balanced.ok()) return balanced;
-    const double error_m = LookAtDepths(*state);
+    const double error_m = UpdateDepths(*state);
     if (error_m < kBalanced_m) return Status::Ok();
     if (!CoversWhatTouches() || error_m > kSlow * before_m) {
-      const Status known = LookAtCompliance(cables, *state);
+      const Status known = UpdateCompliance(cables, *state);
       if (!known.ok()) return known;
     }
     before_m = error_m;
-    PressAnew();
+    PressAgain();
   }
-  return {StatusCode::kNotConverged, "body and wall do not come to rest"};
+  return {StatusCode::kNotConverged, "contact with the obstacle did not converge"};
 }
 
 /// By how much the nodes are not where what presses on them would have them, m.
-double ObstacleBalance::LookAtDepths(const fem::StaticState& state) {
+double ObstacleBalance::UpdateDepths(const fem::StaticState& state) {
   const ObstacleSurface& surface = *obstacle_.surface;
   double error_m = 0.0;
   for (Eigen::Index k = 0; k < depth_m_.size(); ++k) {
@@ -147,9 +147,9 @@ double ObstacleBalance::LookAtDepths(const fem::StaticState& state) {
 
 /// Whether the compliance is known of all nodes that touch or go too deep.
 bool ObstacleBalance::CoversWhatTouches() const {
-  auto next = looked_at_.begin();
+  auto next = active_.begin();
   for (int k = 0; k < std::ssize(depth_m_); ++k) {
-    if (next != looked_at_.end() && *next == k) {
+    if (next != active_.end() && *next == k) {
       ++next;
     } else if (force_N_[k] > 0.0 || depth_m_[k] > 0.0) {
       return false;
@@ -159,9 +159,9 @@ bool ObstacleBalance::CoversWhatTouches() const {
 }
 
 /// How the nodes that touch, or may come to, give way to each other's forces.
-Status ObstacleBalance::LookAtCompliance(const std::vector<robot::CableCommand>& cables,
+Status ObstacleBalance::UpdateCompliance(const std::vector<robot::CableCommand>& cables,
                                          const fem::StaticState& state) {
-  looked_at_.clear();
+  active_.clear();
   std::vector<robot::ParameterPtr> pushes;
   std::vector<fem::InterpolationWeights> points;
   for (int k = 0; k < std::ssize(depth_m_); ++k) {
@@ -169,7 +169,7 @@ Status ObstacleBalance::LookAtCompliance(const std::vector<robot::CableCommand>&
     const int node = obstacle_.surface->nodes[static_cast<std::size_t>(k)];
     Eigen::VectorXd push = Eigen::VectorXd::Zero(state.x_m.size());
     push.segment<3>(3 * node) = obstacle_.normal;
-    looked_at_.push_back(k);
+    active_.push_back(k);
     pushes.push_back(robot::NodalForce(std::move(push)));
     points.push_back({{node}, {1.0}});
   }
@@ -189,14 +189,14 @@ Status ObstacleBalance::LookAtCompliance(const std::vector<robot::CableCommand>&
 
 /// To forces under which, to first order, every node is out of the wall or as deep as its force has
 /// it; of a wall that is met deep inside of the body, of one a stride farther in than now.
-void ObstacleBalance::PressAnew() {
-  const Eigen::VectorXd pressed_N = force_N_(looked_at_);
+void ObstacleBalance::PressAgain() {
+  const Eigen::VectorXd pressed_N = force_N_(active_);
   Eigen::MatrixXd M = compliance_m_N_;
   M.diagonal().array() += 1.0 / obstacle_.surface->stiffness_N_m;
-  const Eigen::VectorXd depth_m = depth_m_(looked_at_);
+  const Eigen::VectorXd depth_m = depth_m_(active_);
   const double later_m = std::max(0.0, depth_m.maxCoeff() - kStride_m);
   const Eigen::VectorXd q = later_m - (depth_m + compliance_m_N_ * pressed_N).array();
-  force_N_(looked_at_) = SolveComplementarity(M, q, pressed_N);
+  force_N_(active_) = SolveComplementarity(M, q, pressed_N);
 }
 
 }  // namespace palpate::diagnosis

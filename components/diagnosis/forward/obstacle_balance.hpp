@@ -37,11 +37,11 @@ class ObstacleBalance {
   Status BalanceInTurn(const std::vector<robot::CableCommand>& cables,
                        const Eigen::VectorXd& others_N, fem::LoadState* loads,
                        fem::StaticState* state);
-  double LookAtDepths(const fem::StaticState& state);
+  double UpdateDepths(const fem::StaticState& state);
   bool CoversWhatTouches() const;
-  Status LookAtCompliance(const std::vector<robot::CableCommand>& cables,
+  Status UpdateCompliance(const std::vector<robot::CableCommand>& cables,
                           const fem::StaticState& state);
-  void PressAnew();
+  void PressAgain();
 
   const Obstacle& obstacle_;
   robot::RobotModel& model_;
@@ -50,7 +50,7 @@ class ObstacleBalance {
   fem::StaticState next_;
   Eigen::VectorXd depth_m_;         ///< [nodes of the surface]
   Eigen::VectorXd force_N_;         ///< [nodes of the surface]
-  std::vector<int> looked_at_;      ///< places in the surface's nodes, ascending
+  std::vector<int> active_;         ///< places in the surface's nodes, ascending
   Eigen::MatrixXd compliance_m_N_;  ///< [looked at x looked at], W
   int compliance_of_ = -1;          ///< Linearisation::factor_count() that it is of
 };

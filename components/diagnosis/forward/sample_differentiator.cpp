@@ -17,59 +17,61 @@ namespace {
 
 /// Where nobody saw any, what they do is not asked for.
 bool SeesMarkers(const ObservedExperiment& observed) {
-  return !observed.HasSkin() ||
+  return !observed.HasSurface() ||
          std::any_of(observed.samples.begin(), observed.samples.end(),
                      [](const Sample& sample) { return (sample.count.array() > 0).any(); });
 }
 
 }  // namespace
 
-std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelHypothesis& nominal,
-                                          const FaultModelList& causes, const Eigen::VectorXd& z,
-                                          const std::vector<bool>& wanted,
-                                          const DriveSettings& drives) {
+std::vector<Eigen::MatrixXd> ActuatorChanges(const ActuatorChain& train,
+                                             const ModelHypothesis& nominal,
+                                             const FaultModelList& models, const Eigen::VectorXd& z,
+                                             const std::vector<bool>& wanted,
+                                             const ActuatorSettings& drives) {
   constexpr double kStep = 1e-4;  // of the parameter's fault sigma
   const Eigen::MatrixXd taken_in = train.At(drives);
   std::vector<Eigen::MatrixXd> changes;
   Eigen::Index column = 0;
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    for (const FaultParameter& parameter : causes[k]->parameters()) {
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    for (const FaultParameter& parameter : models[k]->parameters()) {
       changes.emplace_back();
       const double forward = kStep * parameter.fault;
       // Beyond what can be, nothing changes any more.
       const double step = z[column] + forward > parameter.most ? -forward : forward;
       Eigen::VectorXd beside = z;
       beside[column++] += step;
-      if (!wanted[k] || !causes[k]->OnDrives()) continue;
-      changes.back() = (train.At(DraftWith(nominal, causes, beside).drives) - taken_in) / step;
+      if (!wanted[k] || !models[k]->OnActuators()) continue;
+      changes.back() =
+          (train.At(HypothesisWith(nominal, models, beside).actuators) - taken_in) / step;
     }
   }
   return changes;
 }
 
 std::vector<SampleDifferentiator::WantedParameter> SampleDifferentiator::Wanted(
-    const FaultModelList& causes, const Eigen::VectorXd& z, const std::vector<bool>& wanted) {
+    const FaultModelList& models, const Eigen::VectorXd& z, const std::vector<bool>& wanted) {
   std::vector<WantedParameter> parameters;
   Eigen::Index column = 0;
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    const auto count = std::ssize(causes[k]->parameters());
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const auto count = std::ssize(models[k]->parameters());
     const Eigen::VectorXd own = z.segment(column, count);
     for (int p = 0; p < count; ++p, ++column) {
-      if (wanted[k]) parameters.push_back({causes[k], p, column, own});
+      if (wanted[k]) parameters.push_back({models[k], p, column, own});
     }
   }
   return parameters;
 }
 
 SampleDifferentiator::SampleDifferentiator(const ModelHypothesis& hypothesis,
-                                           const FaultModelList& causes, const Eigen::VectorXd& z,
+                                           const FaultModelList& models, const Eigen::VectorXd& z,
                                            const std::vector<bool>& wanted,
-                                           const std::vector<Eigen::MatrixXd>& drive_change,
+                                           const std::vector<Eigen::MatrixXd>& actuator_change,
                                            const ObservedExperiment& observed, SampleSolver* solver)
     : hypothesis_(hypothesis),
-      parameters_(Wanted(causes, z, wanted)),
+      parameters_(Wanted(models, z, wanted)),
       parameter_count_(z.size()),
-      drive_change_(drive_change),
+      actuator_change_(actuator_change),
       solver_(*solver),
       markers_seen_(SeesMarkers(observed)),
       marker_rows_(robot::RowsOfPoints(solver->markers())),
@@ -80,13 +82,13 @@ void SampleDifferentiator::Collect(const FaultContext& at) {
   acting_.clear();
   column_of_.clear();
   for (const WantedParameter& one : parameters_) {
-    const Eigen::MatrixXd& change = drive_change_[static_cast<std::size_t>(one.column)];
+    const Eigen::MatrixXd& change = actuator_change_[static_cast<std::size_t>(one.column)];
     auto sum = std::make_unique<SumOfParameters>();
     if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
       sum->Add(1.0, CommandChange(
                         change.col(at.sample).array().isNaN().select(0.0, change.col(at.sample))));
     }
-    if (robot::ParameterPtr body = one.cause->OnBody(one.number, one.z, at)) {
+    if (robot::ParameterPtr body = one.fault->OnBody(one.number, one.z, at)) {
       sum->Add(1.0, std::move(body));
     }
     if (sum->empty()) continue;
@@ -102,7 +104,7 @@ Status SampleDifferentiator::AddPushes(const FaultContext& at, Eigen::MatrixXd* 
   std::vector<robot::ParameterPtr> forces;
   for (const WantedParameter& one : parameters_) {
     if (one.number > 0) continue;  // the cause was asked
-    std::optional<Push> push = one.cause->PushOf(one.z, at);
+    std::optional<Push> push = one.fault->PushOf(one.z, at);
     if (!push) continue;
     forces.push_back(robot::NodalForce(push->force_N));
     pushes.push_back(std::move(*push));
@@ -124,7 +126,7 @@ Status SampleDifferentiator::AddPushes(const FaultContext& at, Eigen::MatrixXd* 
       const double motion_m = rows_[r].Value(nodal_m);
       for (Eigen::Index p = 0; p < pushes[k].times.size(); ++p) {
         (*jacobian_m)(coordinate_of_[r], first_of[k] + p) +=
-            (pushes[k].times[p] + pushes[k].give_way_m[p] / gives_way_m) * motion_m;
+            (pushes[k].times[p] + pushes[k].displacement_m[p] / gives_way_m) * motion_m;
       }
     }
   }
@@ -147,7 +149,7 @@ Eigen::MatrixXd SampleDifferentiator::At(const FaultContext& at) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   if (markers_seen_) ShowTo(at, &jacobian_m);
-  ShowSkinTo(at, &jacobian_m);
+  ShowSurfaceTo(at, &jacobian_m);
   return jacobian_m;
 }
 
@@ -159,17 +161,19 @@ void SampleDifferentiator::Observe(const FaultContext& at) {
   if (markers_seen_) rows_ = marker_rows_;
   for (std::size_t k = 0; k < rows_.size(); ++k)
     coordinate_of_.push_back(static_cast<Eigen::Index>(k));
-  const std::vector<SkinSighting>& skin = at.seen().skin;
-  const Sight sight = solver_.SightOfSkin(at.seen(), at.shape.state.x_m);
+  const std::vector<SurfaceMeasurement>& surface = at.seen().surface;
+  const MeasuredPoints measured_points = solver_.SurfacePointsOf(at.seen(), at.shape.state.x_m);
   const auto recording = static_cast<std::size_t>(at.seen().recording);
-  for (std::size_t f = 0; f < skin.size(); ++f) {
-    if (skin[f].count == 0) continue;
+  for (std::size_t f = 0; f < surface.size(); ++f) {
+    if (surface[f].count == 0) continue;
     const auto feature = static_cast<Eigen::Index>(f);
     const Eigen::Matrix3d R_camera_robot =
-        (*at.recording().T_camera_robot * hypothesis_.T_skin_seen[recording]).linear();
+        (*at.recording().T_camera_robot * hypothesis_.T_surface_seen[recording]).linear();
     rows_.push_back(robot::RowOfPoint(
-        skin[f].point, R_camera_robot.transpose() *
-                           sight.camera->Slope(sight.point(feature)).transpose() * skin[f].normal));
+        surface[f].point,
+        R_camera_robot.transpose() *
+            measured_points.camera->Slope(measured_points.point(feature)).transpose() *
+            surface[f].normal));
     coordinate_of_.push_back(std::ssize(marker_rows_) + feature);
   }
   of_rows_.SetRows(rows_);
@@ -181,10 +185,10 @@ void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacob
   const auto markers = std::ssize(solver_.markers());
   FaultContext at = of;
   at.target = Target::kMarkers;
-  at.sight = solver_.SightOf(at.seen(), at.shape.state.x_m);
+  at.measured_points = solver_.MeasuredPointsOf(at.seen(), at.shape.state.x_m);
   std::vector<Eigen::Matrix3d> slopes;  // [markers]
-  for (const SeenPoint& point : at.sight.points) {
-    if (at.sight.camera) slopes.push_back(at.sight.camera->Slope(point));
+  for (const SeenPoint& point : at.measured_points.points) {
+    if (at.measured_points.camera) slopes.push_back(at.measured_points.camera->Slope(point));
   }
   const auto recording = static_cast<std::size_t>(at.seen().recording);
   const Eigen::Matrix3d R_seen = hypothesis_.T_seen[recording].linear();
@@ -194,41 +198,42 @@ void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacob
   for (const WantedParameter& one : parameters_) {
     auto column = jacobian_m->col(one.column).head(3 * markers);
     seen_m = R_seen * column.reshaped(3, markers);
-    one.cause->OnView(one.number, one.z, at, &seen_m);
+    one.fault->OnView(one.number, one.z, at, &seen_m);
     seen_m = R_measurement * seen_m.eval();
     for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
       seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
     }
-    if (at.sight.camera) one.cause->OnMeasurement(one.number, one.z, at, &seen_m);
+    if (at.measured_points.camera) one.fault->OnMeasurement(one.number, one.z, at, &seen_m);
     column = seen_m.reshaped();
   }
 }
 
 /// Adds what causes do to how the skin is seen where it is; how it moves with the body is there.
-void SampleDifferentiator::ShowSkinTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const {
+void SampleDifferentiator::ShowSurfaceTo(const FaultContext& of,
+                                         Eigen::MatrixXd* jacobian_m) const {
   FaultContext at = of;
-  at.target = Target::kSkin;
-  at.sight = solver_.SightOfSkin(at.seen(), at.shape.state.x_m);
-  if (!at.sight.camera) return;
-  const std::vector<SkinSighting>& skin = at.seen().skin;
+  at.target = Target::kSurface;
+  at.measured_points = solver_.SurfacePointsOf(at.seen(), at.shape.state.x_m);
+  if (!at.measured_points.camera) return;
+  const std::vector<SurfaceMeasurement>& surface = at.seen().surface;
   const Eigen::Matrix3d R_camera = at.recording().T_camera_robot->linear();
-  Eigen::Matrix3Xd seen_m(3, std::ssize(skin));
+  Eigen::Matrix3Xd seen_m(3, std::ssize(surface));
   for (const WantedParameter& one : parameters_) {
     seen_m.setZero();
-    one.cause->OnView(one.number, one.z, at, &seen_m);
+    one.fault->OnView(one.number, one.z, at, &seen_m);
     seen_m = R_camera * seen_m.eval();
-    for (std::size_t f = 0; f < skin.size(); ++f) {
-      if (skin[f].count == 0) continue;
+    for (std::size_t f = 0; f < surface.size(); ++f) {
+      if (surface[f].count == 0) continue;
       const auto feature = static_cast<Eigen::Index>(f);
-      seen_m.col(feature) =
-          at.sight.camera->Slope(at.sight.point(feature)) * seen_m.col(feature).eval();
+      seen_m.col(feature) = at.measured_points.camera->Slope(at.measured_points.point(feature)) *
+                            seen_m.col(feature).eval();
     }
-    one.cause->OnMeasurement(one.number, one.z, at, &seen_m);
-    for (std::size_t f = 0; f < skin.size(); ++f) {
-      if (skin[f].count == 0) continue;
+    one.fault->OnMeasurement(one.number, one.z, at, &seen_m);
+    for (std::size_t f = 0; f < surface.size(); ++f) {
+      if (surface[f].count == 0) continue;
       const auto feature = static_cast<Eigen::Index>(f);
       (*jacobian_m)(std::ssize(marker_rows_) + feature, one.column) +=
-          skin[f].normal.dot(seen_m.col(feature));
+          surface[f].normal.dot(seen_m.col(feature));
     }
   }
 }

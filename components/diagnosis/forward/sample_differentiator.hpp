@@ -17,19 +17,20 @@ namespace palpate::diagnosis {
 /// [parameters][cables x samples] what dz of each parameter changes of what the drives take in;
 /// empty for those of causes that do not act on drives, or are not `wanted` [causes]. `drives` are
 /// those at `z`.
-std::vector<Eigen::MatrixXd> DriveChanges(const DriveTrain& train, const ModelHypothesis& nominal,
-                                          const FaultModelList& causes, const Eigen::VectorXd& z,
-                                          const std::vector<bool>& wanted,
-                                          const DriveSettings& drives);
+std::vector<Eigen::MatrixXd> ActuatorChanges(const ActuatorChain& train,
+                                             const ModelHypothesis& nominal,
+                                             const FaultModelList& models, const Eigen::VectorXd& z,
+                                             const std::vector<bool>& wanted,
+                                             const ActuatorSettings& drives);
 
 /// How what is measured moves with the parameters of causes. What compliant cables give way by when
 /// their tension changes is counted, what a compliant base then turns by is not. For one thread.
 class SampleDifferentiator {
  public:
   /// All must outlive it. `solver` is prepared for each sample before.
-  SampleDifferentiator(const ModelHypothesis& hypothesis, const FaultModelList& causes,
+  SampleDifferentiator(const ModelHypothesis& hypothesis, const FaultModelList& models,
                        const Eigen::VectorXd& z, const std::vector<bool>& wanted,
-                       const std::vector<Eigen::MatrixXd>& drive_change,
+                       const std::vector<Eigen::MatrixXd>& actuator_change,
                        const ObservedExperiment& observed, SampleSolver* solver);
 
   /// [coordinates x parameters] m per z; 0 for causes that are not wanted, and for what nobody
@@ -38,24 +39,24 @@ class SampleDifferentiator {
 
  private:
   struct WantedParameter {
-    const FaultModel* cause;
+    const FaultModel* fault;
     int number;           ///< of the cause's
     Eigen::Index column;  ///< among those of all causes
     Eigen::VectorXd z;    ///< [parameters of the cause]
   };
 
-  static std::vector<WantedParameter> Wanted(const FaultModelList& causes, const Eigen::VectorXd& z,
+  static std::vector<WantedParameter> Wanted(const FaultModelList& models, const Eigen::VectorXd& z,
                                              const std::vector<bool>& wanted);
   void Collect(const FaultContext& at);
   Status AddPushes(const FaultContext& at, Eigen::MatrixXd* jacobian_m);
   void Observe(const FaultContext& at);
   void ShowTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
-  void ShowSkinTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
+  void ShowSurfaceTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
 
   const ModelHypothesis& hypothesis_;
   std::vector<WantedParameter> parameters_;  ///< one cause after the other
   Eigen::Index parameter_count_;             ///< of all causes, those that are not wanted, too
-  const std::vector<Eigen::MatrixXd>& drive_change_;
+  const std::vector<Eigen::MatrixXd>& actuator_change_;
   SampleSolver& solver_;
   bool markers_seen_;  ///< of any marker there is a measurement
   std::vector<robot::ObservationRow> marker_rows_;

@@ -37,8 +37,8 @@ bool TurnsRound(const std::vector<SamplePart>& parts, const Eigen::VectorXd& fri
 class SampleInParts {
  public:
   SampleInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                const HistoryVariables& past, SampleSolver* solver)
-      : sample_(sample), parts_(parts), past_(past), solver_(*solver) {}
+                const HistoryVariables& history_variables, SampleSolver* solver)
+      : sample_(sample), parts_(parts), past_(history_variables), solver_(*solver) {}
 
   /// All parts, one from another.
   void SolveAll(SimulatedSample* simulated) {
@@ -48,7 +48,7 @@ class SampleInParts {
     Eigen::VectorXd mean_m;
     std::vector<EyeletSlides> slides;
     std::map<std::vector<bool>, std::vector<HeldShape>> by_what_holds;
-    std::map<std::size_t, Memorable> of_part;
+    std::map<std::size_t, HistoryInput> of_part;
     const bool turns_round = TurnsRound(parts_, solver_.FrictionOfEyelets());
     const bool chosen_anew = !simulated->turns_round || !turns_round;
     const int choices = simulated->choices + (chosen_anew ? 1 : 0);
@@ -56,11 +56,11 @@ class SampleInParts {
       Solve(k, &solved);
       if (k == middle || !solved.status.ok()) {
         *simulated = solved;
-        simulated->in_the_middle = solver_.WhatIsMemorable(past_, solved);
+        simulated->in_the_middle = solver_.HistoryInputAt(past_, solved);
       }
       if (!solved.status.ok()) return;
       if (k == middle || turns_round) AddSlides(k, solved.middle, &slides);
-      if (TellsAnEnd(k)) of_part[k] = solver_.WhatIsMemorable(past_, solved);
+      if (TellsAnEnd(k)) of_part[k] = solver_.HistoryInputAt(past_, solved);
       if (k == 0) mean_m = Eigen::VectorXd::Zero(solved.seen_m.size());
       mean_m += parts_[k].share * solved.seen_m;
       by_what_holds[WhatHolds(solved.middle)].emplace_back(solved.middle).share = parts_[k].share;
@@ -143,7 +143,8 @@ class SampleInParts {
   }
 
   /// Carried on from the last two parts to where the piece begins or ends.
-  void FindEnds(const std::map<std::size_t, Memorable>& of_part, SimulatedSample* simulated) const {
+  void FindEnds(const std::map<std::size_t, HistoryInput>& of_part,
+                SimulatedSample* simulated) const {
     if (parts_.size() < 2) return;
     const std::size_t last = parts_.size() - 1;
     if (sample_.begins_piece) {
@@ -154,13 +155,13 @@ class SampleInParts {
     }
   }
 
-  Memorable CarriedOn(const std::map<std::size_t, Memorable>& of_part, std::size_t from,
-                      std::size_t over, double to_s) const {
+  HistoryInput CarriedOn(const std::map<std::size_t, HistoryInput>& of_part, std::size_t from,
+                         std::size_t over, double to_s) const {
     constexpr double kFarthest = 2.0;
     const double step_s = parts_[over].t_s - parts_[from].t_s;
     const auto beyond = static_cast<float>(std::min(kFarthest, (to_s - parts_[over].t_s) / step_s));
-    const Memorable& a = of_part.at(from);
-    const Memorable& b = of_part.at(over);
+    const HistoryInput& a = of_part.at(from);
+    const HistoryInput& b = of_part.at(over);
     return {b.elastic_Pa + beyond * (b.elastic_Pa - a.elastic_Pa),
             (b.energy_J_m3 + beyond * (b.energy_J_m3 - a.energy_J_m3)).cwiseMax(0.0F)};
   }
@@ -168,14 +169,14 @@ class SampleInParts {
   /// What is memorable in the middle; where the piece begins and ends it has grown alike since
   /// `was`, and what it changed by beside that is the same.
   void Memorise(const SimulatedSample& was, SimulatedSample* now) {
-    now->in_the_middle = solver_.WhatIsMemorable(past_, *now);
-    const Memorable& before = was.in_the_middle;
-    const Memorable& after = now->in_the_middle;
+    now->in_the_middle = solver_.HistoryInputAt(past_, *now);
+    const HistoryInput& before = was.in_the_middle;
+    const HistoryInput& after = now->in_the_middle;
     const float held = before.elastic_Pa.squaredNorm();
     const float grown =
         held > 0.0F ? before.elastic_Pa.cwiseProduct(after.elastic_Pa).sum() / held : 1.0F;
     for (std::size_t k = 0; k < was.at_ends.size(); ++k) {
-      const Memorable& end = was.at_ends[k];
+      const HistoryInput& end = was.at_ends[k];
       if (end.elastic_Pa.size() == 0) continue;
       now->at_ends[k].elastic_Pa =
           grown * end.elastic_Pa + after.elastic_Pa - grown * before.elastic_Pa;
@@ -221,9 +222,9 @@ bool IsClearOfObstacles(const SampleSolver& solver, const SimulatedSample& simul
 }  // namespace
 
 void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const HistoryVariables& past, Detail detail, SampleSolver* solver,
+                  const HistoryVariables& history_variables, Detail detail, SampleSolver* solver,
                   SimulatedSample* simulated) {
-  SampleInParts motion(sample, parts, past, solver);
+  SampleInParts motion(sample, parts, history_variables, solver);
   const bool is_known = simulated->status.ok() && simulated->parts == parts.size();
   if (is_known && detail == Detail::kMiddles) {
     motion.SolveMiddle(simulated);

@@ -22,7 +22,7 @@ enum class Detail {
 /// The shapes of a sample and the mean of what is seen of them; begins from what `simulated`
 /// was. Where shapes stand for all parts, the mean lies about them as it did there.
 void SolveInParts(const Sample& sample, const std::vector<SamplePart>& parts,
-                  const HistoryVariables& past, Detail detail, SampleSolver* solver,
+                  const HistoryVariables& history_variables, Detail detail, SampleSolver* solver,
                   SimulatedSample* simulated);
 
 }  // namespace palpate::diagnosis

@@ -102,7 +102,8 @@ std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
   for (const experiment::KnownLoad& load : sample.loads) {
     const bool hangs = load.force_N.normalized().dot(believed) > kHangs;
     const Eigen::Vector3d force_N =
-        hangs ? Eigen::Vector3d((R_tilt * hypothesis_.R_askew).transpose() * R_tilt * load.force_N)
+        hangs ? Eigen::Vector3d((R_tilt * hypothesis_.R_tilt_error).transpose() * R_tilt *
+                                load.force_N)
               : load.force_N;
     loads.push_back(
         {fem::MakeSurfacePatch(*hypothesis_.places, load.position_m, load.patch_radius_m).weights,
@@ -118,21 +119,22 @@ std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
   return loads;
 }
 
-void SampleSolver::Prepare(const Sample& sample, const HistoryVariables& past) {
+void SampleSolver::Prepare(const Sample& sample, const HistoryVariables& history_variables) {
   const Timeline& timeline = observed_.timeline;
   const double begin_s = timeline.begin_s.front();
   const double share = (sample.t_s - begin_s) / (timeline.end_s.back() - begin_s);
-  const double factor = (1.0 + hypothesis_.modulus_change_at_end * share) * (1.0 + past.scale);
+  const double factor =
+      (1.0 + hypothesis_.modulus_change_at_end * share) * (1.0 + history_variables.scale);
   for (std::size_t k = 0; k < hypothesis_.body.materials.size(); ++k) {
     model_.SetYoungsModulus(static_cast<int>(k),
                             factor * hypothesis_.body.materials[k].youngs_modulus_Pa);
   }
   if (hypothesis_.mullins) {
-    model_.elastic_body().SetCellFactors(past.cell_factor.size() > 0
-                                             ? past.cell_factor
+    model_.elastic_body().SetCellFactors(history_variables.cell_factor.size() > 0
+                                             ? history_variables.cell_factor
                                              : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
-  kept_.Set(points_, past.stress_Pa);
+  kept_.Set(points_, history_variables.stress_Pa);
   model_.SetGravity(
       GravityIn(hypothesis_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
 }
@@ -210,7 +212,7 @@ Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticStat
   return Status::Ok();
 }
 
-Status SampleSolver::GiveWay(fem::LoadState loads, HeldShape* shape) {
+Status SampleSolver::AnchorCompliance_m_N(fem::LoadState loads, HeldShape* shape) {
   base_turn_rad_.setZero();
   for (int round = 0; round < kMostRounds; ++round) {
     bool moved = false;
@@ -219,7 +221,7 @@ Status SampleSolver::GiveWay(fem::LoadState loads, HeldShape* shape) {
     if (status.ok()) status = TurnBase(loads, shape->state, &moved);
     if (!status.ok() || !moved) return status;
   }
-  return {StatusCode::kNotConverged, "the base gives way without an end"};
+  return {StatusCode::kNotConverged, "the base rotation diverges: base compliance too large"};
 }
 
 /// [shapes of the mesh's error] so much of each is added to what is seen.
@@ -233,74 +235,77 @@ Eigen::VectorXd SampleSolver::OnFinerMesh(const Eigen::VectorXd& x_m) const {
   return x_m + hypothesis_.mesh_error->of_nodes * MeshErrorAt(x_m);
 }
 
-Sight SampleSolver::SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const {
+MeasuredPoints SampleSolver::MeasuredPointsOf(const Sample& sample,
+                                              const Eigen::VectorXd& x_m) const {
   const auto recording = static_cast<std::size_t>(sample.recording);
   const Eigen::Isometry3d T_measurement_robot =
       observed_.recordings[recording].T_measurement_robot * hypothesis_.T_seen[recording];
-  Sight sight{.points = {},
-              .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kMarkers)};
+  MeasuredPoints measured_points{
+      .points = {}, .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kMarkers)};
   Eigen::VectorXd farther_m = Eigen::VectorXd::Zero(3 * std::ssize(markers_));
   if (hypothesis_.mesh_error_share != 0.0)
     farther_m = hypothesis_.mesh_error->of_markers * MeshErrorAt(x_m);
   for (std::size_t m = 0; m < markers_.size(); ++m) {
     const Eigen::Vector3d at_m =
         markers_[m].Position(x_m) + farther_m.segment<3>(3 * static_cast<Eigen::Index>(m));
-    sight.points.push_back(
+    measured_points.points.push_back(
         {T_measurement_robot * at_m, T_measurement_robot.linear() * skin_.Normal(m, x_m)});
   }
-  return sight;
+  return measured_points;
 }
 
-Sight SampleSolver::SightOfSkin(const Sample& sample, const Eigen::VectorXd& solved_x_m) const {
+MeasuredPoints SampleSolver::SurfacePointsOf(const Sample& sample,
+                                             const Eigen::VectorXd& solved_x_m) const {
   const Eigen::VectorXd x_m = OnFinerMesh(solved_x_m);
   const auto recording = static_cast<std::size_t>(sample.recording);
-  Sight sight{.points = {}, .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kSkin)};
-  if (!sight.camera) return sight;
+  MeasuredPoints measured_points{
+      .points = {}, .camera = ViewOf(hypothesis_.camera, observed_, sample, Target::kSurface)};
+  if (!measured_points.camera) return measured_points;
   const Eigen::Isometry3d T_camera_robot =
-      *observed_.recordings[recording].T_camera_robot * hypothesis_.T_skin_seen[recording];
-  for (const SkinSighting& feature : sample.skin) {
-    SeenPoint& point = sight.points.emplace_back();
+      *observed_.recordings[recording].T_camera_robot * hypothesis_.T_surface_seen[recording];
+  for (const SurfaceMeasurement& feature : sample.surface) {
+    SeenPoint& point = measured_points.points.emplace_back();
     if (feature.count == 0) continue;
     point = {T_camera_robot * feature.point.Position(x_m), feature.normal.normalized()};
   }
-  return sight;
+  return measured_points;
 }
 
 void SampleSolver::See(const Sample& sample, SimulatedSample* solved) const {
   const Eigen::VectorXd& x_m = solved->middle.state.x_m;
-  const Sight sight = SightOf(sample, x_m);
+  const MeasuredPoints measured_points = MeasuredPointsOf(sample, x_m);
   for (Eigen::Index m = 0; m < solved->markers; ++m)
-    solved->seen_m.segment<3>(3 * m) = sight.Measured(m);
-  if (sample.skin.empty()) return;
-  const Sight skin = SightOfSkin(sample, x_m);
-  for (std::size_t f = 0; f < sample.skin.size(); ++f) {
+    solved->seen_m.segment<3>(3 * m) = measured_points.Measured(m);
+  if (sample.surface.empty()) return;
+  const MeasuredPoints surface = SurfacePointsOf(sample, x_m);
+  for (std::size_t f = 0; f < sample.surface.size(); ++f) {
     const auto feature = static_cast<Eigen::Index>(f);
-    if (sample.skin[f].count == 0) continue;
+    if (sample.surface[f].count == 0) continue;
     solved->seen_m[3 * solved->markers + feature] =
-        sample.skin[f].normal.dot(skin.Measured(feature)) +
-        sample.skin[f].normal.norm() * hypothesis_.skin_offset_m[feature] +
-        sample.skin[f].ripple_m_px.dot(hypothesis_.camera.ripple_px);
+        sample.surface[f].normal.dot(surface.Measured(feature)) +
+        sample.surface[f].normal.norm() * hypothesis_.surface_offset_m[feature] +
+        sample.surface[f].ripple_m_px.dot(hypothesis_.camera.ripple_px);
   }
 }
 
 void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
-                         const HistoryVariables& past, SimulatedSample* solved) {
+                         const HistoryVariables& history_variables, SimulatedSample* solved) {
   solved->markers = std::ssize(markers_);
   solved->seen_m = Eigen::VectorXd::Constant(observed_.CoordinateCount(),
                                              std::numeric_limits<double>::quiet_NaN());
   if (obstacle_ &&
       ObstacleClearance_m(obstacle_->obstacle(), hypothesis_.assembled_m) < -kDeepest_m) {
-    solved->status = {StatusCode::kInvalidInput, "the wall stands in the undeformed body"};
+    solved->status = {StatusCode::kInvalidInput, "the obstacle intersects the undeformed body"};
     return;
   }
-  Prepare(sample, past);
+  Prepare(sample, history_variables);
   fem::StaticState& state = solved->middle.state;
   if (state.x_m.size() == 0) state = model_.RestState();
   // It may come from a robot without the wall, or with one.
   state.multipliers_N.conservativeResizeLike(Eigen::VectorXd::Zero(
       static_cast<Eigen::Index>(model_.linearisation().constraints().size())));
   solved->middle.commands = Commands(taken_in);
-  solved->status = GiveWay(LoadsOf(sample, solved->middle.commands), &solved->middle);
+  solved->status = AnchorCompliance_m_N(LoadsOf(sample, solved->middle.commands), &solved->middle);
   if (solved->status.ok()) See(sample, solved);
 }
 
@@ -309,26 +314,27 @@ bool SampleSolver::IsNearObstacle(const fem::StaticState& state) const {
   return obstacle_ && ObstacleClearance_m(obstacle_->obstacle(), state.x_m) < kNear_m;
 }
 
-Memorable SampleSolver::WhatIsMemorable(const HistoryVariables& past,
-                                        const SimulatedSample& solved) {
+HistoryInput SampleSolver::HistoryInputAt(const HistoryVariables& history_variables,
+                                          const SimulatedSample& solved) {
   const Eigen::VectorXd& x_m = solved.middle.state.x_m;
   if (!solved.status.ok()) {
     return {PointStresses::Zero(6, points_.PointCount()),
             Eigen::VectorXf::Zero(cell_volume_m3_.size())};
   }
   const fem::ElasticBody& body = model_.elastic_body();
-  const bool softened = past.cell_factor.size() > 0;
+  const bool softened = history_variables.cell_factor.size() > 0;
   const Eigen::VectorXd undamaged = Eigen::VectorXd::Ones(cell_volume_m3_.size());
   Eigen::Matrix<double, 6, Eigen::Dynamic> elastic_Pa;
-  points_.Evaluate(body.materials(), softened ? past.cell_factor : undamaged, x_m, &elastic_Pa);
+  points_.Evaluate(body.materials(), softened ? history_variables.cell_factor : undamaged, x_m,
+                   &elastic_Pa);
   Eigen::VectorXd energy_J;
   body.CellEnergies(x_m, &energy_J);
-  energy_J = energy_J.cwiseQuotient(cell_volume_m3_) / (1.0 + past.scale);
-  if (softened) energy_J = energy_J.cwiseQuotient(past.cell_factor);
-  return {(elastic_Pa / (1.0 + past.scale)).cast<float>(), energy_J.cast<float>()};
+  energy_J = energy_J.cwiseQuotient(cell_volume_m3_) / (1.0 + history_variables.scale);
+  if (softened) energy_J = energy_J.cwiseQuotient(history_variables.cell_factor);
+  return {(elastic_Pa / (1.0 + history_variables.scale)).cast<float>(), energy_J.cast<float>()};
 }
 
-Memorable SampleSolver::Rest() {
+HistoryInput SampleSolver::Rest() {
   SimulatedSample rest;
   Sample nothing;
   nothing.t_s = observed_.timeline.begin_s.front();
@@ -339,7 +345,7 @@ Memorable SampleSolver::Rest() {
     zero = command.array().isNaN().select(zero, 0.0);
   }
   Solve(nothing, zero, {}, &rest);
-  return WhatIsMemorable({}, rest);
+  return HistoryInputAt({}, rest);
 }
 
 }  // namespace palpate::diagnosis

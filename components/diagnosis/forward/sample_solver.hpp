@@ -34,24 +34,25 @@ class SampleSolver {
   /// with its nodes at `x_m` [3n].
   Eigen::VectorXd OnFinerMesh(const Eigen::VectorXd& x_m) const;
   /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
-  Sight SightOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
+  MeasuredPoints MeasuredPointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
   /// The same of the skin; features that nobody saw then are nowhere (0). A camera is there
   /// wherever the recording has pictures.
-  Sight SightOfSkin(const Sample& sample, const Eigen::VectorXd& x_m) const;
+  MeasuredPoints SurfacePointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
   /// sample with `taken_in` [cables], a compliant base at what it gives way by.
-  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in, const HistoryVariables& past,
-             SimulatedSample* solved);
+  void Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
+             const HistoryVariables& history_variables, SimulatedSample* solved);
   /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
   bool IsNearObstacle(const fem::StaticState& state) const;
   /// What a body will remember of where it is in the middle of `solved`; nothing (0) of one that
   /// failed.
-  Memorable WhatIsMemorable(const HistoryVariables& past, const SimulatedSample& solved);
+  HistoryInput HistoryInputAt(const HistoryVariables& history_variables,
+                              const SimulatedSample& solved);
   /// The same at rest with every command at zero and nothing on the body.
-  Memorable Rest();
+  HistoryInput Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
-  void Prepare(const Sample& sample, const HistoryVariables& past);
+  void Prepare(const Sample& sample, const HistoryVariables& history_variables);
   /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the drives.
   void SetSliding(const Eigen::VectorXd& sliding);
   /// [RubbingEyelets] friction coefficients.
@@ -63,7 +64,7 @@ class SampleSolver {
   std::vector<robot::CableCommand> Commands(const Eigen::VectorXd& taken_in) const;
   std::vector<robot::DeadLoad> LoadsAt(const Sample& sample) const;
   Status Balance(const fem::LoadState& loads, HeldShape* shape);
-  Status GiveWay(fem::LoadState loads, HeldShape* shape);
+  Status AnchorCompliance_m_N(fem::LoadState loads, HeldShape* shape);
   Status TurnBase(const fem::LoadState& loads, const fem::StaticState& state, bool* moved);
   fem::LoadState LoadsOf(const Sample& sample,
                          const std::vector<robot::CableCommand>& commands) const;
@@ -81,7 +82,7 @@ class SampleSolver {
   std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the wall
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::InterpolationWeights> markers_;
-  MarkerSkin skin_;
+  MarkerNormals skin_;
   Eigen::VectorXd cell_volume_m3_;
   Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();

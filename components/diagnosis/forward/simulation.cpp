@@ -7,24 +7,25 @@
 
 namespace palpate::diagnosis {
 
-const Memorable& MemorableOf(const Simulation& simulation, Eigen::Index column) {
+const HistoryInput& HistoryInputOf(const Simulation& simulation, Eigen::Index column) {
   const auto samples = std::ssize(simulation.samples);
   if (column == samples) return simulation.at_rest;
   const Eigen::Index end = column - samples - 1;
   const SimulatedSample& sample =
       simulation.samples[static_cast<std::size_t>(end < 0 ? column : end / 2)];
   if (end < 0) return sample.in_the_middle;
-  const Memorable& there = sample.at_ends[static_cast<std::size_t>(end % 2)];
+  const HistoryInput& there = sample.at_ends[static_cast<std::size_t>(end % 2)];
   return there.elastic_Pa.size() > 0 ? there : sample.in_the_middle;
 }
 
-void AddRemembered(const Simulation& simulation, const Eigen::VectorXd& weights,
-                   PointStresses* stress_Pa) {
+void AddHistoryStress(const Simulation& simulation, const Eigen::VectorXd& weights,
+                      PointStresses* stress_Pa) {
   constexpr double kNothing = 1e-6;  // of the largest weight
   const double least = kNothing * weights.cwiseAbs().maxCoeff();
   for (Eigen::Index column = 0; column < weights.size(); ++column) {
     if (std::abs(weights[column]) <= least) continue;
-    *stress_Pa += static_cast<float>(weights[column]) * MemorableOf(simulation, column).elastic_Pa;
+    *stress_Pa +=
+        static_cast<float>(weights[column]) * HistoryInputOf(simulation, column).elastic_Pa;
   }
 }
 

@@ -37,7 +37,7 @@ struct HistoryVariables {
 };
 
 /// What a body may remember of a moment.
-struct Memorable {
+struct HistoryInput {
   PointStresses elastic_Pa;     ///< without what the body remembers itself
   Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material
 };
@@ -51,16 +51,16 @@ struct SimulatedSample {
   std::size_t parts = 0;     ///< that these were chosen among; 0: not simulated yet
   int choices = 0;           ///< how often they were chosen
   bool turns_round = false;  ///< its parts differ in what slides, and each was simulated
-  Memorable in_the_middle;
+  HistoryInput in_the_middle;
   /// In order of time, of robots with eyelets that rub: about the middle, or of all parts where it
   /// turns_round. Empty: not known.
   std::vector<EyeletSlides> slides;
   /// Where its piece begins and where that ends; empty, where another sample is nearer to there, or
   /// it is no other than in the middle.
-  std::array<Memorable, 2> at_ends;
+  std::array<HistoryInput, 2> at_ends;
   /// [coordinates] mean over the sample: x, y, z of each marker, measurement frame, then each
-  /// feature of the skin along its normal (SkinSighting::measured_m); NaN: not known, or nobody
-  /// measured it.
+  /// feature of the skin along its normal (SurfaceMeasurement::measured_m); NaN: not known, or
+  /// nobody measured it.
   Eigen::VectorXd seen_m;
   Eigen::Index markers = 0;
   Eigen::VectorXd bend_m;      ///< [coordinates] by which that mean is not where the middle is
@@ -75,17 +75,17 @@ struct SimulatedSample {
 struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
-  Memorable at_rest;                   ///< with every command at zero, as between recordings
+  HistoryInput at_rest;                ///< with every command at zero, as between recordings
   Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (damage.hpp)
-  std::vector<HistoryVariables> past;  ///< [samples] with which they are in balance
+  std::vector<HistoryVariables> history_variables;  ///< [samples] with which they are in balance
 };
 
 /// What a column of Memory stands for.
-const Memorable& MemorableOf(const Simulation& simulation, Eigen::Index column);
+const HistoryInput& HistoryInputOf(const Simulation& simulation, Eigen::Index column);
 
 /// Adds the elastic stresses of all moments of Memory, each so often: `weights` [columns of it], of
 /// which those that matter nowhere are left out.
-void AddRemembered(const Simulation& simulation, const Eigen::VectorXd& weights,
-                   PointStresses* stress_Pa);
+void AddHistoryStress(const Simulation& simulation, const Eigen::VectorXd& weights,
+                      PointStresses* stress_Pa);
 
 }  // namespace palpate::diagnosis

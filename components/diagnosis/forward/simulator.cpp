@@ -50,21 +50,21 @@ void OnThreads(const std::vector<std::vector<std::size_t>>& shares,
 
 }  // namespace
 
-Eigen::Index ParameterCount(const FaultModelList& causes) {
-  return std::accumulate(causes.begin(), causes.end(), Eigen::Index{0},
-                         [](Eigen::Index sum, const FaultModel* cause) {
-                           return sum + std::ssize(cause->parameters());
+Eigen::Index ParameterCount(const FaultModelList& models) {
+  return std::accumulate(models.begin(), models.end(), Eigen::Index{0},
+                         [](Eigen::Index sum, const FaultModel* fault) {
+                           return sum + std::ssize(fault->parameters());
                          });
 }
 
-ModelHypothesis DraftWith(const ModelHypothesis& nominal, const FaultModelList& causes,
-                          const Eigen::VectorXd& z) {
+ModelHypothesis HypothesisWith(const ModelHypothesis& nominal, const FaultModelList& models,
+                               const Eigen::VectorXd& z) {
   ModelHypothesis hypothesis = nominal;
   Eigen::Index first = 0;
-  for (const FaultModel* cause : causes) {
-    const auto count = std::ssize(cause->parameters());
+  for (const FaultModel* fault : models) {
+    const auto count = std::ssize(fault->parameters());
     const Eigen::VectorXd own = z.segment(first, count);
-    if (!own.isZero()) cause->Apply(own, &hypothesis);
+    if (!own.isZero()) fault->Apply(own, &hypothesis);
     first += count;
   }
   return hypothesis;
@@ -73,13 +73,13 @@ ModelHypothesis DraftWith(const ModelHypothesis& nominal, const FaultModelList& 
 Simulator::Simulator(const ObservedExperiment& observed, int threads)
     : observed_(observed),
       threads_(threads),
-      drives_(observed),
-      sticking_(drives_),
+      actuators_(observed),
+      sticking_(actuators_),
       history_(observed) {}
 
 std::vector<std::vector<SamplePart>> Simulator::PartsOf(const ModelHypothesis& hypothesis,
                                                         const Simulation& simulated) const {
-  std::vector<std::vector<SamplePart>> parts = drives_.PartsAt(hypothesis.drives);
+  std::vector<std::vector<SamplePart>> parts = actuators_.PartsAt(hypothesis.actuators);
   sticking_.Follow(hypothesis, simulated.samples, &parts);
   return parts;
 }
@@ -108,13 +108,14 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
         sample.middle.obstacle_force_N = before->obstacle_force_N;
       }
       if (failed && is_near) {
-        sample.status = {StatusCode::kNotConverged, "another moment could not be simulated"};
+        sample.status = {StatusCode::kNotConverged, "another sample could not be simulated"};
         sample.seen_m.setConstant(std::numeric_limits<double>::quiet_NaN());
         if (sample.in_the_middle.elastic_Pa.size() == 0)
-          sample.in_the_middle = solver.WhatIsMemorable({}, sample);
+          sample.in_the_middle = solver.HistoryInputAt({}, sample);
         continue;
       }
-      SolveInParts(observed_.samples[s], parts[s], simulation->past[s], detail, &solver, &sample);
+      SolveInParts(observed_.samples[s], parts[s], simulation->history_variables[s], detail,
+                   &solver, &sample);
       if (sample.status.ok()) {
         before = &sample.middle;
       } else {
@@ -132,13 +133,14 @@ Simulation Simulator::Run(const ModelHypothesis& hypothesis, const Simulation* s
   std::vector<bool> is_to_do(observed_.samples.size(), true);
   if (start != nullptr) simulation = *start;
   simulation.samples.resize(observed_.samples.size());
-  simulation.past.resize(observed_.samples.size());
-  for (HistoryVariables& past : simulation.past) {
-    if (hypothesis.creep.empty()) past = {0.0, {}, std::move(past.cell_factor)};
-    if (!hypothesis.mullins) past.cell_factor.resize(0);
+  simulation.history_variables.resize(observed_.samples.size());
+  for (HistoryVariables& history_variables : simulation.history_variables) {
+    if (hypothesis.creep.empty())
+      history_variables = {0.0, {}, std::move(history_variables.cell_factor)};
+    if (!hypothesis.mullins) history_variables.cell_factor.resize(0);
   }
-  if (start != nullptr && Remembers(hypothesis))
-    UpdateHistory(hypothesis, history_, simulation, &simulation.past);
+  if (start != nullptr && HasHistory(hypothesis))
+    UpdateHistory(hypothesis, history_, simulation, &simulation.history_variables);
   std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, simulation);
   simulation.at_rest.elastic_Pa.resize(6, 0);  // it is of the robot that `start` was
   Solvers solvers(static_cast<std::size_t>(threads_));
@@ -148,9 +150,9 @@ Simulation Simulator::Run(const ModelHypothesis& hypothesis, const Simulation* s
     if (detail == Detail::kAllParts) detail = Detail::kParts;
     if (!known || sweep + 1 == kMostSweeps) break;
     is_to_do = sticking_.Follow(hypothesis, simulation.samples, &parts);
-    if (Remembers(hypothesis)) {
+    if (HasHistory(hypothesis)) {
       const std::vector<bool> is_other =
-          UpdateHistory(hypothesis, history_, simulation, &simulation.past);
+          UpdateHistory(hypothesis, history_, simulation, &simulation.history_variables);
       for (std::size_t s = 0; s < is_to_do.size(); ++s) is_to_do[s] = is_to_do[s] || is_other[s];
     }
     if (std::none_of(is_to_do.begin(), is_to_do.end(), [](bool one) { return one; })) break;
@@ -168,7 +170,8 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelHypothesis& hypothesis,
   const std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, simulation);
   std::vector<bool> wanted;
   for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
-    wanted.push_back(!observed_.samples[s].pictures.empty() && simulation.samples[s].status.ok());
+    wanted.push_back(!observed_.samples[s].depth_frames.empty() &&
+                     simulation.samples[s].status.ok());
   }
   std::vector<ShapesInTime> shapes(observed_.samples.size());
   OnThreads(Shares(observed_, wanted, threads_), [&](const std::vector<std::size_t>& share) {
@@ -179,7 +182,8 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelHypothesis& hypothesis,
       for (const SamplePart& part : parts[s]) {
         if (parts[s].size() > 1) {
           solver.SetSliding(part.sliding);
-          solver.Solve(observed_.samples[s], part.taken_in, simulation.past[s], &solved);
+          solver.Solve(observed_.samples[s], part.taken_in, simulation.history_variables[s],
+                       &solved);
           if (!solved.status.ok()) break;
         }
         const Eigen::VectorXd x_m = solver.OnFinerMesh(solved.middle.state.x_m);
@@ -191,21 +195,21 @@ std::vector<ShapesInTime> Simulator::Shapes(const ModelHypothesis& hypothesis,
   return shapes;
 }
 
-void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& causes,
+void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& models,
                               const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                               const ModelHypothesis& nominal, Simulation* simulation) const {
-  const std::vector<Eigen::MatrixXd> drive_change =
-      DriveChanges(drives_, nominal, causes, z, wanted, hypothesis.drives);
+  const std::vector<Eigen::MatrixXd> actuator_change =
+      ActuatorChanges(actuators_, nominal, models, z, wanted, hypothesis.actuators);
   const std::vector<std::vector<SamplePart>> parts = PartsOf(hypothesis, *simulation);
   const auto shares =
       Shares(observed_, std::vector<bool>(observed_.samples.size(), true), threads_);
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
     SampleSolver solver(hypothesis, observed_);
-    SampleDifferentiator differentiator(hypothesis, causes, z, wanted, drive_change, observed_,
+    SampleDifferentiator differentiator(hypothesis, models, z, wanted, actuator_change, observed_,
                                         &solver);
     for (const std::size_t s : share) {
       SimulatedSample& sample = simulation->samples[s];
-      solver.Prepare(observed_.samples[s], simulation->past[s]);
+      solver.Prepare(observed_.samples[s], simulation->history_variables[s]);
       const auto jacobian_m = [&](const HeldShape& shape) -> Eigen::MatrixXd {
         const FaultContext at{.observed = observed_,
                               .hypothesis = hypothesis,
@@ -225,18 +229,19 @@ void Simulator::Differentiate(const ModelHypothesis& hypothesis, const FaultMode
   });
 }
 
-void Simulator::DifferentiateByRuns(const ModelHypothesis& nominal, const FaultModelList& causes,
-                                    const Eigen::VectorXd& z, Simulation* simulation) const {
+void Simulator::DifferentiateBySimulation(const ModelHypothesis& nominal,
+                                          const FaultModelList& models, const Eigen::VectorXd& z,
+                                          Simulation* simulation) const {
   constexpr double kStep = 0.1;  // of the parameter's fault sigma: pasts are settled to 1e-4
   Eigen::Index first = 0;
-  for (std::size_t k = 0; k < causes.size(); ++k) {
-    const auto count = std::ssize(causes[k]->parameters());
-    const bool by_runs = causes[k]->NeedsRuns(z.segment(first, count));
-    for (Eigen::Index p = 0; p < count && by_runs; ++p) {
-      const double step = kStep * causes[k]->parameters()[static_cast<std::size_t>(p)].fault;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const auto count = std::ssize(models[k]->parameters());
+    const bool by_simulation = models[k]->NeedsSimulation(z.segment(first, count));
+    for (Eigen::Index p = 0; p < count && by_simulation; ++p) {
+      const double step = kStep * models[k]->parameters()[static_cast<std::size_t>(p)].fault;
       Eigen::VectorXd beside_z = z;
       beside_z[first + p] += step;
-      const Simulation beside = Run(DraftWith(nominal, causes, beside_z), simulation);
+      const Simulation beside = Run(HypothesisWith(nominal, models, beside_z), simulation);
       if (!beside.status.ok()) continue;
       for (std::size_t s = 0; s < beside.samples.size(); ++s) {
         SimulatedSample& sample = simulation->samples[s];

@@ -36,14 +36,15 @@ class Simulator {
   /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
   /// `z` [parameters of all]; `draft` is what these made. Of causes that are not `wanted` [causes]
   /// the columns are 0.
-  void Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& causes,
+  void Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& models,
                      const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                      const ModelHypothesis& nominal, Simulation* simulation) const;
 
   /// Puts differences of simulations in the place of the columns of causes of which Differentiate
-  /// leaves out what matters (Cause::NeedsRuns); one that cannot be simulated there keeps them.
-  void DifferentiateByRuns(const ModelHypothesis& nominal, const FaultModelList& causes,
-                           const Eigen::VectorXd& z, Simulation* simulation) const;
+  /// leaves out what matters (Cause::NeedsSimulation); one that cannot be simulated there keeps
+  /// them.
+  void DifferentiateBySimulation(const ModelHypothesis& nominal, const FaultModelList& models,
+                                 const Eigen::VectorXd& z, Simulation* simulation) const;
 
   /// [samples] all shapes of those with pictures, one for each part of a motion; `simulation` is of
   /// this draft. Empty where it failed, or there are no pictures.
@@ -65,16 +66,16 @@ class Simulator {
 
   const ObservedExperiment& observed_;
   int threads_;
-  DriveTrain drives_;
+  ActuatorChain actuators_;
   Sticking sticking_;
   HistoryOperator history_;
 };
 
 /// Parameters of all causes together.
-Eigen::Index ParameterCount(const FaultModelList& causes);
+Eigen::Index ParameterCount(const FaultModelList& models);
 
 /// What causes make of the robot file's draft.
-ModelHypothesis DraftWith(const ModelHypothesis& nominal, const FaultModelList& causes,
-                          const Eigen::VectorXd& z);
+ModelHypothesis HypothesisWith(const ModelHypothesis& nominal, const FaultModelList& models,
+                               const Eigen::VectorXd& z);
 
 }  // namespace palpate::diagnosis

@@ -58,8 +58,8 @@ Eigen::MatrixXd Sticking::ThroughTime(const ModelHypothesis& hypothesis,
                                       const std::vector<SimulatedSample>& samples) const {
   const std::vector<RubbingEyelet> eyelets = RubbingEyelets(hypothesis.body);
   const Eigen::VectorXd coefficient = FrictionAt(eyelets, hypothesis.body);
-  const Eigen::MatrixXd path = drives_.Path(hypothesis.drives);
-  const std::vector<const EyeletSlides*> nearest = NearestSlides(drives_.t_s(), samples);
+  const Eigen::MatrixXd path = actuators_.Path(hypothesis.actuators);
+  const std::vector<const EyeletSlides*> nearest = NearestSlides(actuators_.t_s(), samples);
   Eigen::MatrixXd sliding = Eigen::MatrixXd::Zero(coefficient.size(), path.cols());
   for (Eigen::Index k = 1; k < path.cols(); ++k) {
     const EyeletSlides& slides = *nearest[static_cast<std::size_t>(k)];
@@ -84,7 +84,7 @@ std::vector<bool> Sticking::Follow(const ModelHypothesis& hypothesis,
   const bool known = std::any_of(samples.begin(), samples.end(),
                                  [](const SimulatedSample& one) { return !one.slides.empty(); });
   const Eigen::MatrixXd in_time = known ? ThroughTime(hypothesis, samples) : Eigen::MatrixXd();
-  const Eigen::MatrixXi way = known ? Eigen::MatrixXi() : drives_.Sliding(hypothesis.drives);
+  const Eigen::MatrixXi way = known ? Eigen::MatrixXi() : actuators_.Sliding(hypothesis.actuators);
   for (std::size_t s = 0; s < parts->size(); ++s) {
     for (SamplePart& part : (*parts)[s]) {
       Eigen::VectorXd now = Eigen::VectorXd::Zero(std::ssize(eyelets));

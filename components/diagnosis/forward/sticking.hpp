@@ -24,7 +24,7 @@ class Sticking {
   static constexpr double kPresliding_m = 5e-5;
 
   /// It must outlive it.
-  explicit Sticking(const DriveTrain& drives) : drives_(drives) {}
+  explicit Sticking(const ActuatorChain& drives) : actuators_(drives) {}
 
   /// Sets what slides in all `parts` [samples] of a robot as `draft` has it. How far cables slide
   /// is known from `samples` that were simulated, at each time from the nearest that tells it;
@@ -38,7 +38,7 @@ class Sticking {
   Eigen::MatrixXd ThroughTime(const ModelHypothesis& hypothesis,
                               const std::vector<SimulatedSample>& samples) const;
 
-  const DriveTrain& drives_;
+  const ActuatorChain& actuators_;
 };
 
 /// What sticks and slides after a step in which each eyelet's cable would slide by `freely_m`

@@ -27,7 +27,7 @@ std::vector<int> Exchanged(std::vector<int> faults, int from, int to) {
 /// Whether the book's cause k is named already, at another place or with another time, too.
 bool IsNamed(const HypothesisSet& hypotheses, const std::vector<int>& faults, int k) {
   return std::any_of(faults.begin(), faults.end(), [&](int f) {
-    return hypotheses.cause(f).name() == hypotheses.cause(k).name();
+    return hypotheses.model(f).name() == hypotheses.model(k).name();
   });
 }
 
@@ -43,12 +43,12 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
   for (std::size_t n = 0; n < selection.named.size(); ++n) {
     for (int k = 0; k < hypotheses.size(); ++k) {
       if (!hypotheses.CanBeFault(k) || IsNamed(hypotheses, best.faults, k)) continue;
-      const std::vector<int> others = Exchanged(best.faults, selection.named[n].cause, k);
+      const std::vector<int> others = Exchanged(best.faults, selection.named[n].fault, k);
       const double promised =
           hypotheses.InferWithin(data, others).ln_evidence - best.posterior.ln_evidence;
       if (promised < kWorthALook) continue;
       const auto same = std::find_if(exchanges.begin(), exchanges.end(), [&](const Exchange& one) {
-        return one.named == n && hypotheses.cause(one.other).name() == hypotheses.cause(k).name();
+        return one.named == n && hypotheses.model(one.other).name() == hypotheses.model(k).name();
       });
       if (same == exchanges.end()) {
         exchanges.push_back({n, k, promised});
@@ -75,13 +75,13 @@ void ExchangeOne(const Fitter& fitter, Selection* selection) {
     if (exchange.named + 1 == selection->named.size()) continue;
     ++tried;
     Choice& choice = selection->named[exchange.named];
-    Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.cause, exchange.other),
+    Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.fault, exchange.other),
                               selection->best);
     if (other.posterior.ln_evidence - before < kWorthAFit) continue;
     other = fitter.Complete(std::move(other));
     if (!other.status.ok() || other.posterior.ln_evidence <= before) continue;
     if (!WhyNoFault(fitter.hypotheses(), other.posterior, exchange.other).empty()) continue;
-    choice.cause = exchange.other;
+    choice.fault = exchange.other;
     selection->best = std::move(other);
     return;
   }
@@ -93,8 +93,9 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
     Choice& choice = selection->named[k];
     const Fit& best = selection->best;
     std::vector<int> others = best.faults;
-    std::erase(others, choice.cause);
-    choice.ln_bayes_factor = best.posterior.ln_evidence - fitter.Guess(best, others).ln_evidence;
+    std::erase(others, choice.fault);
+    choice.ln_bayes_factor =
+        best.posterior.ln_evidence - fitter.LinearPosterior(best, others).ln_evidence;
     if (choice.ln_bayes_factor < clear_evidence) {
       Fit without = fitter.Complete(fitter.Refine(others, best));
       if (without.status.ok()) {
@@ -105,7 +106,7 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
     }
     const CrossValidation before = LeaveOneOut(fitter.hypotheses(), best.model, others);
     const CrossValidation after = LeaveOneOut(fitter.hypotheses(), best.model, best.faults);
-    choice.held_out = Compare(before, after);
+    choice.cross_validation = Compare(before, after);
     for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
       choice.ln_gain_of_recording[r] = after.ln_predicted[r] - before.ln_predicted[r];
     }

@@ -40,14 +40,14 @@ class BesideTolerances {
       if (tolerance_[own[k]] > 0.0) tolerated.push_back(static_cast<Eigen::Index>(k));
     }
     if (tolerated.empty()) return H;
-    const Eigen::MatrixXd told = H(tolerated, Eigen::all);
+    const Eigen::MatrixXd cross = H(tolerated, Eigen::all);
     Eigen::MatrixXd left = -H(tolerated, tolerated);
     for (std::size_t k = 0; k < tolerated.size(); ++k) {
       const double tolerance = tolerance_[own[static_cast<std::size_t>(tolerated[k])]];
       left(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) +=
           1.0 / (tolerance * tolerance);
     }
-    return H + told.transpose() * linalg::SolveSymmetric(left, told);
+    return H + cross.transpose() * linalg::SolveSymmetric(left, cross);
   }
 
   /// Squares of noise that a fault of this cause would make, expected.
@@ -80,13 +80,13 @@ class BesideTolerances {
 
  private:
   /// [parameters] of a fault, what is believed of their squares.
-  Eigen::VectorXd FaultSquares(int cause) const {
+  Eigen::VectorXd FaultSquares(int fault) const {
     constexpr double kNone = 1e-12;  // of what is held where it is
-    const GaussianPrior prior = hypotheses_.PriorWith({cause});
+    const GaussianPrior prior = hypotheses_.PriorWith({fault});
     const auto sigma =
-        prior.sigma.segment(hypotheses_.first(cause), hypotheses_.count(cause)).array();
+        prior.sigma.segment(hypotheses_.first(fault), hypotheses_.count(fault)).array();
     const auto mean =
-        prior.mean.segment(hypotheses_.first(cause), hypotheses_.count(cause)).array();
+        prior.mean.segment(hypotheses_.first(fault), hypotheses_.count(fault)).array();
     return (sigma.square() + mean.square()).max(kNone);
   }
 
@@ -108,7 +108,7 @@ std::optional<ConfusabilityOfFaults> BestBeside(const HypothesisSet& hypotheses,
   for (int other = 0; other < hypotheses.size(); ++other) {
     const bool is_named = std::find(named.begin(), named.end(), other) != named.end();
     const bool is_withheld =
-        hypotheses.cause(other).name().id == hypotheses.cause(withheld).name().id;
+        hypotheses.model(other).name().id == hypotheses.model(withheld).name().id;
     if (!hypotheses.CanBeFault(other) || is_named || is_withheld) continue;
     const double explained = std::min(1.0, beside.ExplainedBy(With(named, other), withheld));
     if (!best || explained > best->explained) best = ConfusabilityOfFaults{other, explained};
@@ -141,7 +141,7 @@ std::vector<double> ExplainedByOthers(const HypothesisSet& hypotheses, const Inf
 double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& data,
                          std::size_t others, double explained) {
   struct OfId {
-    double imitated = 0.0;
+    double confusable = 0.0;
     double all = 0.0;
   };
   const std::vector<double> most = ExplainedByOthers(hypotheses, data, others);
@@ -149,33 +149,33 @@ double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& dat
   for (int k = 0; k < hypotheses.size(); ++k) {
     const double by_others = most[static_cast<std::size_t>(k)];
     if (by_others < 0.0) continue;
-    OfId& one = of_id[hypotheses.cause(k).name().id];
+    OfId& one = of_id[hypotheses.model(k).name().id];
     one.all += 1.0;
-    one.imitated += by_others >= explained ? 1.0 : 0.0;
+    one.confusable += by_others >= explained ? 1.0 : 0.0;
   }
   double sum = 0.0;
-  for (const auto& [id, one] : of_id) sum += one.imitated / one.all;
+  for (const auto& [id, one] : of_id) sum += one.confusable / one.all;
   return of_id.empty() ? 1.0 : sum / static_cast<double>(of_id.size());
 }
 
-double ExplainedOfMisfit(const Fit& healthy, const Fit& fit) {
+double ExplainedOfMisfit(const Fit& null_model, const Fit& fit) {
   constexpr double kSeen = 2.0;  // sigma of chi-squared
   const auto rows = static_cast<double>(fit.model.y.size());
-  const double explained = healthy.posterior.misfit - fit.posterior.misfit;
+  const double explained = null_model.posterior.misfit - fit.posterior.misfit;
   const double left = std::max(kSeen * std::sqrt(2.0 * rows), fit.posterior.misfit - rows);
   return explained > 0.0 ? explained / (explained + left) : 0.0;
 }
 
-double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& healthy, const Fit& fit,
-                              bool looks_like_noise) {
+double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& null_model,
+                              const Fit& fit, bool is_noise) {
   constexpr double kOutside = 1.0 / 20.0;  // as likely as one cause of the catalogue
   constexpr double kFurther = 1.0 / 3.0;   // as likely as that there is none
   const std::size_t named = fit.faults.size();
   const double before =
-      looks_like_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;
-  const double imitated = before * ShareOfConfusable(hypotheses, healthy.model.All(), named,
-                                                     ExplainedOfMisfit(healthy, fit));
-  return imitated / (1.0 + imitated);
+      is_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;
+  const double confusable = before * ShareOfConfusable(hypotheses, null_model.model.All(), named,
+                                                       ExplainedOfMisfit(null_model, fit));
+  return confusable / (1.0 + confusable);
 }
 
 }  // namespace palpate::diagnosis

@@ -25,7 +25,7 @@ double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& dat
 
 /// How much of what is beyond tolerances and noise a fit explains, of what `healthy` leaves, in
 /// squares of noise; [0, 1]. What the noise's own scatter may hide counts as left.
-double ExplainedOfMisfit(const Fit& healthy, const Fit& fit);
+double ExplainedOfMisfit(const Fit& null_model, const Fit& fit);
 
 /// How likely it is that what is named stands in the place of a cause that the catalogue does not
 /// hold. In its place only if what is named explains so much of it, as is more or less usual among
@@ -35,7 +35,7 @@ double ExplainedOfMisfit(const Fit& healthy, const Fit& fit);
 /// - where it looks like noise, a twentieth as likely as one cause of the catalogue, and each
 ///   further cause is a third as likely as that there is none (docs/diagnosis.md says from where).
 /// [0, 1)
-double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& healthy, const Fit& fit,
-                              bool looks_like_noise);
+double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& null_model,
+                              const Fit& fit, bool is_noise);
 
 }  // namespace palpate::diagnosis

@@ -13,7 +13,7 @@ namespace {
 
 /// Evidence of fewer data than another has is none.
 Status FewerData() {
-  return {StatusCode::kNotConverged, "what the causes do is not known at some moment"};
+  return {StatusCode::kNotConverged, "the effect of the faults is unknown at some sample"};
 }
 
 }  // namespace
@@ -23,13 +23,13 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
                TimeLimit limit)
     : observed_(observed),
       hypotheses_(hypotheses),
-      causes_(hypotheses.All()),
+      models_(hypotheses.All()),
       noise_(noise),
-      nominal_(DraftOf(body, observed)),
+      nominal_(NominalHypothesis(body, observed)),
       simulator_(observed, threads),
       limit_(limit),
       marker_rest_m_(3, std::ssize(body.markers)),
-      healthy_(hypotheses.PriorWith({})) {
+      null_prior_(hypotheses.PriorWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
     marker_rest_m_.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
   }
@@ -39,11 +39,11 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
 /// where there are no others.
 void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
                            Fit* fit) const {
-  const ModelHypothesis hypothesis = DraftWith(nominal_, causes_, fit->z);
+  const ModelHypothesis hypothesis = HypothesisWith(nominal_, models_, fit->z);
   Simulation& simulation = fit->simulation;
-  simulator_.Differentiate(hypothesis, causes_, fit->z, wanted, nominal_, &simulation);
+  simulator_.Differentiate(hypothesis, models_, fit->z, wanted, nominal_, &simulation);
   if (others == nullptr) {
-    simulator_.DifferentiateByRuns(nominal_, causes_, fit->z, &simulation);
+    simulator_.DifferentiateBySimulation(nominal_, models_, fit->z, &simulation);
   }
   for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
     for (int k = 0; k < hypotheses_.size(); ++k) {
@@ -53,10 +53,10 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
     }
   }
   fit->model = Linearise(observed_, simulation, fit->z, marker_rest_m_, noise_);
-  fit->posterior = Guess(*fit, fit->faults);
+  fit->posterior = LinearPosterior(*fit, fit->faults);
 }
 
-Posterior Fitter::Guess(const Fit& about, const std::vector<int>& faults) const {
+Posterior Fitter::LinearPosterior(const Fit& about, const std::vector<int>& faults) const {
   return hypotheses_.InferWithin(about.model.All(), faults);
 }
 
@@ -71,9 +71,9 @@ Fit Fitter::AsBuilt(const Simulation* simulated) const {
 Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   if (fit.complete || fit.simulation.samples.empty()) return fit;
   const Eigen::Index data = fit.model.y.size();
-  std::vector<bool> wanted(causes_.size(), true);
+  std::vector<bool> wanted(models_.size(), true);
   for (int k = 0; k < hypotheses_.size() && near != nullptr; ++k) {
-    wanted[static_cast<std::size_t>(k)] = !IsKnownByRuns(k, *near);
+    wanted[static_cast<std::size_t>(k)] = !IsKnownBySimulation(k, *near);
   }
   Differentiate(wanted, near != nullptr ? &near->simulation : nullptr, &fit);
   if (fit.model.y.size() < data) fit.status = FewerData();
@@ -82,7 +82,7 @@ Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
 }
 
 Fit Fitter::WithFaults(const std::vector<int>& faults, const Fit& start) const {
-  Fit fit = MovedTo(WhereFaultsBegin(faults, start), start);
+  Fit fit = MovedTo(FaultStart(faults, start), start);
   fit.faults = faults;
   return fit.status.ok() ? InAllDetail(std::move(fit)) : fit;
 }
@@ -91,14 +91,14 @@ Fit Fitter::Resimulated(Fit fit) const {
   std::vector<Eigen::MatrixXd> jacobians_m;
   for (const SimulatedSample& sample : fit.simulation.samples)
     jacobians_m.push_back(sample.jacobian_m);
-  fit.simulation = simulator_.Run(DraftAt(fit), &fit.simulation, Detail::kAllParts);
+  fit.simulation = simulator_.Run(HypothesisAt(fit), &fit.simulation, Detail::kAllParts);
   fit.status = fit.simulation.status;
   for (std::size_t s = 0; s < jacobians_m.size(); ++s)
     fit.simulation.samples[s].jacobian_m = std::move(jacobians_m[s]);
   return fit;
 }
 
-Fit Fitter::SeenAnew(Fit fit) const {
+Fit Fitter::Remeasured(Fit fit) const {
   Fit anew = Resimulated(std::move(fit));
   if (!anew.status.ok()) return anew;
   anew.model = {};
@@ -111,7 +111,7 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
   Fit moved;
   moved.faults = fit.faults;
   moved.z = z;
-  moved.simulation = simulator_.Run(DraftWith(nominal_, causes_, z), &fit.simulation);
+  moved.simulation = simulator_.Run(HypothesisWith(nominal_, models_, z), &fit.simulation);
   moved.status = moved.simulation.status;
   if (!moved.status.ok()) return moved;
   for (std::size_t s = 0; s < moved.simulation.samples.size(); ++s) {
@@ -125,28 +125,28 @@ Fit Fitter::MovedTo(const Eigen::VectorXd& z, const Fit& fit) const {
 Fit Fitter::Complete(Fit fit) const {
   if (fit.arrived) return fit;
   if (fit.status.ok() && !fit.complete) {
-    fit.simulation =
-        simulator_.Run(DraftWith(nominal_, causes_, fit.z), &fit.simulation, Detail::kAllParts);
+    fit.simulation = simulator_.Run(HypothesisWith(nominal_, models_, fit.z), &fit.simulation,
+                                    Detail::kAllParts);
     fit.status = fit.simulation.status;
     fit.bends_known = true;
   }
   if (fit.status.ok()) fit = InAllDetail(std::move(fit));
-  if (fit.status.ok()) fit = TakenFurther(std::move(fit));
+  if (fit.status.ok()) fit = Continued(std::move(fit));
   fit.arrived = true;
   return fit;
 }
 
 /// Tolerances may matter more than faults let see: a cable that is about to get taut moves nothing
 /// as long as its drive's zero is where the file has it.
-Fit Fitter::TakenFurther(Fit fit) const {
+Fit Fitter::Continued(Fit fit) const {
   constexpr int kMostSteps = 4;
-  constexpr int kMostInVain = 2;
+  constexpr int kMostFailures = 2;
   constexpr double kLittle = 2.0;  // of chi-squared
-  int in_vain = 0;
+  int failures = 0;
   Eigen::VectorXd to = PointFrom(fit, fit.faults);
   // Against a healthy robot that was not fitted to its end anything is evidence.
   const bool may_end = !fit.faults.empty();
-  for (int step = 0; step < kMostSteps && in_vain < kMostInVain; ++step) {
+  for (int step = 0; step < kMostSteps && failures < kMostFailures; ++step) {
     if (may_end && IsOutOfTime()) return fit;
     const double promised = MisfitAt(fit, to);
     if (MisfitAt(fit, fit.z) - promised < kLittle) return fit;
@@ -156,7 +156,7 @@ Fit Fitter::TakenFurther(Fit fit) const {
     if (std::abs(found - promised) < kLittle) return fit;
     if (found > MisfitAt(fit, fit.z)) {
       to = 0.5 * (fit.z + to);
-      ++in_vain;
+      ++failures;
       continue;
     }
     next = InAllDetail(std::move(next), &fit);
@@ -185,8 +185,8 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
       const Eigen::Index column = hypotheses_.first(k) + p;
       const bool one_sided =
-          hypotheses_.cause(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
-      const bool little = all.mean[column] < kLittle * healthy_.sigma[column];
+          hypotheses_.model(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
+      const bool little = all.mean[column] < kLittle * null_prior_.sigma[column];
       if (one_sided && little) at_zero.push_back(column);
     }
   }
@@ -197,7 +197,7 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
 
 /// Where a fault is most likely before the data, all else as `start` has it: steps that go too far
 /// are halved towards there.
-Eigen::VectorXd Fitter::WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const {
+Eigen::VectorXd Fitter::FaultStart(const std::vector<int>& faults, const Fit& start) const {
   Eigen::VectorXd z = start.z;
   const GaussianPrior prior = hypotheses_.PriorWith(faults);
   for (const int k : faults) {
@@ -215,16 +215,16 @@ bool Fitter::IsNear(const Fit& fit) const {
   const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     const double known = std::sqrt(fit.posterior.covariance(p, p));
-    const bool fault = prior.sigma[p] != healthy_.sigma[p];
+    const bool fault = prior.sigma[p] != null_prior_.sigma[p];
     const double reach = fault ? kOfFault * known : kOfTolerance * prior.sigma[p];
     if (std::abs(step[p]) > reach) return false;
   }
   return true;
 }
 
-bool Fitter::IsKnownByRuns(int k, const Fit& fit) const {
-  return fit.complete &&
-         hypotheses_.cause(k).NeedsRuns(fit.z.segment(hypotheses_.first(k), hypotheses_.count(k)));
+bool Fitter::IsKnownBySimulation(int k, const Fit& fit) const {
+  return fit.complete && hypotheses_.model(k).NeedsSimulation(
+                             fit.z.segment(hypotheses_.first(k), hypotheses_.count(k)));
 }
 
 double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
@@ -240,7 +240,7 @@ double Fitter::MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const {
 
 bool Fitter::HasKinks(const std::vector<int>& faults) const {
   return std::any_of(faults.begin(), faults.end(),
-                     [&](int k) { return hypotheses_.cause(k).Start().has_value(); });
+                     [&](int k) { return hypotheses_.model(k).Start().has_value(); });
 }
 
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
@@ -261,12 +261,12 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   // Over kinks chi-squared goes up and down by some hundredths from place to place.
   const bool has_kinks = HasKinks(faults);
   constexpr double kLittleOverKinks = 0.03;  // of chi-squared
-  const int most_in_vain = has_kinks ? 2 : most_rounds;
-  std::vector<bool> wanted(causes_.size(), false);
-  for (const int k : faults) wanted[static_cast<std::size_t>(k)] = !IsKnownByRuns(k, start);
+  const int most_failures = has_kinks ? 2 : most_rounds;
+  std::vector<bool> wanted(models_.size(), false);
+  for (const int k : faults) wanted[static_cast<std::size_t>(k)] = !IsKnownBySimulation(k, start);
   Fit fit;
-  fit.z = WhereFaultsBegin(faults, start);
-  fit.posterior = Guess(start, faults);
+  fit.z = FaultStart(faults, start);
+  fit.posterior = LinearPosterior(start, faults);
   const Simulation* from = &start.simulation;
   Eigen::VectorXd to = PointFrom(start, faults);
   double misfit = std::numeric_limits<double>::infinity();
@@ -274,14 +274,14 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   constexpr double kDampMore = 10.0;
   constexpr double kDampLess = 3.0;
   double damping = 0.0;
-  int in_vain = 0;
-  for (int round = 0; round < most_rounds && in_vain < most_in_vain; ++round) {
+  int failures = 0;
+  for (int round = 0; round < most_rounds && failures < most_failures; ++round) {
     const double before = fit.posterior.ln_evidence;
     Fit next;
     next.faults = faults;
     next.bends_known = detail == Detail::kParts || (start.bends_known && HasKinks(start.faults));
     next.z = to;
-    next.simulation = simulator_.Run(DraftWith(nominal_, causes_, next.z), from, detail);
+    next.simulation = simulator_.Run(HypothesisWith(nominal_, models_, next.z), from, detail);
     next.status = next.simulation.status;
     if (next.status.ok()) Differentiate(wanted, from, &next);
     if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
@@ -291,11 +291,11 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     if (!next.status.ok() || now > misfit) {
       damping = std::max(kLeastDamping, kDampMore * damping);
       to = placed ? PointFrom(fit, faults, damping) : 0.5 * (fit.z + to);
-      in_vain += placed;
+      failures += placed;
       if (placed && IsOutOfTime()) break;
       continue;
     }
-    in_vain = 0;
+    failures = 0;
     damping = damping < kLeastDamping ? 0.0 : damping / kDampLess;
     const bool little = has_kinks && placed && now > (1.0 - kLittleOverKinks) * misfit;
     misfit = now;

@@ -59,17 +59,19 @@ class Fitter {
   Fit Complete(Fit fit) const;
   /// A fit where it is, of measurements that have changed since (the skin matched anew), in all
   /// detail; it may lead elsewhere now.
-  Fit SeenAnew(Fit fit) const;
+  Fit Remeasured(Fit fit) const;
   /// The same without what causes do there.
   Fit Resimulated(Fit fit) const;
   /// The robot as a fit has it.
-  ModelHypothesis DraftAt(const Fit& fit) const { return DraftWith(nominal_, causes_, fit.z); }
+  ModelHypothesis HypothesisAt(const Fit& fit) const {
+    return HypothesisWith(nominal_, models_, fit.z);
+  }
   /// [samples] where it is while pictures are taken.
   std::vector<ShapesInTime> Shapes(const Fit& fit) const {
-    return simulator_.Shapes(DraftAt(fit), fit.simulation);
+    return simulator_.Shapes(HypothesisAt(fit), fit.simulation);
   }
   /// What a linear model says of faults, without another simulation.
-  Posterior Guess(const Fit& about, const std::vector<int>& faults) const;
+  Posterior LinearPosterior(const Fit& about, const std::vector<int>& faults) const;
 
   const HypothesisSet& hypotheses() const { return hypotheses_; }
   const NoiseModel& noise() const { return noise_; }
@@ -84,7 +86,7 @@ class Fitter {
   Eigen::VectorXd PointFrom(const Fit& about, const std::vector<int>& faults,
                             double damping = 0.0) const;
   bool HasKinks(const std::vector<int>& faults) const;
-  Eigen::VectorXd WhereFaultsBegin(const std::vector<int>& faults, const Fit& start) const;
+  Eigen::VectorXd FaultStart(const std::vector<int>& faults, const Fit& start) const;
   /// Chi-squared of data and belief at `z`, as the linear model of `fit` has it.
   double MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const;
   /// Whether a fit's linear model was made where its posterior is.
@@ -93,20 +95,20 @@ class Fitter {
   Fit MovedTo(const Eigen::VectorXd& z, const Fit& fit) const;
   /// With what every cause does there; what only runs tell, from `near` where there is one.
   Fit InAllDetail(Fit fit, const Fit* near = nullptr) const;
-  Fit TakenFurther(Fit fit) const;
+  Fit Continued(Fit fit) const;
   /// Whether the columns of cause k in a fit are of simulations.
-  bool IsKnownByRuns(int k, const Fit& fit) const;
+  bool IsKnownBySimulation(int k, const Fit& fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;
   const HypothesisSet& hypotheses_;
-  FaultModelList causes_;  ///< all of the book
+  FaultModelList models_;  ///< all of the book
   NoiseModel noise_;
   ModelHypothesis nominal_;
   Simulator simulator_;
   TimeLimit limit_;
   Eigen::Matrix3Xd marker_rest_m_;
-  GaussianPrior healthy_;
+  GaussianPrior null_prior_;
 };
 
 }  // namespace palpate::diagnosis

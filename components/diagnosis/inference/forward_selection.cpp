@@ -33,17 +33,17 @@ std::vector<int> StartsOf(const HypothesisSet& hypotheses, const std::vector<Can
   std::vector<int> starts;
   for (const Candidate& one : of_name) {
     const bool there = std::any_of(starts.begin(), starts.end(), [&](int k) {
-      return hypotheses.cause(k).Start() == hypotheses.cause(one.cause).Start();
+      return hypotheses.model(k).Start() == hypotheses.model(one.fault).Start();
     });
-    if (!there && starts.size() < kMost) starts.push_back(one.cause);
+    if (!there && starts.size() < kMost) starts.push_back(one.fault);
   }
   return starts;
 }
 
 }  // namespace
 
-std::vector<int> With(std::vector<int> faults, int cause) {
-  faults.push_back(cause);
+std::vector<int> With(std::vector<int> faults, int fault) {
+  faults.push_back(fault);
   return faults;
 }
 
@@ -52,14 +52,14 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
   const HypothesisSet& hypotheses = fitter.hypotheses();
   std::map<std::pair<std::string, std::vector<std::string>>, std::vector<Candidate>> by_name;
   for (int k = 0; k < hypotheses.size(); ++k) {
-    const CauseName& name = hypotheses.cause(k).name();
+    const CauseName& name = hypotheses.model(k).name();
     const bool named = std::any_of(faults.begin(), faults.end(),
-                                   [&](int f) { return hypotheses.cause(f).name() == name; });
+                                   [&](int f) { return hypotheses.model(f).name() == name; });
     if (named || !hypotheses.CanBeFault(k)) continue;
     const double ln_bayes_factor =
-        fitter.Guess(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
+        fitter.LinearPosterior(about, With(faults, k)).ln_evidence - about.posterior.ln_evidence;
     by_name[{name.id, name.where}].push_back(
-        {.cause = k, .ln_bayes_factor = ln_bayes_factor, .ln_guessed = ln_bayes_factor});
+        {.fault = k, .ln_bayes_factor = ln_bayes_factor, .ln_screened = ln_bayes_factor});
   }
   std::vector<Candidate> candidates;
   for (auto& [name, of_name] : by_name) {
@@ -114,16 +114,16 @@ constexpr double kBeyondTolerance = 3.0;
 /// By how many sigmas the data exclude a healthy robot, of a cause with sizes that begin at nothing
 /// beside such as a healthy robot may have: of these the likeliest where the others are nothing. 0:
 /// it has none of them. Data may tell the sum of a delay and a time constant, and neither of them.
-double SigmasFromHealthy(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+double SigmasFromNominal(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   std::vector<Eigen::Index> tolerated;
   std::vector<double> tolerance;
   std::vector<Eigen::Index> others;
-  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
-    const Eigen::Index column = hypotheses.first(cause) + p;
+  for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
+    const Eigen::Index column = hypotheses.first(fault) + p;
     const FaultParameter& parameter =
-        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)];
+        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)];
     if (!(posterior.covariance(column, column) > 0.0)) continue;  // it is at its bound
-    if (const double own = hypotheses.ToleranceOf(cause, static_cast<int>(p)); own > 0.0) {
+    if (const double own = hypotheses.ToleranceOf(fault, static_cast<int>(p)); own > 0.0) {
       tolerated.push_back(column);
       tolerance.push_back(own);
     } else if (parameter.scale == FaultParameter::Scale::kLinear && parameter.least == 0.0) {
@@ -149,15 +149,15 @@ double SigmasFromHealthy(const HypothesisSet& hypotheses, const Posterior& poste
 
 /// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
 /// robot has nothing of, of which the evidence says all.
-double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   double most = -1.0;
   double squares = 0.0;
   int components = 0;
-  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
-    const double tolerance = hypotheses.ToleranceOf(cause, static_cast<int>(p));
+  for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
+    const double tolerance = hypotheses.ToleranceOf(fault, static_cast<int>(p));
     if (tolerance <= 0.0) continue;
-    const double size = std::abs(posterior.mean[hypotheses.first(cause) + p]) / tolerance;
-    if (hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)].component) {
+    const double size = std::abs(posterior.mean[hypotheses.first(fault) + p]) / tolerance;
+    if (hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)].component) {
       squares += size * size;
       ++components;
     } else {
@@ -166,20 +166,20 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
   }
   // The tolerance of a vector's length is by that root more than that of each of its components.
   if (components > 0) most = std::max(most, std::sqrt(squares / components));
-  const bool beyond = SigmasFromHealthy(hypotheses, posterior, cause) > kBeyondTolerance;
+  const bool beyond = SigmasFromNominal(hypotheses, posterior, fault) > kBeyondTolerance;
   return most < 0.0 || beyond ? std::numeric_limits<double>::infinity() : most;
 }
 
 /// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence
 /// for such a one is of fits that did not come to their ends. A wall that nearly touches is one.
-bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
+bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   constexpr double kClearly_sigmas = 2.0;
-  if (hypotheses.cause(cause).Start()) return false;
+  if (hypotheses.model(fault).Start()) return false;
   std::vector<Eigen::Index> sizes;
-  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
-    const Eigen::Index column = hypotheses.first(cause) + p;
+  for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
+    const Eigen::Index column = hypotheses.first(fault) + p;
     const bool qualifies =
-        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)].qualifies;
+        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)].qualifies;
     if (!qualifies && posterior.covariance(column, column) > 0.0) sizes.push_back(column);
   }
   if (sizes.empty()) return false;
@@ -191,20 +191,20 @@ bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, i
 
 }  // namespace
 
-std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int cause) {
-  if (SizeInTolerances(hypotheses, posterior, cause) < kBeyondTolerance) {
-    return "it is within what a healthy robot may have";
+std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
+  if (SizeInTolerances(hypotheses, posterior, fault) < kBeyondTolerance) {
+    return "it is within three manufacturing tolerances of the nominal robot";
   }
-  if (MayBeNothing(hypotheses, posterior, cause)) {
-    return "what is known of its size does not exclude that there is nothing of it";
+  if (MayBeNothing(hypotheses, posterior, fault)) {
+    return "its size does not differ from zero by two standard deviations";
   }
-  for (Eigen::Index p = 0; p < hypotheses.count(cause); ++p) {
+  for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
     const FaultParameter& parameter =
-        hypotheses.cause(cause).parameters()[static_cast<std::size_t>(p)];
-    const double z = posterior.mean[hypotheses.first(cause) + p];
+        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)];
+    const double z = posterior.mean[hypotheses.first(fault) + p];
     if (std::abs(z) <= parameter.plausible) continue;
-    return "no robot has so much of it (" + parameter.name + " = " +
-           FormatNumber(parameter.ValueOf(z)) + "): something else looks like it";
+    return "its value is not plausible (" + parameter.name + " = " +
+           FormatNumber(parameter.ValueOf(z)) + "): another fault has this effect";
   }
   return {};
 }
@@ -219,55 +219,57 @@ constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 }  // namespace
 
-double AlikeWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival) {
+double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival) {
   constexpr double kSameEffect = 0.95;
   const bool same =
-      rival.canonical_correlation > kSameEffect && !hypotheses.IsSpecialCase(rival.cause, named);
-  return same ? kClearEvidence : kAlikeEvidence;
+      rival.canonical_correlation > kSameEffect && !hypotheses.IsSpecialCase(rival.fault, named);
+  return same ? kClearEvidence : kIndistinguishableEvidence;
 }
 
-bool ForwardSelectionStep::Look() {
+bool ForwardSelectionStep::Search() {
   candidates_ = Screen(fitter_, before_, before_.faults);
-  if (likely_) TryOut(*likely_);
-  if (candidates_.empty() || candidates_.front().ln_bayes_factor < kAlikeEvidence) {
+  if (likely_) SimulateLikely(*likely_);
+  if (candidates_.empty() || candidates_.front().ln_bayes_factor < kIndistinguishableEvidence) {
     Explain();
     return false;
   }
-  const CrossValidation held_out = LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
+  const CrossValidation cross_validation =
+      LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
   for (int round = 0; round < kMostRounds && found_ >= candidates_.size(); ++round) {
     if (round > 0 && !AreOthersPromising()) break;
     RefineTheBest();
-    FindOneThatIsClear(held_out);
+    FindOneThatIsClear(cross_validation);
   }
   Explain();
   return found_ < candidates_.size();
 }
 
-std::vector<Candidate> ForwardSelectionStep::Alike() const {
-  std::vector<Candidate> alike;
+std::vector<Candidate> ForwardSelectionStep::Indistinguishable() const {
+  std::vector<Candidate> indistinguishable;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const Candidate& rival = candidates_[k];
     const double behind = candidates_[found_].ln_bayes_factor - rival.ln_bayes_factor;
     if (k == found_ || rival.ruled_out || IsSpecialCaseOf(found_, k)) continue;
-    const double within = AlikeWithin(fitter_.hypotheses(), candidates_[found_].cause, rival);
-    if (behind < within) alike.push_back(rival);
+    const double within =
+        IndistinguishableWithin(fitter_.hypotheses(), candidates_[found_].fault, rival);
+    if (behind < within) indistinguishable.push_back(rival);
   }
-  return alike;
+  return indistinguishable;
 }
 
 bool ForwardSelectionStep::IsSpecialCaseOf(std::size_t special, std::size_t k) const {
-  return fitter_.hypotheses().IsSpecialCase(candidates_[special].cause, candidates_[k].cause);
+  return fitter_.hypotheses().IsSpecialCase(candidates_[special].fault, candidates_[k].fault);
 }
 
-void ForwardSelectionStep::TryOut(const CauseName& name) {
+void ForwardSelectionStep::SimulateLikely(const CauseName& name) {
   const auto tried = std::find_if(
       candidates_.begin(), candidates_.end(),
-      [&](const Candidate& one) { return fitter_.hypotheses().cause(one.cause).name() == name; });
+      [&](const Candidate& one) { return fitter_.hypotheses().model(one.fault).name() == name; });
   if (tried == candidates_.end()) return;
-  tried_ = fitter_.WithFaults(With(before_.faults, tried->cause), before_);
+  tried_ = fitter_.WithFaults(With(before_.faults, tried->fault), before_);
   if (!tried_.status.ok()) return;
-  tried->ln_guessed = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;
-  tried->ln_bayes_factor = tried->ln_guessed;
+  tried->ln_screened = tried_.posterior.ln_evidence - before_.posterior.ln_evidence;
+  tried->ln_bayes_factor = tried->ln_screened;
   SortByEvidence(&candidates_);
 }
 
@@ -289,10 +291,10 @@ bool ForwardSelectionStep::PromisesAnotherMoreThan(std::size_t k) const {
          candidates_[next].ln_bayes_factor > candidates_[k].ln_bayes_factor + kWorthALook;
 }
 
-void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& held_out) {
+void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& cross_validation) {
   for (std::size_t k = 0; k < fits_.size(); ++k) {
     if (!candidates_[k].why_not.empty() || PromisesAnotherMoreThan(k)) continue;
-    if (!IsClear(held_out, k)) continue;
+    if (!IsClear(cross_validation, k)) continue;
     found_ = k;
     return;
   }
@@ -313,7 +315,7 @@ void ForwardSelectionStep::RefineTheBest() {
   const std::size_t first = fits_.size();
   const std::size_t end = std::min(first + kMostRefined, candidates_.size());
   PutSpecialCasesNext(first, end);
-  const double least = before_.faults.empty() ? kAlikeEvidence : kMayGetClear;
+  const double least = before_.faults.empty() ? kIndistinguishableEvidence : kMayGetClear;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t k = first; k < end; ++k) {
     Candidate& candidate = candidates_[k];
@@ -322,10 +324,10 @@ void ForwardSelectionStep::RefineTheBest() {
     if (k > 0 && fitter_.IsOutOfTime()) break;
     Fit fit = RefineFromItsStarts(&candidate);
     const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
-    candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_guessed : kImpossible;
+    candidate.ln_bayes_factor += fit.status.ok() ? now - candidate.ln_screened : kImpossible;
     candidate.refined = true;
     // Where one gains on what was guessed of it, another may, too.
-    best = std::max(best, std::min(candidate.ln_guessed, candidate.ln_bayes_factor));
+    best = std::max(best, std::min(candidate.ln_screened, candidate.ln_bayes_factor));
     fits_.push_back(std::move(fit));
   }
   SortRefined();
@@ -333,7 +335,7 @@ void ForwardSelectionStep::RefineTheBest() {
   for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
     const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
     // How likely a further one is that cannot get clear, nobody asks.
-    if (behind < kAlikeEvidence && candidates_[k].ln_bayes_factor >= least) Complete(k);
+    if (behind < kIndistinguishableEvidence && candidates_[k].ln_bayes_factor >= least) Complete(k);
   }
   SortRefined();
 }
@@ -341,19 +343,19 @@ void ForwardSelectionStep::RefineTheBest() {
 Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
   constexpr int kRoundsToCompare = 3;
   if (candidate->starts.size() < 2) {
-    const std::vector<int> faults = With(before_.faults, candidate->cause);
+    const std::vector<int> faults = With(before_.faults, candidate->fault);
     const bool was_tried = tried_.status.ok() && tried_.faults == faults;
     return fitter_.Refine(faults, was_tried ? tried_ : before_);
   }
   Fit best;
-  for (const int cause : candidate->starts) {
+  for (const int fault : candidate->starts) {
     if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
     Fit fit =
-        fitter_.Refine(With(before_.faults, cause), before_, kRoundsToCompare, Detail::kMiddles);
+        fitter_.Refine(With(before_.faults, fault), before_, kRoundsToCompare, Detail::kMiddles);
     const bool better = fit.status.ok() && (!best.status.ok() ||
                                             fit.posterior.ln_evidence > best.posterior.ln_evidence);
     if (!better && !best.faults.empty()) continue;
-    candidate->cause = cause;
+    candidate->fault = fault;
     best = std::move(fit);
   }
   const bool hopeless = best.posterior.ln_evidence < before_.posterior.ln_evidence;
@@ -364,7 +366,7 @@ Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
 void ForwardSelectionStep::Complete(std::size_t k) {
   if (fits_[k].arrived) return;
   const double before = fits_[k].posterior.ln_evidence;
-  fits_[k] = AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].cause);
+  fits_[k] = AtTheBestPlace(fitter_, fitter_.Complete(std::move(fits_[k])), &candidates_[k].fault);
   const double now = fits_[k].posterior.ln_evidence;
   candidates_[k].ln_bayes_factor += fits_[k].status.ok() ? now - before : kImpossible;
 }
@@ -389,25 +391,24 @@ bool ForwardSelectionStep::IsClear(const CrossValidation& before, std::size_t k)
   Candidate& candidate = candidates_[k];
   if (candidate.ln_bayes_factor >= kClearEvidence) Complete(k);
   if (candidate.ln_bayes_factor < kClearEvidence) {
-    candidate.why_not = "the evidence for it is not clear (ln BF " +
+    candidate.why_not = "the evidence for it is below ln BF 10 (ln BF " +
                         FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
     return false;
   }
-  candidate.why_not = WhyNoFault(fitter_.hypotheses(), fits_[k].posterior, candidate.cause);
+  candidate.why_not = WhyNoFault(fitter_.hypotheses(), fits_[k].posterior, candidate.fault);
   candidate.ruled_out = !candidate.why_not.empty();
   if (candidate.ruled_out) return false;
   const CrossValidation after = LeaveOneOut(fitter_.hypotheses(), fits_[k].model, fits_[k].faults);
-  Choice choice{.cause = candidate.cause, .ln_bayes_factor = candidate.ln_bayes_factor};
-  choice.held_out = Compare(before, after);
+  Choice choice{.fault = candidate.fault, .ln_bayes_factor = candidate.ln_bayes_factor};
+  choice.cross_validation = Compare(before, after);
   for (std::size_t r = 0; r < after.ln_predicted.size(); ++r) {
     choice.ln_gain_of_recording.push_back(after.ln_predicted[r] - before.ln_predicted[r]);
   }
-  if (!choice.held_out.clear && SeenIn(k) > 1 && !KeepsTolerances(k)) {
-    candidate.why_not =
-        "with it recordings that it was not fitted to are predicted no better (ln BF " +
-        FormatNumber(std::round(10.0 * choice.held_out.ln_gain) / 10.0) + ", " +
-        FormatNumber(std::round(100.0 * choice.held_out.relative)) +
-        " % of the error beyond the noise)";
+  if (!choice.cross_validation.clear && SeenIn(k) > 1 && !KeepsTolerances(k)) {
+    candidate.why_not = "left-out recordings are predicted no better with it (ln BF " +
+                        FormatNumber(std::round(10.0 * choice.cross_validation.ln_gain) / 10.0) +
+                        ", " + FormatNumber(std::round(100.0 * choice.cross_validation.relative)) +
+                        " % of the error beyond the noise)";
     return false;
   }
   choice.probability = Probability(k);
@@ -462,21 +463,21 @@ int ForwardSelectionStep::SeenIn(std::size_t k) const {
 
 void ForwardSelectionStep::Explain() {
   const HypothesisSet& hypotheses = fitter_.hypotheses();
-  const int first = found_ < candidates_.size() ? candidates_[found_].cause : -1;
+  const int first = found_ < candidates_.size() ? candidates_[found_].fault : -1;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     Candidate& candidate = candidates_[k];
     if (first >= 0 && k != found_) {
       candidate.canonical_correlation =
-          CanonicalCorrelation(hypotheses, before_.model, first, candidate.cause);
+          CanonicalCorrelation(hypotheses, before_.model, first, candidate.fault);
     }
     if (k == found_ || !candidate.why_not.empty()) continue;
     if (k < fits_.size() && PromisesAnotherMoreThan(k)) {
-      candidate.why_not = "another cause that promises more was not simulated";
+      candidate.why_not = "another fault that promises more was not simulated";
       continue;
     }
     candidate.why_not =
-        first >= 0 ? "another cause explains more"
-                   : "the evidence for it is not clear (ln BF " +
+        first >= 0 ? "another fault explains more"
+                   : "the evidence for it is below ln BF 10 (ln BF " +
                          FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
   }
 }

@@ -16,9 +16,9 @@ namespace palpate::diagnosis {
 
 /// A cause that was looked at as the next one, and what became of it.
 struct Candidate {
-  int cause = -1;  ///< the best of those that have its name (places, relaxation times)
+  int fault = -1;  ///< the best of those that have its name (places, relaxation times)
   double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
-  double ln_guessed = 0.0;       ///< the same of that one alone, before it was simulated
+  double ln_screened = 0.0;      ///< the same of that one alone, before it was simulated
   double canonical_correlation =
       0.0;                   ///< canonical correlation of its effect with that of the first named
   bool refined = false;      ///< simulated anew where it fits best
@@ -28,7 +28,7 @@ struct Candidate {
 };
 
 /// `faults`, and one more.
-std::vector<int> With(std::vector<int> faults, int cause);
+std::vector<int> With(std::vector<int> faults, int fault);
 
 /// All causes that could be the next beside `faults`, by the linear model of `about`, the most
 /// probable first; the best of each name stands for it.
@@ -37,8 +37,8 @@ std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
 /// The most probable first.
 void SortByEvidence(std::vector<Candidate>* candidates);
 
-/// The largest canonical correlation between what two causes do, what building tolerances can make
-/// up for taken out; in [0, 1].
+/// The largest canonical correlation between what two causes do, what manufacturing tolerances can
+/// make up for taken out; in [0, 1].
 double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
                             int b);
 
@@ -46,23 +46,23 @@ double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& 
 /// tolerances that a healthy robot has, as likely nothing at all, or so large that it is rather
 /// another cause in disguise.
 /// Empty: it may be one.
-std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int cause);
+std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault);
 
-inline constexpr double kClearEvidence = 10.0;  ///< ln BF that a cause must have
-inline constexpr double kAlikeEvidence = 3.0;   ///< ln BF within which causes fit alike
+inline constexpr double kClearEvidence = 10.0;             ///< ln BF that a cause must have
+inline constexpr double kIndistinguishableEvidence = 3.0;  ///< ln BF within which causes fit alike
 
 /// ln BF within which a rival is not told apart from the cause that is named. Of causes whose
 /// effects are the same (canonical correlation above 0.95; DIAGNOSIS, "Method" 8) what is believed
 /// beforehand of their sizes decides, not the data: only clear evidence is enough. Not so of a
 /// special case: what speaks against it is what the data have of all else that the cause can do.
-double AlikeWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival);
+double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival);
 
 /// One cause that was named.
 struct Choice {
-  int cause = -1;
+  int fault = -1;
   double ln_bayes_factor = 0.0;
   double probability = 0.0;  ///< among all candidates and none, guesses as likely as each other
-  CrossValidationGain held_out = {};
+  CrossValidationGain cross_validation = {};
   std::vector<double> ln_gain_of_recording = {};  ///< of what was predicted
 };
 
@@ -75,26 +75,26 @@ class ForwardSelectionStep {
                        const std::optional<CauseName>& likely)
       : observed_(observed), fitter_(fitter), before_(before), likely_(likely) {}
   /// Whether there is one; then choice() and fit() are about it.
-  bool Look();
+  bool Search();
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
   /// Those that fit as well as what was found, but for such as it is a special case of: these do
   /// all that it does, and are only less likely for what else they could do.
-  std::vector<Candidate> Alike() const;
+  std::vector<Candidate> Indistinguishable() const;
 
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const;
   /// Simulates the cause of this name: what that says of it takes the place of what the linear
   /// model says.
-  void TryOut(const CauseName& name);
+  void SimulateLikely(const CauseName& name);
   /// Whether to simulate further ones: those that were are none that a robot can have, or explain
   /// little, or less than the next one promises, and that promises much.
   bool AreOthersPromising() const;
   /// Whether one that was not simulated promises clearly more than this one explains.
   bool PromisesAnotherMoreThan(std::size_t k) const;
   /// Of those that were simulated and explain no less than another promises; each is judged once.
-  void FindOneThatIsClear(const CrossValidation& held_out);
+  void FindOneThatIsClear(const CrossValidation& cross_validation);
   /// Behind those that they are special cases of, as far as these are looked at.
   void PutSpecialCasesNext(std::size_t first, std::size_t end);
   /// The next ones that were not simulated before.

@@ -21,25 +21,25 @@ double FirstTolerance(const std::vector<FaultParameter>& parameters) {
 
 }  // namespace
 
-HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> causes,
+HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> models,
                              std::map<std::string, double> tolerances)
-    : causes_(std::move(causes)), first_{0}, tolerances_(std::move(tolerances)) {
-  for (const FaultModelPtr& cause : causes_) {
-    first_.push_back(first_.back() + std::ssize(cause->parameters()));
+    : models_(std::move(models)), first_{0}, tolerances_(std::move(tolerances)) {
+  for (const FaultModelPtr& fault : models_) {
+    first_.push_back(first_.back() + std::ssize(fault->parameters()));
   }
 }
 
 double HypothesisSet::ToleranceOf(int k, int parameter) const {
-  const auto& parameters = cause(k).parameters();
+  const auto& parameters = model(k).parameters();
   const double own = parameters[static_cast<std::size_t>(parameter)].tolerance;
-  const auto told = tolerances_.find(cause(k).name().id);
-  if (told == tolerances_.end()) return own;
+  const auto given = tolerances_.find(model(k).name().id);
+  if (given == tolerances_.end()) return own;
   const double first = FirstTolerance(parameters);
-  return first > 0.0 ? own * told->second / first : parameter == 0 ? told->second : own;
+  return first > 0.0 ? own * given->second / first : parameter == 0 ? given->second : own;
 }
 
 bool HypothesisSet::CanBeFault(int k) const {
-  const auto& parameters = cause(k).parameters();
+  const auto& parameters = model(k).parameters();
   return std::any_of(parameters.begin(), parameters.end(), [](const FaultParameter& parameter) {
     return parameter.fault > parameter.tolerance;
   });
@@ -50,7 +50,7 @@ GaussianPrior HypothesisSet::PriorWith(const std::vector<int>& faults) const {
   for (int k = 0; k < size(); ++k) {
     const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
     for (Eigen::Index p = 0; p < count(k); ++p) {
-      const FaultParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+      const FaultParameter& parameter = model(k).parameters()[static_cast<std::size_t>(p)];
       const double tolerance = ToleranceOf(k, static_cast<int>(p));
       prior.sigma[first(k) + p] = fault ? std::max(parameter.fault, tolerance) : tolerance;
       if (fault) prior.mean[first(k) + p] = parameter.fault_at;
@@ -69,7 +69,7 @@ Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<
     bool inside = true;
     for (const int k : faults) {
       for (Eigen::Index p = 0; p < count(k); ++p) {
-        const FaultParameter& parameter = cause(k).parameters()[static_cast<std::size_t>(p)];
+        const FaultParameter& parameter = model(k).parameters()[static_cast<std::size_t>(p)];
         const Eigen::Index column = first(k) + p;
         const double z = posterior.mean[column];
         const double bounded = std::clamp(z, parameter.least, parameter.most);
@@ -88,7 +88,7 @@ std::vector<Eigen::Index> HypothesisSet::Idle(const std::vector<int>& faults) co
   for (int k = 0; k < size(); ++k) {
     if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
     for (Eigen::Index p = 0; p < count(k); ++p) {
-      const bool qualifies = cause(k).parameters()[static_cast<std::size_t>(p)].qualifies;
+      const bool qualifies = model(k).parameters()[static_cast<std::size_t>(p)].qualifies;
       if (qualifies && ToleranceOf(k, static_cast<int>(p)) == 0.0) idle.push_back(first(k) + p);
     }
   }
@@ -97,7 +97,7 @@ std::vector<Eigen::Index> HypothesisSet::Idle(const std::vector<int>& faults) co
 
 FaultModelList HypothesisSet::All() const {
   FaultModelList list;
-  for (const FaultModelPtr& cause : causes_) list.push_back(cause.get());
+  for (const FaultModelPtr& fault : models_) list.push_back(fault.get());
   return list;
 }
 

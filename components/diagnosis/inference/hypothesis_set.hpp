@@ -19,10 +19,10 @@ class HypothesisSet {
   /// `tolerances` (experiment.yaml): cause id -> sigma of its first parameter for a healthy robot,
   /// or of the length of the vector that this is a component of, the others in proportion. One of
   /// something that is no cause here is of no effect.
-  HypothesisSet(std::vector<FaultModelPtr> causes, std::map<std::string, double> tolerances);
+  HypothesisSet(std::vector<FaultModelPtr> models, std::map<std::string, double> tolerances);
 
-  int size() const { return static_cast<int>(causes_.size()); }
-  const FaultModel& cause(int k) const { return *causes_[static_cast<std::size_t>(k)]; }
+  int size() const { return static_cast<int>(models_.size()); }
+  const FaultModel& model(int k) const { return *models_[static_cast<std::size_t>(k)]; }
   Eigen::Index parameter_count() const { return first_.back(); }
   Eigen::Index first(int k) const { return first_[static_cast<std::size_t>(k)]; }
   Eigen::Index count(int k) const { return first(k + 1) - first(k); }
@@ -30,11 +30,11 @@ class HypothesisSet {
 
   /// Whether the one is a special case of the other (Cause::SpecialCase).
   bool IsSpecialCase(int special, int of) const {
-    return cause(of).SpecialCase() == cause(special).name().id;
+    return model(of).SpecialCase() == model(special).name().id;
   }
   /// Whether a robot may have it as a fault: beyond what a healthy one has of it.
   bool CanBeFault(int k) const;
-  /// A robot within its building tolerances, but for the causes in `faults`.
+  /// A robot within its manufacturing tolerances, but for the causes in `faults`.
   GaussianPrior PriorWith(const std::vector<int>& faults) const;
   /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
   /// its bound. The parameters `at_zero` are held there, the idle ones where the data are linear:
@@ -51,7 +51,7 @@ class HypothesisSet {
   std::vector<Eigen::Index> ParametersOf(const std::vector<int>& numbers) const;
 
  private:
-  std::vector<FaultModelPtr> causes_;
+  std::vector<FaultModelPtr> models_;
   std::vector<Eigen::Index> first_;  ///< [causes + 1]
   std::map<std::string, double> tolerances_;
 };

@@ -47,8 +47,8 @@ bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, st
 }
 
 /// How far a place of the skin is from where it is in the undeformed body, m.
-double SkinDisplacement_m(const SkinSighting& skin, const SimulatedSample& simulated) {
-  return (skin.point.Position(simulated.middle.state.x_m) - skin.rest_m).norm();
+double SurfaceDisplacement_m(const SurfaceMeasurement& surface, const SimulatedSample& simulated) {
+  return (surface.point.Position(simulated.middle.state.x_m) - surface.rest_m).norm();
 }
 
 /// From where another recording was seen, other parts of the skin about a feature are in view, and
@@ -78,7 +78,7 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
       return (simulated.markers_m().col(marker) - T_measurement_robot * rest_m.col(marker)).norm();
     }
     const auto feature = static_cast<std::size_t>(coordinate - 3 * rest_m.cols());
-    return SkinDisplacement_m(observed.samples[s].skin[feature], simulated);
+    return SurfaceDisplacement_m(observed.samples[s].surface[feature], simulated);
   };
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];

@@ -16,7 +16,7 @@ namespace {
 
 /// What a linear model says of the cause at another of its places.
 struct Elsewhere {
-  int cause = -1;
+  int fault = -1;
   Posterior posterior;
 };
 
@@ -25,12 +25,12 @@ std::vector<int> Moved(std::vector<int> faults, int from, int to) {
   return faults;
 }
 
-std::vector<Elsewhere> LookElsewhere(const Fitter& fitter, const Fit& fit, int cause) {
+std::vector<Elsewhere> FitElsewhere(const Fitter& fitter, const Fit& fit, int fault) {
   const HypothesisSet& hypotheses = fitter.hypotheses();
   std::vector<Elsewhere> places;
   for (int k = 0; k < hypotheses.size(); ++k) {
-    if (k == cause || !(hypotheses.cause(k).name() == hypotheses.cause(cause).name())) continue;
-    places.push_back({k, fitter.Guess(fit, Moved(fit.faults, cause, k))});
+    if (k == fault || !(hypotheses.model(k).name() == hypotheses.model(fault).name())) continue;
+    places.push_back({k, fitter.LinearPosterior(fit, Moved(fit.faults, fault, k))});
   }
   return places;
 }
@@ -50,39 +50,39 @@ Eigen::VectorXd CountedFrom(const FaultModel& other, const FaultModel& one, Eige
 
 }  // namespace
 
-Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* cause) {
+Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* fault) {
   constexpr int kMostMoves = 2;
   constexpr double kClearly = 2.0;                                        // of ln evidence
-  if (fitter.hypotheses().cause(*cause).Start().has_value()) return fit;  // all were tried
+  if (fitter.hypotheses().model(*fault).Start().has_value()) return fit;  // all were tried
   for (int move = 0; move < kMostMoves && fit.status.ok() && !fitter.IsOutOfTime(); ++move) {
-    const std::vector<Elsewhere> places = LookElsewhere(fitter, fit, *cause);
+    const std::vector<Elsewhere> places = FitElsewhere(fitter, fit, *fault);
     const auto best =
         std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
           return a.posterior.ln_evidence < b.posterior.ln_evidence;
         });
     const double least = fit.posterior.ln_evidence + kClearly;
     if (best == places.end() || best->posterior.ln_evidence < least) break;
-    Fit there = fitter.Complete(fitter.Refine(Moved(fit.faults, *cause, best->cause), fit));
+    Fit there = fitter.Complete(fitter.Refine(Moved(fit.faults, *fault, best->fault), fit));
     if (!there.status.ok() || there.posterior.ln_evidence < least) break;
-    *cause = best->cause;
+    *fault = best->fault;
     fit = std::move(there);
   }
   return fit;
 }
 
-Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int cause) {
+Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int fault) {
   const HypothesisSet& hypotheses = fitter.hypotheses();
-  const Eigen::Index first = hypotheses.first(cause);
-  const Eigen::Index count = hypotheses.count(cause);
+  const Eigen::Index first = hypotheses.first(fault);
+  const Eigen::Index count = hypotheses.count(fault);
   Eigen::MatrixXd sum = fit.posterior.covariance.block(first, first, count, count);
-  if (hypotheses.cause(cause).Start().has_value()) return sum;
+  if (hypotheses.model(fault).Start().has_value()) return sum;
   const Eigen::VectorXd mean = fit.posterior.mean.segment(first, count);
   double weights = 1.0;
-  for (const auto& [k, posterior] : LookElsewhere(fitter, fit, cause)) {
+  for (const auto& [k, posterior] : FitElsewhere(fitter, fit, fault)) {
     // No more than the fit's own: what promised more did not keep it.
     const double weight =
         std::exp(std::min(0.0, posterior.ln_evidence - fit.posterior.ln_evidence));
-    const Eigen::VectorXd off = CountedFrom(hypotheses.cause(cause), hypotheses.cause(k),
+    const Eigen::VectorXd off = CountedFrom(hypotheses.model(fault), hypotheses.model(k),
                                             posterior.mean.segment(hypotheses.first(k), count)) -
                                 mean;
     sum += weight *
@@ -93,30 +93,31 @@ Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int c
   return sum / weights;
 }
 
-std::vector<FurtherCause> FurtherCauses(const Fitter& fitter, const Fit& fit) {
+std::vector<FurtherFault> FurtherFaults(const Fitter& fitter, const Fit& fit) {
   constexpr double kOfWeight = 0.02;
   const std::vector<Candidate> candidates = Screen(fitter, fit, fit.faults);
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, candidates.size()));
-  std::vector<FurtherCause> further;
+  std::vector<FurtherFault> further;
   for (const Candidate& candidate : candidates) {
     // A linear model that says more was not borne out, or it would have been named.
     const double weight = std::min(1.0, share * std::exp(candidate.ln_bayes_factor));
     if (weight < kOfWeight) continue;
-    further.push_back({.cause = candidate.cause,
-                       .weight = weight,
-                       .posterior = fitter.Guess(fit, With(fit.faults, candidate.cause))});
+    further.push_back(
+        {.fault = candidate.fault,
+         .weight = weight,
+         .posterior = fitter.LinearPosterior(fit, With(fit.faults, candidate.fault))});
   }
   return further;
 }
 
-Eigen::MatrixXd CovarianceBeside(const HypothesisSet& hypotheses, const Fit& fit, int cause,
-                                 const std::vector<FurtherCause>& further,
-                                 const Eigen::MatrixXd& without) {
-  const Eigen::Index first = hypotheses.first(cause);
-  const Eigen::Index count = hypotheses.count(cause);
+Eigen::MatrixXd CovarianceOverFurtherFaults(const HypothesisSet& hypotheses, const Fit& fit,
+                                            int fault, const std::vector<FurtherFault>& further,
+                                            const Eigen::MatrixXd& without) {
+  const Eigen::Index first = hypotheses.first(fault);
+  const Eigen::Index count = hypotheses.count(fault);
   Eigen::MatrixXd sum = without;
   double weights = 1.0;
-  for (const FurtherCause& other : further) {
+  for (const FurtherFault& other : further) {
     const Eigen::VectorXd off =
         other.posterior.mean.segment(first, count) - fit.posterior.mean.segment(first, count);
     sum += other.weight *

@@ -15,31 +15,31 @@ namespace palpate::diagnosis {
 
 /// A complete fit with `cause`, or one in which it stands at a place that fits clearly better, as
 /// far as one can be reached; `*cause` is where it stands then.
-Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* cause);
+Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* fault);
 
 /// Covariance [parameters of `cause`] of a complete fit, about its mean, over all places of the
 /// cause, each as probable as it makes the data: where these do not tell one from another, the
 /// interval that they leave is as wide as the places lie apart. Elsewhere the cause counts as
 /// linear models about the fit have it.
-Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int cause);
+Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int fault);
 
 /// A cause that the data leave open beside those that a fit has: there is evidence for it, if none
 /// that is clear enough to name it.
-struct FurtherCause {
-  int cause = -1;
+struct FurtherFault {
+  int fault = -1;
   double weight = 0.0;  ///< how probable it is, over that there is none; at most 1
   Posterior posterior;  ///< of all parameters, with it
 };
 
 /// Those that are of weight beside the faults of a complete fit, by the linear model about it. Half
 /// of what is believed before is that there is none (Choice::probability).
-std::vector<FurtherCause> FurtherCauses(const Fitter& fitter, const Fit& fit);
+std::vector<FurtherFault> FurtherFaults(const Fitter& fitter, const Fit& fit);
 
 /// Covariance [parameters of `cause`] about its mean in `fit`, over robots without a further cause,
 /// where it is `without`, and with each of `further`: what one of these would make of the
 /// parameters, their interval has to hold.
-Eigen::MatrixXd CovarianceBeside(const HypothesisSet& hypotheses, const Fit& fit, int cause,
-                                 const std::vector<FurtherCause>& further,
-                                 const Eigen::MatrixXd& without);
+Eigen::MatrixXd CovarianceOverFurtherFaults(const HypothesisSet& hypotheses, const Fit& fit,
+                                            int fault, const std::vector<FurtherFault>& further,
+                                            const Eigen::MatrixXd& without);
 
 }  // namespace palpate::diagnosis

@@ -10,7 +10,7 @@ namespace palpate::diagnosis {
 namespace {
 
 /// One sigma of each component.
-constexpr double kBelieved_N = 0.05;
+constexpr double kPrior_N = 0.05;
 
 /// Forces are the first three parameters of their cause, along the world's axes; then the place.
 constexpr Eigen::Index kComponents = 3;
@@ -18,7 +18,7 @@ constexpr Eigen::Index kComponents = 3;
 std::vector<int> ForcesOf(const HypothesisSet& hypotheses) {
   std::vector<int> forces;
   for (int k = 0; k < hypotheses.size(); ++k) {
-    if (hypotheses.cause(k).name().id == "permanent_force") forces.push_back(k);
+    if (hypotheses.model(k).name().id == "permanent_force") forces.push_back(k);
   }
   return forces;
 }
@@ -26,7 +26,7 @@ std::vector<int> ForcesOf(const HypothesisSet& hypotheses) {
 Eigen::Matrix3Xd PlacesOf(const HypothesisSet& hypotheses, const std::vector<int>& forces) {
   Eigen::Matrix3Xd place_m(3, std::ssize(forces));
   for (Eigen::Index k = 0; k < place_m.cols(); ++k) {
-    const auto& parameters = hypotheses.cause(forces[static_cast<std::size_t>(k)]).parameters();
+    const auto& parameters = hypotheses.model(forces[static_cast<std::size_t>(k)]).parameters();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       place_m(axis, k) = parameters[static_cast<std::size_t>(kComponents + axis)].nominal;
     }
@@ -85,7 +85,7 @@ Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
   S.diagonal().array() += 1.0;
   const linalg::Cholesky factor(S);
   Eigen::MatrixXd A = effect.transpose() * factor.Solve(effect);
-  A.diagonal().array() += 1.0 / (kBelieved_N * kBelieved_N);
+  A.diagonal().array() += 1.0 / (kPrior_N * kPrior_N);
   const Eigen::VectorXd pull = effect.transpose() * factor.Solve(LeftOf(known, rows));
   const Eigen::VectorXd force_N = linalg::Cholesky(A).Solve(pull);
   return force_N.reshaped(3, std::ssize(forces));
@@ -95,9 +95,9 @@ Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
 
 ResidualForces FindResidualForces(const ObservedExperiment& observed,
                                   const HypothesisSet& hypotheses, const Selection& selection) {
-  const GaussianPrior healthy = hypotheses.PriorWith({});
-  const Eigen::MatrixXd tolerances = healthy.sigma.array().square().matrix().asDiagonal();
-  const Known before{selection.healthy.model, healthy.mean, tolerances};
+  const GaussianPrior null_model = hypotheses.PriorWith({});
+  const Eigen::MatrixXd tolerances = null_model.sigma.array().square().matrix().asDiagonal();
+  const Known before{selection.null_model.model, null_model.mean, tolerances};
   const Posterior& posterior = selection.best.posterior;
   const Known after{selection.best.model, posterior.mean, posterior.covariance};
   const std::size_t recording = WorstRecording(selection.goodness_of_fit.passed ? before : after);

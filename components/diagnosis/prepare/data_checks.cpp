@@ -68,11 +68,11 @@ bool IsFrozen(const Recording& recording) {
   const auto& frames = recording.markers->frames;
   for (std::size_t k = 1; k < frames.size(); ++k) {
     ++pairs;
-    bool alike = true;
+    bool equal = true;
     for (std::size_t m = 0; m < frames[k].positions_m.size(); ++m) {
-      alike = alike && frames[k].positions_m[m] == frames[k - 1].positions_m[m];
+      equal = equal && frames[k].positions_m[m] == frames[k - 1].positions_m[m];
     }
-    if (alike) ++same;
+    if (equal) ++same;
   }
   return pairs >= kFewest && same > kShare * pairs;
 }
@@ -91,8 +91,8 @@ bool IsShuffled(const Recording& recording, const Eigen::Vector3d& sigma_m) {
 }
 
 /// Pictures of one recording that were matched, by time.
-std::vector<const SeenCloud*> CloudsOf(const ObservedExperiment& observed, const SkinClouds& clouds,
-                                       std::size_t recording) {
+std::vector<const SeenCloud*> CloudsOf(const ObservedExperiment& observed,
+                                       const SurfaceClouds& clouds, std::size_t recording) {
   std::vector<const SeenCloud*> seen;
   for (std::size_t s = 0; s < clouds.size(); ++s) {
     if (static_cast<std::size_t>(observed.samples[s].recording) != recording) continue;
@@ -121,8 +121,8 @@ Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud
   for (Eigen::Index c = 0; c < std::ssize(timeline.cables); ++c) {
     std::vector<Eigen::Vector3d> series;
     for (const SeenCloud* one : clouds) {
-      const double told = timeline.CommandAt(one->picture.t_s)[c];
-      if (std::isfinite(told)) series.emplace_back(told, 0.0, 0.0);
+      const double commanded = timeline.CommandAt(one->frame.t_s)[c];
+      if (std::isfinite(commanded)) series.emplace_back(commanded, 0.0, 0.0);
     }
     if (!series.empty()) jumpiness.Add(series);
   }
@@ -130,16 +130,16 @@ Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud
 }
 
 /// [features] variance of the noise of one picture in a recording, m2; NaN: never seen there.
-Eigen::VectorXd NoiseOfPictures_m2(const ObservedExperiment& observed, std::size_t recording) {
+Eigen::VectorXd NoiseOfFrames_m2(const ObservedExperiment& observed, std::size_t recording) {
   Eigen::VectorXd sum_m2 = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
   Eigen::VectorXd samples = sum_m2;
   for (const Sample& sample : observed.samples) {
     if (static_cast<std::size_t>(sample.recording) != recording) continue;
-    for (std::size_t f = 0; f < sample.skin.size(); ++f) {
-      const SkinSighting& skin = sample.skin[f];
-      if (skin.count == 0) continue;
+    for (std::size_t f = 0; f < sample.surface.size(); ++f) {
+      const SurfaceMeasurement& surface = sample.surface[f];
+      if (surface.count == 0) continue;
       const auto feature = static_cast<Eigen::Index>(f);
-      sum_m2[feature] += skin.count * skin.sigma_m * skin.sigma_m;
+      sum_m2[feature] += surface.count * surface.sigma_m * surface.sigma_m;
       ++samples[feature];
     }
   }
@@ -154,10 +154,10 @@ bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,
   constexpr double kMotion = 9.0;  // of the noise's variance
   constexpr double kJumpy = 0.5;
   constexpr double kMoreThanCommands = 3.0;
-  constexpr std::size_t kFewestPictures = 6;
+  constexpr std::size_t kFewestFrames = 6;
   constexpr int kFewestFeatures = 5;
   if (clouds.empty()) return false;
-  const Eigen::VectorXd noise_m2 = NoiseOfPictures_m2(observed, recording);
+  const Eigen::VectorXd noise_m2 = NoiseOfFrames_m2(observed, recording);
   const double of_commands = OfCommands(observed.timeline, clouds).Ratio();
   int moving = 0;
   int jumping = 0;
@@ -169,7 +169,7 @@ bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,
     Jumpiness jumpiness;
     jumpiness.Add(series);
     const double of_noise_m2 = static_cast<double>(series.size()) * noise_m2[f];
-    if (series.size() < kFewestPictures || !(jumpiness.variance > kMotion * of_noise_m2)) continue;
+    if (series.size() < kFewestFrames || !(jumpiness.variance > kMotion * of_noise_m2)) continue;
     ++moving;
     if (jumpiness.Ratio() > std::max(kJumpy, kMoreThanCommands * of_commands)) ++jumping;
   }
@@ -180,32 +180,32 @@ Status Refused(const std::string& why) { return {StatusCode::kInvalidInput, why}
 
 }  // namespace
 
-Status CheckImages(const ObservedExperiment& observed, const SkinClouds& clouds) {
+Status CheckImages(const ObservedExperiment& observed, const SurfaceClouds& clouds) {
   std::size_t seen = 0;
-  std::size_t pictures = 0;
+  std::size_t depth_frames = 0;
   std::string why_not;
   for (const std::vector<SeenCloud>& of_sample : clouds) {
     for (const SeenCloud& one : of_sample) {
-      ++pictures;
+      ++depth_frames;
       if (one.cloud.Count() > 0) ++seen;
       if (one.cloud.Count() == 0) why_not = one.why_not;
     }
   }
   constexpr std::size_t kFewestShare = 2;  // one in so many
-  if (kFewestShare * seen < pictures) {
+  if (kFewestShare * seen < depth_frames) {
     return Refused("the robot is seen in " + FormatNumber(static_cast<double>(seen)) + " of " +
-                   FormatNumber(static_cast<double>(pictures)) +
-                   " pictures: " + (why_not.empty() ? "they are empty" : why_not));
+                   FormatNumber(static_cast<double>(depth_frames)) +
+                   " depth frames: " + (why_not.empty() ? "they are empty" : why_not));
   }
   for (std::size_t r = 0; r < observed.recordings.size(); ++r) {
     const std::vector<const SeenCloud*> of_recording = CloudsOf(observed, clouds, r);
     const std::string who = "recording " + observed.recordings[r].name;
     if (IsFrozen(of_recording)) {
-      return Refused(who + ": pictures are the same to the last digit: the camera stood still");
+      return Refused(who + ": depth frames are identical to the last digit: the camera was frozen");
     }
     if (IsShuffled(observed, r, of_recording)) {
       return Refused(
-          who + ": the clouds jump to and fro while the cables go on: the stamps are in disorder");
+          who + ": the clouds jump while the cables move steadily: the stamps are out of order");
     }
   }
   return Status::Ok();
@@ -222,15 +222,15 @@ Status CheckTables(const experiment::Experiment& experiment) {
         recording.markers || !recording.depth_images.empty() || !recording.clouds.empty();
     if (measured && actuated && !recording.actuation) {
       return Refused(who +
-                     " has no actuation.csv, which others have: what the cables did is not known");
+                     " has no actuation.csv, but others have: its cable commands are unknown");
     }
     if (!recording.markers) continue;
     if (IsFrozen(recording)) {
-      return Refused(who + ": the markers stay the same to the last digit: the camera stood still");
+      return Refused(who + ": the markers are identical to the last digit: the camera was frozen");
     }
     if (IsShuffled(recording, experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()))) {
       return Refused(
-          who + ": the markers jump to and fro while the cables go on: the stamps are in disorder");
+          who + ": the markers jump while the cables move steadily: the stamps are out of order");
     }
   }
   return Status::Ok();
@@ -261,16 +261,15 @@ Status CheckAgainstNominal(const ObservedExperiment& observed, const Simulation&
   if (failed > kMostFailed * static_cast<double>(observed.samples.size())) {
     return Refused("the simulated robot has no equilibrium at " + FormatNumber(failed) + " of " +
                    FormatNumber(static_cast<double>(observed.samples.size())) +
-                   " moments: " + as_built.status.message());
+                   " samples: " + as_built.status.message());
   }
-  if (spread_simulated_m == 0.0 && observed.HasSkin()) return Status::Ok();
-  if (spread_simulated_m == 0.0) return Refused("no moment has three markers");
+  if (spread_simulated_m == 0.0 && observed.HasSurface()) return Status::Ok();
+  if (spread_simulated_m == 0.0) return Refused("no sample has three markers");
   const double size = spread_measured_m / spread_simulated_m;
   if (std::abs(size - 1.0) > kOtherSize) {
     return Refused(
         "the markers lie " + FormatNumber(std::round(100.0 * size) / 100.0) +
-        " times as far from each other as on this robot: it is another one, or the unit is "
-        "wrong");
+        " times as far from each other as on this robot: another robot, or a wrong unit");
   }
   return Status::Ok();
 }

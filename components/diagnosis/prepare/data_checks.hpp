@@ -18,7 +18,7 @@ Status CheckTables(const experiment::Experiment& experiment);
 
 /// The same of depth frames: refuses a robot that is missing in most of them, frames that do not
 /// change, or in another order than their stamps.
-Status CheckImages(const ObservedExperiment& observed, const SkinClouds& clouds);
+Status CheckImages(const ObservedExperiment& observed, const SurfaceClouds& clouds);
 
 /// The same of the measurements beside the nominal robot's simulation: refuses missing equilibria,
 /// too few markers, a robot of another size.

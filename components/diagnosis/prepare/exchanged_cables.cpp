@@ -34,13 +34,13 @@ double PulledApart(const Timeline& timeline, const Eigen::VectorXd& most, const 
   return share[cable] - share.array().isNaN().select(0.0, share.array()).mean();
 }
 
-bool SeesTheRobot(const Sample& sample, bool in_pictures) {
-  return in_pictures ? !sample.pictures.empty() : (sample.count.array() > 0).any();
+bool SeesTheRobot(const Sample& sample, bool in_frames) {
+  return in_frames ? !sample.depth_frames.empty() : (sample.count.array() > 0).any();
 }
 
 /// The samples that see the robot in which each of the cables is pulled apart from the others the
 /// most.
-ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_pictures) {
+ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
   const Timeline& timeline = observed.timeline;
   Eigen::VectorXd most = Eigen::VectorXd::Zero(std::ssize(timeline.cables));
   for (const Eigen::VectorXd& command : timeline.command) {
@@ -51,7 +51,7 @@ ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_pictures) {
     double farthest = 0.0;
     std::size_t best = observed.samples.size();
     for (std::size_t s = 0; s < observed.samples.size(); ++s) {
-      if (!SeesTheRobot(observed.samples[s], in_pictures)) continue;
+      if (!SeesTheRobot(observed.samples[s], in_frames)) continue;
       const double apart = PulledApart(timeline, most, observed.samples[s], c);
       if (!(apart > farthest)) continue;
       farthest = apart;
@@ -71,13 +71,13 @@ class Distance {
  public:
   /// Both must outlive it. Looks at the pictures from where `as_in_file` stands.
   Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
-           SkinSource* pictures, const ModelHypothesis& as_in_file)
+           SurfaceSource* source, const ModelHypothesis& as_in_file)
       : telling_(telling),
         simulator_(telling, threads),
         surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {
-    if (pictures == nullptr) return;
-    SkinMatcher matcher(body);
-    matcher.Look(telling, simulator_.Shapes(as_in_file, simulator_.Run(as_in_file)), pictures);
+    if (source == nullptr) return;
+    SurfaceMatcher matcher(body);
+    matcher.Read(telling, simulator_.Shapes(as_in_file, simulator_.Run(as_in_file)), source);
     clouds_ = matcher.clouds();
   }
 
@@ -115,7 +115,7 @@ class Distance {
       const auto r = static_cast<std::size_t>(telling_.samples[s].recording);
       const Eigen::Isometry3d T_robot_camera = telling_.recordings[r].T_camera_robot->inverse();
       for (const SeenCloud& seen : clouds_[s]) {
-        surface_.Refit(shapes[s].At(seen.picture.t_s, shapes[s].nodes_m).cast<double>());
+        surface_.Refit(shapes[s].At(seen.frame.t_s, shapes[s].nodes_m).cast<double>());
         const Eigen::Index step = std::max<Eigen::Index>(1, seen.cloud.points_m.cols() / kPoints);
         for (Eigen::Index k = 0; k < seen.cloud.points_m.cols(); k += step) {
           Add(surface_.Closest(T_robot_camera * seen.cloud.points_m.col(k).cast<double>())
@@ -128,7 +128,7 @@ class Distance {
   const ObservedExperiment& telling_;
   Simulator simulator_;
   geometry::SurfaceIndex surface_;
-  SkinClouds clouds_;
+  SurfaceClouds clouds_;
   double sum_m2_ = 0.0;
   double count_ = 0.0;
 };
@@ -136,11 +136,11 @@ class Distance {
 }  // namespace
 
 NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
-                                 int threads, SkinSource* pictures) {
-  NearestRobot nearest{.hypothesis = DraftOf(body, observed)};
+                                 int threads, SurfaceSource* source) {
+  NearestRobot nearest{.hypothesis = NominalHypothesis(body, observed)};
   const ModelHypothesis as_in_file = nearest.hypothesis;
-  const ObservedExperiment telling = OfMostPulled(observed, pictures != nullptr);
-  Distance distance(body, telling, threads, pictures, as_in_file);
+  const ObservedExperiment telling = OfMostPulled(observed, source != nullptr);
+  Distance distance(body, telling, threads, source, as_in_file);
   double least_m2 = kClearlyLess * distance.MeanSquareOf_m2(as_in_file);
   std::vector<FaultModelPtr> exchanges;
   MakeSwappedCables({.body = body, .observed = telling}, &exchanges);

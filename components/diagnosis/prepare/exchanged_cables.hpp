@@ -22,6 +22,6 @@ struct NearestRobot {
 /// All are tried, at one moment for each cable, of when that is pulled the most. `pictures`:
 /// nullptr where there are none; what they show goes before markers.
 NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,
-                                 int threads, SkinSource* pictures);
+                                 int threads, SurfaceSource* source);
 
 }  // namespace palpate::diagnosis

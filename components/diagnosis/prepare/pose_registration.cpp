@@ -16,7 +16,8 @@ Status RegisterUnknownPoses(const robot::RobotBody& body, int threads,
   const bool known = std::all_of(observed->recordings.begin(), observed->recordings.end(),
                                  [](const auto& recording) { return recording.knows_pose; });
   if (known) return Status::Ok();
-  const Simulation simulation = Simulator(*observed, threads).Run(DraftOf(body, *observed));
+  const Simulation simulation =
+      Simulator(*observed, threads).Run(NominalHypothesis(body, *observed));
   for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
     ObservedRecording& recording = observed->recordings[r];
     if (recording.knows_pose) continue;

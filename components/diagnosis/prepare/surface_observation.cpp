@@ -12,17 +12,17 @@ namespace palpate::diagnosis {
 
 namespace {
 
-void TellCameras(SkinSource* pictures, ObservedExperiment* observed) {
+void SetCameraFacts(SurfaceSource* source, ObservedExperiment* observed) {
   for (std::size_t r = 0; r < observed->recordings.size(); ++r) {
     ObservedRecording& recording = observed->recordings[r];
     if (!recording.T_camera_robot) continue;
-    const rgbd::RgbdCamera camera = pictures->Camera(static_cast<int>(r));
+    const rgbd::RgbdCamera camera = source->Camera(static_cast<int>(r));
     recording.focal_px = Eigen::Vector2d(camera.depth.fx_px, camera.depth.fy_px);
     recording.stereo_px_m = camera.depth.fx_px * camera.baseline_m;
   }
 }
 
-Status CheckSurface(const ObservedExperiment& observed, const SkinMatcher& matcher) {
+Status CheckSurface(const ObservedExperiment& observed, const SurfaceMatcher& matcher) {
   Status status = CheckImages(observed, matcher.clouds());
   if (status.ok() && matcher.outliers() > matcher.matched()) {
     status = {StatusCode::kInvalidInput,
@@ -38,13 +38,13 @@ Status CheckSurface(const ObservedExperiment& observed, const SkinMatcher& match
 
 }  // namespace
 
-Status ObserveSurface(const ModelHypothesis& hypothesis, int threads, SkinSource* pictures,
-                      SkinMatcher* matcher, ObservedExperiment* observed) {
+Status ObserveSurface(const ModelHypothesis& hypothesis, int threads, SurfaceSource* source,
+                      SurfaceMatcher* matcher, ObservedExperiment* observed) {
   observed->feature_rest_m = matcher->rest_m();
-  TellCameras(pictures, observed);
+  SetCameraFacts(source, observed);
   const Simulator simulator(*observed, threads);
   const std::vector<ShapesInTime> shapes = simulator.Shapes(hypothesis, simulator.Run(hypothesis));
-  matcher->Look(*observed, shapes, pictures);
+  matcher->Read(*observed, shapes, source);
   matcher->Match(hypothesis, shapes, observed);
   return CheckSurface(*observed, *matcher);
 }

@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 /// Reads all depth frames and matches them with the body where `hypothesis` has it. Adds to
 /// `observed` the surface measurements and the facts of the cameras. Fails where they cannot be
 /// used.
-Status ObserveSurface(const ModelHypothesis& hypothesis, int threads, SkinSource* pictures,
-                      SkinMatcher* matcher, ObservedExperiment* observed);
+Status ObserveSurface(const ModelHypothesis& hypothesis, int threads, SurfaceSource* source,
+                      SurfaceMatcher* matcher, ObservedExperiment* observed);
 
 }  // namespace palpate::diagnosis

@@ -73,14 +73,12 @@ std::string FormatReport(const DiagnosisResult& result) {
     figures += FigureBlock(figure, &number);
   }
   const bool named = !result.causes.empty();
-  html += Section(named ? "What the simulation gets wrong, and what the causes change"
-                        : "What the simulation gets wrong",
-                  figures);
+  html += Section(named ? "Model error, and what the causes change" : "Model error", figures);
   html += Section("Causes named", CauseTable(result));
   html += Section("Next experiments", ExperimentTable(result));
-  html += Section("Why the others were not named", RivalTable(result));
+  html += Section("Faults not named, and why", RivalTable(result));
   html += Section("Recordings", RecordingTable(result));
-  html += Section("What no data of this kind can tell", IdentityList(result));
+  html += Section("Not identifiable from data of this kind", IdentityList(result));
   html += Section("How to repeat", HowToRepeat(result));
   return html + "</main>\n</body>\n</html>\n";
 }

@@ -59,21 +59,20 @@ void AddRows(const NamedCause& cause, const DiagnosisResult& result, HtmlTable* 
 std::string CauseTable(const DiagnosisResult& result) {
   if (result.causes.empty()) return "";
   HtmlTable table;
-  table.head = {"cause", "parameter", "value",         "95 % interval", "p",
-                "ln BF", "explains",  "held-out gain", "seen in"};
+  table.head = {"cause", "parameter", "value",           "95 % interval", "p",
+                "ln BF", "explains",  "cross-validated", "seen in"};
   table.numeric = {false, false, true, true, true, true, true, false, false};
   for (const NamedCause& cause : result.causes) AddRows(cause, result, &table);
   return FormatTable(table) +
          Element("p",
                  "ln BF: logarithm of the Bayes factor against the same model without the cause. "
-                 "Held-out gain: whether the cause lowers the error in recordings that it was "
-                 "not fitted to.");
+                 "Cross-validated: the cause lowers the error in left-out recordings.");
 }
 
 std::string RivalTable(const DiagnosisResult& result) {
   if (result.rivals.empty()) return "";
   HtmlTable table;
-  table.head = {"cause", "p", "ln BF", "likeness", "why it was not named"};
+  table.head = {"cause", "p", "ln BF", "correlation", "why it was not named"};
   table.numeric = {false, true, true, true, false};
   const std::size_t shown = std::min(result.rivals.size(), kMostRivals);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -83,11 +82,12 @@ std::string RivalTable(const DiagnosisResult& result) {
                           DecimalText(rival.canonical_correlation, 2), rival.why_not});
   }
   std::string note =
-      "ln BF: against the healthy robot. Likeness: correlation of its effect with that of the "
-      "first cause named, from 0 to 1.";
+      "ln BF: against the null model. Correlation: canonical correlation of its effect with that "
+      "of "
+      "the first named cause, from 0 to 1.";
   if (shown < result.rivals.size()) {
     note += " " + std::to_string(result.rivals.size() - shown) +
-            " less probable ones are left out; palpate diagnose --explain ID tells of each.";
+            " less probable ones are left out; palpate diagnose --explain ID describes each.";
   }
   return FormatTable(table) + Element("p", note);
 }
@@ -95,10 +95,10 @@ std::string RivalTable(const DiagnosisResult& result) {
 std::string ExperimentTable(const DiagnosisResult& result) {
   if (result.experiments.empty()) {
     if (result.verdict == Verdict::kDataUnfit) return "";
-    return Element("p", "None was worked out.");
+    return Element("p", "No experiment was ranked.");
   }
   HtmlTable table;
-  table.head = {"", "experiment", "by hand", "tells apart", "expected ln BF"};
+  table.head = {"", "experiment", "by hand", "separates", "expected ln BF"};
   table.numeric = {true, false, false, false, true};
   constexpr int kMostShown = 10;
   int rank = 0;
@@ -109,10 +109,10 @@ std::string ExperimentTable(const DiagnosisResult& result) {
                           WordsFor(one.first, result) + " / " + WordsFor(one.second, result),
                           DecimalText(one.expected_ln_bayes_factor, 1)});
   }
-  return FormatTable(table) +
-         Element("p",
-                 "The first is the best: the pair of causes that it separates least well is "
-                 "expected to differ by so much; above 3 is a clear answer.");
+  return FormatTable(table) + Element("p",
+                                      "The best is first. Expected ln BF of the pair of causes "
+                                      "that the experiment separates least "
+                                      "well; above 3 is a clear answer.");
 }
 
 std::string RecordingTable(const DiagnosisResult& result) {
@@ -120,24 +120,24 @@ std::string RecordingTable(const DiagnosisResult& result) {
   HtmlTable table;
   table.head = {"recording",
                 "kind",
-                "moments",
+                "samples",
                 "before (mm)",
-                "healthy (mm)",
+                "null model (mm)",
                 "after (mm)",
-                "held out, healthy (mm)",
-                "held out, after (mm)",
+                "left out, null model (mm)",
+                "left out, after (mm)",
                 "noise (mm)"};
   table.numeric = {false, false, true, true, true, true, true, true, true};
-  for (const RecordingGap& one : result.recordings) {
+  for (const RecordingError& one : result.recordings) {
     table.rows.push_back({one.name, one.kind, std::to_string(one.samples),
-                          MillimetreCell(one.before_m), MillimetreCell(one.healthy_m),
+                          MillimetreCell(one.before_m), MillimetreCell(one.null_model_m),
                           MillimetreCell(one.after_m), MillimetreCell(one.heldout_before_m),
                           MillimetreCell(one.heldout_after_m), MillimetreCell(one.noise_m)});
   }
-  const GapSummary& gap = result.gap;
-  table.rows.push_back({"all", "", "", MillimetreCell(gap.before_m), kDash,
-                        MillimetreCell(gap.after_m), MillimetreCell(gap.heldout_before_m),
-                        MillimetreCell(gap.heldout_after_m), MillimetreCell(gap.noise_m)});
+  const ErrorSummary& error = result.model_error;
+  table.rows.push_back({"all", "", "", MillimetreCell(error.before_m), kDash,
+                        MillimetreCell(error.after_m), MillimetreCell(error.heldout_before_m),
+                        MillimetreCell(error.heldout_after_m), MillimetreCell(error.noise_m)});
   return FormatTable(table);
 }
 

@@ -49,25 +49,25 @@ Json ToJson(const Rival& rival) {
   return json;
 }
 
-Json ToJson(const RecordingGap& recording) {
+Json ToJson(const RecordingError& recording) {
   return {{"name", recording.name},
           {"kind", recording.kind},
           {"samples", recording.samples},
           {"residual_m_rms",
            {{"before", Number(recording.before_m)},
-            {"healthy", Number(recording.healthy_m)},
+            {"healthy", Number(recording.null_model_m)},
             {"after", Number(recording.after_m)},
             {"heldout_before", Number(recording.heldout_before_m)},
             {"heldout_after", Number(recording.heldout_after_m)},
             {"noise", Number(recording.noise_m)}}}};
 }
 
-Json ToJson(const GapSummary& gap) {
-  return {{"before", Number(gap.before_m)},
-          {"after", Number(gap.after_m)},
-          {"heldout_before", Number(gap.heldout_before_m)},
-          {"heldout_after", Number(gap.heldout_after_m)},
-          {"noise", Number(gap.noise_m)}};
+Json ToJson(const ErrorSummary& error) {
+  return {{"before", Number(error.before_m)},
+          {"after", Number(error.after_m)},
+          {"heldout_before", Number(error.heldout_before_m)},
+          {"heldout_after", Number(error.heldout_after_m)},
+          {"noise", Number(error.noise_m)}};
 }
 
 Json Vector(const Eigen::Vector3d& v) {
@@ -84,7 +84,7 @@ Json ToJson(const ResidualForces& forces) {
   return {{"recording", forces.recording}, {"forces", list}};
 }
 
-Json ToJson(const Leftover& left) {
+Json ToJson(const ResidualTest& left) {
   if (left.test.empty()) return nullptr;
   return {{"is_noise", left.is_noise},
           {"test", left.test},
@@ -129,8 +129,8 @@ std::string FormatVerdict(const DiagnosisResult& result) {
                      {"indistinguishable_from", List(result.indistinguishable_from)},
                      {"no_fault_probability", Number(result.no_fault_probability)},
                      {"other_probability", Number(result.other_probability)},
-                     {"what_is_left", ToJson(result.leftover)},
-                     {"residual_m_rms", ToJson(result.gap)},
+                     {"what_is_left", ToJson(result.residual_test)},
+                     {"residual_m_rms", ToJson(result.model_error)},
                      {"next_experiment", NextExperiment(result.experiments)},
                      {"recordings", List(result.recordings)},
                      {"residual_forces", ToJson(result.residual_forces)},

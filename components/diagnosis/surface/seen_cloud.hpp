@@ -15,9 +15,9 @@ namespace palpate::diagnosis {
 
 /// What was seen of the robot in one picture of a sample.
 struct SeenCloud {
-  Picture picture;
+  DepthFrame frame;
   rgbd::SensedCloud cloud;   ///< of the robot alone, camera frame; empty: it was not seen
-  std::uint64_t digest = 0;  ///< SkinLook::digest
+  std::uint64_t digest = 0;  ///< SegmentedCloud::digest
   std::string why_not = {};  ///< it was not seen
   /// [features] mean over the skin where the robot was thought to be when it was matched last; NaN:
   /// not seen. Empty: nothing was matched.
@@ -25,6 +25,6 @@ struct SeenCloud {
 };
 
 /// [samples] by time.
-using SkinClouds = std::vector<std::vector<SeenCloud>>;
+using SurfaceClouds = std::vector<std::vector<SeenCloud>>;
 
 }  // namespace palpate::diagnosis

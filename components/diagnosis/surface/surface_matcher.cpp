@@ -74,25 +74,25 @@ fem::InterpolationWeights PointOf(const std::map<int, double>& weights) {
 
 }  // namespace
 
-SkinMatcher::SkinMatcher(const robot::RobotBody& body)
+SurfaceMatcher::SurfaceMatcher(const robot::RobotBody& body)
     : body_(body), features_(body), surface_(features_.triangles()), patches_(features_) {}
 
-void SkinMatcher::Look(const ObservedExperiment& observed, const std::vector<ShapesInTime>& shapes,
-                       SkinSource* source) {
+void SurfaceMatcher::Read(const ObservedExperiment& observed,
+                          const std::vector<ShapesInTime>& shapes, SurfaceSource* source) {
   clouds_.assign(observed.samples.size(), {});
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
     const auto& recording = observed.recordings[static_cast<std::size_t>(sample.recording)];
-    for (const Picture& picture : sample.pictures) {
+    for (const DepthFrame& frame : sample.depth_frames) {
       SeenCloud& seen = clouds_[s].emplace_back();
-      seen.picture = picture;
+      seen.frame = frame;
       if (shapes[s].empty()) {
         seen.why_not = "the simulated robot has no equilibrium there";
         continue;
       }
-      SkinLook look = source->Look(
-          sample.recording, picture.number,
-          {shapes[s].At(picture.t_s, shapes[s].nodes_m), recording.T_camera_robot->inverse()});
+      SegmentedCloud look = source->Segment(
+          sample.recording, frame.number,
+          {shapes[s].At(frame.t_s, shapes[s].nodes_m), recording.T_camera_robot->inverse()});
       seen.digest = look.digest;
       if (!look.status.ok()) {
         seen.why_not = look.status.message();
@@ -104,21 +104,21 @@ void SkinMatcher::Look(const ObservedExperiment& observed, const std::vector<Sha
   }
 }
 
-void SkinMatcher::Match(const ModelHypothesis& hypothesis, const std::vector<ShapesInTime>& shapes,
-                        ObservedExperiment* observed) {
+void SurfaceMatcher::Match(const ModelHypothesis& hypothesis,
+                           const std::vector<ShapesInTime>& shapes, ObservedExperiment* observed) {
   matched_ = 0;
   outliers_ = 0;
   measured_.assign(static_cast<std::size_t>(features_.Count()), {});
   nominal_ = measured_;
   for (std::size_t s = 0; s < observed->samples.size(); ++s) {
-    observed->samples[s].skin.assign(static_cast<std::size_t>(features_.Count()), {});
+    observed->samples[s].surface.assign(static_cast<std::size_t>(features_.Count()), {});
     if (!shapes[s].empty()) MatchSample(hypothesis, shapes[s], s, observed);
   }
-  TellSigmas(observed);
+  SetSigmas(observed);
 }
 
 /// A feature whose few points lie at an edge, or askew, scatters by more than its points' noise.
-void SkinMatcher::TellSigmas(ObservedExperiment* observed) const {
+void SurfaceMatcher::SetSigmas(ObservedExperiment* observed) const {
   constexpr double kFewest = 8.0;
   MeanOf typical;  // of measured over nominal variance
   for (std::size_t f = 0; f < measured_.size(); ++f) {
@@ -126,63 +126,65 @@ void SkinMatcher::TellSigmas(ObservedExperiment* observed) const {
       typical.Add(std::max(1.0, measured_[f].Mean() / nominal_[f].Mean()));
   }
   for (Sample& sample : observed->samples) {
-    for (std::size_t f = 0; f < sample.skin.size(); ++f) {
-      SkinSighting& skin = sample.skin[f];
-      if (skin.count == 0) continue;
+    for (std::size_t f = 0; f < sample.surface.size(); ++f) {
+      SurfaceMeasurement& surface = sample.surface[f];
+      if (surface.count == 0) continue;
       const double nominal_m2 = nominal_[f].Mean();
       double variance_m2 = nominal_m2 * (typical.count > 0.0 ? typical.Mean() : 1.0);
       if (measured_[f].count >= kFewest) variance_m2 = std::max(nominal_m2, measured_[f].Mean());
-      skin.sigma_m = std::hypot(kInCommon * std::sqrt(variance_m2 / skin.count), kMatching_m);
+      surface.sigma_m = std::hypot(kInCommon * std::sqrt(variance_m2 / surface.count), kMatching_m);
     }
   }
 }
 
-void SkinMatcher::MatchSample(const ModelHypothesis& hypothesis, const ShapesInTime& shapes,
-                              std::size_t s, ObservedExperiment* observed) {
+void SurfaceMatcher::MatchSample(const ModelHypothesis& hypothesis, const ShapesInTime& shapes,
+                                 std::size_t s, ObservedExperiment* observed) {
   Sample& sample = observed->samples[s];
   const auto r = static_cast<std::size_t>(sample.recording);
   CameraErrors errors = hypothesis.camera;
   errors.incidence_bias_m = 0.0;
-  const auto camera = ViewOf(errors, *observed, sample, Target::kSkin);
+  const auto camera = ViewOf(errors, *observed, sample, Target::kSurface);
   if (!camera) return;
   const Eigen::Isometry3d T_camera_robot =
-      *observed->recordings[r].T_camera_robot * hypothesis.T_skin_seen[r];
+      *observed->recordings[r].T_camera_robot * hypothesis.T_surface_seen[r];
   std::vector<Eigen::VectorXd> measured_m;  // [shapes] [3n]
   for (const Eigen::Matrix3Xf& nodes_m : shapes.nodes_m) {
     measured_m.push_back(AsMeasured(*camera, T_camera_robot, nodes_m));
   }
-  std::vector<std::vector<FeatureInPicture>> in_pictures(sample.skin.size());
+  std::vector<std::vector<FeatureInFrame>> in_frames(sample.surface.size());
   for (SeenCloud& seen : clouds_[s]) {
     if (seen.cloud.Count() == 0) continue;
-    LookUp(shapes.At(seen.picture.t_s, measured_m), observed->recordings[r].stereo_px_m, &seen,
-           &in_pictures);
+    MeasureFeatures(shapes.At(seen.frame.t_s, measured_m), observed->recordings[r].stereo_px_m,
+                    &seen, &in_frames);
   }
-  for (std::size_t f = 0; f < in_pictures.size(); ++f) {
-    if (in_pictures[f].empty()) continue;
-    SkinSighting& sighting = sample.skin[f];
-    sighting = Mean(in_pictures[f]);
-    for (const FeatureInPicture& one : in_pictures[f]) nominal_[f].Add(one.sigma_m * one.sigma_m);
-    if (sample.still) AddScatter(in_pictures[f], &measured_[f]);
-    sighting.rest_m = sighting.point.Position(body_.mesh.nodes_m.reshaped());
+  for (std::size_t f = 0; f < in_frames.size(); ++f) {
+    if (in_frames[f].empty()) continue;
+    SurfaceMeasurement& measurement = sample.surface[f];
+    measurement = Mean(in_frames[f]);
+    for (const FeatureInFrame& one : in_frames[f]) nominal_[f].Add(one.sigma_m * one.sigma_m);
+    if (sample.still) AddScatter(in_frames[f], &measured_[f]);
+    measurement.rest_m = measurement.point.Position(body_.mesh.nodes_m.reshaped());
     std::vector<double> there_m;  // [shapes]
     for (const Eigen::Matrix3Xf& nodes_m : shapes.nodes_m) {
       const Eigen::VectorXd x_m = nodes_m.cast<double>().reshaped();
-      there_m.push_back(sighting.normal.dot(
-          camera->Measured({.at_m = T_camera_robot * sighting.point.Position(x_m)})));
+      there_m.push_back(measurement.normal.dot(
+          camera->Measured({.at_m = T_camera_robot * measurement.point.Position(x_m)})));
     }
     for (const double t_s : sample.frame_t_s) {
-      sighting.measured_m += shapes.At(t_s, there_m) / static_cast<double>(sample.frame_t_s.size());
+      measurement.measured_m +=
+          shapes.At(t_s, there_m) / static_cast<double>(sample.frame_t_s.size());
     }
   }
 }
 
 /// Adds what one picture shows of each feature.
-void SkinMatcher::LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, SeenCloud* seen,
-                         std::vector<std::vector<FeatureInPicture>>* in_pictures) {
+void SurfaceMatcher::MeasureFeatures(const Eigen::VectorXd& measured_m, double stereo_px_m,
+                                     SeenCloud* seen,
+                                     std::vector<std::vector<FeatureInFrame>>* in_frames) {
   surface_.MoveTo(measured_m, Eigen::Isometry3d::Identity());
   view_.Look(surface_.vertices_m(), surface_.triangles());
   const auto match = [&](const rgbd::SensedCloud& cloud) {
-    std::vector<correspondence::FeatureMatch> found(in_pictures->size());
+    std::vector<correspondence::FeatureMatch> found(in_frames->size());
     patches_.Match(cloud, Eigen::Isometry3d::Identity(), surface_, view_, {kBeside_m, kFarthest_m},
                    &found);
     return found;
@@ -199,7 +201,7 @@ void SkinMatcher::LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, 
     ++matched_;
     const double height_m = HeightOf(found[f], measured_m);
     seen->height_m[static_cast<Eigen::Index>(f)] = height_m;
-    FeatureInPicture& one = (*in_pictures)[f].emplace_back();
+    FeatureInFrame& one = (*in_frames)[f].emplace_back();
     one = {height_m, found[f].sigma_m, found[f].row, found[f].normal};
     for (std::size_t k = 0; k < rippled.size(); ++k) {
       if (rippled[k][f].state != correspondence::MatchState::kMatched) continue;
@@ -209,22 +211,23 @@ void SkinMatcher::LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, 
   }
 }
 
-void SkinMatcher::AddScatter(const std::vector<FeatureInPicture>& pictures, MeanOf* variance_m2) {
+void SurfaceMatcher::AddScatter(const std::vector<FeatureInFrame>& depth_frames,
+                                MeanOf* variance_m2) {
   double mean_m = 0.0;
-  for (const FeatureInPicture& one : pictures)
-    mean_m += one.height_m / static_cast<double>(pictures.size());
-  for (const FeatureInPicture& one : pictures) {
+  for (const FeatureInFrame& one : depth_frames)
+    mean_m += one.height_m / static_cast<double>(depth_frames.size());
+  for (const FeatureInFrame& one : depth_frames) {
     variance_m2->sum += std::pow(one.height_m - mean_m, 2);
   }
-  variance_m2->count += static_cast<double>(pictures.size()) - 1.0;
+  variance_m2->count += static_cast<double>(depth_frames.size()) - 1.0;
 }
 
-SkinSighting SkinMatcher::Mean(const std::vector<FeatureInPicture>& pictures) {
-  SkinSighting mean;
-  mean.count = static_cast<int>(pictures.size());
-  const double share = 1.0 / static_cast<double>(pictures.size());
+SurfaceMeasurement SurfaceMatcher::Mean(const std::vector<FeatureInFrame>& depth_frames) {
+  SurfaceMeasurement mean;
+  mean.count = static_cast<int>(depth_frames.size());
+  const double share = 1.0 / static_cast<double>(depth_frames.size());
   std::map<int, double> weights;
-  for (const FeatureInPicture& one : pictures) {
+  for (const FeatureInFrame& one : depth_frames) {
     mean.measured_m += share * one.height_m;
     mean.normal += share * one.normal;
     mean.ripple_m_px += share * one.ripple_m_px;

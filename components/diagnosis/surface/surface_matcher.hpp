@@ -16,19 +16,19 @@
 namespace palpate::diagnosis {
 
 /// Brings what pictures show of the skin into the samples of an experiment: one coordinate for each
-/// feature point of the robot that is in view (SkinSighting).
-class SkinMatcher {
+/// feature point of the robot that is in view (SurfaceMeasurement).
+class SurfaceMatcher {
  public:
   /// Throws InputError where the robot has no feature points.
-  explicit SkinMatcher(const robot::RobotBody& body);
+  explicit SurfaceMatcher(const robot::RobotBody& body);
 
   /// [3 x features] of the undeformed body.
   const Eigen::Matrix3Xd& rest_m() const { return features_.rest_m(); }
 
   /// Looks at all pictures; `shapes` [samples]: where the robot is thought to be then.
-  void Look(const ObservedExperiment& observed, const std::vector<ShapesInTime>& shapes,
-            SkinSource* source);
-  const SkinClouds& clouds() const { return clouds_; }
+  void Read(const ObservedExperiment& observed, const std::vector<ShapesInTime>& shapes,
+            SurfaceSource* source);
+  const SurfaceClouds& clouds() const { return clouds_; }
 
   /// Fills Sample::skin of all samples, matched about `shapes` [samples] of `draft`.
   void Match(const ModelHypothesis& hypothesis, const std::vector<ShapesInTime>& shapes,
@@ -50,28 +50,28 @@ class SkinMatcher {
   };
 
   /// One feature in one picture.
-  struct FeatureInPicture {
+  struct FeatureInFrame {
     double height_m;  ///< mean of its cloud points over the skin as it is expected
     double sigma_m;
     robot::ObservationRow row;                              ///< of that skin
     Eigen::Vector3d normal;                                 ///< camera frame
-    Eigen::Vector2d ripple_m_px = Eigen::Vector2d::Zero();  ///< SkinSighting::ripple_m_px
+    Eigen::Vector2d ripple_m_px = Eigen::Vector2d::Zero();  ///< SurfaceMeasurement::ripple_m_px
   };
 
   void MatchSample(const ModelHypothesis& hypothesis, const ShapesInTime& shapes, std::size_t s,
                    ObservedExperiment* observed);
-  void LookUp(const Eigen::VectorXd& measured_m, double stereo_px_m, SeenCloud* seen,
-              std::vector<std::vector<FeatureInPicture>>* in_pictures);
-  static SkinSighting Mean(const std::vector<FeatureInPicture>& pictures);
-  static void AddScatter(const std::vector<FeatureInPicture>& pictures, MeanOf* variance_m2);
-  void TellSigmas(ObservedExperiment* observed) const;
+  void MeasureFeatures(const Eigen::VectorXd& measured_m, double stereo_px_m, SeenCloud* seen,
+                       std::vector<std::vector<FeatureInFrame>>* in_frames);
+  static SurfaceMeasurement Mean(const std::vector<FeatureInFrame>& depth_frames);
+  static void AddScatter(const std::vector<FeatureInFrame>& depth_frames, MeanOf* variance_m2);
+  void SetSigmas(ObservedExperiment* observed) const;
 
   const robot::RobotBody& body_;
   correspondence::SurfaceFeatures features_;
   correspondence::MovingSurface surface_;
   correspondence::PredictedView view_;
   correspondence::PatchMatching patches_;
-  SkinClouds clouds_;
+  SurfaceClouds clouds_;
   std::vector<MeanOf> measured_;  ///< [features] variance of one picture where nothing moves, m2
   std::vector<MeanOf> nominal_;   ///< [features] as the depth noise makes it, m2
   int matched_ = 0;

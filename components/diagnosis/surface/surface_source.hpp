@@ -20,24 +20,24 @@ struct ExpectedShape {
 };
 
 /// What a picture shows of the robot.
-struct SkinLook {
+struct SegmentedCloud {
   Status status;             ///< why nothing of it, or ok
   rgbd::SensedCloud cloud;   ///< points of the robot alone, camera frame
   std::uint64_t digest = 0;  ///< of all that was measured: alike in two pictures only if they are
 };
 
 /// The pictures of an experiment. What tells the robot from all else in them is not known here.
-class SkinSource {
+class SurfaceSource {
  public:
-  SkinSource() = default;
-  virtual ~SkinSource() = default;
-  SkinSource(const SkinSource&) = delete;
-  SkinSource& operator=(const SkinSource&) = delete;
+  SurfaceSource() = default;
+  virtual ~SurfaceSource() = default;
+  SurfaceSource(const SurfaceSource&) = delete;
+  SurfaceSource& operator=(const SurfaceSource&) = delete;
 
   /// `recording`: index into the experiment's; `picture`: number in it, by time. Pictures of a
   /// recording are asked for by rising time, or all over again. Throws InputError where a file
   /// cannot be read.
-  virtual SkinLook Look(int recording, int picture, const ExpectedShape& expected) = 0;
+  virtual SegmentedCloud Segment(int recording, int frame, const ExpectedShape& expected) = 0;
   /// The camera of a recording, as its data sheet has it. Throws InputError where nobody says.
   virtual rgbd::RgbdCamera Camera(int recording) = 0;
 };

@@ -22,7 +22,7 @@ struct FittedParameter {
 
 /// What is said of a robot's simulation (DIAGNOSIS, "Method").
 enum class Verdict {
-  kNoFault,            ///< what it gets wrong is within noise and building tolerances
+  kNoFault,            ///< what it gets wrong is within noise and manufacturing tolerances
   kCause,              ///< the causes named explain the gap
   kIndistinguishable,  ///< there is a gap, and these data fit two causes or more alike
   kPartlyExplained,    ///< a cause is named, and a gap beyond the noise remains
@@ -65,12 +65,12 @@ struct Rival {
 };
 
 /// RMS over the coordinates of all markers in one recording, m. NaN where it is not known.
-struct RecordingGap {
+struct RecordingError {
   std::string name;
   std::string kind;
   int samples = 0;                ///< moments that were compared
   double before_m = 0.0;          ///< the simulation as the robot file has it
-  double healthy_m = 0.0;         ///< fitted within the building tolerances
+  double null_model_m = 0.0;      ///< fitted within the manufacturing tolerances
   double after_m = 0.0;           ///< with the causes that were named
   double heldout_before_m = 0.0;  ///< healthy robot, fitted to the other recordings
   double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
@@ -78,7 +78,7 @@ struct RecordingGap {
 };
 
 /// RMS over all recordings, m.
-struct GapSummary {
+struct ErrorSummary {
   double before_m = 0.0;
   double after_m = 0.0;
   double heldout_before_m = 0.0;  ///< as built, which is fitted to none
@@ -87,7 +87,7 @@ struct GapSummary {
 };
 
 /// One moment that simulation and robot were compared at.
-struct ComparedMoment {
+struct ComparedSample {
   int recording = 0;  ///< index into DiagnosisResult::recordings
   double t_s = 0.0;
   Eigen::VectorXd command;    ///< [cables] m or N as commanded; NaN: not driven
@@ -113,7 +113,7 @@ struct ResidualForces {
 };
 
 /// The test of what is left that is least like noise (GoodnessOfFit).
-struct Leftover {
+struct ResidualTest {
   bool is_noise = false;
   std::string test;
   double surprise = 0.0;
@@ -131,23 +131,23 @@ struct DiagnosisResult {
   std::vector<CauseName> indistinguishable_from;  ///< of the first cause
   double no_fault_probability = 0.0;
   double other_probability = 0.0;  ///< of something that the catalogue does not hold
-  Leftover leftover;
-  GapSummary gap;
-  std::vector<RecordingGap> recordings;
+  ResidualTest residual_test;
+  ErrorSummary model_error;
+  std::vector<RecordingError> recordings;
   ResidualForces residual_forces;
   std::vector<std::string> identities;  ///< what no data of this kind can tell, for people
   std::vector<ExperimentProposal> experiments;
 
   // What the figures are drawn from.
   std::vector<std::string> cables;
-  std::vector<std::string> cable_units;  ///< [cables] "m" or "N" of ComparedMoment::command
+  std::vector<std::string> cable_units;  ///< [cables] "m" or "N" of ComparedSample::command
   std::vector<std::string> markers;
-  Eigen::Matrix3Xd marker_rest_m;              ///< [3 x markers], robot frame
-  Eigen::Matrix3Xd surface_m;                  ///< [3 x nodes] of the undeformed body
-  std::vector<std::array<int, 3>> triangles;   ///< of the surface
-  std::vector<ComparedMoment> moments;         ///< by recording and time
-  std::vector<std::string> correlation_names;  ///< causes of `correlation`
-  Eigen::MatrixXd correlation;                 ///< between the effects of the causes, in [-1, 1]
+  Eigen::Matrix3Xd marker_rest_m;                ///< [3 x markers], robot frame
+  Eigen::Matrix3Xd surface_m;                    ///< [3 x nodes] of the undeformed body
+  std::vector<std::array<int, 3>> triangles;     ///< of the surface
+  std::vector<ComparedSample> compared_samples;  ///< by recording and time
+  std::vector<std::string> correlation_names;    ///< causes of `correlation`
+  Eigen::MatrixXd correlation;                   ///< between the effects of the causes, in [-1, 1]
 
   // How to repeat it.
   std::string robot;      ///< name in the robot file

@@ -15,7 +15,7 @@ namespace {
 
 using plot::FixedText;
 
-constexpr const char* kUnknown = "not known";
+constexpr const char* kUnknownText = "not known";
 constexpr const char* kComputed = "computed";
 
 /// Decimals that show `digits` significant digits of a value.
@@ -56,23 +56,23 @@ std::string WithUnit(const std::string& number, const std::string& unit) {
 }  // namespace
 
 std::string NumberText(double value, int digits) {
-  return std::isfinite(value) ? FixedText(value, DecimalsFor(value, digits)) : kUnknown;
+  return std::isfinite(value) ? FixedText(value, DecimalsFor(value, digits)) : kUnknownText;
 }
 
 std::string MillimetreText(double value_m) { return NumberText(1e3 * value_m, 2); }
 
 std::string LengthText(double value_m) {
-  return std::isfinite(value_m) ? MillimetreText(value_m) + " mm" : kUnknown;
+  return std::isfinite(value_m) ? MillimetreText(value_m) + " mm" : kUnknownText;
 }
 
 std::string ProbabilityText(double probability) {
-  if (!std::isfinite(probability)) return kUnknown;
+  if (!std::isfinite(probability)) return kUnknownText;
   if (probability < 0.001) return "< 0.001";
   return FixedText(probability, probability < 0.01 ? 3 : 2);
 }
 
 std::string PercentText(double share) {
-  return std::isfinite(share) ? FixedText(100.0 * share, 0) + " %" : kUnknown;
+  return std::isfinite(share) ? FixedText(100.0 * share, 0) + " %" : kUnknownText;
 }
 
 ParameterText DescribeParameter(const FittedParameter& parameter) {
@@ -93,7 +93,7 @@ ParameterText DescribeParameter(const FittedParameter& parameter) {
   const double half = 0.5 * (high - low);
   if (!std::isfinite(value) || !std::isfinite(half) || !(half > 0.0)) {
     text.value = NumberText(value, 3);
-    text.interval = half == 0.0 ? kComputed : kUnknown;
+    text.interval = half == 0.0 ? kComputed : kUnknownText;
     text.whole = text.name + " = " + WithUnit(text.value, text.unit);
     return text;
   }

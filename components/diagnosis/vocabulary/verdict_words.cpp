@@ -108,25 +108,25 @@ std::string Change(double before_m, double after_m, double noise_m) {
 }
 
 /// What the causes change.
-std::string Gain(const GapSummary& gap) {
-  if (std::isfinite(gap.heldout_before_m) && std::isfinite(gap.heldout_after_m)) {
-    return Change(gap.heldout_before_m, gap.heldout_after_m, gap.noise_m);
+std::string Gain(const ErrorSummary& error) {
+  if (std::isfinite(error.heldout_before_m) && std::isfinite(error.heldout_after_m)) {
+    return Change(error.heldout_before_m, error.heldout_after_m, error.noise_m);
   }
-  return "not known; where it was fitted " + Change(gap.before_m, gap.after_m, gap.noise_m);
+  return "not known; where it was fitted " + Change(error.before_m, error.after_m, error.noise_m);
 }
 
 /// What is wrong where no cause was named.
-std::string Error(const GapSummary& gap) {
-  std::string text = LengthText(gap.before_m) + " as the robot file has it";
-  if (std::isfinite(gap.heldout_before_m)) {
-    text += ", " + LengthText(gap.heldout_before_m) + " held out";
+std::string Error(const ErrorSummary& error) {
+  std::string text = LengthText(error.before_m) + " as the robot file has it";
+  if (std::isfinite(error.heldout_before_m)) {
+    text += ", " + LengthText(error.heldout_before_m) + " in left-out recordings";
   }
-  return text + " (noise " + LengthText(gap.noise_m) + ")";
+  return text + " (noise " + LengthText(error.noise_m) + ")";
 }
 
 void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* details) {
   details->push_back({"Explains", Explained(result)});
-  details->push_back({"Held-out error", Gain(result.gap)});
+  details->push_back({"Left-out error", Gain(result.model_error)});
   details->push_back({"Seen in", JoinedOrNone(SeenIn(result))});
   std::vector<std::string> once;
   for (const NamedCause& cause : result.causes) {
@@ -135,7 +135,7 @@ void AddCauses(const DiagnosisResult& result, std::vector<VerdictDetail>* detail
   if (!once.empty()) details->push_back({"Not cross-validated", JoinedOrNone(once)});
   details->push_back({"Ruled out", JoinedOrNone(RuledOut(result))});
   details->push_back(
-      {"Cannot be told apart from", JoinedOrNone(Names(result.indistinguishable_from, result))});
+      {"Not identifiable from", JoinedOrNone(Names(result.indistinguishable_from, result))});
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ std::string WordsFor(const CauseName& name, const DiagnosisResult& result) {
   for (const Rival& rival : result.rivals) {
     if (rival.name == name && !rival.words.empty()) return rival.words;
   }
-  if (name.id == "no_fault") return "a healthy robot";
+  if (name.id == "no_fault") return "the nominal robot";
   return name.where.empty() ? name.id : name.id + " (" + JoinedOrNone(name.where) + ")";
 }
 
@@ -164,7 +164,7 @@ std::string VerdictLabel(Verdict verdict) {
   switch (verdict) {
     case Verdict::kNoFault: return "No fault";
     case Verdict::kCause: return "Cause found";
-    case Verdict::kIndistinguishable: return "Causes that cannot be told apart";
+    case Verdict::kIndistinguishable: return "Causes not identifiable";
     case Verdict::kPartlyExplained: return "Partly explained";
     case Verdict::kUnexplained: return "Unexplained";
     case Verdict::kDataUnfit: break;
@@ -176,7 +176,7 @@ std::string VerdictHeadline(const DiagnosisResult& result) {
   const std::string causes = CausesText(result);
   switch (result.verdict) {
     case Verdict::kNoFault:
-      return "What the simulation gets wrong is within noise and building tolerances, p = " +
+      return "The residuals are within noise and manufacturing tolerances, p = " +
              ProbabilityText(result.no_fault_probability) + ".";
     case Verdict::kCause: return Sentence(causes);
     case Verdict::kIndistinguishable: {
@@ -185,17 +185,17 @@ std::string VerdictHeadline(const DiagnosisResult& result) {
       for (const std::string& name : Names(result.indistinguishable_from, result)) {
         if (std::find(alike.begin(), alike.end(), name) == alike.end()) alike.push_back(name);
       }
-      return "There is a fault, and these data fit " + std::to_string(alike.size()) +
-             " causes alike: " + Sentence(Enumeration(alike));
+      return "There is a fault, and " + std::to_string(alike.size()) +
+             " causes are not identifiable: " + Sentence(Enumeration(alike));
     }
     case Verdict::kPartlyExplained:
-      return Sentence(causes) + " A gap beyond the noise remains that this does not explain.";
+      return Sentence(causes) + " Residuals beyond the noise remain unexplained.";
     case Verdict::kUnexplained:
-      return "There is a gap of " + LengthText(result.gap.before_m) + " (noise " +
-             LengthText(result.gap.noise_m) + ") that no cause of the catalogue explains.";
+      return "The model error is " + LengthText(result.model_error.before_m) + " (noise " +
+             LengthText(result.model_error.noise_m) + "); no fault of the catalogue explains it.";
     case Verdict::kDataUnfit: break;
   }
-  return "These data cannot tell: " +
+  return "The data are unfit for a diagnosis: " +
          Sentence(result.reason.empty() ? "no reason was given" : result.reason);
 }
 
@@ -205,8 +205,8 @@ std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result) {
   if (!reason_said) details.push_back({"Why", Sentence(Capitalised(result.reason))});
   if (!result.causes.empty()) {
     AddCauses(result, &details);
-  } else if (std::isfinite(result.gap.before_m)) {
-    details.push_back({"Error", Error(result.gap)});
+  } else if (std::isfinite(result.model_error.before_m)) {
+    details.push_back({"Error", Error(result.model_error)});
   }
   if (!result.experiments.empty() && result.verdict != Verdict::kNoFault) {
     const ExperimentProposal& next = result.experiments.front();

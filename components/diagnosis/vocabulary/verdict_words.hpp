@@ -19,7 +19,7 @@ std::string VerdictHeadline(const DiagnosisResult& result);
 
 /// What the headline rests on.
 struct VerdictDetail {
-  std::string label;  ///< "Held-out error"
+  std::string label;  ///< "Left-out error"
   std::string text;   ///< "4.1 → 0.8 mm (noise 0.7 mm)"
 };
 std::vector<VerdictDetail> VerdictDetails(const DiagnosisResult& result);

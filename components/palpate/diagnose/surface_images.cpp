@@ -25,8 +25,8 @@ SurfaceImages::SurfaceImages(const experiment::Experiment& experiment, const rob
                              const perception::Config& config)
     : experiment_(experiment), viewer_(config, body) {}
 
-diagnosis::SkinLook SurfaceImages::Look(int recording, int frame,
-                                        const diagnosis::ExpectedShape& expected) {
+diagnosis::SegmentedCloud SurfaceImages::Segment(int recording, int frame,
+                                                 const diagnosis::ExpectedShape& expected) {
   const ExpectedNodes nodes{expected.nodes_m, expected.T_robot_camera};
   const perception::SegmentedFrame& seen =
       viewer_.Look(SequenceOf(recording), static_cast<std::size_t>(frame), &nodes);

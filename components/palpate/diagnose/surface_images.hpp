@@ -12,14 +12,14 @@
 namespace palpate::command {
 
 /// The robot's point clouds, segmented from the depth images or clouds of an experiment.
-class SurfaceImages final : public diagnosis::SkinSource {
+class SurfaceImages final : public diagnosis::SurfaceSource {
  public:
   /// Both must outlive it. Throws InputError for settings that do not go together.
   SurfaceImages(const experiment::Experiment& experiment, const robot::RobotBody& body,
                 const perception::Config& config);
 
-  diagnosis::SkinLook Look(int recording, int frame,
-                           const diagnosis::ExpectedShape& expected) override;
+  diagnosis::SegmentedCloud Segment(int recording, int frame,
+                                    const diagnosis::ExpectedShape& expected) override;
   rgbd::RgbdCamera Camera(int recording) override;
 
  private:

@@ -5,22 +5,22 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 constexpr double kClearEvidence = 10.0;
 
-class BackwardCheck : public HiddenCauses {
+class BackwardCheck : public HiddenFaults {
  protected:
   /// As it would stand where these were named one after the other.
   Selection Named(const Fitter& fitter, const std::vector<int>& faults) const {
     Selection selection;
-    selection.healthy = fitter.AsBuilt();
-    selection.best = fitter.Complete(fitter.Refine(faults, selection.healthy));
+    selection.null_model = fitter.AsBuilt();
+    selection.best = fitter.Complete(fitter.Refine(faults, selection.null_model));
     for (const int fault : faults) {
-      Choice& choice = selection.named.emplace_back(Choice{.cause = fault});
+      Choice& choice = selection.named.emplace_back(Choice{.fault = fault});
       choice.ln_gain_of_recording.resize(observed_.recordings.size());
     }
     return selection;
@@ -38,7 +38,7 @@ TEST_F(BackwardCheck, ExchangesAWrongCauseForTheRightOneOnceAnotherIsKnown) {
   EXPECT_THAT(selection.best.faults, testing::UnorderedElementsAre(right, other))
       << "seed " << kSeed;
   ASSERT_EQ(selection.named.size(), 2U);
-  EXPECT_EQ(selection.named[0].cause, right);
+  EXPECT_EQ(selection.named[0].fault, right);
   EXPECT_GT(selection.named[0].probability, 0.9);
   EXPECT_GT(selection.best.posterior.ln_evidence, before + kClearEvidence);
 }

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-using CableElasticity = HiddenCauses;
+using CableElasticity = HiddenFaults;
 
 TEST_F(CableElasticity, IsKnownNoBetterThanWhatTheMeshGivesWayBy) {
-  const FaultModel& stretch = hypotheses_.cause(Number("cable_elasticity", "cable:up"));
+  const FaultModel& stretch = hypotheses_.model(Number("cable_elasticity", "cable:up"));
   const double mesh_m_N = stretch.parameters()[0].tolerance;
   const Eigen::VectorXd z = Eigen::VectorXd::Constant(1, 1.0 / 3000.0);
   const auto report = stretch.Report(z, Eigen::MatrixXd::Zero(1, 1), {});

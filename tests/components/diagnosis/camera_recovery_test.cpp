@@ -37,13 +37,13 @@ class CameraRecovery : public testing::Test {
     cameras["a_ramp"] = cameras["b_hold"] = cameras["c_tilt"];
     observed_ =
         Observe(SeenByACamera(body_), body_, {.most_samples = 24, .depth_cameras = cameras});
-    hypotheses_.emplace(MakeCauses({body_, observed_}, {}), std::map<std::string, double>{});
+    hypotheses_.emplace(MakeFaultModels({body_, observed_}, {}), std::map<std::string, double>{});
   }
 
   /// The first cause of this name; of those that begin with a recording, with this one.
   int Find(const std::string& id, const std::string& recording = "") const {
     for (int k = 0; k < hypotheses_->size(); ++k) {
-      const FaultModel& cause = hypotheses_->cause(k);
+      const FaultModel& cause = hypotheses_->model(k);
       if (cause.name().id == id && cause.words().ends_with(recording)) return k;
     }
     ADD_FAILURE() << id;
@@ -52,9 +52,9 @@ class CameraRecovery : public testing::Test {
 
   /// What the markers would be measured at; everything else as it is.
   Selection Diagnose(int cause, const Eigen::VectorXd& z) {
-    const FaultModelList one{&hypotheses_->cause(cause)};
+    const FaultModelList one{&hypotheses_->model(cause)};
     const Simulation truth =
-        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), one, z));
+        Simulator(observed_, 1).Run(HypothesisWith(NominalHypothesis(body_, observed_), one, z));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
     std::mt19937 random(kCameraSeed);
     std::normal_distribution<double> noise_m(0.0, kSigma_m);
@@ -68,7 +68,7 @@ class CameraRecovery : public testing::Test {
       }
     }
     const Fitter fitter(observed_, body_, *hypotheses_, NoiseModel{}, 1);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 4, [](int, int, const auto&) {});
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(), 4, [](int, int, const auto&) {});
   }
 
   /// Named alone, each parameter within `sigmas` of what is known of it.
@@ -76,14 +76,14 @@ class CameraRecovery : public testing::Test {
     const int cause = Find(id, recording);
     const Selection selection = Diagnose(cause, z);
     ASSERT_EQ(selection.named.size(), 1U) << "seed " << kCameraSeed;
-    EXPECT_EQ(selection.named[0].cause, cause)
-        << hypotheses_->cause(selection.named[0].cause).words() << ", seed " << kCameraSeed;
+    EXPECT_EQ(selection.named[0].fault, cause)
+        << hypotheses_->model(selection.named[0].fault).words() << ", seed " << kCameraSeed;
     for (Eigen::Index p = 0; p < z.size(); ++p) {
       const Eigen::Index column = hypotheses_->first(cause) + p;
       const double sigma = std::sqrt(selection.best.posterior.covariance(column, column));
       EXPECT_NEAR(selection.best.posterior.mean[column], z[p], 4.0 * sigma) << p;
       EXPECT_LT(sigma,
-                0.5 * hypotheses_->cause(cause).parameters()[static_cast<std::size_t>(p)].fault);
+                0.5 * hypotheses_->model(cause).parameters()[static_cast<std::size_t>(p)].fault);
     }
   }
 
@@ -95,7 +95,7 @@ class CameraRecovery : public testing::Test {
 TEST_F(CameraRecovery, AHealthyCameraIsAcquitted) {
   const Selection selection = Diagnose(Find("depth_scale"), Eigen::VectorXd::Constant(1, 0.0015));
   EXPECT_TRUE(selection.named.empty())
-      << hypotheses_->cause(selection.named.front().cause).words() << ", seed " << kCameraSeed;
+      << hypotheses_->model(selection.named.front().fault).words() << ", seed " << kCameraSeed;
 }
 
 TEST_F(CameraRecovery, DepthScaleIsNamed) {
@@ -114,7 +114,7 @@ TEST_F(CameraRecovery, ACameraThatMovedIsNamedWithTheRecordingFromWhichOn) {
 
 TEST_F(CameraRecovery, TheCentreOfAnUnknownCameraIsNotToldInPixels) {
   observed_ = Observe(SeenByACamera(body_), body_, {.most_samples = 24});
-  const auto causes = MakeCauses({body_, observed_}, {});
+  const auto causes = MakeFaultModels({body_, observed_}, {});
   const auto found = std::find_if(causes.begin(), causes.end(), [](const FaultModelPtr& cause) {
     return cause->name().id == "intrinsics";
   });
@@ -127,7 +127,7 @@ TEST_F(CameraRecovery, OfARobotThatNoCameraSawNoCameraIsBlamed) {
   experiment::Experiment experiment = SmallExperiment(body_);
   experiment.recordings.resize(2);
   observed_ = Observe(experiment, body_, {.most_samples = 24});
-  for (const FaultModelPtr& cause : MakeCauses({body_, observed_}, {})) {
+  for (const FaultModelPtr& cause : MakeFaultModels({body_, observed_}, {})) {
     EXPECT_NE(cause->name().where.front(), "camera") << cause->words();
   }
 }

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "libs/linalg/cholesky.hpp"
-#include "tests/components/diagnosis/toy_causes.hpp"
+#include "tests/components/diagnosis/toy_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -19,7 +19,7 @@ constexpr unsigned kImitationSeed = 20261126;
 HypothesisSet BookOfImitations() {
   std::vector<FaultModelPtr> causes;
   const auto add = [&](const std::string& id, double tolerance) {
-    causes.push_back(std::make_unique<ToyCause>(
+    causes.push_back(std::make_unique<ToyFault>(
         id, std::vector<FaultParameter>{{.name = "size", .tolerance = tolerance, .fault = 20.0}}));
   };
   add("creep", 0.1);

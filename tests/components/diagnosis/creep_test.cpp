@@ -33,7 +33,7 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
   const LoadedBeam beam;
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
   const Simulator simulator(observed, 1);
-  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  ModelHypothesis hypothesis = NominalHypothesis(beam.body, observed);
   const Simulation elastic = simulator.Run(hypothesis);
   ASSERT_TRUE(elastic.status.ok()) << elastic.status.message();
   for (const double g : {0.03, 0.3}) {
@@ -74,7 +74,7 @@ TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
   experiment::Experiment experiment;
   experiment.recordings = {MakeRecording("still", body, {{0.0, {0.0}}, {5.0, {0.0}}}, 0.5)};
   const ObservedExperiment observed = Observe(experiment, body);
-  const Simulation simulation = Simulator(observed, 1).Run(DraftOf(body, observed));
+  const Simulation simulation = Simulator(observed, 1).Run(NominalHypothesis(body, observed));
   ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
   const PointStresses& elastic_Pa = simulation.samples.front().in_the_middle.elastic_Pa;
   EXPECT_LT((simulation.at_rest.elastic_Pa - elastic_Pa).norm(), 1e-5F * elastic_Pa.norm());
@@ -94,7 +94,7 @@ TEST(Creep, OfABodyThatWasHeldBentIsALittleOfThatBend) {
                           {kLetGo_s, tip_m, Eigen::Vector3d::Zero(), 0.0, {}}};
   beam.experiment.recordings = {beam.recording};
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
-  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  ModelHypothesis hypothesis = NominalHypothesis(beam.body, observed);
   hypothesis.creep = {{.g = kG, .tau_s = kTau_s}};
   const Simulation creeping = Simulator(observed, 1).Run(hypothesis);
   ASSERT_TRUE(creeping.status.ok()) << creeping.status.message();
@@ -121,7 +121,7 @@ TEST(Creep, LeavesTheInstantaneousModulusAtOnce) {
   const LoadedBeam beam;
   const ObservedExperiment observed = Observe(beam.experiment, beam.body);
   const Simulator simulator(observed, 1);
-  ModelHypothesis hypothesis = DraftOf(beam.body, observed);
+  ModelHypothesis hypothesis = NominalHypothesis(beam.body, observed);
   const Simulation elastic = simulator.Run(hypothesis);
   constexpr double kG = 0.2;
   hypothesis.creep = {{.g = kG, .tau_s = 1e5}};

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "libs/linalg/cholesky.hpp"
-#include "tests/components/diagnosis/toy_causes.hpp"
+#include "tests/components/diagnosis/toy_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -61,9 +61,9 @@ TEST(LeaveOneOut, ARightFaultPredictsBetterAndAWrongOneDoesNot) {
   const CrossValidationGain none = Compare(without, without);
   EXPECT_FALSE(none.clear);
   EXPECT_EQ(none.ln_gain, 0.0);
-  const Eigen::VectorXd healthy = data.Draw(hypotheses.PriorWith({}));
-  const CrossValidationGain wrong =
-      Compare(LeftOut(hypotheses, data, healthy, {}), LeftOut(hypotheses, data, healthy, {3}));
+  const Eigen::VectorXd null_model = data.Draw(hypotheses.PriorWith({}));
+  const CrossValidationGain wrong = Compare(LeftOut(hypotheses, data, null_model, {}),
+                                            LeftOut(hypotheses, data, null_model, {3}));
   EXPECT_LT(wrong.ln_gain, 0.0) << "seed " << kHeldOutSeed;
   EXPECT_FALSE(wrong.clear);
 }

@@ -33,7 +33,7 @@ ObservedExperiment UpAndDown() {
   return observed;
 }
 
-Memorable Energy(double t_s) {
+HistoryInput Energy(double t_s) {
   return {PointStresses::Zero(6, 1),
           Eigen::VectorXf::Constant(1, static_cast<float>(std::pow(RootAt(t_s), 2)))};
 }
@@ -54,16 +54,17 @@ TEST(Damage, IsTheMeanOfWhatTheCourseOfASampleAsksFor) {
   const HistoryOperator history(observed);
   const Simulation simulation = SimulatedUpAndDown();
   const MullinsSoftening mullins{.inverse_r = 0.4, .m_J_m3 = 9.0};
-  std::vector<HistoryVariables> past;
-  for (int step = 0; step < 100; ++step) Soften(mullins, history, simulation, &past);
-  ASSERT_EQ(past.size(), 2U);
-  EXPECT_NEAR(past[0].cell_factor[0], 1.0, 1e-6) << "on the way up nothing was larger before";
+  std::vector<HistoryVariables> history_variables;
+  for (int step = 0; step < 100; ++step) Soften(mullins, history, simulation, &history_variables);
+  ASSERT_EQ(history_variables.size(), 2U);
+  EXPECT_NEAR(history_variables[0].cell_factor[0], 1.0, 1e-6)
+      << "on the way up nothing was larger before";
   double softened = 0.0;
   for (const std::size_t frame : {1U, 3U, 5U, 7U, 9U}) {
     const double root = RootAt(observed.samples[1].frame_t_s[frame]);
     softened += std::erf((std::pow(RootAt(kTop_s), 2) - root * root) / mullins.m_J_m3) / 5.0;
   }
-  EXPECT_NEAR(past[1].cell_factor[0], 1.0 - mullins.inverse_r * softened, 1e-5);
+  EXPECT_NEAR(history_variables[1].cell_factor[0], 1.0 - mullins.inverse_r * softened, 1e-5);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "components/diagnosis/prepare/exchanged_cables.hpp"
 
 #include "components/diagnosis/faults/makers.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -23,9 +23,9 @@ experiment::Experiment OneAfterTheOther() {
   return experiment;
 }
 
-class ExchangedCables : public HiddenCauses {
+class ExchangedCables : public HiddenFaults {
  protected:
-  ExchangedCables() : HiddenCauses(SmallRobot(), OneAfterTheOther()) {
+  ExchangedCables() : HiddenFaults(SmallRobot(), OneAfterTheOther()) {
     MakeSwappedCables({.body = body_, .observed = observed_}, &exchanges_);
   }
 
@@ -39,7 +39,7 @@ class ExchangedCables : public HiddenCauses {
 TEST_F(ExchangedCables, AreFoundWhicheverTheyAre) {
   ASSERT_EQ(exchanges_.size(), 3u);
   for (const FaultModelPtr& exchange : exchanges_) {
-    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
     exchange->Apply(Eigen::VectorXd::Ones(1), &hypothesis);
     const Simulation truth = Simulator(observed_, 1).Run(hypothesis);
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {

@@ -68,25 +68,26 @@ Eigen::VectorXd FaultOf(const FaultModel& cause) {
 
 TEST_F(Extension, OfTheRobotFileIsTheRobotOfTheCause) {
   constexpr double kOfEffect = 1e-3;  // weights of a marker that moved are those of its new place
-  const Eigen::VectorXd healthy_m = SeenOf(DraftOf(body_, observed_));
+  const Eigen::VectorXd null_model_m = SeenOf(NominalHypothesis(body_, observed_));
   std::set<std::string> extended;
-  const Simulation as_built = Simulator(observed_, 1).Run(DraftOf(body_, observed_));
-  const CauseWorld world{.body = body_,
-                         .observed = observed_,
-                         .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
-  for (const FaultModelPtr& cause : MakeCauses(world, {})) {
+  const Simulation as_built = Simulator(observed_, 1).Run(NominalHypothesis(body_, observed_));
+  const CatalogueInputs world{
+      .body = body_,
+      .observed = observed_,
+      .mesh_error = CompareWithFinerMesh(robot_, body_, observed_, as_built, 1)};
+  for (const FaultModelPtr& cause : MakeFaultModels(world, {})) {
     robot::RobotDescription robot = robot_;
     std::vector<robot::CalibratedDrive> drives;
     const Eigen::VectorXd z = FaultOf(*cause);
     if (!cause->Extend(z, &robot, &drives) || !drives.empty()) continue;
     if (!extended.insert(cause->name().id).second) continue;  // one of its places
-    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
     cause->Apply(z, &hypothesis);
     const Eigen::VectorXd caused_m = SeenOf(hypothesis);
-    const double effect_m = (caused_m - healthy_m).cwiseAbs().maxCoeff();
+    const double effect_m = (caused_m - null_model_m).cwiseAbs().maxCoeff();
     EXPECT_GT(effect_m, 1e-5) << cause->words();
     const robot::RobotBody body = robot::BuildRobotBody(robot);
-    EXPECT_LT((SeenOf(DraftOf(body, observed_)) - caused_m).cwiseAbs().maxCoeff(),
+    EXPECT_LT((SeenOf(NominalHypothesis(body, observed_)) - caused_m).cwiseAbs().maxCoeff(),
               kOfEffect * effect_m)
         << cause->words();
   }

@@ -53,26 +53,26 @@ class FaultDerivatives : public testing::Test {
   /// As the robot file has it.
   void Begin() {
     each_ = observed_.CoordinateCount();
-    nominal_ = DraftOf(body_, observed_);
+    nominal_ = NominalHypothesis(body_, observed_);
     at_rest_ = simulator_.Run(nominal_);
     causes_ = Causes();
   }
 
   /// The mesh of SmallRobot in tet4 is known to err.
   std::vector<FaultModelPtr> Causes() const {
-    CauseWorld world{.body = body_, .observed = observed_, .as_built = &at_rest_};
+    CatalogueInputs world{.body = body_, .observed = observed_, .as_built = &at_rest_};
     if (body_.mesh.element_type() == fem::ElementType::kTet4) {
       const robot::RobotBody finer = SmallRobotOnFinerMesh();
-      const Simulation on_finer = Simulator(observed_, 1).Run(DraftOf(finer, observed_));
+      const Simulation on_finer = Simulator(observed_, 1).Run(NominalHypothesis(finer, observed_));
       world.mesh_error =
           std::make_shared<MeshError>(CompareMeshes(body_, at_rest_, finer, on_finer).value());
     }
-    return MakeCauses(world, {});
+    return MakeFaultModels(world, {});
   }
 
   /// [coordinates, samples after another] of the simulation.
   Eigen::VectorXd Markers(const FaultModelList& causes, const Eigen::VectorXd& z) const {
-    const Simulation run = simulator_.Run(DraftWith(nominal_, causes, z), &at_rest_);
+    const Simulation run = simulator_.Run(HypothesisWith(nominal_, causes, z), &at_rest_);
     EXPECT_TRUE(run.status.ok()) << run.status.message();
     Eigen::VectorXd all_m(each_ * std::ssize(run.samples));
     for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
@@ -83,11 +83,11 @@ class FaultDerivatives : public testing::Test {
   }
 
   Eigen::MatrixXd Analytic(const FaultModelList& causes, const Eigen::VectorXd& z) const {
-    const ModelHypothesis hypothesis = DraftWith(nominal_, causes, z);
+    const ModelHypothesis hypothesis = HypothesisWith(nominal_, causes, z);
     Simulation run = simulator_.Run(hypothesis, &at_rest_);
     simulator_.Differentiate(hypothesis, causes, z, std::vector<bool>(causes.size(), true),
                              nominal_, &run);
-    simulator_.DifferentiateByRuns(nominal_, causes, z, &run);
+    simulator_.DifferentiateBySimulation(nominal_, causes, z, &run);
     Eigen::MatrixXd all_m(each_ * std::ssize(run.samples), z.size());
     for (Eigen::Index s = 0; s < std::ssize(run.samples); ++s) {
       all_m.middleRows(each_ * s, each_) = run.samples[static_cast<std::size_t>(s)].jacobian_m;
@@ -158,7 +158,7 @@ class FaultDerivatives : public testing::Test {
     for (Eigen::Index p = cause.name().id == "hidden_obstacle" ? 1 : 0; p < z.size(); ++p) {
       const FaultParameter& parameter = cause.parameters()[static_cast<std::size_t>(p)];
       const Eigen::VectorXd difference = parameter.fault * Difference(one, z, p, parameter);
-      if (cause.name().id == "mullins" && cause.NeedsRuns(z))
+      if (cause.name().id == "mullins" && cause.NeedsSimulation(z))
         whole_m = std::max(whole_m, difference.norm());
       ExpectAlike(parameter.fault * analytic.col(p), difference, tolerance,
                   cause.words() + ", " + parameter.name, least_share, whole_m);
@@ -185,7 +185,7 @@ class FaultDerivatives : public testing::Test {
   robot::RobotBody body_;
   ObservedExperiment observed_;
   Eigen::Index each_ = observed_.CoordinateCount();
-  ModelHypothesis nominal_ = DraftOf(body_, observed_);
+  ModelHypothesis nominal_ = NominalHypothesis(body_, observed_);
   Simulator simulator_{observed_, 1};
   Simulation at_rest_ = simulator_.Run(nominal_);
   std::vector<FaultModelPtr> causes_ = Causes();

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "tests/components/diagnosis/toy_causes.hpp"
+#include "tests/components/diagnosis/toy_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Why a gain of this size, tolerance 0.005, at most 0.2 of which is believed, is no fault.
 std::string WhyNot(double gain) {
   std::vector<FaultModelPtr> causes;
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "gain", std::vector<FaultParameter>{
                   {.name = "g", .tolerance = 0.005, .fault = 0.08, .plausible = 0.2}}));
   const HypothesisSet hypotheses(std::move(causes), {});
@@ -26,8 +26,8 @@ std::string WhyNot(double gain) {
 }
 
 TEST(FaultSize, IsBeyondThreeTolerancesOnEitherSide) {
-  EXPECT_THAT(WhyNot(0.014), testing::HasSubstr("healthy"));
-  EXPECT_THAT(WhyNot(-0.014), testing::HasSubstr("healthy"));
+  EXPECT_THAT(WhyNot(0.014), testing::HasSubstr("manufacturing tolerances"));
+  EXPECT_THAT(WhyNot(-0.014), testing::HasSubstr("manufacturing tolerances"));
   EXPECT_EQ(WhyNot(0.016), "");
   EXPECT_EQ(WhyNot(-0.016), "");
 }
@@ -35,7 +35,7 @@ TEST(FaultSize, IsBeyondThreeTolerancesOnEitherSide) {
 TEST(FaultSize, IsNotMoreThanARobotCanHave) {
   EXPECT_EQ(WhyNot(0.19), "");
   EXPECT_THAT(WhyNot(0.21), testing::HasSubstr("g = 0.21"));
-  EXPECT_THAT(WhyNot(-0.24), testing::HasSubstr("something else"));
+  EXPECT_THAT(WhyNot(-0.24), testing::HasSubstr("another fault"));
 }
 
 /// A place that is off by so much, 1 mm being the tolerance of its length.
@@ -44,7 +44,7 @@ std::string WhyNotOff(const Eigen::Vector3d& off_m) {
       .name = "d_m", .tolerance = 1e-3 / std::sqrt(3.0), .fault = 5e-3, .component = true};
   std::vector<FaultModelPtr> causes;
   causes.push_back(
-      std::make_unique<ToyCause>("place", std::vector<FaultParameter>{along, along, along}));
+      std::make_unique<ToyFault>("place", std::vector<FaultParameter>{along, along, along}));
   const HypothesisSet hypotheses(std::move(causes), {});
   Posterior posterior;
   posterior.mean = off_m;
@@ -56,7 +56,8 @@ TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
   for (const Eigen::Vector3d& towards :
        {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, -1, 1),
         Eigen::Vector3d(0.2, 0.5, -0.7)}) {
-    EXPECT_THAT(WhyNotOff(2.9e-3 * towards.normalized()), testing::HasSubstr("healthy"));
+    EXPECT_THAT(WhyNotOff(2.9e-3 * towards.normalized()),
+                testing::HasSubstr("manufacturing tolerances"));
     EXPECT_EQ(WhyNotOff(3.1e-3 * towards.normalized()), "");
   }
 }
@@ -65,7 +66,7 @@ TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
 /// it acts.
 std::string WhyNotBoth(double a, double b, double correlation) {
   std::vector<FaultModelPtr> causes;
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "both", std::vector<FaultParameter>{{.name = "a", .fault = 1.0},
                                           {.name = "b", .fault = 1.0},
                                           {.name = "x", .fault = 1.0, .qualifies = true}}));
@@ -78,7 +79,7 @@ std::string WhyNotBoth(double a, double b, double correlation) {
 }
 
 TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
-  EXPECT_THAT(WhyNotBoth(1.5, 0.5, 0.0), testing::HasSubstr("nothing of it"));
+  EXPECT_THAT(WhyNotBoth(1.5, 0.5, 0.0), testing::HasSubstr("two standard deviations"));
   EXPECT_EQ(WhyNotBoth(5.0, 0.0, 0.0), "");
   EXPECT_EQ(WhyNotBoth(0.0, -5.0, 0.0), "");
   EXPECT_EQ(WhyNotBoth(1.5, 1.5, -0.9), "");  // each may be nothing, their sum may not
@@ -89,7 +90,7 @@ TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
 std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sigma_s,
                        double correlation) {
   std::vector<FaultModelPtr> causes;
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "late", std::vector<FaultParameter>{
                   {.name = "delay_s", .tolerance = 0.01, .fault = 0.15, .least = 0.0},
                   {.name = "tau_s", .fault = 0.15, .least = 0.0}}));
@@ -103,12 +104,15 @@ std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sig
 
 TEST(FaultSize, OfWhatIsKnownTogetherCountsTogether) {
   EXPECT_EQ(WhyNotLate({0.02, 0.08}, {0.035, 0.035}, -0.99), "");  // 0.1 s in all, +- 0.005
-  EXPECT_THAT(WhyNotLate({0.02, 0.008}, {0.035, 0.035}, -0.99), testing::HasSubstr("healthy"));
-  EXPECT_THAT(WhyNotLate({0.02, 0.08}, {0.035, 0.035}, 0.0), testing::HasSubstr("healthy"));
+  EXPECT_THAT(WhyNotLate({0.02, 0.008}, {0.035, 0.035}, -0.99),
+              testing::HasSubstr("manufacturing tolerances"));
+  EXPECT_THAT(WhyNotLate({0.02, 0.08}, {0.035, 0.035}, 0.0),
+              testing::HasSubstr("manufacturing tolerances"));
   EXPECT_EQ(WhyNotLate({0.02, 0.12}, {0.035, 0.035}, 0.0), "");
   EXPECT_EQ(WhyNotLate({0.05, 0.0}, {0.005, 0.0}, 0.0), "");  // at its bound
   EXPECT_EQ(WhyNotLate({0.0, 0.05}, {0.0, 0.01}, 0.0), "");
-  EXPECT_THAT(WhyNotLate({0.0, 0.02}, {0.0, 0.01}, 0.0), testing::HasSubstr("healthy"));
+  EXPECT_THAT(WhyNotLate({0.0, 0.02}, {0.0, 0.01}, 0.0),
+              testing::HasSubstr("manufacturing tolerances"));
 }
 
 }  // namespace

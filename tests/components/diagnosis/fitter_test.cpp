@@ -3,7 +3,7 @@
 
 #include "components/diagnosis/inference/fitter.hpp"
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -31,9 +31,9 @@ experiment::Experiment RestsAndRamps() {
   return experiment;
 }
 
-class FitterOfHealthyRobots : public HiddenCauses {
+class FitterOfHealthyRobots : public HiddenFaults {
  protected:
-  FitterOfHealthyRobots() : HiddenCauses(WeightlessRobot(), RestsAndRamps()) {}
+  FitterOfHealthyRobots() : HiddenFaults(WeightlessRobot(), RestsAndRamps()) {}
 
   /// Root mean square over the noise of what a simulation leaves of the data.
   double LeftBy(const Simulation& simulation) const {
@@ -52,11 +52,12 @@ class FitterOfHealthyRobots : public HiddenCauses {
     Eigen::VectorXd z = fit.posterior.mean;
     for (int k = 0; k < hypotheses_.size(); ++k) {
       for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
-        const double least = hypotheses_.cause(k).parameters()[static_cast<std::size_t>(p)].least;
+        const double least = hypotheses_.model(k).parameters()[static_cast<std::size_t>(p)].least;
         z[hypotheses_.first(k) + p] = std::max(least, z[hypotheses_.first(k) + p]);
       }
     }
-    const ModelHypothesis hypothesis = DraftWith(DraftOf(body_, observed_), hypotheses_.All(), z);
+    const ModelHypothesis hypothesis =
+        HypothesisWith(NominalHypothesis(body_, observed_), hypotheses_.All(), z);
     return LeftBy(Simulator(observed_, 1).Run(hypothesis));
   }
 };

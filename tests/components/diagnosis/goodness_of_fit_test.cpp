@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/components/diagnosis/toy_causes.hpp"
+#include "tests/components/diagnosis/toy_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {

@@ -44,7 +44,7 @@ class HiddenObstacle : public testing::Test {
   robot::RobotBody body_ = SmallRobot();
   experiment::Experiment experiment_ = SmallExperiment(body_);
   ObservedExperiment observed_ = Observe(experiment_, body_, {.most_samples = 14});
-  ModelHypothesis nominal_ = DraftOf(body_, observed_);
+  ModelHypothesis nominal_ = NominalHypothesis(body_, observed_);
   Simulator simulator_{observed_, 1};
   Simulation as_built_ = simulator_.Run(nominal_);
   std::shared_ptr<const ObstacleSurface> surface_ =
@@ -80,8 +80,8 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
   ModelHypothesis hypothesis = nominal_;
   hypothesis.obstacle = obstacle;
   SampleSolver solver(hypothesis, observed_);
-  const DriveTrain train(observed_);
-  const Eigen::MatrixXd taken_in = train.At(hypothesis.drives);
+  const ActuatorChain train(observed_);
+  const Eigen::MatrixXd taken_in = train.At(hypothesis.actuators);
   const auto most = std::max_element(as_built_.samples.begin(), as_built_.samples.end(),
                                      [&](const auto& a, const auto& b) {
                                        return ObstacleClearance_m(obstacle, a.middle.state.x_m) >
@@ -175,13 +175,14 @@ class HiddenObstacleIsFound : public HiddenObstacle {
   }
 
   HypothesisSet Book() const {
-    return {MakeCauses({.body = body_, .observed = observed_, .as_built = &as_built_}, {}), {}};
+    return {MakeFaultModels({.body = body_, .observed = observed_, .as_built = &as_built_}, {}),
+            {}};
   }
 
   /// Data and model are of one mesh.
   Selection Select(const HypothesisSet& hypotheses) const {
     const Fitter fitter(observed_, body_, hypotheses, {.relative_error = 1e-4}, 1);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(&as_built_), 1,
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(&as_built_), 1,
                         [](int, int, const std::string&) {});
   }
 };
@@ -193,13 +194,13 @@ TEST_F(HiddenObstacleIsFound, ByWhatAWholeWallDoesToFirstOrder) {
   std::vector<double> off_before;
   std::vector<double> off_after;
   for (int k = 0; k < hypotheses.size(); ++k) {
-    const FaultModel& cause = hypotheses.cause(k);
+    const FaultModel& cause = hypotheses.model(k);
     if (cause.name().id != "hidden_obstacle") continue;
     const FaultModelList one{&cause};
-    Simulation healthy = as_built_;
-    simulator_.Differentiate(nominal_, one, Eigen::Vector4d::Zero(), {true}, nominal_, &healthy);
+    Simulation null_model = as_built_;
+    simulator_.Differentiate(nominal_, one, Eigen::Vector4d::Zero(), {true}, nominal_, &null_model);
     const Eigen::Vector4d there = Eigen::Vector4d::UnitX();
-    const ModelHypothesis hypothesis = DraftWith(nominal_, one, there);
+    const ModelHypothesis hypothesis = HypothesisWith(nominal_, one, there);
     Simulation met = simulator_.Run(hypothesis, &as_built_);
     ASSERT_TRUE(met.status.ok()) << met.status.message();
     simulator_.Differentiate(hypothesis, one, there, {true}, nominal_, &met);
@@ -208,7 +209,7 @@ TEST_F(HiddenObstacleIsFound, ByWhatAWholeWallDoesToFirstOrder) {
       const Eigen::VectorXd moved_m =
           (met.samples[s].markers_m() - as_built_.samples[s].markers_m()).reshaped();
       effect += moved_m.squaredNorm();
-      before += (moved_m - healthy.samples[s].jacobian_m.col(0)).squaredNorm();
+      before += (moved_m - null_model.samples[s].jacobian_m.col(0)).squaredNorm();
       after += (moved_m - met.samples[s].jacobian_m.col(0)).squaredNorm();
     }
     off_before.push_back(std::sqrt(before / effect));
@@ -232,12 +233,12 @@ TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
   const HypothesisSet hypotheses = Book();
   const Selection selection = Select(hypotheses);
   ASSERT_EQ(selection.named.size(), 1U);
-  const int k = selection.named[0].cause;
-  ASSERT_EQ(hypotheses.cause(k).name().id, "hidden_obstacle");
+  const int k = selection.named[0].fault;
+  ASSERT_EQ(hypotheses.model(k).name().id, "hidden_obstacle");
   EXPECT_TRUE(selection.goodness_of_fit.passed) << selection.goodness_of_fit.worst;
   const Posterior& posterior = selection.best.posterior;
   const Eigen::Index first = hypotheses.first(k);
-  const std::vector<FittedParameter> report = hypotheses.cause(k).Report(
+  const std::vector<FittedParameter> report = hypotheses.model(k).Report(
       posterior.mean.segment<4>(first), posterior.covariance.block<4, 4>(first, first),
       nominal_.assembled_m);
   const auto expect_near = [&](const FittedParameter& fitted, const std::string& name,
@@ -257,8 +258,8 @@ TEST_F(HiddenObstacleIsFound, WithItsGapAndItsNormal) {
 TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
   const HypothesisSet hypotheses = Book();
   int k = 0;
-  while (hypotheses.cause(k).name().id != "hidden_obstacle") ++k;
-  const FaultModel& obstacle = hypotheses.cause(k);
+  while (hypotheses.model(k).name().id != "hidden_obstacle") ++k;
+  const FaultModel& obstacle = hypotheses.model(k);
   for (const double deep_m : {5e-5, 5e-3}) {  // the deeper in a body that is larger than its file's
     const Eigen::Vector4d z(1.0, obstacle.parameters()[1].least - deep_m, 0.0, 0.0);
     const auto report =
@@ -275,8 +276,8 @@ TEST_F(HiddenObstacleIsFound, AndOneThatAFitHasInTheSkinTouchesIt) {
 TEST_F(HiddenObstacleIsFound, AsFarAsItIsFromABodyOfAnotherSize) {
   const HypothesisSet hypotheses = Book();
   int k = 0;
-  while (hypotheses.cause(k).name().id != "hidden_obstacle") ++k;
-  const FaultModel& obstacle = hypotheses.cause(k);
+  while (hypotheses.model(k).name().id != "hidden_obstacle") ++k;
+  const FaultModel& obstacle = hypotheses.model(k);
   const Eigen::Vector4d z(1.0, 0.0, 0.0, 0.0);
   const Eigen::Matrix4d sure = 1e-12 * Eigen::Matrix4d::Identity();
   const auto gap_m = [&](const Eigen::VectorXd& undeformed_m) {
@@ -319,7 +320,8 @@ TEST_F(HiddenObstacleIsFound, NowhereThatTheBodyCannotBe) {
   const HypothesisSet hypotheses(std::move(causes), {});
   const Fitter fitter(observed_, body_, hypotheses, {.relative_error = 1e-4}, 1);
   const Fit as_built = fitter.AsBuilt(&as_built_);
-  ASSERT_GT(fitter.Guess(as_built, {0}).ln_evidence, as_built.posterior.ln_evidence + 10.0);
+  ASSERT_GT(fitter.LinearPosterior(as_built, {0}).ln_evidence,
+            as_built.posterior.ln_evidence + 10.0);
   const Fit fit = fitter.Complete(fitter.Refine({0}, as_built));
   EXPECT_FALSE(fit.status.ok());
   const Simulation none = Run(Obstacle{surface_, Eigen::Vector3d::UnitZ(), 1.0}, &as_built_);

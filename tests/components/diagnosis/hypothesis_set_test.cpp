@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/components/diagnosis/toy_causes.hpp"
+#include "tests/components/diagnosis/toy_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -21,9 +21,9 @@ TEST(HypothesisSet, KnowsWhereParametersStand) {
 
 TEST(HypothesisSet, AHealthyRobotIsWithinItsTolerancesAndAFaultBeyond) {
   const HypothesisSet hypotheses = ToyBook();
-  const GaussianPrior healthy = hypotheses.PriorWith({});
-  EXPECT_TRUE(healthy.mean.isZero(0.0));
-  EXPECT_EQ(healthy.sigma, (Eigen::VectorXd(5) << 0.5, 0.4, 0.0, 0.0, 0.1).finished());
+  const GaussianPrior null_model = hypotheses.PriorWith({});
+  EXPECT_TRUE(null_model.mean.isZero(0.0));
+  EXPECT_EQ(null_model.sigma, (Eigen::VectorXd(5) << 0.5, 0.4, 0.0, 0.0, 0.1).finished());
   const GaussianPrior faulty = hypotheses.PriorWith({0, 3});
   EXPECT_EQ(faulty.sigma, (Eigen::VectorXd(5) << 20.0, 0.4, 0.0, 5.0, 5.0).finished());
   EXPECT_EQ(faulty.mean, (Eigen::VectorXd(5) << 0.0, 0.0, 0.0, 3.0, 0.0).finished());
@@ -33,10 +33,10 @@ TEST(HypothesisSet, AHealthyRobotIsWithinItsTolerancesAndAFaultBeyond) {
 
 TEST(HypothesisSet, TakesTolerancesOfTheExperiment) {
   std::vector<FaultModelPtr> causes;
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "two", std::vector<FaultParameter>{{.name = "a", .tolerance = 0.2, .fault = 1.0},
                                          {.name = "b", .tolerance = 0.4, .fault = 1.0}}));
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "none",
       std::vector<FaultParameter>{{.name = "c", .fault = 1.0}, {.name = "d", .fault = 1.0}}));
   const HypothesisSet hypotheses(std::move(causes),
@@ -53,7 +53,7 @@ TEST(HypothesisSet, TakesTolerancesOfTheExperiment) {
 TEST(HypothesisSet, TakesTheToleranceOfAVectorAsThatOfItsLength) {
   const FaultParameter along{.name = "d", .tolerance = 0.1, .fault = 1.0, .component = true};
   std::vector<FaultModelPtr> causes;
-  causes.push_back(std::make_unique<ToyCause>(
+  causes.push_back(std::make_unique<ToyFault>(
       "vector", std::vector<FaultParameter>{along, along, along, along}));
   const HypothesisSet hypotheses(std::move(causes), {{"vector", 0.6}});
   for (int p = 0; p < 4; ++p) EXPECT_NEAR(hypotheses.ToleranceOf(0, p), 0.3, 1e-15);
@@ -91,10 +91,10 @@ TEST(HypothesisSet, WhatWouldGoBeyondItsBoundsEndsThere) {
 struct Product {
   HypothesisSet hypotheses = [] {
     std::vector<FaultModelPtr> causes;
-    causes.push_back(std::make_unique<ToyCause>(
+    causes.push_back(std::make_unique<ToyFault>(
         "placed", std::vector<FaultParameter>{{.name = "size", .fault = 9.0},
                                               {.name = "where", .fault = 9.0, .qualifies = true}}));
-    causes.push_back(std::make_unique<ToyCause>(
+    causes.push_back(std::make_unique<ToyFault>(
         "plain", std::vector<FaultParameter>{{.name = "plain", .fault = 1.0}}));
     return HypothesisSet(std::move(causes), {});
   }();

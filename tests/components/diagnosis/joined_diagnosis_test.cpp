@@ -9,7 +9,7 @@ namespace palpate::diagnosis {
 namespace {
 
 /// One recording with the noise of 1, as if robots within their tolerances left this there.
-Diagnosis Leaves(double healthy_m, const std::string& cause) {
+Diagnosis Leaves(double null_model_m, const std::string& cause) {
   Diagnosis diagnosis;
   DiagnosisResult& result = diagnosis.result;
   result.verdict = Verdict::kCause;
@@ -17,13 +17,13 @@ Diagnosis Leaves(double healthy_m, const std::string& cause) {
   result.recordings = {{.name = "r",
                         .kind = "ramp",
                         .samples = 4,
-                        .before_m = 2.0 * healthy_m,
-                        .healthy_m = healthy_m,
+                        .before_m = 2.0 * null_model_m,
+                        .null_model_m = null_model_m,
                         .after_m = 1.0,
-                        .heldout_before_m = 1.5 * healthy_m,
+                        .heldout_before_m = 1.5 * null_model_m,
                         .heldout_after_m = 1.1,
                         .noise_m = 1.0}};
-  result.gap = {2.0 * healthy_m, 1.0, 1.5 * healthy_m, 1.1, 1.0};
+  result.model_error = {2.0 * null_model_m, 1.0, 1.5 * null_model_m, 1.1, 1.0};
   if (!cause.empty()) {
     NamedCause& named = result.causes.emplace_back();
     named.name = {cause, {"body"}};
@@ -46,8 +46,8 @@ TEST(JoinedDiagnosis, BeginsAtTheFileAndEndsOnTheFinerMesh) {
   // 5^2 - 1 of squares beyond the noise, of which 3^2 - 1 stay.
   EXPECT_NEAR(result.causes[0].explained_share, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(result.causes[1].explained_share, 0.8 / 3.0, 1e-12);
-  EXPECT_EQ(result.gap.before_m, of_file.result.gap.before_m);
-  EXPECT_EQ(result.recordings[0].healthy_m, of_file.result.recordings[0].healthy_m);
+  EXPECT_EQ(result.model_error.before_m, of_file.result.model_error.before_m);
+  EXPECT_EQ(result.recordings[0].null_model_m, of_file.result.recordings[0].null_model_m);
   EXPECT_EQ(result.recordings[0].after_m, 1.0);
   EXPECT_EQ(result.verdict, Verdict::kCause);
 }
@@ -70,11 +70,11 @@ TEST(JoinedDiagnosis, ExplainsAPartWhereMoreIsWrongThatNoCauseExplains) {
 
 TEST(JoinedDiagnosis, SaysWhereTheFinerMeshCouldNotBeDiagnosed) {
   Diagnosis of_finer;
-  of_finer.result = Unfit("no moment could be simulated");
+  of_finer.result = Unfit("no sample could be simulated");
   const DiagnosisResult result = Joined(Leaves(5.0, "discretisation"), of_finer).result;
   EXPECT_EQ(result.causes.size(), 1U);
   EXPECT_FALSE(result.search_complete);
-  EXPECT_NE(result.reason.find("no moment could be simulated"), std::string::npos);
+  EXPECT_NE(result.reason.find("no sample could be simulated"), std::string::npos);
 }
 
 }  // namespace

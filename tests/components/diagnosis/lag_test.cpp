@@ -6,14 +6,14 @@
 #include <random>
 
 #include "components/diagnosis/forward/sample_differentiator.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-class Lag : public HiddenCauses {
+class Lag : public HiddenFaults {
  protected:
-  const FaultModel& lag() const { return hypotheses_.cause(Number("lag", "body")); }
+  const FaultModel& lag() const { return hypotheses_.model(Number("lag", "body")); }
 
   /// What a fit to a robot that is late by 0.12 s says of it.
   std::vector<FittedParameter> FoundOf(double rounded) {
@@ -41,16 +41,16 @@ void ExpectInside(const FittedParameter& found, double hidden) {
 
 TEST_F(Lag, IsADelayAndATimeConstant) {
   const Eigen::Vector2d z(0.1, 0.3);
-  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
   lag().Apply(z, &hypothesis);
-  EXPECT_NEAR(hypothesis.drives.delay_s + hypothesis.drives.tau_s, 0.1, 1e-12);
-  EXPECT_NEAR(hypothesis.drives.tau_s * hypothesis.drives.tau_s, 0.8 * 0.1 * 0.1, 1e-12);
+  EXPECT_NEAR(hypothesis.actuators.delay_s + hypothesis.actuators.tau_s, 0.1, 1e-12);
+  EXPECT_NEAR(hypothesis.actuators.tau_s * hypothesis.actuators.tau_s, 0.8 * 0.1 * 0.1, 1e-12);
   const auto report = lag().Report(z, 1e-12 * Eigen::Matrix2d::Identity(), {});
   ASSERT_EQ(report.size(), 2U);
   EXPECT_EQ(report[0].name, "delay_s");
   EXPECT_EQ(report[1].name, "tau_s");
-  EXPECT_NEAR(report[0].value, hypothesis.drives.delay_s, 1e-12);
-  EXPECT_NEAR(report[1].value, hypothesis.drives.tau_s, 1e-12);
+  EXPECT_NEAR(report[0].value, hypothesis.actuators.delay_s, 1e-12);
+  EXPECT_NEAR(report[1].value, hypothesis.actuators.tau_s, 1e-12);
   for (const FittedParameter& part : report) {
     EXPECT_NEAR(part.ci95_low, part.value, 1e-5);
     EXPECT_NEAR(part.ci95_high, part.value, 1e-5);
@@ -70,9 +70,9 @@ TEST_F(Lag, HasIntervalsOfAsMuchAsIsBelieved) {
   for (int k = 0; k < kDraws; ++k) {
     const double first = normal(random);
     const double second = normal(random);
-    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
     lag().Apply(z + root * Eigen::Vector2d(first, second), &hypothesis);
-    const double part_s[] = {hypothesis.drives.delay_s, hypothesis.drives.tau_s};
+    const double part_s[] = {hypothesis.actuators.delay_s, hypothesis.actuators.tau_s};
     for (std::size_t p = 0; p < 2; ++p) {
       below[static_cast<Eigen::Index>(p)] += part_s[p] < report[p].ci95_low;
       above[static_cast<Eigen::Index>(p)] += part_s[p] > report[p].ci95_high;
@@ -91,9 +91,9 @@ TEST_F(Lag, HasADerivativeWhereAllOfItIsATimeConstant) {
   const auto change_at = [&](double rounded) {
     const FaultModelList one{&lag()};
     const Eigen::VectorXd z = Eigen::Vector2d(0.12, rounded);
-    const ModelHypothesis nominal = DraftOf(body_, observed_);
-    return DriveChanges(DriveTrain(observed_), nominal, one, z, {true},
-                        DraftWith(nominal, one, z).drives)[1];
+    const ModelHypothesis nominal = NominalHypothesis(body_, observed_);
+    return ActuatorChanges(ActuatorChain(observed_), nominal, one, z, {true},
+                           HypothesisWith(nominal, one, z).actuators)[1];
   };
   const Eigen::MatrixXd inside = change_at(0.499);
   EXPECT_GT(inside.norm(), 0.0);

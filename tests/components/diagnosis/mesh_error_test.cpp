@@ -30,7 +30,8 @@ class MeshErrorTest : public testing::Test {
     }
     const ObservedExperiment observed = Observe(experiment, body_, {});
     const Simulator simulator(observed, 1);
-    return {simulator.Run(DraftOf(body_, observed)), simulator.Run(DraftOf(finer_, observed))};
+    return {simulator.Run(NominalHypothesis(body_, observed)),
+            simulator.Run(NominalHypothesis(finer_, observed))};
   }
 
   std::optional<MeshError> Compared(const Pulled& pulled) const {

@@ -4,20 +4,20 @@
 #include <cmath>
 #include <random>
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-using Mullins = HiddenCauses;
+using Mullins = HiddenFaults;
 
 constexpr double kSoftening = 0.25;
 constexpr double kLnM = -0.4;  // about where m is looked for
 const Eigen::Vector2d kZ(kSoftening, kLnM);
 
 TEST_F(Mullins, SoftensSoMuchAsItIsSaidToWhereMIsLookedFor) {
-  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
-  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  const FaultModel& mullins = hypotheses_.model(Number("mullins", "body"));
+  ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
   mullins.Apply(kZ, &hypothesis);
   ASSERT_TRUE(hypothesis.mullins);
   const double looked_for_J_m3 = mullins.parameters()[1].nominal;
@@ -35,7 +35,7 @@ TEST_F(Mullins, SoftensSoMuchAsItIsSaidToWhereMIsLookedFor) {
 }
 
 TEST_F(Mullins, HasNoRBelowOne) {
-  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
+  const FaultModel& mullins = hypotheses_.model(Number("mullins", "body"));
   const Eigen::Vector2d more_than_can_be(0.9, 0.5);
   const auto report = mullins.Report(more_than_can_be, 1e-4 * Eigen::Matrix2d::Identity(), {});
   EXPECT_EQ(report[0].value, 1.0);
@@ -45,7 +45,7 @@ TEST_F(Mullins, HasNoRBelowOne) {
 
 TEST_F(Mullins, HasIntervalsOfAsMuchAsIsBelieved) {
   constexpr int kDraws = 100000;
-  const FaultModel& mullins = hypotheses_.cause(Number("mullins", "body"));
+  const FaultModel& mullins = hypotheses_.model(Number("mullins", "body"));
   Eigen::Matrix2d root;
   root << 0.02, 0.0, -0.1, 0.2;
   const auto report = mullins.Report(kZ, root * root.transpose(), {});

@@ -6,18 +6,18 @@
 #include <string>
 
 #include "components/diagnosis/forward/simulator.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 /// Simulations that begin from one of a robot that was a little different.
-class NearStart : public HiddenCauses {
+class NearStart : public HiddenFaults {
  protected:
-  ModelHypothesis DraftOfOne(const std::string& id, const std::string& where, double z) const {
+  ModelHypothesis HypothesisOfOne(const std::string& id, const std::string& where, double z) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
     all[ColumnOf(id, where)] = z;
-    return DraftWith(DraftOf(body_, observed_), hypotheses_.All(), all);
+    return HypothesisWith(NominalHypothesis(body_, observed_), hypotheses_.All(), all);
   }
   static double Apart_m(const Simulation& a, const Simulation& b) {
     double most_m = 0.0;
@@ -34,13 +34,13 @@ class NearStart : public HiddenCauses {
   }
 
   Simulator simulator_{observed_, 1};
-  Simulation as_built_ = simulator_.Run(DraftOf(body_, observed_));
+  Simulation as_built_ = simulator_.Run(NominalHypothesis(body_, observed_));
 };
 
 TEST_F(NearStart, LeadsToWhereARobotThatRemembersIsFromNothing) {
   constexpr double kSettled = 0.02;  // of the effect; sweeps end before all is
   for (const auto& [id, z] : {std::pair("viscoelastic_creep", 0.3), std::pair("mullins", 0.4)}) {
-    const ModelHypothesis hypothesis = DraftOfOne(id, "body", z);
+    const ModelHypothesis hypothesis = HypothesisOfOne(id, "body", z);
     const Simulation from_nothing = simulator_.Run(hypothesis);
     const Simulation from_near = simulator_.Run(hypothesis, &as_built_, Detail::kAllParts);
     ASSERT_TRUE(from_nothing.status.ok() && from_near.status.ok()) << id;
@@ -51,13 +51,14 @@ TEST_F(NearStart, LeadsToWhereARobotThatRemembersIsFromNothing) {
 }
 
 TEST_F(NearStart, ForgetsAPastThatTheRobotHasNot) {
-  const Simulation crept = simulator_.Run(DraftOfOne("viscoelastic_creep", "body", 0.3));
-  const Simulation again = simulator_.Run(DraftOf(body_, observed_), &crept, Detail::kAllParts);
+  const Simulation crept = simulator_.Run(HypothesisOfOne("viscoelastic_creep", "body", 0.3));
+  const Simulation again =
+      simulator_.Run(NominalHypothesis(body_, observed_), &crept, Detail::kAllParts);
   EXPECT_LT(Apart_m(again, as_built_), 1e-9);
 }
 
 TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
-  const ModelHypothesis hypothesis = DraftOfOne("youngs_modulus", "body", 0.02);
+  const ModelHypothesis hypothesis = HypothesisOfOne("youngs_modulus", "body", 0.02);
   const Simulation whole = simulator_.Run(hypothesis, &as_built_, Detail::kAllParts);
   const Simulation kept = simulator_.Run(hypothesis, &as_built_);
   EXPECT_EQ(Choices(whole), 2 * Choices(as_built_));
@@ -69,12 +70,12 @@ TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
 
 /// What nothing is known of begins, as one that was near, with the first moment that fails.
 TEST_F(NearStart, EndsWithTheFirstMomentWithoutABalance) {
-  ModelHypothesis hypothesis = DraftOf(body_, observed_);
+  ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
   hypothesis.body.gravity_m_s2 *= 1e4;
   const Simulation nothing;
   const Simulation ended = simulator_.Run(hypothesis, &nothing);
   EXPECT_FALSE(ended.status.ok());
-  const std::string left_out = "another moment could not be simulated";
+  const std::string left_out = "another sample could not be simulated";
   std::size_t tried = 0;
   for (const SimulatedSample& sample : ended.samples) {
     EXPECT_FALSE(sample.status.ok());

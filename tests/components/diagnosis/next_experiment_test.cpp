@@ -36,7 +36,7 @@ class NextExperiment : public testing::Test {
 
   int NumberOf(const std::string& id, std::size_t nth = 0) const {
     for (int k = 0; k < hypotheses_->size(); ++k) {
-      if (hypotheses_->cause(k).name().id == id && nth-- == 0) return k;
+      if (hypotheses_->model(k).name().id == id && nth-- == 0) return k;
     }
     ADD_FAILURE() << id;
     return 0;
@@ -47,23 +47,24 @@ class NextExperiment : public testing::Test {
   std::vector<RankedProposal> Rank(const std::string& hidden, double z, const std::string& rival,
                                    std::size_t nth = 0) {
     observed_ = Observe(experiment_, body_);
-    hypotheses_ = std::make_unique<HypothesisSet>(
-        MakeCauses({.body = body_, .observed = observed_}, {}), std::map<std::string, double>{});
+    hypotheses_ =
+        std::make_unique<HypothesisSet>(MakeFaultModels({.body = body_, .observed = observed_}, {}),
+                                        std::map<std::string, double>{});
     const int a = NumberOf(hidden, nth);
     const Eigen::VectorXd own = z * Eigen::VectorXd::Unit(hypotheses_->count(a), 0);
-    const Simulation truth =
-        Simulator(observed_, 1)
-            .Run(DraftWith(DraftOf(body_, observed_), {&hypotheses_->cause(a)}, own));
+    const Simulation truth = Simulator(observed_, 1)
+                                 .Run(HypothesisWith(NominalHypothesis(body_, observed_),
+                                                     {&hypotheses_->model(a)}, own));
     EXPECT_TRUE(truth.status.ok()) << truth.status.message();
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       observed_.samples[s].position_m = truth.samples[s].markers_m();
     }
     fitter_ = std::make_unique<Fitter>(observed_, body_, *hypotheses_, NoiseModel{}, 1);
-    selection_.healthy = fitter_->AsBuilt();
-    selection_.best = fitter_->Complete(fitter_->Refine({a}, selection_.healthy));
+    selection_.null_model = fitter_->AsBuilt();
+    selection_.best = fitter_->Complete(fitter_->Refine({a}, selection_.null_model));
     EXPECT_TRUE(selection_.best.status.ok());
-    selection_.named = {{.cause = a, .ln_bayes_factor = 20.0}};
-    selection_.alike = {{.cause = NumberOf(rival), .ln_bayes_factor = 18.0}};
+    selection_.named = {{.fault = a, .ln_bayes_factor = 20.0}};
+    selection_.alike = {{.fault = NumberOf(rival), .ln_bayes_factor = 18.0}};
     return RankAgain();
   }
 
@@ -77,7 +78,7 @@ class NextExperiment : public testing::Test {
   void NameNone(std::vector<Candidate> candidates) {
     selection_.named.clear();
     selection_.alike.clear();
-    selection_.best = selection_.healthy;
+    selection_.best = selection_.null_model;
     selection_.candidates = std::move(candidates);
     selection_.candidates.resize(100);
   }
@@ -95,7 +96,7 @@ class NextExperiment : public testing::Test {
     ADD_FAILURE() << "all are such";
     return 0.0;
   }
-  static std::string Told(const std::vector<RankedProposal>& ranked) {
+  static std::string Commanded(const std::vector<RankedProposal>& ranked) {
     std::string text;
     for (const RankedProposal& one : ranked) {
       text += one.proposal.title + ": " + std::to_string(one.expected_ln_bayes_factor) + ", " +
@@ -116,25 +117,27 @@ class NextExperiment : public testing::Test {
 TEST_F(NextExperiment, TellsAModulusFromADensityByAKnownWeight) {
   const auto ranked = Rank("youngs_modulus", 0.2, "density");
   ASSERT_GT(ranked.size(), 2U);
-  EXPECT_TRUE(HasWeight(ranked[0])) << Told(ranked);
-  EXPECT_TRUE(HasWeight(ranked[1])) << Told(ranked);
+  EXPECT_TRUE(HasWeight(ranked[0])) << Commanded(ranked);
+  EXPECT_TRUE(HasWeight(ranked[1])) << Commanded(ranked);
   // Neither pulls nor tilts tell the two factors of rho g / E apart.
-  EXPECT_GT(ranked[0].expected_ln_bayes_factor, 3.0 * BestBut(ranked, HasWeight)) << Told(ranked);
+  EXPECT_GT(ranked[0].expected_ln_bayes_factor, 3.0 * BestBut(ranked, HasWeight))
+      << Commanded(ranked);
 }
 
 TEST_F(NextExperiment, TellsAMassFromABentShapeByATilt) {
   const auto ranked = Rank("payload", 2e-3, "plastic_set");
   ASSERT_FALSE(ranked.empty());
-  EXPECT_TRUE(IsTilted(ranked[0])) << Told(ranked);
-  EXPECT_GT(ranked[0].expected_ln_bayes_factor, 3.0 * BestBut(ranked, IsTilted)) << Told(ranked);
+  EXPECT_TRUE(IsTilted(ranked[0])) << Commanded(ranked);
+  EXPECT_GT(ranked[0].expected_ln_bayes_factor, 3.0 * BestBut(ranked, IsTilted))
+      << Commanded(ranked);
 }
 
 /// Both turn with gravity; only what these data leave open of the force's direction can tell.
 TEST_F(NextExperiment, HasLittleAgainstAForceThatPullsAsAMassDoes) {
   const auto ranked = Rank("payload", 2e-3, "permanent_force");
   ASSERT_FALSE(ranked.empty());
-  EXPECT_EQ(KindOf(ranked[0]), RecordingKind::kBaseTilted) << Told(ranked);
-  EXPECT_LT(ranked[0].expected_ln_bayes_factor, 1.0) << Told(ranked);
+  EXPECT_EQ(KindOf(ranked[0]), RecordingKind::kBaseTilted) << Commanded(ranked);
+  EXPECT_LT(ranked[0].expected_ln_bayes_factor, 1.0) << Commanded(ranked);
 }
 
 TEST_F(NextExperiment, TellsCreepFromFrictionAndFromLagByAHold) {
@@ -142,7 +145,7 @@ TEST_F(NextExperiment, TellsCreepFromFrictionAndFromLagByAHold) {
   for (const char* rival : {"cable_friction", "lag"}) {
     const auto ranked = Rank("viscoelastic_creep", 0.2, rival, kHalfAMinute);
     ASSERT_FALSE(ranked.empty());
-    EXPECT_EQ(KindOf(ranked[0]), RecordingKind::kHold) << rival << "\n" << Told(ranked);
+    EXPECT_EQ(KindOf(ranked[0]), RecordingKind::kHold) << rival << "\n" << Commanded(ranked);
   }
 }
 
@@ -155,7 +158,7 @@ TEST_F(NextExperiment, IsWhatSeparatesTheWorstRivalBest) {
     return expected;
   };
   const auto bent = of_titles(Rank("payload", 2e-3, "plastic_set"));
-  const Candidate force{.cause = NumberOf("permanent_force"), .ln_bayes_factor = 18.0};
+  const Candidate force{.fault = NumberOf("permanent_force"), .ln_bayes_factor = 18.0};
   selection_.alike.push_back(force);
   const std::vector<RankedProposal> both = RankAgain();
   selection_.alike = {force};
@@ -169,18 +172,18 @@ TEST_F(NextExperiment, IsWhatSeparatesTheWorstRivalBest) {
     if (k == 0) continue;
     EXPECT_LT(both[k].expected_ln_bayes_factor, both[k - 1].expected_ln_bayes_factor + 0.1);
   }
-  const std::vector<ExperimentProposal> told = Describe(question_, both);
-  EXPECT_EQ(told.size(), both.size());
-  EXPECT_EQ(told.front().title, both.front().proposal.title);
-  EXPECT_EQ(told.front().first.id, "payload");
-  EXPECT_EQ(told.front().second, both.front().worst_rival);
+  const std::vector<ExperimentProposal> described = Describe(question_, both);
+  EXPECT_EQ(described.size(), both.size());
+  EXPECT_EQ(described.front().title, both.front().proposal.title);
+  EXPECT_EQ(described.front().first.id, "payload");
+  EXPECT_EQ(described.front().second, both.front().worst_rival);
 }
 
 TEST_F(NextExperiment, IsNoneWhereNothingIsInQuestion) {
   Rank("payload", 2e-3, "plastic_set");
   selection_.alike.clear();
-  selection_.candidates = {{.cause = selection_.named.front().cause, .ln_bayes_factor = 20.0},
-                           {.cause = NumberOf("density"), .ln_bayes_factor = 9.9}};
+  selection_.candidates = {{.fault = selection_.named.front().fault, .ln_bayes_factor = 20.0},
+                           {.fault = NumberOf("density"), .ln_bayes_factor = 9.9}};
   EXPECT_TRUE(RankAgain().empty());
   selection_.candidates.back().ln_bayes_factor = 10.1;
   ASSERT_FALSE(RankAgain().empty());
@@ -189,8 +192,8 @@ TEST_F(NextExperiment, IsNoneWhereNothingIsInQuestion) {
 
 TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   Rank("payload", 2e-3, "plastic_set");
-  NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 4.0},
-            {.cause = NumberOf("lag"), .ln_bayes_factor = 2.0}});
+  NameNone({{.fault = NumberOf("density"), .ln_bayes_factor = 4.0},
+            {.fault = NumberOf("lag"), .ln_bayes_factor = 2.0}});
   selection_.goodness_of_fit.passed = false;
   EXPECT_TRUE(RankAgain().empty());
   selection_.goodness_of_fit.passed = true;
@@ -203,9 +206,9 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
 /// No tilt tells these two apart, however well it told either from none.
 TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
   Rank("payload", 2e-3, "plastic_set");
-  NameNone({{.cause = NumberOf("density"), .ln_bayes_factor = 8.0},
-            {.cause = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
-            {.cause = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}});
+  NameNone({{.fault = NumberOf("density"), .ln_bayes_factor = 8.0},
+            {.fault = NumberOf("youngs_modulus"), .ln_bayes_factor = 9.0},
+            {.fault = NumberOf("lag"), .ln_bayes_factor = 9.5, .ruled_out = true}});
   selection_.goodness_of_fit.passed = true;
   const std::vector<RankedProposal> ranked = RankAgain();
   EXPECT_EQ(question_.best.name.id, "youngs_modulus");
@@ -213,7 +216,7 @@ TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
   for (const Hypothesis& rival : question_.rivals) rivals.push_back(rival.name.id);
   EXPECT_THAT(rivals, testing::UnorderedElementsAre("no_fault", "density"));
   ASSERT_FALSE(ranked.empty());
-  EXPECT_TRUE(HasWeight(ranked.front())) << Told(ranked);
+  EXPECT_TRUE(HasWeight(ranked.front())) << Commanded(ranked);
 }
 
 }  // namespace

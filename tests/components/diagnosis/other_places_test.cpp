@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "libs/linalg/symmetric_eigen.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -25,9 +25,9 @@ robot::RobotBody RobotWithPlaces() {
   return body;
 }
 
-class OtherPlaces : public HiddenCauses {
+class OtherPlaces : public HiddenFaults {
  protected:
-  OtherPlaces() : HiddenCauses(RobotWithPlaces(), SmallExperiment(SmallRobot())) {}
+  OtherPlaces() : HiddenFaults(RobotWithPlaces(), SmallExperiment(SmallRobot())) {}
 
   static constexpr int kAlong = 3;  ///< the parameter x_m of a force
 
@@ -35,12 +35,12 @@ class OtherPlaces : public HiddenCauses {
   std::vector<int> Forces() const {
     std::vector<int> forces;
     for (int k = 0; k < hypotheses_.size(); ++k) {
-      if (hypotheses_.cause(k).name().id == "permanent_force") forces.push_back(k);
+      if (hypotheses_.model(k).name().id == "permanent_force") forces.push_back(k);
     }
     std::sort(forces.begin(), forces.end(), [&](int a, int b) { return X_m(a) < X_m(b); });
     return forces;
   }
-  double X_m(int force) const { return hypotheses_.cause(force).parameters()[kAlong].nominal; }
+  double X_m(int force) const { return hypotheses_.model(force).parameters()[kAlong].nominal; }
   /// Where a fit has the force.
   double X_m(const Fit& fit, int force) const {
     return X_m(force) + fit.posterior.mean[hypotheses_.first(force) + kAlong];
@@ -52,10 +52,10 @@ class OtherPlaces : public HiddenCauses {
     Measure({});
     Eigen::VectorXd z = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
     z[hypotheses_.first(force) + 1] = kForce_N;
-    const ModelHypothesis nominal = DraftOf(body_, observed_);
+    const ModelHypothesis nominal = NominalHypothesis(body_, observed_);
     const Simulator simulator(observed_, 1);
     const Simulation without = simulator.Run(nominal);
-    const Simulation with = simulator.Run(DraftWith(nominal, hypotheses_.All(), z));
+    const Simulation with = simulator.Run(HypothesisWith(nominal, hypotheses_.All(), z));
     for (std::size_t s = 0; s < observed_.samples.size(); ++s) {
       const Eigen::Matrix3Xd noise_m =
           observed_.samples[s].position_m - without.samples[s].markers_m();
@@ -101,7 +101,8 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
   const Eigen::Index first = hypotheses_.first(near);
   const Eigen::MatrixXd own = fit.posterior.covariance.block<6, 6>(first, first);
   const Eigen::MatrixXd all = CovarianceOverPlaces(fitter, fit, near);
-  EXPECT_LT(std::sqrt(own(kAlong, kAlong)), 1.01 * hypotheses_.cause(force).parameters()[kAlong].fault)
+  EXPECT_LT(std::sqrt(own(kAlong, kAlong)),
+            1.01 * hypotheses_.model(near).parameters()[kAlong].fault)
       << "as it is believed to be near its place";
   EXPECT_GT(std::sqrt(all(kAlong, kAlong)), 0.02) << "seed " << kSeed;
   EXPECT_GT(linalg::SymmetricEigenvalues(all).minCoeff(), 0.0);

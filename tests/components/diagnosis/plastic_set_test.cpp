@@ -5,12 +5,12 @@
 
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/linearisation.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-using PlasticSet = HiddenCauses;
+using PlasticSet = HiddenFaults;
 
 /// [3n] how a body at rest gives way where each node is pushed by so much.
 Eigen::VectorXd GivesWay(const robot::RobotBody& body, const Eigen::VectorXd& push) {
@@ -27,11 +27,11 @@ Eigen::VectorXd GivesWay(const robot::RobotBody& body, const Eigen::VectorXd& pu
 }
 
 TEST_F(PlasticSet, IsBelievedToBendABodyByItsCompliance) {
-  const FaultModel& set = hypotheses_.cause(Number("plastic_set", "body"));
+  const FaultModel& set = hypotheses_.model(Number("plastic_set", "body"));
   const Eigen::Index shapes = std::ssize(set.parameters());
   Eigen::VectorXd compliance(shapes);
   for (Eigen::Index k = 0; k < shapes; ++k) {
-    ModelHypothesis hypothesis = DraftOf(body_, observed_);
+    ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
     set.Apply(Eigen::VectorXd::Unit(shapes, k), &hypothesis);
     const Eigen::VectorXd shape = (hypothesis.body.mesh.nodes_m - body_.mesh.nodes_m).reshaped();
     const Eigen::VectorXd moved = GivesWay(body_, shape);

@@ -167,7 +167,7 @@ TEST(PredictProposals, SeeFromWhereTheCameraStoodAsFarAsThatIsKnown) {
   experiment.recordings[2].base_tilt_deg.reset();
   experiment.recordings[3].kind = RecordingKind::kCameraMoved;
   const ObservedExperiment observed = Observe(experiment, body, {.most_samples = 14});
-  const HypothesisSet hypotheses(MakeCauses({.body = body, .observed = observed}, {}), {});
+  const HypothesisSet hypotheses(MakeFaultModels({.body = body, .observed = observed}, {}), {});
   const Fit as_built = Fitter(observed, body, hypotheses, {}, 1).AsBuilt();
   const std::vector<Proposal> proposals = BenchProposals(body, observed);
   const ObservedExperiment planned = ObserveProposals(experiment, observed, body, proposals);
@@ -178,7 +178,7 @@ TEST(PredictProposals, SeeFromWhereTheCameraStoodAsFarAsThatIsKnown) {
   const auto columns_of = [&](const std::string& id) {
     std::vector<bool> seen;
     for (int k = 0; k < hypotheses.size(); ++k) {
-      if (hypotheses.cause(k).name().id != id) continue;
+      if (hypotheses.model(k).name().id != id) continue;
       seen.push_back(!model.J.middleCols(hypotheses.first(k), hypotheses.count(k)).isZero());
     }
     return seen;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -15,14 +15,14 @@ namespace {
 constexpr double kResidualForce_N = 0.1;
 constexpr int kAxis = 1;  ///< sideways, world frame
 
-class ResidualForcesOfOneForce : public HiddenCauses {
+class ResidualForcesOfOneForce : public HiddenFaults {
  protected:
   /// As it stands where `faults` were named.
   Selection Named(const Fitter& fitter, const std::vector<int>& faults) const {
     Selection selection;
-    selection.healthy = fitter.Complete(fitter.AsBuilt());
-    selection.best = faults.empty() ? selection.healthy
-                                    : fitter.Complete(fitter.Refine(faults, selection.healthy));
+    selection.null_model = fitter.Complete(fitter.AsBuilt());
+    selection.best = faults.empty() ? selection.null_model
+                                    : fitter.Complete(fitter.Refine(faults, selection.null_model));
     selection.goodness_of_fit.passed = !faults.empty();
     return selection;
   }
@@ -72,7 +72,7 @@ TEST_F(ResidualForcesOfOneForce, AreLookedForInTheRecordingThatLeavesMost) {
 TEST_F(ResidualForcesOfOneForce, AreNoneWhereForcesAreNotBelievedIn) {
   Measure({});
   const HypothesisSet without(
-      MakeCauses({.body = body_, .observed = observed_}, {"permanent_force"}), {});
+      MakeFaultModels({.body = body_, .observed = observed_}, {"permanent_force"}), {});
   const Fitter fitter(observed_, body_, without, {}, 1);
   EXPECT_EQ(FindResidualForces(observed_, without, Named(fitter, {})).place_m.cols(), 0);
 }

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "components/diagnosis/inference/selection.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -28,9 +28,9 @@ class GainInDisguise final : public FaultModel {
                      .fault_at = kGain,
                      .plausible = 0.05}}) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.gain[0] += z[0];
+    hypothesis->actuators.gain[0] += z[0];
   }
 };
 
@@ -41,9 +41,9 @@ class Boaster final : public FaultModel {
       : FaultModel({"boaster", {std::to_string(number)}}, "a boaster",
                    {{.name = "z", .tolerance = 0.001, .fault = 0.02, .fault_at = kGain}}) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.gain[0] += std::min(z[0], 0.2 * kGain);
+    hypothesis->actuators.gain[0] += std::min(z[0], 0.2 * kGain);
   }
 };
 
@@ -54,13 +54,13 @@ class Understater final : public FaultModel {
       : FaultModel({"understater", {std::to_string(number)}}, "an understater",
                    {{.name = "z", .tolerance = 0.001, .fault = 0.015}}) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.gain[0] += z[0] + z[0] * std::abs(z[0]) / (0.5 * kGain);
+    hypothesis->actuators.gain[0] += z[0] + z[0] * std::abs(z[0]) / (0.5 * kGain);
   }
 };
 
-class RuledOut : public HiddenCauses {
+class RuledOut : public HiddenFaults {
  protected:
   static std::vector<std::string> AllButGains() {
     std::vector<std::string> ids = CatalogueIds();
@@ -76,9 +76,9 @@ class RuledOut : public HiddenCauses {
     with_others_ =
         std::make_unique<HypothesisSet>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_others_, {}, 1, limit);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
-  std::string IdOf(int cause) const { return with_others_->cause(cause).name().id; }
+  std::string IdOf(int cause) const { return with_others_->model(cause).name().id; }
 
   std::unique_ptr<HypothesisSet> with_others_;
 };
@@ -87,7 +87,7 @@ class RuledOut : public HiddenCauses {
 TEST_F(RuledOut, CausesMakeRoomForTheNextOnes) {
   const Selection selection = Select<GainInDisguise>(6, {});
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
-  EXPECT_EQ(IdOf(selection.named[0].cause), "cable_gain");
+  EXPECT_EQ(IdOf(selection.named[0].fault), "cable_gain");
   EXPECT_GT(selection.named[0].probability, 0.9) << "what was ruled out is no rival";
   EXPECT_TRUE(selection.alike.empty());
 }
@@ -96,7 +96,7 @@ TEST_F(RuledOut, CausesMakeRoomForTheNextOnes) {
 TEST_F(RuledOut, OrSurpassedByWhatAnotherPromises) {
   const Selection selection = Select<Boaster>(4, AllButGains());
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
-  EXPECT_EQ(IdOf(selection.named[0].cause), "cable_gain");
+  EXPECT_EQ(IdOf(selection.named[0].fault), "cable_gain");
 }
 
 /// What one gains on its guess is nothing against the guess of another.
@@ -104,10 +104,10 @@ TEST_F(RuledOut, AreNoneByAGuess) {
   const Selection selection = Select<Understater>(2, CatalogueIds());
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   ASSERT_EQ(selection.alike.size(), 1U);
-  EXPECT_EQ(IdOf(selection.alike[0].cause), "understater");
+  EXPECT_EQ(IdOf(selection.alike[0].fault), "understater");
   EXPECT_TRUE(selection.alike[0].refined);
   const Candidate& first = selection.candidates.front();
-  EXPECT_GT(first.ln_bayes_factor, first.ln_guessed + 10.0) << "else the test shows nothing";
+  EXPECT_GT(first.ln_bayes_factor, first.ln_screened + 10.0) << "else the test shows nothing";
 }
 
 TEST_F(RuledOut, AreNotNamedWhereThereIsNoTimeToSeeWhatAnotherPromises) {
@@ -115,7 +115,7 @@ TEST_F(RuledOut, AreNotNamedWhereThereIsNoTimeToSeeWhatAnotherPromises) {
   EXPECT_TRUE(selection.named.empty());
   EXPECT_FALSE(selection.complete);
   ASSERT_FALSE(selection.candidates.empty());
-  EXPECT_EQ(IdOf(selection.candidates.front().cause), "boaster");
+  EXPECT_EQ(IdOf(selection.candidates.front().fault), "boaster");
   EXPECT_TRUE(selection.candidates.front().refined);
   EXPECT_THAT(selection.candidates.front().why_not, testing::HasSubstr("was not simulated"));
 }

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "components/diagnosis/inference/selection.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
@@ -22,13 +22,13 @@ class Twin final : public FaultModel {
       : FaultModel({"twin", {"cable:up"}}, "a gain's twin",
                    {{.name = "z", .tolerance = 0.005, .fault = fault}}) {}
 
-  bool OnDrives() const override { return true; }
+  bool OnActuators() const override { return true; }
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->drives.gain[0] += z[0];
+    hypothesis->actuators.gain[0] += z[0];
   }
 };
 
-class SameEffect : public HiddenCauses {
+class SameEffect : public HiddenFaults {
  protected:
   /// With a twin of the gain that is hidden beside the real causes.
   Selection Select(double fault_of_twin) {
@@ -38,20 +38,20 @@ class SameEffect : public HiddenCauses {
     with_twin_ =
         std::make_unique<HypothesisSet>(std::move(causes), std::map<std::string, double>());
     const Fitter fitter(observed_, body_, *with_twin_, {}, 1);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
   const Candidate& Find(const std::string& id, const Selection& selection) const {
     return *std::find_if(
         selection.candidates.begin(), selection.candidates.end(),
-        [&](const Candidate& one) { return with_twin_->cause(one.cause).name().id == id; });
+        [&](const Candidate& one) { return with_twin_->model(one.fault).name().id == id; });
   }
   /// ln BF by which the twin lies behind.
   double Behind(const Selection& selection) const {
     return Find("cable_gain", selection).ln_bayes_factor - Find("twin", selection).ln_bayes_factor;
   }
-  bool IsAlike(const Selection& selection) const {
+  bool IsIndistinguishable(const Selection& selection) const {
     return std::any_of(selection.alike.begin(), selection.alike.end(), [&](const Candidate& one) {
-      return with_twin_->cause(one.cause).name().id == "twin";
+      return with_twin_->model(one.fault).name().id == "twin";
     });
   }
 
@@ -61,11 +61,11 @@ class SameEffect : public HiddenCauses {
 TEST_F(SameEffect, IsNotToldApartByWhatIsBelievedBeforehand) {
   const Selection selection = Select(20.0);
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
-  EXPECT_EQ(with_twin_->cause(selection.named[0].cause).name().id, "cable_gain");
+  EXPECT_EQ(with_twin_->model(selection.named[0].fault).name().id, "cable_gain");
   EXPECT_GT(Find("twin", selection).canonical_correlation, 0.99);
   ASSERT_GT(Behind(selection), 4.0) << "else it would be alike in any case";
   ASSERT_LT(Behind(selection), 9.0);
-  EXPECT_TRUE(IsAlike(selection));
+  EXPECT_TRUE(IsIndistinguishable(selection));
 }
 
 TEST_F(SameEffect, IsToldApartWhereThatIsClear) {
@@ -73,7 +73,7 @@ TEST_F(SameEffect, IsToldApartWhereThatIsClear) {
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   EXPECT_GT(Find("twin", selection).canonical_correlation, 0.99);
   ASSERT_GT(Behind(selection), 11.0);
-  EXPECT_FALSE(IsAlike(selection));
+  EXPECT_FALSE(IsIndistinguishable(selection));
 }
 
 }  // namespace

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/diagnosis/inference/selection.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
-class SearchTime : public HiddenCauses {
+class SearchTime : public HiddenFaults {
  protected:
   SearchTime() { Measure({{"cable_gain", "cable:up", 0.1}, {"density", "body", 0.3}}); }
 
   Selection Select(TimeLimit limit) {
     const Fitter fitter(observed_, body_, hypotheses_, {}, 1, limit);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 3, [](int, int, const auto&) {});
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(), 3, [](int, int, const auto&) {});
   }
 };
 

@@ -7,30 +7,30 @@
 #include <cmath>
 
 #include "components/diagnosis/inference/selection.hpp"
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 /// A mass, and a force sideways beside it.
-class SpecialCase : public HiddenCauses {
+class SpecialCase : public HiddenFaults {
  protected:
   Selection Select(double force_N) {
     Measure({{"payload", "body", 0.01}, {"permanent_force", "body", force_N, 1}});
     const Fitter fitter(observed_, body_, hypotheses_, {}, 1);
-    return SelectCauses(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
+    return SelectFaults(observed_, fitter, fitter.AsBuilt(), 1, [](int, int, const auto&) {});
   }
-  std::string IdOf(int cause) const { return hypotheses_.cause(cause).name().id; }
+  std::string IdOf(int cause) const { return hypotheses_.model(cause).name().id; }
   double LnBayesFactorOf(const std::string& id, const Selection& selection) const {
     for (const Candidate& one : selection.candidates) {
-      if (IdOf(one.cause) == id) return one.ln_bayes_factor;
+      if (IdOf(one.fault) == id) return one.ln_bayes_factor;
     }
     ADD_FAILURE() << "no " << id;
     return 0.0;
   }
-  bool IsAlike(const std::string& id, const Selection& selection) const {
+  bool IsIndistinguishable(const std::string& id, const Selection& selection) const {
     return std::any_of(selection.alike.begin(), selection.alike.end(),
-                       [&](const Candidate& one) { return IdOf(one.cause) == id; });
+                       [&](const Candidate& one) { return IdOf(one.fault) == id; });
   }
 };
 
@@ -39,23 +39,26 @@ TEST_F(SpecialCase, IsNamedWhereTheGeneralCauseHasNoNeedOfWhatElseItCanDo) {
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double better =
       LnBayesFactorOf("payload", selection) - LnBayesFactorOf("permanent_force", selection);
-  ASSERT_GT(better, kAlikeEvidence);
-  EXPECT_EQ(IdOf(selection.named[0].cause), "payload");
+  ASSERT_GT(better, kIndistinguishableEvidence);
+  EXPECT_EQ(IdOf(selection.named[0].fault), "payload");
   EXPECT_NEAR(selection.named[0].probability, 1.0 / (1.0 + std::exp(-better)), 1e-3);
-  EXPECT_FALSE(IsAlike("permanent_force", selection));
+  EXPECT_FALSE(IsIndistinguishable("permanent_force", selection));
 }
 
 TEST_F(SpecialCase, IsAlikeAsOtherCausesAreHoweverMuchTheirEffectsAreTheSame) {
   const int force = Number("permanent_force", "body");
   const int mass = Number("payload", "body");
   constexpr double kSame = 0.999;
-  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = mass, .canonical_correlation = kSame}),
-            kAlikeEvidence);
+  EXPECT_EQ(
+      IndistinguishableWithin(hypotheses_, force, {.fault = mass, .canonical_correlation = kSame}),
+      kIndistinguishableEvidence);
   const int other = Number("density", "body");
-  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = other, .canonical_correlation = kSame}),
-            kClearEvidence);
-  EXPECT_EQ(AlikeWithin(hypotheses_, force, {.cause = other, .canonical_correlation = 0.9}),
-            kAlikeEvidence);
+  EXPECT_EQ(
+      IndistinguishableWithin(hypotheses_, force, {.fault = other, .canonical_correlation = kSame}),
+      kClearEvidence);
+  EXPECT_EQ(
+      IndistinguishableWithin(hypotheses_, force, {.fault = other, .canonical_correlation = 0.9}),
+      kIndistinguishableEvidence);
 }
 
 TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) {
@@ -63,11 +66,11 @@ TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) 
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double behind =
       LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
-  ASSERT_GT(behind, kAlikeEvidence);
+  ASSERT_GT(behind, kIndistinguishableEvidence);
   ASSERT_LT(behind, kClearEvidence)
       << "their effects are much the same: that does not make them alike";
-  EXPECT_EQ(IdOf(selection.named[0].cause), "permanent_force");
-  EXPECT_FALSE(IsAlike("payload", selection));
+  EXPECT_EQ(IdOf(selection.named[0].fault), "permanent_force");
+  EXPECT_FALSE(IsIndistinguishable("payload", selection));
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ class StickingTest : public testing::Test {
   }
   /// One part after the other.
   std::vector<SamplePart> Parts() const {
-    const DriveTrain drives(observed_);
-    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.drives);
+    const ActuatorChain drives(observed_);
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.actuators);
     Sticking(drives).Follow(hypothesis_, Simulator(observed_, 1).Run(hypothesis_).samples,
                             &of_samples);
     std::vector<SamplePart> all;
@@ -72,7 +72,7 @@ class StickingTest : public testing::Test {
 
   robot::RobotBody body_ = SmallRobot();
   ObservedExperiment observed_ = Ramps(body_);
-  ModelHypothesis hypothesis_ = DraftOf(body_, observed_);
+  ModelHypothesis hypothesis_ = NominalHypothesis(body_, observed_);
 };
 
 TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
@@ -101,10 +101,10 @@ TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
 
 /// One that could not be simulated takes no other's sticking away.
 TEST_F(StickingTest, StaysWhereOneMomentIsNotKnown) {
-  const DriveTrain drives(observed_);
+  const ActuatorChain drives(observed_);
   std::vector<SimulatedSample> samples = Simulator(observed_, 1).Run(hypothesis_).samples;
   const auto followed = [&] {
-    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.drives);
+    std::vector<std::vector<SamplePart>> of_samples = drives.PartsAt(hypothesis_.actuators);
     Sticking(drives).Follow(hypothesis_, samples, &of_samples);
     return of_samples;
   };
@@ -187,13 +187,13 @@ class SmallSteps {
 
 TEST_F(StickingTest, SimulationIsThatOfSmallStepsThroughTime) {
   SmallSteps steps(hypothesis_, observed_);
-  const DriveTrain drives(observed_);
+  const ActuatorChain drives(observed_);
   std::vector<Eigen::VectorXd> seen_m;  // [times]
-  const Eigen::MatrixXd path = drives.Path(hypothesis_.drives);
+  const Eigen::MatrixXd path = drives.Path(hypothesis_.actuators);
   for (const auto& taken_in : path.colwise()) {
     seen_m.push_back(steps.StepTo(taken_in));
   }
-  const auto parts = drives.PartsAt(hypothesis_.drives);
+  const auto parts = drives.PartsAt(hypothesis_.actuators);
   const Simulation simulation = Simulator(observed_, 2).Run(hypothesis_);
   SetFriction(0.0);
   const Simulation without = Simulator(observed_, 2).Run(hypothesis_);

@@ -26,7 +26,7 @@ experiment::Experiment TwoOfFiveSeconds(double second_begins_s) {
 }
 
 TEST(Timebase, LeavesRecordingsThatFollowEachOther) {
-  const experiment::Experiment experiment = OnOneClock(TwoOfFiveSeconds(7.0));
+  const experiment::Experiment experiment = OnOneTimebase(TwoOfFiveSeconds(7.0));
   EXPECT_EQ(experiment.recordings[1].markers->frames.front().t_s, 7.0);
   EXPECT_EQ(experiment.recordings[1].actuation->t_s.front(), 7.0);
 }
@@ -34,7 +34,7 @@ TEST(Timebase, LeavesRecordingsThatFollowEachOther) {
 TEST(Timebase, ShiftsAllOfARecordingWhoseClockBeganAnew) {
   experiment::Experiment given = TwoOfFiveSeconds(0.0);
   given.rest_between_s = 4.0;
-  const experiment::Experiment experiment = OnOneClock(given);
+  const experiment::Experiment experiment = OnOneTimebase(given);
   EXPECT_EQ(experiment.recordings[0].markers->frames.front().t_s, 0.0);
   const experiment::Recording& second = experiment.recordings[1];
   EXPECT_EQ(second.markers->frames.front().t_s, 9.0);
@@ -44,7 +44,7 @@ TEST(Timebase, ShiftsAllOfARecordingWhoseClockBeganAnew) {
   EXPECT_EQ(second.reference->window_s.end_s, 10.0);
   EXPECT_EQ(second.loads[0].t_s, 12.0);
   given.rest_between_s.reset();
-  EXPECT_GT(OnOneClock(given).recordings[1].markers->frames.front().t_s, 1000.0)
+  EXPECT_GT(OnOneTimebase(given).recordings[1].markers->frames.front().t_s, 1000.0)
       << "nobody says how long it rested";
 }
 

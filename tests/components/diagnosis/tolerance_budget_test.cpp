@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "tests/components/diagnosis/hidden_causes.hpp"
+#include "tests/components/diagnosis/hidden_faults.hpp"
 
 namespace palpate::diagnosis {
 namespace {
 
 /// Proof that the tolerance budget is what keeps healthy robots from being accused: the same
 /// robots, built within their tolerances, before a judge that knows of these and one that does not.
-class ToleranceBudget : public HiddenCauses {
+class ToleranceBudget : public HiddenFaults {
  protected:
   static constexpr int kRobots = 20;
   static constexpr double kClearEvidence = 10.0;
@@ -20,17 +20,17 @@ class ToleranceBudget : public HiddenCauses {
   HypothesisSet BookWithoutTolerances() const {
     constexpr double kExact = 1e-9;  // of any unit: nothing moves by so little
     std::map<std::string, double> exact;
-    for (int k = 0; k < hypotheses_.size(); ++k) exact[hypotheses_.cause(k).name().id] = kExact;
+    for (int k = 0; k < hypotheses_.size(); ++k) exact[hypotheses_.model(k).name().id] = kExact;
     return {Causes(), exact};
   }
 
   /// ln BF of the cause that looks most like what was measured.
   static double MostAccusing(const HypothesisSet& hypotheses, const Information& data) {
-    const double healthy = hypotheses.InferWithin(data, {}).ln_evidence;
+    const double null_model = hypotheses.InferWithin(data, {}).ln_evidence;
     double most = -std::numeric_limits<double>::infinity();
     for (int k = 0; k < hypotheses.size(); ++k) {
       if (!hypotheses.CanBeFault(k)) continue;
-      most = std::max(most, hypotheses.InferWithin(data, {k}).ln_evidence - healthy);
+      most = std::max(most, hypotheses.InferWithin(data, {k}).ln_evidence - null_model);
     }
     return most;
   }
@@ -39,15 +39,15 @@ class ToleranceBudget : public HiddenCauses {
   std::vector<Information> HealthyRobots() {
     Measure({});
     const LinearModel model = Fitter(observed_, body_, hypotheses_, {}, 1).AsBuilt().model;
-    const GaussianPrior healthy = hypotheses_.PriorWith({});
+    const GaussianPrior null_model = hypotheses_.PriorWith({});
     std::mt19937 random(kSeed);
     std::normal_distribution<double> normal;
     std::vector<Information> robots;
     for (int r = 0; r < kRobots; ++r) {
       Eigen::VectorXd y =
           Eigen::VectorXd::NullaryExpr(model.J.rows(), [&] { return normal(random); });
-      for (Eigen::Index p = 0; p < healthy.sigma.size(); ++p) {
-        y += healthy.sigma[p] * normal(random) * model.J.col(p);
+      for (Eigen::Index p = 0; p < null_model.sigma.size(); ++p) {
+        y += null_model.sigma[p] * normal(random) * model.J.col(p);
       }
       Information& data = robots.emplace_back(model.J.cols());
       data.H.noalias() = model.J.transpose() * model.J;

@@ -56,17 +56,18 @@ void DrawCell(double value, const plot::SvgPoint& corner, double cell_px, plot::
 
 Figure DrawCorrelations(const DiagnosisResult& result) {
   Figure figure{.id = "correlations",
-                .title = "How alike the effects of the causes are in these data",
+                .title = "Canonical correlation of the effects of the causes in these data",
                 .caption =
-                    "Near 1 or -1 two causes move the markers in the same way, and these "
-                    "data cannot tell them apart; columns carry the numbers of the rows.",
+                    "Near 1 two causes have the same effect and are not identifiable; columns "
+                    "carry the numbers "
+                    "of the rows.",
                 .svg = {},
                 .absent = {}};
   const auto names = static_cast<Eigen::Index>(result.correlation_names.size());
   const Eigen::Index count =
       std::min({result.correlation.rows(), result.correlation.cols(), names, kMostCauses});
   if (count < 2) {
-    figure.absent = "Fewer than two causes were compared.";
+    figure.absent = "Fewer than two faults were compared.";
     return figure;
   }
   if (names > count) {

@@ -23,12 +23,13 @@ struct Seen {
   Eigen::VectorXd x;
 };
 
-Seen SeenOf(Eigen::Index marker, const Moments& moments, const std::vector<double>& x) {
-  Seen seen{Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(moments.size())),
-            Eigen::VectorXd(static_cast<Eigen::Index>(moments.size()))};
+Seen SeenOf(Eigen::Index marker, const ComparedSamples& compared_samples,
+            const std::vector<double>& x) {
+  Seen seen{Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(compared_samples.size())),
+            Eigen::VectorXd(static_cast<Eigen::Index>(compared_samples.size()))};
   Eigen::Index count = 0;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    const Eigen::Matrix3Xd& residual_m = moments[i]->before_m;
+  for (std::size_t i = 0; i < compared_samples.size(); ++i) {
+    const Eigen::Matrix3Xd& residual_m = compared_samples[i]->before_m;
     const bool is_seen = marker < residual_m.cols() && residual_m.col(marker).allFinite();
     if (!is_seen || !std::isfinite(x[i])) continue;
     seen.residual_m.col(count) = residual_m.col(marker);
@@ -39,14 +40,15 @@ Seen SeenOf(Eigen::Index marker, const Moments& moments, const std::vector<doubl
 
 /// The marker whose direction from `find` (length: how much it counts) is the longest.
 template <typename Find>
-DominantResidual FindLongest(const Moments& moments, const std::vector<double>& x,
+DominantResidual FindLongest(const ComparedSamples& compared_samples, const std::vector<double>& x,
                              const Find& find) {
   DominantResidual dominant;
   double longest = 0.0;
   Eigen::Index markers = 0;
-  for (const ComparedMoment* moment : moments) markers = std::max(markers, moment->before_m.cols());
+  for (const ComparedSample* compared : compared_samples)
+    markers = std::max(markers, compared->before_m.cols());
   for (Eigen::Index marker = 0; marker < markers; ++marker) {
-    const Seen seen = SeenOf(marker, moments, x);
+    const Seen seen = SeenOf(marker, compared_samples, x);
     if (seen.x.size() < kFewestMoments) continue;
     const Eigen::Vector3d direction = find(seen);
     if (!(direction.norm() > longest)) continue;
@@ -58,22 +60,23 @@ DominantResidual FindLongest(const Moments& moments, const std::vector<double>& 
 
 }  // namespace
 
-DominantResidual FindDominant(const Moments& moments) {
-  return FindLongest(moments, std::vector<double>(moments.size(), 0.0), [](const Seen& seen) {
-    const Eigen::Index half = seen.x.size() / 2;
-    const Eigen::Matrix3Xd off_m = seen.residual_m.colwise() - seen.residual_m.rowwise().mean();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(off_m * off_m.transpose());
-    const double deviation_m =
-        std::sqrt(std::max(0.0, axes.eigenvalues()[2]) / static_cast<double>(seen.x.size()));
-    const Eigen::Vector3d axis = axes.eigenvectors().col(2);
-    const double rise_m =
-        axis.dot(off_m.rightCols(half).rowwise().sum() - off_m.leftCols(half).rowwise().sum());
-    return Eigen::Vector3d((rise_m < 0.0 ? -deviation_m : deviation_m) * axis);
-  });
+DominantResidual FindDominant(const ComparedSamples& compared_samples) {
+  return FindLongest(
+      compared_samples, std::vector<double>(compared_samples.size(), 0.0), [](const Seen& seen) {
+        const Eigen::Index half = seen.x.size() / 2;
+        const Eigen::Matrix3Xd off_m = seen.residual_m.colwise() - seen.residual_m.rowwise().mean();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(off_m * off_m.transpose());
+        const double deviation_m =
+            std::sqrt(std::max(0.0, axes.eigenvalues()[2]) / static_cast<double>(seen.x.size()));
+        const Eigen::Vector3d axis = axes.eigenvectors().col(2);
+        const double rise_m =
+            axis.dot(off_m.rightCols(half).rowwise().sum() - off_m.leftCols(half).rowwise().sum());
+        return Eigen::Vector3d((rise_m < 0.0 ? -deviation_m : deviation_m) * axis);
+      });
 }
 
-DominantResidual FindRise(const Moments& moments, const std::vector<double>& x) {
-  return FindLongest(moments, x, [](const Seen& seen) {
+DominantResidual FindRise(const ComparedSamples& compared_samples, const std::vector<double>& x) {
+  return FindLongest(compared_samples, x, [](const Seen& seen) {
     const Eigen::VectorXd off = seen.x.array() - seen.x.mean();
     return Eigen::Vector3d(seen.residual_m * off / std::max(off.squaredNorm(), 1e-30));
   });

@@ -17,14 +17,14 @@ struct DominantResidual {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
 };
 
-using Moments = std::vector<const ComparedMoment*>;
+using ComparedSamples = std::vector<const ComparedSample*>;
 
 /// What varies most, from the residuals before about their mean over the moments; the sign is such
 /// that the last half of the moments is at the positive side of the first.
-DominantResidual FindDominant(const Moments& moments);
+DominantResidual FindDominant(const ComparedSamples& compared_samples);
 
 /// What rises most with `x` [moments] (least squares), NaN: that moment does not count.
-DominantResidual FindRise(const Moments& moments, const std::vector<double>& x);
+DominantResidual FindRise(const ComparedSamples& compared_samples, const std::vector<double>& x);
 
 /// One residual along the direction, mm; NaN: not seen.
 double Along_mm(const DominantResidual& dominant, const Eigen::Matrix3Xd& residual_m);

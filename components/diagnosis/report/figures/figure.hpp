@@ -27,7 +27,7 @@ inline constexpr double kLabelSize_px = 12.0;
 /// After Okabe and Ito: told apart with any colour vision; light and dark alternate.
 namespace ink {
 inline constexpr plot::Color kBefore = plot::FromHex(0xD55E00);
-inline constexpr plot::Color kHealthy = plot::FromHex(0xE69F00);
+inline constexpr plot::Color kNominal = plot::FromHex(0xE69F00);
 inline constexpr plot::Color kAfter = plot::FromHex(0x0072B2);
 inline constexpr plot::Color kHeldoutBefore = plot::FromHex(0xCC79A7);
 inline constexpr plot::Color kHeldoutAfter = plot::FromHex(0x56B4E9);

@@ -27,14 +27,14 @@ bool SameCommand(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }
 
 /// The longest time of a recording in which no command changes.
-Moments LongestHold(const Moments& moments) {
-  const auto lasts_s = [](const Moments& hold) {
+ComparedSamples LongestHold(const ComparedSamples& compared_samples) {
+  const auto lasts_s = [](const ComparedSamples& hold) {
     return hold.empty() ? 0.0 : hold.back()->t_s - hold.front()->t_s;
   };
-  Moments longest, hold;
-  for (const ComparedMoment* moment : moments) {
-    if (!hold.empty() && !SameCommand(hold.back()->command, moment->command)) hold.clear();
-    hold.push_back(moment);
+  ComparedSamples longest, hold;
+  for (const ComparedSample* compared : compared_samples) {
+    if (!hold.empty() && !SameCommand(hold.back()->command, compared->command)) hold.clear();
+    hold.push_back(compared);
     if (lasts_s(hold) > lasts_s(longest)) longest = hold;
   }
   return longest;
@@ -58,25 +58,25 @@ plot::AxisTicks DecadeTicks(const plot::AxisRange& log_range) {
 }
 
 /// log10 of the time since the hold began; NaN: at its beginning.
-std::vector<double> LogTimes(const Moments& hold) {
+std::vector<double> LogTimes(const ComparedSamples& hold) {
   std::vector<double> log_t;
-  for (const ComparedMoment* moment : hold) {
-    const double t_s = moment->t_s - hold.front()->t_s;
+  for (const ComparedSample* compared : hold) {
+    const double t_s = compared->t_s - hold.front()->t_s;
     log_t.push_back(t_s > 0.0 ? std::log10(t_s) : std::numeric_limits<double>::quiet_NaN());
   }
   return log_t;
 }
 
-TracePanel MakePanel(const DiagnosisResult& result, const Moments& hold,
+TracePanel MakePanel(const DiagnosisResult& result, const ComparedSamples& hold,
                      const DominantResidual& rise) {
   TracePanel panel;
   panel.title = result.recordings[static_cast<std::size_t>(hold.front()->recording)].name;
   panel.note = DescribeDominant(rise, result);
   panel.x_title = "time since the hold began (s), logarithmic";
   panel.x = LogTimes(hold);
-  for (const ComparedMoment* moment : hold) {
-    panel.before_mm.push_back(Along_mm(rise, moment->before_m));
-    panel.after_mm.push_back(Along_mm(rise, moment->after_m));
+  for (const ComparedSample* compared : hold) {
+    panel.before_mm.push_back(Along_mm(rise, compared->before_m));
+    panel.after_mm.push_back(Along_mm(rise, compared->after_m));
   }
   const auto first = std::find_if(panel.x.begin(), panel.x.end(),
                                   [](double log_t) { return std::isfinite(log_t); });
@@ -88,29 +88,30 @@ TracePanel MakePanel(const DiagnosisResult& result, const Moments& hold,
 }  // namespace
 
 Figure DrawHolds(const DiagnosisResult& result) {
-  Figure figure{
-      .id = "holds",
-      .title = "Residual in holds against the logarithm of time",
-      .caption =
-          "The commands stand still: a line that rises steadily is creep, while friction and play "
-          "leave it level; each panel shows the marker and direction that rise most.",
-      .svg = {},
-      .absent = {}};
-  std::vector<Moments> moments(result.recordings.size());
-  for (const ComparedMoment& moment : result.moments) {
-    const auto recording = static_cast<std::size_t>(moment.recording);
-    if (moment.recording < 0 || recording >= moments.size()) continue;
-    if (result.recordings[recording].kind == "hold") moments[recording].push_back(&moment);
+  Figure figure{.id = "holds",
+                .title = "Residual in holds against the logarithm of time",
+                .caption =
+                    "The commands are constant: a steadily rising line is creep, while friction "
+                    "and backlash leave "
+                    "it level; each panel shows the marker and direction that rise most.",
+                .svg = {},
+                .absent = {}};
+  std::vector<ComparedSamples> compared_samples(result.recordings.size());
+  for (const ComparedSample& compared : result.compared_samples) {
+    const auto recording = static_cast<std::size_t>(compared.recording);
+    if (compared.recording < 0 || recording >= compared_samples.size()) continue;
+    if (result.recordings[recording].kind == "hold")
+      compared_samples[recording].push_back(&compared);
   }
   std::vector<TracePanel> panels;
-  for (const Moments& of_recording : moments) {
-    const Moments hold = LongestHold(of_recording);
+  for (const ComparedSamples& of_recording : compared_samples) {
+    const ComparedSamples hold = LongestHold(of_recording);
     const DominantResidual rise = FindRise(hold, LogTimes(hold));
     if (hold.size() < kFewestOfHold || rise.marker < 0) continue;
     if (panels.size() < kMostPanels) panels.push_back(MakePanel(result, hold, rise));
   }
   if (panels.empty()) {
-    figure.absent = "No recording is a hold (kind: hold) with five moments at one command.";
+    figure.absent = "No recording is a hold (kind: hold) with five samples at one command.";
     return figure;
   }
   figure.svg = DrawTracePanels(figure.id, panels, !result.causes.empty());

@@ -16,16 +16,16 @@ namespace {
 
 constexpr std::size_t kMostLoops = 4;
 
-double CommandOf(const ComparedMoment& moment, Eigen::Index cable) {
-  return cable < moment.command.size() ? moment.command[cable]
-                                       : std::numeric_limits<double>::quiet_NaN();
+double CommandOf(const ComparedSample& compared, Eigen::Index cable) {
+  return cable < compared.command.size() ? compared.command[cable]
+                                         : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// How far a cable was moved in these moments, in its unit.
-double Travel(const Moments& moments, Eigen::Index cable) {
+double Travel(const ComparedSamples& compared_samples, Eigen::Index cable) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const ComparedMoment* moment : moments) {
-    const double command = CommandOf(*moment, cable);
+  for (const ComparedSample* compared : compared_samples) {
+    const double command = CommandOf(*compared, cable);
     if (!std::isfinite(command)) continue;
     lowest = std::min(lowest, command);
     highest = std::max(highest, command);
@@ -45,21 +45,22 @@ std::string UnitOf(const DiagnosisResult& result, std::size_t cable) {
 }
 
 /// The recording in which a cable moved far and the others little.
-std::vector<Loop> FindLoops(const DiagnosisResult& result, const std::vector<Moments>& moments) {
+std::vector<Loop> FindLoops(const DiagnosisResult& result,
+                            const std::vector<ComparedSamples>& compared_samples) {
   std::vector<Loop> loops;
   for (std::size_t c = 0; c < result.cables.size(); ++c) {
     const auto cable = static_cast<Eigen::Index>(c);
     Loop best{cable, 0, 0.0};
     double best_score = 0.0;
-    for (std::size_t r = 0; r < moments.size(); ++r) {
-      const double travel = Travel(moments[r], cable);
+    for (std::size_t r = 0; r < compared_samples.size(); ++r) {
+      const double travel = Travel(compared_samples[r], cable);
       double all = 0.0;
       for (std::size_t other = 0; other < result.cables.size(); ++other) {
         const bool same_unit = UnitOf(result, other) == UnitOf(result, c);
-        if (same_unit) all += Travel(moments[r], static_cast<Eigen::Index>(other));
+        if (same_unit) all += Travel(compared_samples[r], static_cast<Eigen::Index>(other));
       }
       const double score = travel > 0.0 ? travel * travel / all : 0.0;
-      if (score <= best_score || FindDominant(moments[r]).marker < 0) continue;
+      if (score <= best_score || FindDominant(compared_samples[r]).marker < 0) continue;
       best_score = score;
       best = {cable, r, travel};
     }
@@ -76,22 +77,23 @@ std::vector<Loop> FindLoops(const DiagnosisResult& result, const std::vector<Mom
   return loops;
 }
 
-TracePanel MakeLoopPanel(const DiagnosisResult& result, const Loop& loop, const Moments& moments) {
+TracePanel MakeLoopPanel(const DiagnosisResult& result, const Loop& loop,
+                         const ComparedSamples& compared_samples) {
   const auto cable = static_cast<std::size_t>(loop.cable);
   const bool in_N = UnitOf(result, cable) == "N";
   const double factor = in_N ? 1.0 : 1e3;
-  const DominantResidual dominant = FindDominant(moments);
+  const DominantResidual dominant = FindDominant(compared_samples);
   TracePanel panel;
   panel.title = "cable " + result.cables[cable] + ", in " + result.recordings[loop.recording].name;
   panel.note = DescribeDominant(dominant, result);
   panel.x_title = in_N ? "tension commanded (N)" : "displacement commanded (mm)";
   panel.directed = true;
   panel.x_range = {0.0, 0.0};
-  for (const ComparedMoment* moment : moments) {
-    const double x = factor * CommandOf(*moment, loop.cable);
+  for (const ComparedSample* compared : compared_samples) {
+    const double x = factor * CommandOf(*compared, loop.cable);
     panel.x.push_back(x);
-    panel.before_mm.push_back(Along_mm(dominant, moment->before_m));
-    panel.after_mm.push_back(Along_mm(dominant, moment->after_m));
+    panel.before_mm.push_back(Along_mm(dominant, compared->before_m));
+    panel.after_mm.push_back(Along_mm(dominant, compared->after_m));
     if (!std::isfinite(x)) continue;
     panel.x_range = {std::min(panel.x_range.lower, x), std::max(panel.x_range.upper, x)};
   }
@@ -112,12 +114,13 @@ Figure DrawHysteresis(const DiagnosisResult& result) {
                     "hysteresis.",
                 .svg = {},
                 .absent = {}};
-  std::vector<Moments> moments(result.recordings.size());
-  for (const ComparedMoment& moment : result.moments) {
-    const auto recording = static_cast<std::size_t>(moment.recording);
-    if (moment.recording >= 0 && recording < moments.size()) moments[recording].push_back(&moment);
+  std::vector<ComparedSamples> compared_samples(result.recordings.size());
+  for (const ComparedSample& compared : result.compared_samples) {
+    const auto recording = static_cast<std::size_t>(compared.recording);
+    if (compared.recording >= 0 && recording < compared_samples.size())
+      compared_samples[recording].push_back(&compared);
   }
-  std::vector<Loop> loops = FindLoops(result, moments);
+  std::vector<Loop> loops = FindLoops(result, compared_samples);
   if (loops.empty()) {
     figure.absent = "No cable moved while markers were compared.";
     return figure;
@@ -127,7 +130,7 @@ Figure DrawHysteresis(const DiagnosisResult& result) {
   loops.resize(std::min(loops.size(), kMostLoops));
   std::vector<TracePanel> panels;
   for (const Loop& loop : loops)
-    panels.push_back(MakeLoopPanel(result, loop, moments[loop.recording]));
+    panels.push_back(MakeLoopPanel(result, loop, compared_samples[loop.recording]));
   figure.svg = DrawTracePanels(figure.id, panels, !result.causes.empty());
   return figure;
 }

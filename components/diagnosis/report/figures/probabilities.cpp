@@ -36,8 +36,8 @@ std::vector<Bar> MakeBars(const DiagnosisResult& result) {
     const Rival& rival = result.rivals[i];
     bars.push_back({WordsFor(rival.name, result), rival.probability, ink::kOther});
   }
-  bars.push_back({"none: a healthy robot", result.no_fault_probability, ink::kNone});
-  bars.push_back({"other: not in the catalogue", result.other_probability, ink::kHealthy});
+  bars.push_back({"none: null model", result.no_fault_probability, ink::kNone});
+  bars.push_back({"other: unmodelled cause", result.other_probability, ink::kNominal});
   return bars;
 }
 
@@ -45,12 +45,12 @@ std::vector<Bar> MakeBars(const DiagnosisResult& result) {
 
 Figure DrawProbabilities(const DiagnosisResult& result) {
   Figure figure{.id = "probabilities",
-                .title = "Probability of each cause, of none and of another",
-                .caption = "After the data were seen; no cause is called surer than 0.99.",
+                .title = "Probability of each cause, of none and of an unmodelled cause",
+                .caption = "Posterior probabilities; 0.99 is the largest that is stated.",
                 .svg = {},
                 .absent = {}};
   if (result.causes.empty() && result.rivals.empty() && !(result.no_fault_probability > 0.0)) {
-    figure.absent = "No cause was tried on these data.";
+    figure.absent = "No fault was tested on these data.";
     return figure;
   }
   const std::vector<Bar> bars = MakeBars(result);
@@ -67,7 +67,7 @@ Figure DrawProbabilities(const DiagnosisResult& result) {
   if (!result.causes.empty()) legend.push_back({"named", ink::kAfter});
   if (!result.rivals.empty()) legend.push_back({"not named", ink::kOther});
   legend.push_back({"none", ink::kNone});
-  legend.push_back({"other", ink::kHealthy});
+  legend.push_back({"other", ink::kNominal});
   DrawLegend(legend, {left_px, 18.0}, kFigureWidth_px - left_px, &svg);
   const plot::PlotArea area({left_px, kProbabilityTop_px},
                             kFigureWidth_px - left_px - kProbabilityRight_px, height_px, {0.0, 1.0},

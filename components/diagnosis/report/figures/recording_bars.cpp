@@ -26,45 +26,45 @@ constexpr std::size_t kMostRecordings = 18;
 struct Series {
   const char* name;
   plot::Color color;
-  double RecordingGap::*value_m;
+  double RecordingError::*value_m;
 };
 constexpr Series kSeries[] = {
-    {"before", ink::kBefore, &RecordingGap::before_m},
-    {"healthy robot, fitted", ink::kHealthy, &RecordingGap::healthy_m},
-    {"with the causes named", ink::kAfter, &RecordingGap::after_m},
-    {"held out: healthy robot", ink::kHeldoutBefore, &RecordingGap::heldout_before_m},
-    {"held out: with the causes", ink::kHeldoutAfter, &RecordingGap::heldout_after_m}};
+    {"before", ink::kBefore, &RecordingError::before_m},
+    {"null model, fitted", ink::kNominal, &RecordingError::null_model_m},
+    {"with the named causes", ink::kAfter, &RecordingError::after_m},
+    {"left out: null model", ink::kHeldoutBefore, &RecordingError::heldout_before_m},
+    {"left out: with the causes", ink::kHeldoutAfter, &RecordingError::heldout_after_m}};
 
 /// Without a cause, "with the causes" would say the same twice.
 std::vector<Series> UsedSeries(const DiagnosisResult& result) {
   std::vector<Series> used;
   for (const Series& series : kSeries) {
-    const bool of_causes = series.value_m == &RecordingGap::after_m ||
-                           series.value_m == &RecordingGap::heldout_after_m;
+    const bool of_causes = series.value_m == &RecordingError::after_m ||
+                           series.value_m == &RecordingError::heldout_after_m;
     const bool known = std::any_of(
         result.recordings.begin(), result.recordings.end(),
-        [&](const RecordingGap& recording) { return std::isfinite(recording.*series.value_m); });
+        [&](const RecordingError& recording) { return std::isfinite(recording.*series.value_m); });
     if (known && !(of_causes && result.causes.empty())) used.push_back(series);
   }
   return used;
 }
 
 /// Those that are shown, in their order: all, or those with the largest gaps.
-std::vector<RecordingGap> Shown(std::vector<RecordingGap> recordings) {
+std::vector<RecordingError> Shown(std::vector<RecordingError> recordings) {
   if (recordings.size() <= kMostRecordings) return recordings;
   std::vector<double> gaps_m;
-  for (const RecordingGap& recording : recordings) {
+  for (const RecordingError& recording : recordings) {
     gaps_m.push_back(std::isfinite(recording.before_m) ? recording.before_m : 0.0);
   }
   std::nth_element(gaps_m.begin(), gaps_m.begin() + kMostRecordings, gaps_m.end(),
                    std::greater<>());
-  std::erase_if(recordings, [&](const RecordingGap& recording) {
+  std::erase_if(recordings, [&](const RecordingError& recording) {
     return !(recording.before_m > gaps_m[kMostRecordings]);
   });
   return recordings;
 }
 
-void DrawRow(const RecordingGap& recording, const std::vector<Series>& series,
+void DrawRow(const RecordingError& recording, const std::vector<Series>& series,
              const plot::PlotArea& area, double top_px, plot::SvgDocument* svg) {
   double y_px = top_px;
   for (const Series& one : series) {
@@ -83,15 +83,16 @@ void DrawRow(const RecordingGap& recording, const std::vector<Series>& series,
 }  // namespace
 
 Figure DrawRecordingBars(const DiagnosisResult& result) {
-  Figure figure{.id = "recording-bars",
-                .title = "Residual in each recording, RMS over its markers' coordinates",
-                .caption =
-                    "Held out: predicted from the other recordings alone; causes that "
-                    "are true lower these bars too, down to the noise.",
-                .svg = {},
-                .absent = {}};
+  Figure figure{
+      .id = "recording-bars",
+      .title = "Residual in each recording, RMS over its markers' coordinates",
+      .caption =
+          "Left out: predicted from the other recordings alone; true causes lower these bars, too, "
+          "down to the noise.",
+      .svg = {},
+      .absent = {}};
   const std::vector<Series> series = UsedSeries(result);
-  const std::vector<RecordingGap> recordings = Shown(result.recordings);
+  const std::vector<RecordingError> recordings = Shown(result.recordings);
   if (recordings.empty() || series.empty()) {
     figure.absent = "No recording could be compared with the simulation.";
     return figure;
@@ -101,7 +102,7 @@ Figure DrawRecordingBars(const DiagnosisResult& result) {
                       std::to_string(recordings.size()) + " with the largest residuals.";
   }
   double name_px = 60.0, highest_mm = 0.0;
-  for (const RecordingGap& recording : recordings) {
+  for (const RecordingError& recording : recordings) {
     name_px = std::max(name_px, plot::TextWidth_px(recording.name, kLabelSize_px));
     for (const Series& one : series) {
       if (recording.*one.value_m > 0.0) {
@@ -126,7 +127,7 @@ Figure DrawRecordingBars(const DiagnosisResult& result) {
   const plot::PlotArea area({left_px, top_px}, width_px, height_px, range, {0.0, 1.0});
   plot::DrawAxes(area, plot::MakeTicks(range, 8), {}, true, &svg);
   double y_px = top_px + 0.5 * kBetween_px + 2.0;
-  for (const RecordingGap& recording : recordings) {
+  for (const RecordingError& recording : recordings) {
     DrawRow(recording, series, area, y_px, &svg);
     svg.Text({left_px - 8.0, y_px + 0.5 * (group_px - kBetween_px) + 4.0},
              plot::Shortened(recording.name, kLabelSize_px, kBarsWidestName_px),

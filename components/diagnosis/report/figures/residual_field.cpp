@@ -24,12 +24,12 @@ struct Stretch {
 
 /// Mean residual of each marker over the moments that saw it, m; NaN: never seen.
 Eigen::Matrix3Xd MeanResidual(const DiagnosisResult& result, const Stretch& stretch,
-                              Eigen::Matrix3Xd ComparedMoment::*field) {
+                              Eigen::Matrix3Xd ComparedSample::*field) {
   const Eigen::Index count = result.marker_rest_m.cols();
   Eigen::Matrix3Xd sum_m = Eigen::Matrix3Xd::Zero(3, count);
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(count);
   for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-    const Eigen::Matrix3Xd& residual_m = result.moments[i].*field;
+    const Eigen::Matrix3Xd& residual_m = result.compared_samples[i].*field;
     for (Eigen::Index m = 0; m < std::min(count, residual_m.cols()); ++m) {
       if (!residual_m.col(m).allFinite()) continue;
       sum_m.col(m) += residual_m.col(m);
@@ -55,21 +55,21 @@ double Rms(const Eigen::Matrix3Xd& vectors) {
 Stretch FindWorst(const DiagnosisResult& result) {
   Stretch worst;
   double largest_m = 0.0;
-  for (std::size_t first = 0; first < result.moments.size(); ++first) {
-    const int recording = result.moments[first].recording;
-    const auto moments = static_cast<std::size_t>(
-        std::count_if(result.moments.begin(), result.moments.end(),
-                      [&](const ComparedMoment& moment) { return moment.recording == recording; }));
-    const std::size_t mean_of = moments > kMeanOf ? kMeanOf : (moments + 1) / 2;
+  for (std::size_t first = 0; first < result.compared_samples.size(); ++first) {
+    const int recording = result.compared_samples[first].recording;
+    const auto compared_samples = static_cast<std::size_t>(std::count_if(
+        result.compared_samples.begin(), result.compared_samples.end(),
+        [&](const ComparedSample& compared) { return compared.recording == recording; }));
+    const std::size_t mean_of = compared_samples > kMeanOf ? kMeanOf : (compared_samples + 1) / 2;
     Stretch stretch{first, first};
-    while (stretch.last < std::min(first + mean_of, result.moments.size()) &&
-           result.moments[stretch.last].recording == recording) {
+    while (stretch.last < std::min(first + mean_of, result.compared_samples.size()) &&
+           result.compared_samples[stretch.last].recording == recording) {
       ++stretch.last;
     }
     const bool is_tail = first > 0 && stretch.last - first < mean_of &&
-                         result.moments[first - 1].recording == recording;
+                         result.compared_samples[first - 1].recording == recording;
     if (is_tail) continue;  // of a longer stretch, and noisier
-    const double rms_m = Rms(MeanResidual(result, stretch, &ComparedMoment::before_m));
+    const double rms_m = Rms(MeanResidual(result, stretch, &ComparedSample::before_m));
     if (rms_m <= largest_m) continue;
     largest_m = rms_m;
     worst = stretch;
@@ -79,12 +79,12 @@ Stretch FindWorst(const DiagnosisResult& result) {
 
 /// "02_ramp_north, 18.0 to 22.0 s"
 std::string DescribeStretch(const DiagnosisResult& result, const Stretch& stretch) {
-  const ComparedMoment& first = result.moments[stretch.first];
+  const ComparedSample& first = result.compared_samples[stretch.first];
   const auto recording = static_cast<std::size_t>(first.recording);
   const std::string name =
       recording < result.recordings.size() ? result.recordings[recording].name + ", " : "";
   return name + plot::FixedText(first.t_s, 1) + " to " +
-         plot::FixedText(result.moments[stretch.last - 1].t_s, 1) + " s";
+         plot::FixedText(result.compared_samples[stretch.last - 1].t_s, 1) + " s";
 }
 
 }  // namespace
@@ -94,20 +94,20 @@ Figure DrawResidualField(const DiagnosisResult& result) {
                 .title = "Where on the body: the markers' residuals at their largest",
                 .caption =
                     "Arrows point from where the simulation has a marker to where it was "
-                    "measured, mean over the moments that it gets most wrong (",
+                    "measured, mean over the samples with the largest residuals (",
                 .svg = {},
                 .absent = {}};
   const Stretch worst = FindWorst(result);
   BodyArrows arrows{.foot_m = result.marker_rest_m,
                     .names = result.markers,
-                    .before = 1e3 * MeanResidual(result, worst, &ComparedMoment::before_m),
-                    .after = 1e3 * MeanResidual(result, worst, &ComparedMoment::after_m),
+                    .before = 1e3 * MeanResidual(result, worst, &ComparedSample::before_m),
+                    .after = 1e3 * MeanResidual(result, worst, &ComparedSample::after_m),
                     .unit = "mm"};
   if (result.causes.empty()) {
     arrows.after.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   const bool seen = Longest(arrows.before) > 0.0 || Longest(arrows.after) > 0.0;
-  if (result.moments.empty() || result.marker_rest_m.cols() == 0 || !seen) {
+  if (result.compared_samples.empty() || result.marker_rest_m.cols() == 0 || !seen) {
     figure.absent = "No marker was compared with the simulation.";
     return figure;
   }

@@ -10,14 +10,15 @@ namespace palpate::diagnosis {
 
 Figure DrawResidualForces(const DiagnosisResult& result) {
   const ResidualForces& forces = result.residual_forces;
-  Figure figure{.id = "residual-forces",
-                .title = "Which forces would do it",
-                .caption = "The smallest forces on the body that would do, in recording " +
-                           forces.recording +
-                           " throughout, what the simulation leaves there: where and which way "
-                           "something pushes that is not in the model, or looks as if it did.",
-                .svg = {},
-                .absent = {}};
+  Figure figure{
+      .id = "residual-forces",
+      .title = "Residual forces",
+      .caption = "The smallest forces on the body that would cause, in recording " +
+                 forces.recording +
+                 " throughout, the residuals: place and direction of an unmodelled load, or "
+                 "of what has its effect.",
+      .svg = {},
+      .absent = {}};
   BodyArrows arrows{.foot_m = forces.place_m,
                     .names = {},
                     .before = forces.before_N,
@@ -27,7 +28,7 @@ Figure DrawResidualForces(const DiagnosisResult& result) {
     arrows.after.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   if (!(Longest(arrows.before) > 0.0) && !(Longest(arrows.after) > 0.0)) {
-    figure.absent = "No forces were looked for.";
+    figure.absent = "No residual forces were computed.";
     return figure;
   }
   figure.svg = DrawBodyArrows(result, arrows, figure.id);

@@ -24,7 +24,7 @@ struct Script {
   const char* name;
   const char* kind;
   int cable;  ///< -1: none
-  int moments;
+  int compared_samples;
 };
 constexpr Script kScripts[] = {{"01_rest", "rest", -1, 8},
                                {"02_ramp_north", "ramp", 0, 41},
@@ -37,14 +37,14 @@ constexpr Script kScripts[] = {{"01_rest", "rest", -1, 8},
                                {"09_second_speed_north", "ramp", 0, 41}};
 
 double Command_m(const Script& script, int i) {
-  const double share = static_cast<double>(i) / (script.moments - 1);
+  const double share = static_cast<double>(i) / (script.compared_samples - 1);
   if (script.kind == std::string("hold")) return 6e-3 * std::min(1.0, 8.0 * share);
   return 8e-3 * (1.0 - std::abs(2.0 * share - 1.0));
 }
 
 double Time_s(const Script& script, int i) {
   const bool held = script.kind == std::string("hold") && i > 5;
-  return held ? 5.0 + std::pow(10.0, 2.6 * (i - 6) / (script.moments - 7.0)) : 1.0 * i;
+  return held ? 5.0 + std::pow(10.0, 2.6 * (i - 6) / (script.compared_samples - 7.0)) : 1.0 * i;
 }
 
 /// How the residual of one marker goes on in a recording: a loop of friction for the cable north,
@@ -56,7 +56,7 @@ double Residual_m(const Script& script, int i) {
   if (script.kind == std::string("hold")) {
     return -size * 0.6 * command + 4e-4 * std::log10(1.0 + Time_s(script, i));
   }
-  const bool back = 2 * i > script.moments - 1;
+  const bool back = 2 * i > script.compared_samples - 1;
   const double turned = std::clamp((1.0 - command) / 0.25, 0.0, 1.0);
   return size * (back ? -command + 1.5 * turned * command : -command);
 }
@@ -65,14 +65,14 @@ void AddMoments(int recording, const Script& script, std::mt19937* random,
                 DiagnosisResult* result) {
   std::normal_distribution<double> noise(0.0, kNoise_m);
   const Eigen::Index markers = result->marker_rest_m.cols();
-  for (int i = 0; i < script.moments; ++i) {
-    ComparedMoment moment;
-    moment.recording = recording;
-    moment.t_s = Time_s(script, i);
-    moment.command = Eigen::VectorXd::Zero(4);
-    if (script.cable >= 0) moment.command[script.cable] = Command_m(script, i);
-    moment.before_m.resize(3, markers);
-    moment.after_m.resize(3, markers);
+  for (int i = 0; i < script.compared_samples; ++i) {
+    ComparedSample compared;
+    compared.recording = recording;
+    compared.t_s = Time_s(script, i);
+    compared.command = Eigen::VectorXd::Zero(4);
+    if (script.cable >= 0) compared.command[script.cable] = Command_m(script, i);
+    compared.before_m.resize(3, markers);
+    compared.after_m.resize(3, markers);
     for (Eigen::Index m = 0; m < markers; ++m) {
       const Eigen::Vector3d rest_m = result->marker_rest_m.col(m);
       const double near_north = std::exp(20.0 * (rest_m.y() - 0.06));
@@ -80,22 +80,22 @@ void AddMoments(int recording, const Script& script, std::mt19937* random,
           Eigen::Vector3d(0.0, 0.8, -0.6) * (0.25 + 0.75 * std::min(1.0, near_north));
       Eigen::Vector3d error;
       for (double& part : error) part = noise(*random);
-      moment.before_m.col(m) = Residual_m(script, i) * way + error;
-      moment.after_m.col(m) = 0.12 * Residual_m(script, i) * way + error;
+      compared.before_m.col(m) = Residual_m(script, i) * way + error;
+      compared.after_m.col(m) = 0.12 * Residual_m(script, i) * way + error;
     }
-    if (i % 17 == 3) moment.before_m.col(2).setConstant(kNaN);
-    if (i % 17 == 3) moment.after_m.col(2).setConstant(kNaN);
-    result->moments.push_back(moment);
+    if (i % 17 == 3) compared.before_m.col(2).setConstant(kNaN);
+    if (i % 17 == 3) compared.after_m.col(2).setConstant(kNaN);
+    result->compared_samples.push_back(compared);
   }
 }
 
 double Rms_m(const DiagnosisResult& result, int recording,
-             Eigen::Matrix3Xd ComparedMoment::*field) {
+             Eigen::Matrix3Xd ComparedSample::*field) {
   double squares_m2 = 0.0;
   int count = 0;
-  for (const ComparedMoment& moment : result.moments) {
-    if (recording >= 0 && moment.recording != recording) continue;
-    for (const double value : (moment.*field).reshaped()) {
+  for (const ComparedSample& compared : result.compared_samples) {
+    if (recording >= 0 && compared.recording != recording) continue;
+    for (const double value : (compared.*field).reshaped()) {
       if (!std::isfinite(value)) continue;
       squares_m2 += value * value;
       ++count;
@@ -144,22 +144,22 @@ void AddRecordings(DiagnosisResult* result) {
   int index = 0;
   for (const Script& script : kScripts) {
     AddMoments(index, script, &random, result);
-    const double before_m = Rms_m(*result, index, &ComparedMoment::before_m);
-    const double after_m = Rms_m(*result, index, &ComparedMoment::after_m);
+    const double before_m = Rms_m(*result, index, &ComparedSample::before_m);
+    const double after_m = Rms_m(*result, index, &ComparedSample::after_m);
     result->recordings.push_back({.name = script.name,
                                   .kind = script.kind,
-                                  .samples = script.moments,
+                                  .samples = script.compared_samples,
                                   .before_m = before_m,
-                                  .healthy_m = 0.4 * kNoise_m + 0.72 * before_m,
+                                  .null_model_m = 0.4 * kNoise_m + 0.72 * before_m,
                                   .after_m = after_m,
                                   .heldout_before_m = 1.04 * before_m,
                                   .heldout_after_m = 1.08 * after_m,
                                   .noise_m = kNoise_m});
     ++index;
   }
-  const double before_m = Rms_m(*result, -1, &ComparedMoment::before_m);
-  const double after_m = Rms_m(*result, -1, &ComparedMoment::after_m);
-  result->gap = {before_m, after_m, 1.04 * before_m, 1.08 * after_m, kNoise_m};
+  const double before_m = Rms_m(*result, -1, &ComparedSample::before_m);
+  const double after_m = Rms_m(*result, -1, &ComparedSample::after_m);
+  result->model_error = {before_m, after_m, 1.04 * before_m, 1.08 * after_m, kNoise_m};
 }
 
 void AddRivals(DiagnosisResult* result) {
@@ -179,7 +179,7 @@ void AddRivals(DiagnosisResult* result) {
        0.52,
        "cannot open a loop between pulling and letting go"},
       {{"lag", {"body"}},
-       "lag of the drives",
+       "lag of the actuators",
        0.0004,
        22.9,
        0.63,
@@ -202,7 +202,7 @@ void AddRivals(DiagnosisResult* result) {
 void AddCorrelation(DiagnosisResult* result) {
   result->correlation_names = {"friction of cable north", "backlash of cable north",
                                "creep of the body",       "gain of cable north",
-                               "lag of the drives",       "stiffness of region leg_north"};
+                               "lag of the actuators",    "stiffness of region leg_north"};
   result->correlation = Eigen::MatrixXd::Identity(6, 6);
   const auto set = [&](int i, int k, double value) {
     result->correlation(i, k) = value;
@@ -301,8 +301,8 @@ DiagnosisResult UnexplainedExample() {
   result.verdict = Verdict::kUnexplained;
   result.reason = "the best cause lowers the held-out error by 2 % only, less than chance may";
   result.causes.clear();
-  for (RecordingGap& recording : result.recordings) recording.heldout_after_m = kNaN;
-  result.gap.heldout_after_m = kNaN;
+  for (RecordingError& recording : result.recordings) recording.heldout_after_m = kNaN;
+  result.model_error.heldout_after_m = kNaN;
   result.other_probability = 0.93;
   return result;
 }
@@ -314,16 +314,16 @@ DiagnosisResult HealthyExample() {
   result.causes.clear();
   result.experiments.clear();
   result.no_fault_probability = 0.96;
-  for (ComparedMoment& moment : result.moments) moment.before_m = moment.after_m;
-  for (RecordingGap& recording : result.recordings) {
+  for (ComparedSample& compared : result.compared_samples) compared.before_m = compared.after_m;
+  for (RecordingError& recording : result.recordings) {
     recording.before_m = recording.after_m;
-    recording.healthy_m = 0.97 * recording.after_m;
+    recording.null_model_m = 0.97 * recording.after_m;
     recording.heldout_before_m = 1.03 * recording.after_m;
     recording.heldout_after_m = kNaN;
   }
-  result.gap.before_m = result.gap.after_m;
-  result.gap.heldout_before_m = 1.03 * result.gap.after_m;
-  result.gap.heldout_after_m = kNaN;
+  result.model_error.before_m = result.model_error.after_m;
+  result.model_error.heldout_before_m = 1.03 * result.model_error.after_m;
+  result.model_error.heldout_after_m = kNaN;
   return result;
 }
 
@@ -334,7 +334,7 @@ DiagnosisResult DataUnfitExample() {
   result.verdict = Verdict::kDataUnfit;
   result.reason = "the markers of recording 04_ramp_south stand still while its cable moves 8 mm";
   result.identities.clear();
-  result.gap = {kNaN, kNaN, kNaN, kNaN, kNaN};
+  result.model_error = {kNaN, kNaN, kNaN, kNaN, kNaN};
   return result;
 }
 

@@ -112,9 +112,9 @@ TEST(ReportHtml, HasEveryFigureWithTitleUnitsAndCaption) {
   const std::string html = FormatReport(FrictionExample());
   const std::vector<std::vector<std::string>> labels = {
       {"x (mm)", "y (mm)", "z (mm)", "before", "after", "leg_north", "arrow of 2 mm"},
-      {"residual, RMS (mm)", "before", "noise", "held out: with the causes", "02_ramp_north"},
-      {"probability (no unit)", "friction of cable north", "none: a healthy robot",
-       "other: not in the catalogue", "0.97"},
+      {"residual, RMS (mm)", "before", "noise", "left out: with the causes", "02_ramp_north"},
+      {"probability (no unit)", "friction of cable north", "none: null model",
+       "other: unmodelled cause", "0.97"},
       {"x (mm)", "y (mm)", "z (mm)", "before", "after", "arrow of 0.05 N"},
       {"displacement commanded (mm)", "residual (mm)", "cable north, in 02_ramp_north", "before"},
       {"time since the hold began (s), logarithmic", "residual (mm)", "06_hold_north", "100"},
@@ -130,7 +130,7 @@ TEST(ReportHtml, HasEveryFigureWithTitleUnitsAndCaption) {
 TEST(ReportHtml, ShowsTensionsInNewton) {
   DiagnosisResult result = FrictionExample();
   result.cable_units.assign(result.cables.size(), "N");
-  for (ComparedMoment& moment : result.moments) moment.command *= 1e3;
+  for (ComparedSample& compared : result.compared_samples) compared.command *= 1e3;
   const std::vector<std::string> texts = ReadFigure(FormatReport(result), "hysteresis").texts;
   EXPECT_THAT(texts, testing::Contains("tension commanded (N)"));
   EXPECT_THAT(texts, Each(Not(HasSubstr("displacement"))));
@@ -145,7 +145,7 @@ TEST(ReportHtml, SaysWhyAFigureIsLeftOut) {
     EXPECT_THAT(html.substr(at, html.find("</div>", at) - at), HasSubstr("left out. ")) << id;
   }
   DiagnosisResult no_holds = FrictionExample();
-  for (RecordingGap& recording : no_holds.recordings) recording.kind = "free";
+  for (RecordingError& recording : no_holds.recordings) recording.kind = "free";
   EXPECT_THAT(FormatReport(no_holds), HasSubstr("No recording is a hold"));
   EXPECT_THAT(FigureOf(FormatReport(no_holds), "hysteresis"), HasSubstr("<svg"));
 }
@@ -171,7 +171,7 @@ TEST(ReportHtml, EscapesEveryName) {
                       &result.correlation_names, &result.causes[0].seen_in}) {
     names->assign(names->size(), hostile);
   }
-  for (RecordingGap& recording : result.recordings) recording.name = hostile;
+  for (RecordingError& recording : result.recordings) recording.name = hostile;
   for (Rival& rival : result.rivals) rival.words = rival.why_not = hostile;
   result.causes[0].words = hostile;
   result.causes[0].parameters[0].name = hostile;

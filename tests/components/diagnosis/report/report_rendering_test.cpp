@@ -123,7 +123,7 @@ TEST(ReportRendering, LongNamesAreClippedByUsNotByThePicture) {
   const test_support::TestFolder folder;
   DiagnosisResult result = FrictionExample();
   const std::string longer = " of a robot whose maker likes long names very much";
-  for (RecordingGap& recording : result.recordings) recording.name += longer;
+  for (RecordingError& recording : result.recordings) recording.name += longer;
   for (std::string& name : result.correlation_names) name += longer;
   for (Rival& rival : result.rivals) rival.words += longer;
   result.causes[0].words += longer;

@@ -35,11 +35,11 @@ TEST(VerdictJson, HoldsWhatArchitectureShows) {
   EXPECT_EQ(verdict["alternatives"][0]["probability"], 0.017);
   EXPECT_EQ(verdict["indistinguishable_from"], json::array());
   const json& rms = verdict["residual_m_rms"];
-  EXPECT_EQ(rms["before"], result.gap.before_m);
-  EXPECT_EQ(rms["after"], result.gap.after_m);
-  EXPECT_EQ(rms["heldout_before"], result.gap.heldout_before_m);
-  EXPECT_EQ(rms["heldout_after"], result.gap.heldout_after_m);
-  EXPECT_EQ(rms["noise"], result.gap.noise_m);
+  EXPECT_EQ(rms["before"], result.model_error.before_m);
+  EXPECT_EQ(rms["after"], result.model_error.after_m);
+  EXPECT_EQ(rms["heldout_before"], result.model_error.heldout_before_m);
+  EXPECT_EQ(rms["heldout_after"], result.model_error.heldout_after_m);
+  EXPECT_EQ(rms["noise"], result.model_error.noise_m);
   EXPECT_EQ(rms.size(), 5U);
   EXPECT_EQ(verdict["next_experiment"]["title"], result.experiments[0].title);
   EXPECT_EQ(verdict["next_experiment"]["separates"][1]["id"], "backlash");
@@ -67,7 +67,7 @@ TEST(VerdictJson, HoldsTheForcesThatWouldDoWhatIsLeft) {
 
 TEST(VerdictJson, SaysWhatIsLeastLikeNoise) {
   DiagnosisResult result = FrictionExample();
-  result.leftover = {false, "runs in recording r1", 4.7, 3.7, 0.31};
+  result.residual_test = {false, "runs in recording r1", 4.7, 3.7, 0.31};
   EXPECT_EQ(Written(result)["what_is_left"], json({{"is_noise", false},
                                                    {"test", "runs in recording r1"},
                                                    {"surprise", 4.7},
@@ -95,7 +95,7 @@ TEST(VerdictJson, ListsSeveralPlaces) {
 TEST(VerdictJson, WritesNullForWhatIsNotKnown) {
   DiagnosisResult result = FrictionExample();
   result.causes[0].parameters[0].ci95_high = std::numeric_limits<double>::infinity();
-  result.gap.heldout_after_m = std::numeric_limits<double>::quiet_NaN();
+  result.model_error.heldout_after_m = std::numeric_limits<double>::quiet_NaN();
   result.experiments.clear();
   const json verdict = Written(result);
   EXPECT_TRUE(verdict["causes"][0]["parameters"]["mu"]["ci95"][1].is_null());

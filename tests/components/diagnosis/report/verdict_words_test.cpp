@@ -52,10 +52,10 @@ TEST(VerdictWords, SayTheCauseItsSizeAndHowSure) {
             "Friction of cable north, mu = 0.213 \u00B1 0.019 (95 %), p = 0.97.");
   const std::string all = VerdictParagraph(FrictionExample());
   EXPECT_THAT(all, HasSubstr("Explains: 83 % of the excess residual."));
-  EXPECT_THAT(all, HasSubstr("Held-out error: 0.52 \u2192 0.33 mm (noise 0.30 mm)."));
+  EXPECT_THAT(all, HasSubstr("Left-out error: 0.52 \u2192 0.33 mm (noise 0.30 mm)."));
   EXPECT_THAT(all, HasSubstr("Seen in: 02_ramp_north, 06_hold_north"));
   EXPECT_THAT(all, HasSubstr("Ruled out: backlash of cable north, creep of the body"));
-  EXPECT_THAT(all, HasSubstr("Cannot be told apart from: none."));
+  EXPECT_THAT(all, HasSubstr("Not identifiable from: none."));
   EXPECT_THAT(all, HasSubstr("Do next: ramp of cable north to 12 mm"));
 }
 
@@ -73,17 +73,17 @@ TEST(VerdictWords, DoNotRuleOutWhatFitsAlike) {
             "There is a fault, and these data fit 2 causes alike: friction of cable north and "
             "backlash of cable north.");
   const std::string all = VerdictParagraph(result);
-  EXPECT_THAT(all, HasSubstr("Cannot be told apart from: backlash of cable north."));
+  EXPECT_THAT(all, HasSubstr("Not identifiable from: backlash of cable north."));
   EXPECT_THAT(all, Not(HasSubstr("Ruled out: backlash")));
 }
 
 TEST(VerdictWords, SayWhereNoCauseIsNamed) {
   EXPECT_THAT(VerdictHeadline(PartlyExplainedExample()),
-              HasSubstr("A gap beyond the noise remains"));
+              HasSubstr("Residuals beyond the noise remain"));
   EXPECT_THAT(VerdictHeadline(UnexplainedExample()),
-              HasSubstr("no cause of the catalogue explains"));
+              HasSubstr("no fault of the catalogue explains"));
   EXPECT_THAT(VerdictHeadline(HealthyExample()),
-              HasSubstr("within noise and building tolerances, p = 0.96."));
+              HasSubstr("within noise and manufacturing tolerances, p = 0.96."));
   EXPECT_EQ(VerdictHeadline(DataUnfitExample()),
             "These data cannot tell: the markers of recording 04_ramp_south stand still while its "
             "cable moves 8 mm.");

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr int kFitnessSamples = 8;
-constexpr int kPictures = 5;  ///< of each
+constexpr int kFrames = 5;  ///< of each
 constexpr int kFeatures = 12;
 constexpr double kFitnessNoise_m = 5e-4;
 
@@ -24,41 +24,40 @@ constexpr double kFitnessNoise_m = 5e-4;
 /// feature and picture, beside the noise.
 class PicturesOfARecording : public testing::Test {
  protected:
-  std::string Judge(const std::function<double(int feature, int picture)>& height_m) {
+  std::string Judge(const std::function<double(int feature, int frame)>& height_m) {
     std::mt19937_64 random(7);
     std::normal_distribution<double> noise_m(0.0, kFitnessNoise_m);
     ObservedExperiment observed;
     observed.recordings.push_back({.name = "a", .kind = "ramp"});
     observed.feature_rest_m.setZero(3, kFeatures);
-    SkinClouds clouds;
+    SurfaceClouds clouds;
     for (int s = 0; s < kFitnessSamples; ++s) {
       Sample& sample = observed.samples.emplace_back();
       sample.recording = 0;
-      sample.skin.resize(kFeatures);
-      for (SkinSighting& skin : sample.skin) {
-        skin.count = kPictures;
-        skin.sigma_m = kFitnessNoise_m / std::sqrt(kPictures);
+      sample.surface.resize(kFeatures);
+      for (SurfaceMeasurement& surface : sample.surface) {
+        surface.count = kFrames;
+        surface.sigma_m = kFitnessNoise_m / std::sqrt(kFrames);
       }
       clouds.emplace_back();
-      for (int k = 0; k < kPictures; ++k) {
+      for (int k = 0; k < kFrames; ++k) {
         SeenCloud& seen = clouds.back().emplace_back();
-        const int picture = kPictures * s + k;
-        seen.picture = {picture, 0.1 * picture};
-        seen.digest = static_cast<std::uint64_t>(picture);
+        const int frame = kFrames * s + k;
+        seen.frame = {frame, 0.1 * frame};
+        seen.digest = static_cast<std::uint64_t>(frame);
         seen.cloud.points_m.setOnes(3, 1);
         seen.height_m.resize(kFeatures);
-        for (int f = 0; f < kFeatures; ++f)
-          seen.height_m[f] = height_m(f, picture) + noise_m(random);
+        for (int f = 0; f < kFeatures; ++f) seen.height_m[f] = height_m(f, frame) + noise_m(random);
       }
     }
     return CheckImages(observed, clouds).message();
   }
 
   /// To and fro by 4 mm, as a robot with a fault may be off its model.
-  static double Smooth_m(int feature, int picture) {
-    return 4e-3 * std::sin(0.3 * feature + 0.2 * picture);
+  static double Smooth_m(int feature, int frame) {
+    return 4e-3 * std::sin(0.3 * feature + 0.2 * frame);
   }
-  static int Shuffled(int picture) { return 7 * picture % (kFitnessSamples * kPictures); }
+  static int Shuffled(int frame) { return 7 * frame % (kFitnessSamples * kFrames); }
 };
 
 TEST_F(PicturesOfARecording, OfARobotThatMovesOtherwiseAreInOrder) {
@@ -70,16 +69,16 @@ TEST_F(PicturesOfARecording, OfNoiseAloneAreInOrder) {
 }
 
 TEST_F(PicturesOfARecording, InWhichSomeFeaturesJumpFromEdgeToEdgeAreInOrder) {
-  EXPECT_EQ(Judge([](int feature, int picture) {
+  EXPECT_EQ(Judge([](int feature, int frame) {
               const bool jumps = feature < kFeatures / 4;
-              return jumps ? 0.02 * (picture % 2) : Smooth_m(feature, picture);
+              return jumps ? 0.02 * (frame % 2) : Smooth_m(feature, frame);
             }),
             "");
 }
 
 TEST_F(PicturesOfARecording, WithStampsOutOfOrderAreTold) {
-  EXPECT_THAT(Judge([](int feature, int picture) { return Smooth_m(feature, Shuffled(picture)); }),
-              HasSubstr("recording a: the clouds jump to and fro"));
+  EXPECT_THAT(Judge([](int feature, int frame) { return Smooth_m(feature, Shuffled(frame)); }),
+              HasSubstr("recording a: the clouds jump"));
 }
 
 }  // namespace

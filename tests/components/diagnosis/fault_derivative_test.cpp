@@ -74,7 +74,7 @@ TEST_F(FaultDerivatives, AreCaughtWhereTheySayALittleTooMuch) {
 }
 
 TEST_F(FaultDerivatives, AreOfEveryCauseOfTheCatalogue) {
-  for (const std::string& id : KnownCauses()) {
+  for (const std::string& id : SearchedFaults()) {
     EXPECT_TRUE(std::any_of(causes_.begin(), causes_.end(), [&](const FaultModelPtr& cause) {
       return cause->name().id == id;
     })) << id;
@@ -87,7 +87,7 @@ TEST_F(FaultDerivatives, AreThoseOfApplyWhereABodySoftensTooLittleForRuns) {
   constexpr double kAnswer = 0.05;
   for (const FaultModelPtr& cause : causes_) {
     if (cause->name().id != "mullins") continue;
-    ASSERT_FALSE(cause->NeedsRuns(z));
+    ASSERT_FALSE(cause->NeedsSimulation(z));
     ExpectDerivative(*cause, z, kAnswer, LeastShare("mullins"));
   }
 }
@@ -108,10 +108,10 @@ TEST_F(FaultDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
     }
     if (id == "hidden_obstacle") z[0] = 1.0;
     ExpectDerivative(*cause, z,
-                     cause->NeedsRuns(z)       ? kToleranceOfRuns
+                     cause->NeedsSimulation(z) ? kToleranceOfRuns
                      : id == "base_compliance" ? kToleranceOfBase
                                                : kTolerance,
-                     cause->NeedsRuns(z) ? 1.0 : 1e-3);
+                     cause->NeedsSimulation(z) ? 1.0 : 1e-3);
   }
 }
 
@@ -216,7 +216,8 @@ TEST_F(FaultDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
     if (name.id != "youngs_modulus" && name.id != "cable_gain" && name.id != "density") continue;
     const FaultModelList one{cause.get()};
     const auto markers_m = [&](double z, bool differentiate) {
-      const ModelHypothesis hypothesis = DraftWith(nominal_, one, Eigen::VectorXd::Constant(1, z));
+      const ModelHypothesis hypothesis =
+          HypothesisWith(nominal_, one, Eigen::VectorXd::Constant(1, z));
       Simulation run = simulator.Run(hypothesis, nullptr);
       if (differentiate) {
         simulator.Differentiate(hypothesis, one, Eigen::VectorXd::Constant(1, z), {true}, nominal_,
@@ -250,8 +251,8 @@ TEST_F(FaultDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
                               find("cable_offset", "cable:aside")};
   ASSERT_NE(causes[0], nullptr);
   ASSERT_NE(causes[1], nullptr);
-  const ModelHypothesis before = DraftWith(nominal_, causes, Eigen::Vector2d(1e-3, -5e-4));
-  const ModelHypothesis after = DraftWith(nominal_, causes, Eigen::Vector2d(2e-3, 1e-3));
+  const ModelHypothesis before = HypothesisWith(nominal_, causes, Eigen::Vector2d(1e-3, -5e-4));
+  const ModelHypothesis after = HypothesisWith(nominal_, causes, Eigen::Vector2d(2e-3, 1e-3));
   const Simulation start = simulator_.Run(before);
   const Simulation cold = simulator_.Run(after);
   const Simulation warm = simulator_.Run(after, &start);

@@ -11,12 +11,12 @@
 namespace palpate::diagnosis {
 
 /// What is seen moves by z.head(3), m, and turns by z.tail(3), rad, about `middle_m`.
-Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m);
+Eigen::Isometry3d ViewMotion(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m);
 
 /// Adds what a little more of one of these six than `z` does to where the target is seen.
 /// `T_after`: what the move that `z` makes is followed by.
-void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const Eigen::Isometry3d& T_after, const FaultContext& at,
-                 Eigen::Matrix3Xd* motion_m);
+void AddViewMotion(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
+                   const Eigen::Isometry3d& T_after, const FaultContext& at,
+                   Eigen::Matrix3Xd* motion_m);
 
 }  // namespace palpate::diagnosis

@@ -20,12 +20,12 @@ TEST(MemorableEnds, OfAPullAreWhatTheHoldAfterItHas) {
   ASSERT_TRUE(observed.samples[0].begins_piece && observed.samples[0].ends_piece);
   ASSERT_TRUE(observed.samples[1].still);
   const Simulator simulator(observed, 1);
-  ModelHypothesis hypothesis = DraftOf(body, observed);
+  ModelHypothesis hypothesis = NominalHypothesis(body, observed);
   const auto expect_held = [&](const Simulation& simulation, const char* what) {
     ASSERT_TRUE(simulation.status.ok()) << simulation.status.message();
-    const Memorable& end = simulation.samples[0].at_ends[1];
-    const Memorable& held = simulation.samples[1].in_the_middle;
-    const Memorable& middle = simulation.samples[0].in_the_middle;
+    const HistoryInput& end = simulation.samples[0].at_ends[1];
+    const HistoryInput& held = simulation.samples[1].in_the_middle;
+    const HistoryInput& middle = simulation.samples[0].in_the_middle;
     EXPECT_GT((middle.elastic_Pa - held.elastic_Pa).norm(), 0.4F * held.elastic_Pa.norm());
     EXPECT_LT((end.elastic_Pa - held.elastic_Pa).norm(), 0.02F * held.elastic_Pa.norm()) << what;
     EXPECT_LT((end.energy_J_m3 - held.energy_J_m3).norm(), 0.1F * held.energy_J_m3.norm()) << what;

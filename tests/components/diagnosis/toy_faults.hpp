@@ -13,9 +13,9 @@
 namespace palpate::diagnosis {
 
 /// Parameters without a robot.
-class ToyCause final : public FaultModel {
+class ToyFault final : public FaultModel {
  public:
-  ToyCause(const std::string& id, std::vector<FaultParameter> parameters)
+  ToyFault(const std::string& id, std::vector<FaultParameter> parameters)
       : FaultModel({id, {"body"}}, id, std::move(parameters)) {}
   void Apply(const Eigen::VectorXd& /*z*/, ModelHypothesis* /*hypothesis*/) const override {}
 };
@@ -24,7 +24,7 @@ class ToyCause final : public FaultModel {
 inline HypothesisSet ToyBook() {
   std::vector<FaultModelPtr> causes;
   const auto add = [&](const std::string& id, std::vector<FaultParameter> parameters) {
-    causes.push_back(std::make_unique<ToyCause>(id, std::move(parameters)));
+    causes.push_back(std::make_unique<ToyFault>(id, std::move(parameters)));
   };
   add("small", {{.name = "a", .tolerance = 0.5, .fault = 20.0}});
   add("known", {{.name = "b", .tolerance = 0.4, .fault = 0.4}});

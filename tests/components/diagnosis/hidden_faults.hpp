@@ -18,7 +18,7 @@ namespace palpate::diagnosis {
 
 /// A robot with causes hidden in it, measured with 0.1 mm. SmallExperiment pulls all cables
 /// together, where the gain of one looks like what their ends give way by: that is left out there.
-class HiddenCauses : public testing::Test {
+class HiddenFaults : public testing::Test {
  protected:
   /// z of a parameter of the cause of this id at this place.
   struct Hidden {
@@ -28,8 +28,8 @@ class HiddenCauses : public testing::Test {
     int parameter = 0;
   };
 
-  HiddenCauses() : HiddenCauses(SmallRobot(), SmallExperiment(SmallRobot())) {}
-  HiddenCauses(robot::RobotBody body, const experiment::Experiment& experiment)
+  HiddenFaults() : HiddenFaults(SmallRobot(), SmallExperiment(SmallRobot())) {}
+  HiddenFaults(robot::RobotBody body, const experiment::Experiment& experiment)
       : body_(std::move(body)),
         observed_(Observe(experiment, body_, {.most_samples = 40})),
         hypotheses_(Causes(), {}) {
@@ -37,14 +37,15 @@ class HiddenCauses : public testing::Test {
   }
 
   std::vector<FaultModelPtr> Causes(const std::vector<std::string>& without = {}) const {
-    std::vector<FaultModelPtr> causes = MakeCauses({.body = body_, .observed = observed_}, without);
+    std::vector<FaultModelPtr> causes =
+        MakeFaultModels({.body = body_, .observed = observed_}, without);
     std::erase_if(causes, [](const FaultModelPtr& one) { return one->name().id == "cable_ends"; });
     return causes;
   }
 
   int Number(const std::string& id, const std::string& where) const {
     for (int k = 0; k < hypotheses_.size(); ++k) {
-      if (hypotheses_.cause(k).name() == CauseName{id, {where}}) return k;
+      if (hypotheses_.model(k).name() == CauseName{id, {where}}) return k;
     }
     ADD_FAILURE() << "no " << id << " of " << where;
     return -1;
@@ -58,7 +59,8 @@ class HiddenCauses : public testing::Test {
     Eigen::VectorXd z = Eigen::VectorXd::Zero(hypotheses_.parameter_count());
     for (const Hidden& one : hidden) z[ColumnOf(one.id, one.where) + one.parameter] = one.z;
     const Simulation truth =
-        Simulator(observed_, 1).Run(DraftWith(DraftOf(body_, observed_), hypotheses_.All(), z));
+        Simulator(observed_, 1)
+            .Run(HypothesisWith(NominalHypothesis(body_, observed_), hypotheses_.All(), z));
     ASSERT_TRUE(truth.status.ok());
     std::mt19937 random(kSeed);
     std::normal_distribution<double> normal;

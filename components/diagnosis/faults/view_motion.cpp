@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/diagnosis/faults/seen_move.hpp"
+#include "components/diagnosis/faults/view_motion.hpp"
 
 #include <cmath>
 
 namespace palpate::diagnosis {
 
-Eigen::Isometry3d SeenMove(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m) {
+Eigen::Isometry3d ViewMotion(const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m) {
   const double angle_rad = z.tail<3>().norm();
   Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
   if (angle_rad > 0.0) {
@@ -33,14 +33,15 @@ Eigen::Vector3d TurnOf(const Eigen::Vector3d& turn_rad, int component) {
 
 }  // namespace
 
-void AddSeenMove(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
-                 const Eigen::Isometry3d& T_after, const FaultContext& at,
-                 Eigen::Matrix3Xd* motion_m) {
+void AddViewMotion(int parameter, const Eigen::VectorXd& z, const Eigen::Vector3d& middle_m,
+                   const Eigen::Isometry3d& T_after, const FaultContext& at,
+                   Eigen::Matrix3Xd* motion_m) {
   const Eigen::Isometry3d T_moved_measurement = (at.T_measurement_robot() * T_after).inverse();
   for (Eigen::Index m = 0; m < motion_m->cols(); ++m) {
     // What a depth camera with errors measured is not where it saw it.
-    const Eigen::Vector3d measured_m =
-        at.sight.camera ? at.sight.point(m).at_m : at.simulated().markers_m().col(m);
+    const Eigen::Vector3d measured_m = at.measured_points.camera
+                                           ? at.measured_points.point(m).at_m
+                                           : at.simulated().markers_m().col(m);
     const Eigen::Vector3d seen_m = T_moved_measurement * measured_m;
     const Eigen::Vector3d move =
         parameter < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(parameter))

@@ -30,16 +30,16 @@ void SeeSkin(const robot::RobotBody& body, ObservedExperiment* observed) {
   }
   for (Sample& sample : observed->samples) {
     const auto& recording = observed->recordings[static_cast<std::size_t>(sample.recording)];
-    sample.skin.resize(body.feature_points.size());
-    for (std::size_t f = 0; f < sample.skin.size() && recording.T_camera_robot; ++f) {
-      SkinSighting& skin = sample.skin[f];
-      skin.count = recording.name == "a_ramp" && f == 0 ? 0 : 1;
-      skin.point = body.feature_points[f].weights;
-      skin.rest_m = body.feature_points[f].rest_m;
-      const Eigen::Vector3d seen_m = *recording.T_camera_robot * skin.rest_m;
-      skin.normal = 0.95 * (Eigen::Vector3d(0.3, -0.2, 0.1) - seen_m.normalized()).normalized();
-      skin.sigma_m = 1e-4;
-      skin.ripple_m_px = Eigen::Vector2d(3e-3, -5e-3);
+    sample.surface.resize(body.feature_points.size());
+    for (std::size_t f = 0; f < sample.surface.size() && recording.T_camera_robot; ++f) {
+      SurfaceMeasurement& surface = sample.surface[f];
+      surface.count = recording.name == "a_ramp" && f == 0 ? 0 : 1;
+      surface.point = body.feature_points[f].weights;
+      surface.rest_m = body.feature_points[f].rest_m;
+      const Eigen::Vector3d seen_m = *recording.T_camera_robot * surface.rest_m;
+      surface.normal = 0.95 * (Eigen::Vector3d(0.3, -0.2, 0.1) - seen_m.normalized()).normalized();
+      surface.sigma_m = 1e-4;
+      surface.ripple_m_px = Eigen::Vector2d(3e-3, -5e-3);
     }
   }
 }
@@ -88,7 +88,8 @@ TEST_F(FaultDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
 /// No place of a marker matters where nobody saw one.
 TEST_F(FaultDerivativesOfSkin, NeedNoMarkers) {
   for (Sample& sample : observed_.samples) sample.count.setZero();
-  const std::vector<FaultModelPtr> causes = MakeCauses({.body = body_, .observed = observed_}, {});
+  const std::vector<FaultModelPtr> causes =
+      MakeFaultModels({.body = body_, .observed = observed_}, {});
   for (const FaultModelPtr& cause : causes) EXPECT_NE(cause->name().id, "marker_misplacement");
   const auto modulus = std::find_if(causes.begin(), causes.end(), [](const FaultModelPtr& cause) {
     return cause->name().id == "youngs_modulus";

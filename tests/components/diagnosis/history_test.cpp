@@ -159,7 +159,8 @@ TEST(HistoryOperator, KnowsWhereMotionsTurn) {
   EXPECT_NEAR(remembered[0], 0.5 * (path.Fading(1.0, kTau_s) + path.Fading(3.0, kTau_s)), 2e-4);
   EXPECT_NEAR(remembered[1], 0.5 * (path.Fading(5.0, kTau_s) + path.Fading(7.0, kTau_s)), 2e-4);
   const HistoryOperator::Course course = history.Follow(values.transpose().cast<float>());
-  for (Eigen::Index look = HistoryOperator::kLooks; look < 2 * HistoryOperator::kLooks; ++look) {
+  for (Eigen::Index look = HistoryOperator::kTimesPerSample;
+       look < 2 * HistoryOperator::kTimesPerSample; ++look) {
     EXPECT_FLOAT_EQ(course.largest(0, look), 5.0F) << look;
   }
 }
@@ -187,7 +188,7 @@ TEST(HistoryOperator, KnowsTheLargestUntilNow) {
   const HistoryOperator::Course course =
       HistoryOperator(observed).Follow(values.transpose().cast<float>());
   // The first motion goes on to 3 beyond its last sample; later nothing is above that.
-  constexpr Eigen::Index kMotion = 2 * HistoryOperator::kLooks;
+  constexpr Eigen::Index kMotion = 2 * HistoryOperator::kTimesPerSample;
   for (Eigen::Index look = 0; look < kMotion; ++look) {
     EXPECT_FLOAT_EQ(course.largest(0, look), course.now(0, look)) << look;
   }
@@ -202,16 +203,17 @@ TEST(HistoryOperator, FollowsWhatGoesLinearlyThroughEachSample) {
   const Eigen::VectorXd values = ValuesOf(observed, path);
   const HistoryOperator::Course course =
       HistoryOperator(observed).Follow(values.transpose().cast<float>());
-  ASSERT_EQ(course.now.cols(), HistoryOperator::kLooks * std::ssize(observed.samples));
+  ASSERT_EQ(course.now.cols(), HistoryOperator::kTimesPerSample * std::ssize(observed.samples));
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     // The first, the middle and the last frame; of two frames the one or the other.
     const std::vector<double>& frames_s = observed.samples[s].frame_t_s;
-    const auto look = HistoryOperator::kLooks * static_cast<Eigen::Index>(s);
+    const auto look = HistoryOperator::kTimesPerSample * static_cast<Eigen::Index>(s);
     EXPECT_NEAR(course.now(0, look), path.At(frames_s.front()), 1e-6) << s;
-    EXPECT_NEAR(course.now(0, look + HistoryOperator::kLooks / 2),
+    EXPECT_NEAR(course.now(0, look + HistoryOperator::kTimesPerSample / 2),
                 path.At(frames_s[frames_s.size() / 2]), 1e-6)
         << s;
-    EXPECT_NEAR(course.now(0, look + HistoryOperator::kLooks - 1), path.At(frames_s.back()), 1e-6)
+    EXPECT_NEAR(course.now(0, look + HistoryOperator::kTimesPerSample - 1),
+                path.At(frames_s.back()), 1e-6)
         << s;
   }
 }
