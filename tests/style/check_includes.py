@@ -23,7 +23,7 @@ DECLARED = re.compile(
     r"|^(?!using|return|template|namespace)[A-Za-z][\w:<>,&* ]*?[ &*](\w+)\(", re.MULTILINE)
 # What a source declares itself, wherever it stands.
 OWN = re.compile(
-    r"\b(?:struct|class|enum class|enum|using|typename(?:\.\.\.)?) (\w+)"
+    r"\b(?:struct|class|enum class|enum|using|typename(?:\.\.\.)?|template <std::\w+) (\w+)"
     r"|^ *(?!return|throw|else|case|co_)[A-Za-z~](?:[\w:<>,&* \[\]]|<\w+\([^)]*\)>)*[ &*](\w+)\(",
     re.MULTILINE)
 INHERITED = {"Run"}  # from a library's class
