@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/equilibrium_sensitivity.hpp"
 
 namespace palpate::calibration {
@@ -31,12 +32,12 @@ MarkerPredictor::MarkerPredictor(robot::RobotModel& model,
 }
 
 Eigen::Index MarkerPredictor::MarkerRows() const {
-  return static_cast<Eigen::Index>(3 * model_.body().markers.size());
+  return ToIndex(3 * model_.body().markers.size());
 }
 
 void MarkerPredictor::SetModuli(const Eigen::VectorXd& log_modulus) {
   for (Eigen::Index p = 0; p < log_modulus.size(); ++p) {
-    model_.SetYoungsModulus(materials_[static_cast<size_t>(p)], std::exp(log_modulus[p]));
+    model_.SetYoungsModulus(materials_[At(p)], std::exp(log_modulus[p]));
   }
 }
 
@@ -81,12 +82,11 @@ Status MarkerPredictor::PredictEquilibrium(const StaticObservation& observation,
     return {result.status.code(),
             observation.name + ": no equilibrium was reached: " + result.status.message()};
   }
-  const auto moduli = static_cast<Eigen::Index>(materials_.size());
+  const auto moduli = ToIndex(materials_.size());
   Eigen::MatrixXd force_derivative = Eigen::MatrixXd::Zero(state->x_m.size(), moduli);
   for (Eigen::Index p = 0; p < moduli; ++p) {
     Eigen::VectorXd internal = Eigen::VectorXd::Zero(state->x_m.size());
-    model_.elastic_body().AddForcesOfMaterial(materials_[static_cast<size_t>(p)], state->x_m,
-                                              internal);
+    model_.elastic_body().AddForcesOfMaterial(materials_[At(p)], state->x_m, internal);
     force_derivative.col(p) = -internal;
   }
   Eigen::MatrixXd dx;
@@ -105,7 +105,7 @@ Status MarkerPredictor::PredictReference(const StaticObservation& observation, M
     return PredictEquilibrium(observation, {}, &rest, markers);
   }
   markers->position_m = MarkersAt(rest.x_m);
-  markers->jacobian_m.setZero(MarkerRows(), static_cast<Eigen::Index>(materials_.size()));
+  markers->jacobian_m.setZero(MarkerRows(), ToIndex(materials_.size()));
   return Status::Ok();
 }
 
@@ -131,8 +131,7 @@ Eigen::VectorXd MarkerPredictor::MarkersAt(const Eigen::Ref<const Eigen::VectorX
   const auto& markers = model_.body().markers;
   Eigen::VectorXd positions(MarkerRows());
   for (size_t m = 0; m < markers.size(); ++m) {
-    positions.segment<3>(static_cast<Eigen::Index>(3 * m)) =
-        markers[m].point.weights.Position(nodal);
+    positions.segment<3>(ToIndex(3 * m)) = markers[m].point.weights.Position(nodal);
   }
   return positions;
 }

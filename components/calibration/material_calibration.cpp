@@ -9,6 +9,7 @@
 
 #include "components/calibration/marker_prediction.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
@@ -46,11 +47,11 @@ MaterialFit::MaterialFit(robot::RobotModel& model,
     : model_(model),
       settings_(settings),
       predictor_(model, observations, settings.materials),
-      log_modulus_(static_cast<Eigen::Index>(settings.materials.size())) {
+      log_modulus_(ToIndex(settings.materials.size())) {
   for (size_t p = 0; p < settings.materials.size(); ++p) {
     const auto material = static_cast<size_t>(settings.materials[p]);
     modulus_before_Pa_.push_back(model.elastic_body().materials().at(material).youngs_modulus_Pa);
-    log_modulus_[static_cast<Eigen::Index>(p)] = std::log(modulus_before_Pa_.back());
+    log_modulus_[ToIndex(p)] = std::log(modulus_before_Pa_.back());
   }
 }
 
@@ -136,10 +137,9 @@ Status MaterialFit::CheckDetermined() const {
     if (sigma <= settings_.undetermined_sigma) continue;
     Eigen::Index worst = 0;
     eigen.vectors.col(k).cwiseAbs().maxCoeff(&worst);
-    return {StatusCode::kUnobservable,
-            "these data do not determine Young's modulus of " +
-                PartName(settings_.materials[static_cast<size_t>(worst)]) +
-                ": add a recording with a known load"};
+    return {StatusCode::kUnobservable, "these data do not determine Young's modulus of " +
+                                           PartName(settings_.materials[At(worst)]) +
+                                           ": add a recording with a known load"};
   }
   return Status::Ok();
 }
@@ -160,7 +160,7 @@ void MaterialFit::Conclude(MaterialCalibration* result) const {
       sigma.cwiseInverse().asDiagonal() * covariance * sigma.cwiseInverse().asDiagonal();
   for (Eigen::Index k = 0; k < p; ++k) {
     const double modulus_Pa = std::exp(log_modulus_[k]);
-    result->moduli.push_back({.material = settings_.materials[static_cast<size_t>(k)],
+    result->moduli.push_back({.material = settings_.materials[At(k)],
                               .youngs_modulus_Pa = modulus_Pa,
                               .standard_error_Pa = modulus_Pa * sigma[k]});
   }

@@ -7,6 +7,7 @@
 
 #include "components/calibration/recording_phase.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::calibration {
@@ -24,7 +25,7 @@ void AverageMarkers(const experiment::Experiment& experiment,
   const std::vector<experiment::MarkerMean> means =
       experiment::MeanOver(*recording.markers, window);
   const Eigen::Vector3d sigma = experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero());
-  position_m->setZero(static_cast<Eigen::Index>(3 * names.size()));
+  position_m->setZero(ToIndex(3 * names.size()));
   variance_m2->setConstant(position_m->size(), -1.0);
   int seen = 0;
   for (size_t m = 0; m < names.size(); ++m) {
@@ -34,7 +35,7 @@ void AverageMarkers(const experiment::Experiment& experiment,
     const Eigen::Vector3d noise = mean.deviation_m.cwiseMax(sigma);
     const Eigen::Matrix3d covariance = T_robot.linear() * noise.cwiseAbs2().asDiagonal() *
                                        T_robot.linear().transpose() / mean.count;
-    const auto row = static_cast<Eigen::Index>(3 * m);
+    const auto row = ToIndex(3 * m);
     position_m->segment<3>(row) = T_robot * mean.mean_m;
     // Rounding of the file bounds what any mean can be known to.
     constexpr double kFloor_m2 = 1e-14;

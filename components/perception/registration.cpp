@@ -8,6 +8,7 @@
 #include <string>
 
 #include "components/perception/registered_frame.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -59,10 +60,10 @@ struct Lens {
 
 Registration::Registration(const rgbd::RgbdCamera& camera) : camera_(camera) {
   const rgbd::CameraModel& depth = camera.depth;
-  rays_.resize(3, static_cast<Eigen::Index>(PixelCount(depth)));
+  rays_.resize(3, ToIndex(PixelCount(depth)));
   for (int v = 0; v < depth.height_px; ++v) {
     for (int u = 0; u < depth.width_px; ++u) {
-      rays_.col(static_cast<Eigen::Index>(v) * depth.width_px + u) =
+      rays_.col(ToIndex(v) * depth.width_px + u) =
           rgbd::Unproject(depth, Eigen::Vector2d(u, v)).cast<float>();
     }
   }
@@ -168,7 +169,7 @@ void Registration::MapColor(const rgbd::ColorImage& color, const Window& window,
 template <bool kDistorted>
 void Registration::ProjectRow(int v, const Window& window, const float* z_m) {
   const rgbd::CameraModel& color = camera_.color;
-  const Eigen::Index first = static_cast<Eigen::Index>(v) * camera_.depth.width_px;
+  const Eigen::Index first = ToIndex(v) * camera_.depth.width_px;
   const Eigen::Vector3f t = T_color_depth_.translation().cast<float>();
   const float* __restrict ray_x = color_rays_.col(0).data() + first;
   const float* __restrict ray_y = color_rays_.col(1).data() + first;
@@ -213,7 +214,7 @@ void Registration::Splat(int v, const Window& window) {
       static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.depth.width_px);
   for (auto u = static_cast<std::size_t>(window.u_begin);
        u < static_cast<std::size_t>(window.u_end); ++u) {
-    float& nearest_m = nearest_z_m_[static_cast<std::size_t>(cell_[first + u])];
+    float& nearest_m = nearest_z_m_[At(cell_[first + u])];
     nearest_m = std::min(nearest_m, color_z_m_[first + u]);
   }
 }
@@ -228,7 +229,7 @@ void Registration::TakeColors(const rgbd::ColorImage& color, int v, const Window
     std::uint8_t* rgb = registered->color.values.data() + 3 * i;
     const int pixel = color_pixel_[i];
     const float z_m = color_z_m_[i];
-    const float in_front_m = z_m - nearest_z_m_[static_cast<std::size_t>(cell_[i])];
+    const float in_front_m = z_m - nearest_z_m_[At(cell_[i])];
     const bool known =
         pixel != kNowhere && in_front_m * parallax_m_px <= kHiddenParallax_px * z_m * z_m;
     const std::uint8_t* from =

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::view {
 
@@ -56,7 +57,7 @@ void CheckSize(const Scene& scene) {
 }
 
 void CheckNotEmpty(const Scene& scene) {
-  Eigen::Index things = static_cast<Eigen::Index>(scene.arrows.size() + scene.blocks.size());
+  Eigen::Index things = ToIndex(scene.arrows.size() + scene.blocks.size());
   for (const Surface& surface : scene.surfaces) {
     things += surface.triangles.cols();
   }

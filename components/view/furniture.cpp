@@ -13,6 +13,7 @@
 #include "components/view/overlay.hpp"
 #include "components/view/stage.hpp"
 #include "components/view/text.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::view {
 
@@ -163,8 +164,7 @@ void DrawAxes(const Camera& camera, int height_px, double px, Image* image) {
   for (const int axis : order) {
     const Eigen::Vector2d along_px =
         kLength * px * Eigen::Vector2d(camera.right()(axis), -camera.up()(axis));
-    DrawAxis(origin_px, along_px, static_cast<char>('x' + axis),
-             colors[static_cast<std::size_t>(axis)], px, image);
+    DrawAxis(origin_px, along_px, static_cast<char>('x' + axis), colors[At(axis)], px, image);
   }
 }
 

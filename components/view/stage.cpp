@@ -10,6 +10,7 @@
 
 #include "components/view/shapes.hpp"
 #include "components/view/surface_edges.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::view {
 
@@ -142,8 +143,7 @@ void Stage::DrawSurface(const Surface& surface, double scalar_maximum) const {
       const Color color = surface.scalars.size() == 0
                               ? surface.color
                               : SequentialColor(surface.scalars(point) / scalar_maximum);
-      corners[static_cast<std::size_t>(i)] = {surface.points_m.col(point),
-                                              edges.corner_normals.col(3 * t + i), color};
+      corners[At(i)] = {surface.points_m.col(point), edges.corner_normals.col(3 * t + i), color};
     }
     shape.AddTriangle(corners[0], corners[1], corners[2]);
   }

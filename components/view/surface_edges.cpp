@@ -10,6 +10,8 @@
 #include <numbers>
 #include <utility>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::view {
 
 namespace {
@@ -38,14 +40,14 @@ Eigen::Matrix3Xd CornerNormals(const Eigen::Matrix3Xi& triangles, const Eigen::M
   std::vector<std::vector<Eigen::Index>> around(static_cast<std::size_t>(point_count));
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      around[static_cast<std::size_t>(triangles(i, t))].push_back(t);
+      around[At(triangles(i, t))].push_back(t);
     }
   }
   Eigen::Matrix3Xd normals(3, 3 * triangles.cols());
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (int i = 0; i < 3; ++i) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const Eigen::Index other : around[static_cast<std::size_t>(triangles(i, t))]) {
+      for (const Eigen::Index other : around[At(triangles(i, t))]) {
         if (!IsCrease(faces.col(t), faces.col(other))) {
           sum += faces.col(other);
         }
@@ -57,9 +59,9 @@ Eigen::Matrix3Xd CornerNormals(const Eigen::Matrix3Xi& triangles, const Eigen::M
 }
 
 Eigen::Matrix2Xi ToMatrix(const std::vector<std::pair<int, int>>& edges) {
-  Eigen::Matrix2Xi matrix(2, static_cast<Eigen::Index>(edges.size()));
+  Eigen::Matrix2Xi matrix(2, ToIndex(edges.size()));
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    matrix.col(static_cast<Eigen::Index>(i)) << edges[i].first, edges[i].second;
+    matrix.col(ToIndex(i)) << edges[i].first, edges[i].second;
   }
   return matrix;
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::virtual_camera {
 
 namespace {
@@ -40,7 +42,7 @@ kernels::ColorRow ColorSensor::RowOf(Planes* planes) {
 }
 
 void ColorSensor::Shade(SceneCamera* camera, int v) {
-  Planes& row = sharp_[static_cast<std::size_t>(v % 3)];
+  Planes& row = sharp_[At(v % 3)];
   loops_.shade_row(camera->z_buffer().Row(v), camera->palette(), RowOf(&row));
 }
 
@@ -55,7 +57,7 @@ void ColorSensor::Expose(SceneCamera* camera, rgbd::ColorImage* color) {
   for (int v = 0; v < height_px_; ++v) {
     if (v + 1 < height_px_) Shade(camera, v + 1);
     const auto row_of = [this](int row) {
-      return RowOf(&sharp_[static_cast<std::size_t>(std::clamp(row, 0, height_px_ - 1) % 3)]);
+      return RowOf(&sharp_[At(std::clamp(row, 0, height_px_ - 1) % 3)]);
     };
     const kernels::ColorRow rows[3] = {row_of(v - 1), row_of(v), row_of(v + 1)};
     loops_.blur_row(rows, exposure_.width_px, RowOf(&blurred_));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::virtual_camera {
 
@@ -57,11 +58,11 @@ void NoiseField::Advance(std::uint64_t key) {
   for (int v = 0; v < height_px_ + taps() - 1; ++v) {
     loops_.white_noise_row(key_low, key_high, static_cast<std::uint32_t>(v * white_width),
                            white_width, white_.data());
-    for (int k = 0; k < taps(); ++k) rows[static_cast<std::size_t>(k)] = white_.data() + k;
+    for (int k = 0; k < taps(); ++k) rows[At(k)] = white_.data() + k;
     loops_.convolve(rows.data(), weights_.data(), taps(), width_px_, AcrossRow(v));
     const int done = v - taps() + 1;
     if (done < 0) continue;
-    for (int k = 0; k < taps(); ++k) rows[static_cast<std::size_t>(k)] = AcrossRow(done + k);
+    for (int k = 0; k < taps(); ++k) rows[At(k)] = AcrossRow(done + k);
     loops_.convolve(rows.data(), weights_.data(), taps(), width_px_, fresh_.data());
     loops_.blend_row(fresh_.data(), started_ ? old_share_ : 0.0F, started_ ? fresh_share_ : 1.0F,
                      width_px_, state_.data() + Offset(done));

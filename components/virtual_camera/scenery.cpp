@@ -9,6 +9,7 @@
 #include "components/virtual_camera/hand.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::virtual_camera {
 
@@ -200,8 +201,7 @@ const Drawing& Scenery::Update(const View& view) {
     const auto tool = std::find_if(tools_.begin(), tools_.end(),
                                    [&pose](const auto& one) { return one.name == pose.tool; });
     if (tool == tools_.end()) throw InputError("the scenario has no tool '" + pose.tool + "'");
-    AddTool(*tool, tool_paints_[static_cast<std::size_t>(tool - tools_.begin())],
-            pose.T_robot_tool);
+    AddTool(*tool, tool_paints_[At(tool - tools_.begin())], pose.T_robot_tool);
   }
   return drawing_;
 }

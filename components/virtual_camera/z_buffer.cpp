@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::virtual_camera {
 
@@ -53,8 +54,8 @@ void ZBuffer::LayPinholeRays() {
   column_x_.assign(row, 0.0);
   for (int u = 0; u < camera_.width_px; ++u) {
     const double x = (u - camera_.cx_px) / camera_.fx_px;
-    column_x_[static_cast<std::size_t>(u)] = x;
-    x_[static_cast<std::size_t>(u + kRowPadding)] = static_cast<float>(x);
+    column_x_[At(u)] = x;
+    x_[At(u + kRowPadding)] = static_cast<float>(x);
     for (int v = 0; v < camera_.height_px; ++v) {
       const double y = (v - camera_.cy_px) / camera_.fy_px;
       inverse_ray_length_[Offset(v) + static_cast<std::size_t>(u)] =

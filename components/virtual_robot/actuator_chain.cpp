@@ -7,11 +7,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::virtual_robot {
 
 namespace {
 
-Eigen::Index Index(size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index Index(size_t i) { return ToIndex(i); }
 
 /// Where one end is not driven, the later one counts.
 double Between(double from, double to, double fraction) {
@@ -30,8 +32,7 @@ ActuatorChain::ActuatorChain(const std::vector<std::string>& cable_names, const 
   play_m_ = Eigen::VectorXd::Zero(count);
   for (const auto* effect : OfKind(effects, "swapped_cables")) {
     const std::vector<int> two = PlacesOf(*effect, "cable", cable_names, 2);
-    std::swap(cable_of_actuator_[static_cast<size_t>(two[0])],
-              cable_of_actuator_[static_cast<size_t>(two[1])]);
+    std::swap(cable_of_actuator_[At(two[0])], cable_of_actuator_[At(two[1])]);
   }
   for (const auto* effect : OfKind(effects, "drive_coupling")) {
     const std::vector<int> two = PlacesOf(*effect, "cable", cable_names, 2);

@@ -10,6 +10,7 @@
 #include "components/virtual_robot/material_effects.hpp"
 #include "components/virtual_robot/rest_shape.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/fem/kernels/kernel.hpp"
@@ -97,7 +98,7 @@ fem::TetMesh Corners(const fem::TetMesh& mesh) {
                        .group_names = {}};
   Eigen::Index count = 0;
   for (int& node : corners.cells.reshaped()) {
-    int& number = new_number[static_cast<size_t>(node)];
+    int& number = new_number[At(node)];
     if (number < 0) {
       number = static_cast<int>(count);
       corners.nodes_m.col(count++) = mesh.nodes_m.col(node);
@@ -126,8 +127,8 @@ void Refine(const robot::RobotDescription& robot, int times, robot::RobotBody* b
   for (size_t c = 0; c < body->cables.size(); ++c) {
     const robot::CableSettings& settings = robot.cables[c];
     for (size_t e = 0; e < body->cables[c].eyelets.size(); ++e) {
-      body->cables[c].eyelets[e] = locator.EmbedBall(
-          settings.path_m.col(static_cast<Eigen::Index>(e) + 1), settings.guide_radius_m);
+      body->cables[c].eyelets[e] =
+          locator.EmbedBall(settings.path_m.col(ToIndex(e) + 1), settings.guide_radius_m);
     }
   }
   for (robot::BodyMarker& marker : body->markers) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/cable_path.hpp"
 
 namespace palpate::virtual_robot {
@@ -75,7 +76,7 @@ double CableGeometry::TotalLength_m() const {
 
 double CableGeometry::TurningAngle_rad(int piece) const {
   const Eigen::Vector3d& before = pieces_[static_cast<size_t>(piece) - 1].direction;
-  const Eigen::Vector3d& after = pieces_[static_cast<size_t>(piece)].direction;
+  const Eigen::Vector3d& after = pieces_[At(piece)].direction;
   if (before.isZero() || after.isZero()) return 0.0;
   return robot::TurningAngle(before, after);
 }
@@ -89,7 +90,7 @@ double CableGeometry::SquaredEyeletForces() const {
 }
 
 void CableGeometry::AddGradient(int index, double factor, Eigen::VectorXd& nodal) const {
-  const Piece& piece = pieces_[static_cast<size_t>(index)];
+  const Piece& piece = pieces_[At(index)];
   for (size_t k = 0; k < piece.nodes.size(); ++k) {
     nodal.segment<3>(3 * piece.nodes[k]) += factor * piece.coefficients[k] * piece.direction;
   }
@@ -97,7 +98,7 @@ void CableGeometry::AddGradient(int index, double factor, Eigen::VectorXd& nodal
 
 void CableGeometry::AddCurvature(int index, double tension_N,
                                  fem::StiffnessMatrix& stiffness) const {
-  const Piece& piece = pieces_[static_cast<size_t>(index)];
+  const Piece& piece = pieces_[At(index)];
   if (piece.direction.isZero() || tension_N == 0.0) return;
   const Eigen::Matrix3d curvature =
       tension_N / piece.length_m *

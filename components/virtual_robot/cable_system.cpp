@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/lu.hpp"
 
 namespace palpate::virtual_robot {
@@ -15,7 +16,7 @@ CableSystem::CableSystem(const BenchBody& body, const Effects& effects) {
   std::vector<Eigen::Vector3d> guide_m;
   for (const robot::BodyCable& cable : body.cables) guide_m.push_back(cable.pull_point_m);
   for (const auto* effect : OfKind(effects, "cable_routing")) {
-    guide_m[static_cast<size_t>(PlaceOf(*effect, "cable", names))] +=
+    guide_m[At(PlaceOf(*effect, "cable", names))] +=
         Eigen::Vector3d(0.0, Value(*effect, "dy_m"), Value(*effect, "dz_m"));
   }
   int pieces = 0;
@@ -32,15 +33,14 @@ CableSystem::CableSystem(const BenchBody& body, const Effects& effects) {
     cables_.push_back(std::move(cable));
   }
   for (const auto* effect : OfKind(effects, "cable_friction")) {
-    cables_[static_cast<size_t>(PlaceOf(*effect, "cable", names))].friction +=
-        NonNegativeValue(*effect, "mu");
+    cables_[At(PlaceOf(*effect, "cable", names))].friction += NonNegativeValue(*effect, "mu");
   }
   for (const auto* effect : OfKind(effects, "cable_elasticity")) {
-    cables_[static_cast<size_t>(PlaceOf(*effect, "cable", names))].compliance_m_N +=
+    cables_[At(PlaceOf(*effect, "cable", names))].compliance_m_N +=
         1.0 / PositiveValue(*effect, "k_N_m");
   }
   for (const auto* effect : OfKind(effects, "cable_cutting")) {
-    cables_[static_cast<size_t>(PlaceOf(*effect, "cable", names))].cutting_m_N +=
+    cables_[At(PlaceOf(*effect, "cable", names))].cutting_m_N +=
         NonNegativeValue(*effect, "compliance_m_N");
   }
   tension_N_ = Eigen::VectorXd::Zero(pieces);
@@ -111,7 +111,7 @@ void CableSystem::AddCurvature(fem::StiffnessMatrix& stiffness) const {
 }
 
 double CableSystem::DriveTension_N(int cable) const {
-  return tension_N_[cables_[static_cast<size_t>(cable)].first_piece];
+  return tension_N_[cables_[At(cable)].first_piece];
 }
 
 double CableSystem::Sliding(const Cable& cable, int piece, double beyond_m) const {
@@ -124,7 +124,7 @@ void CableSystem::BalanceDrive(size_t index, const Eigen::VectorXd& length_m,
   const Cable& cable = cables_[index];
   const Eigen::Index first = cable.first_piece;
   const Eigen::Index count = cable.geometry.PieceCount();
-  const double pulled_in_m = pulled_in_m_[static_cast<Eigen::Index>(index)];
+  const double pulled_in_m = pulled_in_m_[ToIndex(index)];
   const double own_m_N =
       cable.compliance_m_N + cable.cutting_m_N * cable.geometry.SquaredEyeletForces();
   const double stiffness_N_m =

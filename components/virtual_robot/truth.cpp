@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/embedding.hpp"
 
 namespace palpate::virtual_robot {
@@ -49,7 +50,7 @@ Truth::Truth(const Bench& bench, const Effects& effects, std::uint64_t seed)
 void Truth::Update() {
   for (size_t actuator = 0; actuator < readings_.size(); ++actuator) {
     const int cable = bench_.actuators().CableOfActuator(static_cast<int>(actuator));
-    readings_[actuator] = {bench_.command_m()[static_cast<Eigen::Index>(actuator)],
+    readings_[actuator] = {bench_.command_m()[ToIndex(actuator)],
                            bench_.cable_system().DriveTension_N(cable)};
   }
 }
@@ -71,9 +72,9 @@ std::vector<TrueForce> Truth::Forces() const {
 }
 
 Eigen::Matrix3Xd Truth::MarkerPositions_m() const {
-  Eigen::Matrix3Xd positions_m(3, static_cast<Eigen::Index>(markers_.size()));
+  Eigen::Matrix3Xd positions_m(3, ToIndex(markers_.size()));
   for (size_t k = 0; k < markers_.size(); ++k) {
-    positions_m.col(static_cast<Eigen::Index>(k)) = markers_[k].Position(bench_.state().x_m);
+    positions_m.col(ToIndex(k)) = markers_[k].Position(bench_.state().x_m);
   }
   return positions_m;
 }

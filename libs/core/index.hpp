@@ -10,14 +10,14 @@
 namespace palpate {
 
 /// A number that is not negative as an index of std::vector and its kin: names[At(marker)].
-template <std::integral Integer>
-constexpr std::size_t At(Integer index) {
+template <std::integral Int>
+constexpr std::size_t At(Int index) {
   return static_cast<std::size_t>(index);
 }
 
 /// A number as Eigen::Index: matrix.col(ToIndex(k)).
-template <std::integral Integer>
-constexpr std::ptrdiff_t ToIndex(Integer number) {
+template <std::integral Int>
+constexpr std::ptrdiff_t ToIndex(Int number) {
   return static_cast<std::ptrdiff_t>(number);
 }
 

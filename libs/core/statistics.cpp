@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 
+#include "libs/core/index.hpp"
+
 namespace palpate {
 
 namespace {
@@ -68,7 +70,7 @@ double Quantile(std::vector<double> values, double share) {
   const auto count = static_cast<double>(values.size());
   const auto index = static_cast<std::ptrdiff_t>(std::clamp(share * count, 0.0, count - 1.0));
   std::nth_element(values.begin(), values.begin() + index, values.end());
-  return values[static_cast<std::size_t>(index)];
+  return values[At(index)];
 }
 
 double NormalQuantile(double probability) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/geometry/closest_point.hpp"
 
 namespace palpate::correspondence {
@@ -75,15 +76,14 @@ MovingSurface::MovingSurface(const Eigen::Matrix3Xi& triangles)
     triangles_.data()[k] = static_cast<int>(at - nodes_.begin());
   }
   beyond_ = FindBeyond(triangles_);
-  vertices_m_.setZero(3, static_cast<Eigen::Index>(nodes_.size()));
+  vertices_m_.setZero(3, ToIndex(nodes_.size()));
 }
 
 void MovingSurface::MoveTo(const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_camera_robot) {
   const Eigen::Matrix3d rotation = T_camera_robot.linear();
   const Eigen::Vector3d translation_m = T_camera_robot.translation();
   for (size_t v = 0; v < nodes_.size(); ++v) {
-    vertices_m_.col(static_cast<Eigen::Index>(v)) =
-        rotation * x_m.segment<3>(3 * nodes_[v]) + translation_m;
+    vertices_m_.col(ToIndex(v)) = rotation * x_m.segment<3>(3 * nodes_[v]) + translation_m;
   }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::correspondence {
 
 namespace {
@@ -33,7 +35,7 @@ void PatchMatching::Match(const rgbd::SensedCloud& cloud, const Eigen::Isometry3
   Land(cloud, surface, view, distances, matches);
   SortByFeature();
   for (int feature = 0; feature < features_.Count(); ++feature) {
-    Conclude(feature, T_robot_camera, surface, &(*matches)[static_cast<size_t>(feature)]);
+    Conclude(feature, T_robot_camera, surface, &(*matches)[At(feature)]);
   }
 }
 
@@ -52,8 +54,8 @@ void PatchMatching::Land(const rgbd::SensedCloud& cloud, const MovingSurface& su
     if (weight <= 0.0) continue;
     const int feature = features_.FeatureOfTriangle(foot.triangle);
     if (foot.distance_m > distances.outlier_m) {
-      ++(*matches)[static_cast<size_t>(feature)].outliers;
-      outlier_height_m_[static_cast<size_t>(feature)] += foot.distance_m;
+      ++(*matches)[At(feature)].outliers;
+      outlier_height_m_[At(feature)] += foot.distance_m;
       continue;
     }
     if (foot.beyond_sharp_ridge) continue;
@@ -75,19 +77,19 @@ void PatchMatching::SortByFeature() {
   next_ = begin_;
   order_.resize(landings_.size());
   for (size_t k = 0; k < landings_.size(); ++k) {
-    int& next = next_[static_cast<size_t>(landings_[k].feature)];
-    order_[static_cast<size_t>(next++)] = static_cast<int>(k);
+    int& next = next_[At(landings_[k].feature)];
+    order_[At(next++)] = static_cast<int>(k);
   }
 }
 
 void PatchMatching::Conclude(int feature, const Eigen::Isometry3d& T_robot_camera,
                              const MovingSurface& surface, FeatureMatch* match) {
-  const int begin = begin_[static_cast<size_t>(feature)];
+  const int begin = begin_[At(feature)];
   const int end = begin_[static_cast<size_t>(feature) + 1];
   match->count = end - begin;
   if (match->outliers >= kFewestPoints && match->outliers > match->count) {
     match->state = MatchState::kOutlier;
-    match->distance_m = outlier_height_m_[static_cast<size_t>(feature)] / match->outliers;
+    match->distance_m = outlier_height_m_[At(feature)] / match->outliers;
     return;
   }
   if (match->count < kFewestPoints) return;
@@ -105,7 +107,7 @@ void PatchMatching::WeighLandings(int begin, int end) {
   sigma_m_.resize(end - begin);
   weight_.resize(end - begin);
   for (int k = begin; k < end; ++k) {
-    const Landing& landing = landings_[static_cast<size_t>(order_[static_cast<size_t>(k)])];
+    const Landing& landing = landings_[At(order_[At(k)])];
     height_m_[k - begin] = landing.foot.height_m;
     sigma_m_[k - begin] = landing.sigma_m;
     weight_[k - begin] = landing.weight;
@@ -122,13 +124,13 @@ void PatchMatching::AddRow(int begin, int end, const Eigen::Matrix3d& R_robot_ca
   for (int k = begin; k < end; ++k) {
     const double weight = weight_[k - begin];
     if (weight <= 0.0) continue;
-    const Landing& landing = landings_[static_cast<size_t>(order_[static_cast<size_t>(k)])];
+    const Landing& landing = landings_[At(order_[At(k)])];
     normal += weight * landing.foot.normal;
     match->position_m += weight * landing.point_m;
     match->target_m += weight * landing.foot.normal.dot(landing.point_m);
     for (int corner = 0; corner < 3; ++corner) {
       const int vertex = surface.triangles()(corner, landing.foot.triangle);
-      Eigen::Vector3d& sum = coefficient_[static_cast<size_t>(vertex)];
+      Eigen::Vector3d& sum = coefficient_[At(vertex)];
       if (sum.isZero(0.0)) touched_.push_back(vertex);
       sum += weight * landing.foot.barycentric[corner] * landing.foot.normal;
     }
@@ -136,7 +138,7 @@ void PatchMatching::AddRow(int begin, int end, const Eigen::Matrix3d& R_robot_ca
   match->normal = R_robot_camera * normal;
   std::sort(touched_.begin(), touched_.end());
   for (const int vertex : touched_) {
-    Eigen::Vector3d& sum = coefficient_[static_cast<size_t>(vertex)];
+    Eigen::Vector3d& sum = coefficient_[At(vertex)];
     if (sum.isZero(0.0)) continue;  // named twice
     match->row.nodes.push_back(surface.NodeOfVertex(vertex));
     match->row.coefficients.push_back(R_robot_camera * sum);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::correspondence {
 
 namespace {
@@ -36,7 +38,7 @@ void PredictedView::Look(const Eigen::Matrix3Xd& vertices_m, const Eigen::Matrix
     aimed_m_.setZero(3, vertices_m.cols());  // too near: nothing is drawn
   }
   TakeFacing(vertices_m, triangles);
-  view_.Look(aimed_m_, facing_.leftCols(static_cast<Eigen::Index>(numbers_.size())));
+  view_.Look(aimed_m_, facing_.leftCols(ToIndex(numbers_.size())));
 }
 
 void PredictedView::TakeFacing(const Eigen::Matrix3Xd& vertices_m,
@@ -48,7 +50,7 @@ void PredictedView::TakeFacing(const Eigen::Matrix3Xd& vertices_m,
     const Eigen::Vector3d b = vertices_m.col(triangles(1, t));
     const Eigen::Vector3d c = vertices_m.col(triangles(2, t));
     if (a.dot(b.cross(c)) >= 0.0) continue;
-    facing_.col(static_cast<Eigen::Index>(numbers_.size())) = triangles.col(t);
+    facing_.col(ToIndex(numbers_.size())) = triangles.col(t);
     numbers_.push_back(static_cast<int>(t));
   }
 }
@@ -103,7 +105,7 @@ int PredictedView::TriangleAt(const Eigen::Vector3d& point_m, double search_m) c
   if (!PixelOf(point_m, &at, &z_m)) return SurfaceView::kNothing;
   if (Inside(at.x(), at.y())) {
     const int seen = view_.Triangle(at.x(), at.y());
-    if (seen != SurfaceView::kNothing) return numbers_[static_cast<size_t>(seen)];
+    if (seen != SurfaceView::kNothing) return numbers_[At(seen)];
   }
   const int reach_px =
       static_cast<int>(std::min<double>(search_m * scale_px_ / z_m, kFarthestSearch_px));
@@ -119,7 +121,7 @@ int PredictedView::TriangleAt(const Eigen::Vector3d& point_m, double search_m) c
       best_squared_px2 = squared_px2;
     }
   }
-  return best == SurfaceView::kNothing ? best : numbers_[static_cast<size_t>(best)];
+  return best == SurfaceView::kNothing ? best : numbers_[At(best)];
 }
 
 bool PredictedView::Hides(const Eigen::Vector3d& point_m, double tolerance_m) const {

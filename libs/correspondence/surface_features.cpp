@@ -4,6 +4,7 @@
 #include "libs/correspondence/surface_features.hpp"
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/triangle_surface.hpp"
 
@@ -16,7 +17,7 @@ std::vector<std::vector<int>> TrianglesOfNodes(const Eigen::Matrix3Xi& triangles
   std::vector<std::vector<int>> found(static_cast<size_t>(nodes));
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (const int node : triangles.col(t)) {
-      found[static_cast<size_t>(node)].push_back(static_cast<int>(t));
+      found[At(node)].push_back(static_cast<int>(t));
     }
   }
   return found;
@@ -31,7 +32,7 @@ SurfaceFeatures::SurfaceFeatures(const robot::RobotBody& body)
     throw InputError("robot \"" + body.name +
                      "\": without feature_points its surface cannot be measured");
   }
-  rest_m_.resize(3, static_cast<Eigen::Index>(points.size()));
+  rest_m_.resize(3, ToIndex(points.size()));
   for (const fem::BodyPoint& point : points) {
     rest_m_.col(Count()) = point.rest_m;
     points_.push_back(point.weights);
@@ -49,8 +50,7 @@ void SurfaceFeatures::FindParts(const Eigen::Matrix3Xd& nodes_m) {
     for (int corner = 0; corner < 3; ++corner) {
       const auto node = static_cast<size_t>(triangles_(corner, at.triangle));
       for (const int triangle : of_node[node]) {
-        parts_of_feature_[static_cast<size_t>(feature)].push_back(
-            {triangle, at.barycentric[corner]});
+        parts_of_feature_[At(feature)].push_back({triangle, at.barycentric[corner]});
       }
     }
   }
@@ -71,14 +71,14 @@ void SurfaceFeatures::ShareOut(const Eigen::Matrix3Xd& nodes_m) {
     ((rest_m_.colwise() - centre_m).colwise().squaredNorm().array() +
      0.5 * spacing_squared_m2 * (1.0 - cosines.array()))
         .minCoeff(&nearest);
-    feature_of_triangle_[static_cast<size_t>(t)] = static_cast<int>(nearest);
+    feature_of_triangle_[At(t)] = static_cast<int>(nearest);
   }
 }
 
 Eigen::Matrix3Xd SurfaceFeatures::Normals(const Eigen::VectorXd& x_m) const {
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, Count());
   for (int feature = 0; feature < Count(); ++feature) {
-    for (const Part& part : parts_of_feature_[static_cast<size_t>(feature)]) {
+    for (const Part& part : parts_of_feature_[At(feature)]) {
       const Eigen::Vector3i corners = triangles_.col(part.triangle);
       const Eigen::Vector3d a = x_m.segment<3>(3 * corners[0]);
       const Eigen::Vector3d b = x_m.segment<3>(3 * corners[1]);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -96,7 +97,7 @@ Message<idl::sensor_msgs::PointCloud2> ToPointCloud2(const rgbd::SensedCloud& cl
 
 Status FromPointCloud2(const idl::sensor_msgs::PointCloud2& message, rgbd::SensedCloud* cloud) {
   if (Status layout = CheckLayout(message); !layout.ok()) return layout;
-  const auto count = static_cast<Eigen::Index>(message.width);
+  const auto count = ToIndex(message.width);
   cloud->points_m.resize(3, count);
   cloud->sigma_m.resize(count);
   cloud->colors_rgb.resize(static_cast<std::size_t>(3 * count));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/dds/invalid_message.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
@@ -69,10 +70,10 @@ Status FromMesh(const idl::palpate_msgs::Mesh& message, Eigen::Matrix3Xd* nodes_
     return Invalid("a mesh of " + std::to_string(nodes._length) + " coordinates and " +
                    std::to_string(corners._length) + " corners");
   }
-  const auto node_count = static_cast<Eigen::Index>(nodes._length / 3);
+  const auto node_count = ToIndex(nodes._length / 3);
   const Eigen::Map<const Eigen::Matrix3Xd> rest_m(nodes._buffer, 3, node_count);
   if (!rest_m.allFinite()) return Invalid("a node of the mesh is not finite");
-  Eigen::Matrix3Xi numbers(3, static_cast<Eigen::Index>(corners._length / 3));
+  Eigen::Matrix3Xi numbers(3, ToIndex(corners._length / 3));
   for (std::uint32_t i = 0; i < corners._length; ++i) {
     if (corners._buffer[i] >= static_cast<std::uint32_t>(node_count)) {
       return Invalid("a triangle with node " + std::to_string(corners._buffer[i]) + " of " +
@@ -100,7 +101,7 @@ Status FromMeshState(const idl::palpate_msgs::MeshState& message, Eigen::Index n
                      Eigen::Matrix3Xf* nodes_m) {
   if (Status frame = CheckFrame(message.header); !frame.ok()) return frame;
   const auto& positions = message.positions_m;
-  if (static_cast<Eigen::Index>(positions._length) != 3 * node_count) {
+  if (ToIndex(positions._length) != 3 * node_count) {
     return Invalid("a state of " + std::to_string(positions._length) + " coordinates for " +
                    std::to_string(node_count) + " nodes");
   }

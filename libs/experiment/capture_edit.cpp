@@ -8,6 +8,7 @@
 #include <set>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::experiment {
@@ -64,7 +65,7 @@ Eigen::Matrix3d ParseAxes(const std::string& axes) {
   const std::vector<std::string> words = SplitAtCommas(axes);
   Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < 3 && i < words.size(); ++i) {
-    R.row(static_cast<Eigen::Index>(i)) = ParseAxis(words[i]);
+    R.row(ToIndex(i)) = ParseAxis(words[i]);
   }
   const double determinant = words.size() == 3 ? R.determinant() : 0.0;
   if (determinant == 1.0) return R;

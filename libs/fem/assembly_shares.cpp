@@ -8,7 +8,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::fem {
 
 namespace {
@@ -59,14 +61,14 @@ std::vector<Face> SingleFaces(std::vector<Face> faces) {
 
 BoundarySurface ExtractBoundary(const TetMesh& mesh) {
   const std::vector<Face> single = SingleFaces(AllFaces(mesh));
-  const auto count = static_cast<Eigen::Index>(single.size());
+  const auto count = ToIndex(single.size());
   const Eigen::Index nodes_per_face = mesh.element_type() == ElementType::kTet10 ? 6 : 3;
   BoundarySurface boundary{Eigen::MatrixXi(nodes_per_face, count), Eigen::VectorXi(count)};
   for (Eigen::Index f = 0; f < count; ++f) {
-    const Face& face = single[static_cast<size_t>(f)];
-    const auto& local_nodes = kFaces[static_cast<size_t>(face.local)];
+    const Face& face = single[At(f)];
+    const auto& local_nodes = kFaces[At(face.local)];
     for (Eigen::Index k = 0; k < nodes_per_face; ++k) {
-      boundary.faces(k, f) = mesh.cells(local_nodes[static_cast<size_t>(k)], face.cell);
+      boundary.faces(k, f) = mesh.cells(local_nodes[At(k)], face.cell);
     }
     boundary.cells(f) = face.cell;
   }
@@ -80,7 +82,7 @@ Eigen::Matrix3Xi BoundarySurface::DrawnTriangles() const {
   for (Eigen::Index f = 0; f < faces.cols(); ++f) {
     for (Eigen::Index part = 0; part < 4; ++part) {
       for (Eigen::Index k = 0; k < 3; ++k) {
-        const int local = kParts[static_cast<size_t>(part)][static_cast<size_t>(k)];
+        const int local = kParts[At(part)][At(k)];
         triangles(k, 4 * f + part) = faces(local, f);
       }
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/bounded_qp_step.hpp"
 
 namespace palpate::fem {
@@ -36,8 +37,8 @@ enum class Side : signed char {
 template <typename Type>
 using PerVariable = std::array<Type, kMaxQpVariables>;
 
-Side& SideOf(PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
-Side SideOf(const PerVariable<Side>& sides, Index i) { return sides[static_cast<size_t>(i)]; }
+Side& SideOf(PerVariable<Side>& sides, Index i) { return sides[At(i)]; }
+Side SideOf(const PerVariable<Side>& sides, Index i) { return sides[At(i)]; }
 
 /// The problem in variables y = x / scale that bring H's diagonal to 1/2..2. Scales are powers of
 /// two, so that scaling rounds nothing.
@@ -97,19 +98,19 @@ FreeBlock GatherFree(const BoundedQp& qp, const Iterate& at, Index released) {
   FreeBlock block;
   Index count = 0;
   for (Index i = 0; i < at.y.size(); ++i) {
-    if (SideOf(at.sides, i) == Side::kFree) block.variable[static_cast<size_t>(count++)] = i;
+    if (SideOf(at.sides, i) == Side::kFree) block.variable[At(count++)] = i;
   }
   block.H.resize(count, count);
   block.gradient.resize(count);
   block.magnitude.resize(count);
   block.descent.resize(count);
   for (Index a = 0; a < count; ++a) {
-    const Index i = block.variable[static_cast<size_t>(a)];
+    const Index i = block.variable[At(a)];
     block.gradient[a] = at.gradient[i];
     block.magnitude[a] = at.magnitude[i];
     block.descent[a] = released < 0 || i == released ? at.gradient[i] : 0.0;
     for (Index b = 0; b < count; ++b) {
-      block.H(b, a) = qp.H(block.variable[static_cast<size_t>(b)], i);
+      block.H(b, a) = qp.H(block.variable[At(b)], i);
     }
   }
   return block;
@@ -121,7 +122,7 @@ StepKind FreeStep(const BoundedQp& qp, const Iterate& at, Index released, QpVect
   const StepKind kind = StepOf(block, &free_step);
   step->setZero(at.y.size());
   for (Index a = 0; a < free_step.size(); ++a) {
-    (*step)[block.variable[static_cast<size_t>(a)]] = free_step[a];
+    (*step)[block.variable[At(a)]] = free_step[a];
   }
   return kind;
 }

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "libs/core/check.hpp"
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 

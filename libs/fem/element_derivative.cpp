@@ -6,8 +6,8 @@
 #include <array>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/element_derivative_law.hpp"
-#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
@@ -209,7 +209,7 @@ void ElementDerivative::AlongRestShape(const std::vector<Material>& materials,
 void ElementDerivative::LameForces(const std::vector<Material>& materials,
                                    const Eigen::VectorXd& x_m, Eigen::MatrixXd* per_lambda_m2,
                                    Eigen::MatrixXd* per_mu_m2) const {
-  const auto count = static_cast<Eigen::Index>(materials.size());
+  const auto count = ToIndex(materials.size());
   per_lambda_m2->setZero(x_m.size(), count);
   per_mu_m2->setZero(x_m.size(), count);
   const bool linear = mesh_.element_type() == ElementType::kTet4;

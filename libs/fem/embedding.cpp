@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {
@@ -123,8 +124,8 @@ size_t PointLocator::GridCell(const Eigen::Array3i& index) const {
 }
 
 Eigen::Vector4d PointLocator::Barycentric(int cell, const Eigen::Vector3d& point_m) const {
-  const Eigen::Vector3d xi = to_reference_[static_cast<size_t>(cell)] *
-                             (point_m - mesh_.nodes_m.col(mesh_.cells(0, cell)));
+  const Eigen::Vector3d xi =
+      to_reference_[At(cell)] * (point_m - mesh_.nodes_m.col(mesh_.cells(0, cell)));
   return {1.0 - xi.sum(), xi.x(), xi.y(), xi.z()};
 }
 
@@ -158,7 +159,7 @@ Eigen::Vector3d PointLocator::ClosestReferencePoint(int cell,
     const Eigen::Vector3d weights = geometry::ClosestPointOnTriangle(
         corners_m.col(face[0]), corners_m.col(face[1]), corners_m.col(face[2]), point_m);
     Eigen::Vector4d lambda = Eigen::Vector4d::Zero();
-    for (int k = 0; k < 3; ++k) lambda(face[static_cast<size_t>(k)]) = weights(k);
+    for (int k = 0; k < 3; ++k) lambda(face[At(k)]) = weights(k);
     const double distance_m = (corners_m * lambda - point_m).norm();
     if (distance_m < nearest_m) {
       nearest_m = distance_m;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 
@@ -18,7 +19,7 @@ namespace {
 using Mode = ConstraintCommand::Mode;
 
 double Value(const Linearisation& linearisation, Eigen::Index c, const Eigen::VectorXd& x_m) {
-  return linearisation.constraints()[static_cast<size_t>(c)]->Value(x_m);
+  return linearisation.constraints()[At(c)]->Value(x_m);
 }
 
 bool IsBounded(const LoadState& loads, Eigen::Index c) {
@@ -31,7 +32,7 @@ EquilibriumStep::EquilibriumStep(Linearisation& linearisation)
     : linearisation_(linearisation),
       nodal_(3 * linearisation.body().NodeCount()),
       step_(linearisation.Size()) {
-  const auto constraints = static_cast<Eigen::Index>(linearisation.constraints().size());
+  const auto constraints = ToIndex(linearisation.constraints().size());
   PALPATE_CHECK(constraints <= kMaxQpVariables, constraints);
   columns_.resize(linearisation.Size(), constraints + 1);
   gradients_.resize(linearisation.Size(), constraints);
@@ -57,10 +58,10 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
   }
   Eigen::Index bounded = 0;
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
-    bounded_[static_cast<size_t>(c)] = IsBounded(loads, c);
+    bounded_[At(c)] = IsBounded(loads, c);
     if (!IsBounded(loads, c)) continue;
     nodal_.setZero();
-    linearisation_.constraints()[static_cast<size_t>(c)]->AddGradient(x_m, -1.0, nodal_);
+    linearisation_.constraints()[At(c)]->AddGradient(x_m, -1.0, nodal_);
     linearisation_.matrix().Reduce(nodal_, gradients_.col(c));
     columns_.col(bounded++) = gradients_.col(c);
   }
@@ -74,7 +75,7 @@ Status EquilibriumStep::Compute(const LoadState& loads, const Eigen::VectorXd& x
 bool EquilibriumStep::HasTangentFor(const LoadState& loads) const {
   if (factor_ != linearisation_.factor_count() || linearisation_.shifted()) return false;
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
-    if (bounded_[static_cast<size_t>(c)] != IsBounded(loads, c)) return false;
+    if (bounded_[At(c)] != IsBounded(loads, c)) return false;
   }
   return true;
 }
@@ -93,14 +94,14 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
   Eigen::Index bounded = 0;
   std::array<Eigen::Index, kMaxQpVariables> constraint{};
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
-    if (IsBounded(loads, c)) constraint[static_cast<size_t>(bounded++)] = c;
+    if (IsBounded(loads, c)) constraint[At(bounded++)] = c;
   }
   if (bounded == 0) return Status::Ok();
   BoundedQp qp{QpMatrix(bounded, bounded), QpVector(bounded), QpVector::Zero(bounded),
                QpVector(bounded)};
   QpVector present(bounded);
   for (Eigen::Index k = 0; k < bounded; ++k) {
-    const Eigen::Index c = constraint[static_cast<size_t>(k)];
+    const Eigen::Index c = constraint[At(k)];
     for (Eigen::Index l = 0; l < bounded; ++l) {
       qp.H(k, l) = gradients_.col(c).dot(columns_.col(l));
     }
@@ -110,13 +111,13 @@ Status EquilibriumStep::SolveMultipliers(const LoadState& loads, const Eigen::Ve
   }
   qp.c -= qp.H * present;
   for (Eigen::Index k = 0; k < bounded; ++k) {
-    qp.H(k, k) += loads.command(constraint[static_cast<size_t>(k)]).compliance_m_N;
+    qp.H(k, k) += loads.command(constraint[At(k)]).compliance_m_N;
   }
   const BoundedQpResult solution = SolveBoundedQp(qp, present);
   if (!solution.status.ok()) return solution.status;
   for (Eigen::Index k = 0; k < bounded; ++k) {
     step_ += (solution.x[k] - present[k]) * columns_.col(k);
-    multipliers_[constraint[static_cast<size_t>(k)]] = solution.x[k];
+    multipliers_[constraint[At(k)]] = solution.x[k];
   }
   return Status::Ok();
 }

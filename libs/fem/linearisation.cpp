@@ -4,6 +4,7 @@
 #include "libs/fem/linearisation.hpp"
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 
@@ -48,7 +49,7 @@ Status Linearisation::UpdateResidual(const Eigen::VectorXd& x_m,
   min_J_ = body_.AddForces(x_m, nodal_);
   internal_norm_ = nodal_.norm();
   for (size_t c = 0; c < constraints_.size(); ++c) {
-    constraints_[c]->AddGradient(x_m, multipliers_N[static_cast<Eigen::Index>(c)], nodal_);
+    constraints_[c]->AddGradient(x_m, multipliers_N[ToIndex(c)], nodal_);
   }
   nodal_ = external_force_N - nodal_;
   matrix_.Reduce(nodal_, residual_);
@@ -62,7 +63,7 @@ Status Linearisation::Update(const Eigen::VectorXd& x_m, const Eigen::VectorXd& 
   min_J_ = body_.AddForcesAndSetTangent(x_m, nodal_, matrix_);
   internal_norm_ = nodal_.norm();
   for (size_t c = 0; c < constraints_.size(); ++c) {
-    const double multiplier = multipliers_N[static_cast<Eigen::Index>(c)];
+    const double multiplier = multipliers_N[ToIndex(c)];
     constraints_[c]->AddGradient(x_m, multiplier, nodal_);
     if (multiplier != 0.0) constraints_[c]->AddCurvature(x_m, multiplier, matrix_);
   }

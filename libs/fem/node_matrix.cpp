@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {

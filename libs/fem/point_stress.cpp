@@ -7,8 +7,8 @@
 #include <array>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/element_derivative_law.hpp"
-#include "libs/fem/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 
 namespace palpate::fem {

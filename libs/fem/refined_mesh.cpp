@@ -8,6 +8,7 @@
 #include <array>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 
@@ -69,7 +70,7 @@ class CellCutter {
 
   void Add(int cell, const Corners& corners) {
     for (int k = 0; k < 4; ++k) {
-      cells_(k, count_) = quadratic_.cells(corners[static_cast<size_t>(k)], cell);
+      cells_(k, count_) = quadratic_.cells(corners[At(k)], cell);
     }
     ++count_;
   }

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::fem {
 
 namespace {
@@ -35,7 +37,7 @@ Eigen::VectorXd ShapeFunctions(ElementType type, const Eigen::Vector3d& xi) {
   Eigen::VectorXd N(10);
   for (int a = 0; a < 4; ++a) N[a] = L[a] * (2.0 * L[a] - 1.0);
   for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = kReferenceEdges[static_cast<size_t>(e)];
+    const auto [i, j] = kReferenceEdges[At(e)];
     N[4 + e] = 4.0 * L[i] * L[j];
   }
   return N;
@@ -48,7 +50,7 @@ Eigen::Matrix3Xd ShapeGradients(ElementType type, const Eigen::Vector3d& xi) {
   Eigen::Matrix3Xd dN(3, 10);
   for (int a = 0; a < 4; ++a) dN.col(a) = (4.0 * L[a] - 1.0) * dL.col(a);
   for (int e = 0; e < 6; ++e) {
-    const auto [i, j] = kReferenceEdges[static_cast<size_t>(e)];
+    const auto [i, j] = kReferenceEdges[At(e)];
     dN.col(4 + e) = 4.0 * (L[i] * dL.col(j) + L[j] * dL.col(i));
   }
   return dN;

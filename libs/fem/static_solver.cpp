@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 
@@ -24,14 +25,13 @@ bool IsFinal(const Status& status) {
 
 StaticSolver::StaticSolver(Linearisation& linearisation, const StaticSettings& settings)
     : linearisation_(linearisation), settings_(settings), step_(linearisation) {
-  penalties_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(linearisation.constraints().size()));
+  penalties_ = Eigen::VectorXd::Zero(ToIndex(linearisation.constraints().size()));
 }
 
 StaticState StaticSolver::RestState() const {
   StaticState state;
   state.x_m = linearisation_.body().rest_m();
-  state.multipliers_N =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(linearisation_.constraints().size()));
+  state.multipliers_N = Eigen::VectorXd::Zero(ToIndex(linearisation_.constraints().size()));
   state.loads.external_force_N = Eigen::VectorXd::Zero(state.x_m.size());
   state.loads.commands.resize(linearisation_.constraints().size());
   state.loads.fixed_position_m = state.x_m;
@@ -84,10 +84,10 @@ LoadState StaticSolver::Interpolate(const StaticState& start, const LoadState& t
   loads.fixed_position_m =
       (1.0 - fraction) * start.loads.fixed_position_m + fraction * target.fixed_position_m;
   for (Eigen::Index c = 0; c < target.CommandCount(); ++c) {
-    ConstraintCommand& command = loads.commands[static_cast<size_t>(c)];
+    ConstraintCommand& command = loads.commands[At(c)];
     double from = start.multipliers_N[c];
     if (command.mode == Mode::kUpperBound) {
-      from = linearisation_.constraints()[static_cast<size_t>(c)]->Value(start.x_m) -
+      from = linearisation_.constraints()[At(c)]->Value(start.x_m) -
              command.compliance_m_N * start.multipliers_N[c];
     } else if (command.mode == Mode::kOff) {
       command.mode = Mode::kMultiplier;
@@ -261,7 +261,7 @@ double StaticSolver::Merit(const LoadState& loads, const Eigen::VectorXd& x_m,
   for (Eigen::Index c = 0; c < loads.CommandCount(); ++c) {
     const ConstraintCommand& command = loads.command(c);
     if (command.mode == Mode::kOff) continue;
-    const double value = linearisation_.constraints()[static_cast<size_t>(c)]->Value(x_m);
+    const double value = linearisation_.constraints()[At(c)]->Value(x_m);
     merit += command.mode == Mode::kMultiplier
                  ? command.value * value
                  : penalties_[c] * std::max(0.0, value - command.Bound_m(step_.multipliers_N()[c]));
@@ -278,7 +278,7 @@ double StaticSolver::MeritSlope(const LoadState& loads, const StaticState& state
     if (command.mode != Mode::kUpperBound) continue;
     // The residual holds lambda dg/dx already; the merit does not.
     slope += state.multipliers_N[c] * step_.gradient(c).dot(step_.dx());
-    const double excess = linearisation_.constraints()[static_cast<size_t>(c)]->Value(state.x_m) -
+    const double excess = linearisation_.constraints()[At(c)]->Value(state.x_m) -
                           command.Bound_m(step_.multipliers_N()[c]);
     slope -= penalties_[c] * std::max(0.0, excess);
   }

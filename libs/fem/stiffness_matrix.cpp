@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/recent_orders.hpp"
 
 namespace palpate::fem {

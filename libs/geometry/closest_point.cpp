@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::geometry {
 
@@ -38,8 +39,8 @@ Eigen::Vector3d ClosestPointOnEdges(const std::array<Eigen::Vector3d, 3>& corner
     if (squared_m2 < best_squared_m2) {
       best_squared_m2 = squared_m2;
       best.setZero();
-      best(static_cast<Eigen::Index>(k)) = 1.0 - t;
-      best(static_cast<Eigen::Index>(next)) = t;
+      best(ToIndex(k)) = 1.0 - t;
+      best(ToIndex(next)) = t;
     }
   }
   return best;
@@ -94,15 +95,15 @@ int SurfaceIndex::Build(int first, int count, const Eigen::Matrix3Xd& centroids_
   });
   const int left = Build(first, count / 2, centroids_m);
   const int right = Build(first + count / 2, count - count / 2, centroids_m);
-  nodes_[static_cast<size_t>(index)].left = left;
-  nodes_[static_cast<size_t>(index)].right = right;
+  nodes_[At(index)].left = left;
+  nodes_[At(index)].right = right;
   return index;
 }
 
 void SurfaceIndex::FitBox(Node* node) const {
   if (node->left >= 0) {
-    const Box& a = nodes_[static_cast<size_t>(node->left)].box;
-    const Box& b = nodes_[static_cast<size_t>(node->right)].box;
+    const Box& a = nodes_[At(node->left)].box;
+    const Box& b = nodes_[At(node->right)].box;
     node->box = {a.lower_m.cwiseMin(b.lower_m), a.upper_m.cwiseMax(b.upper_m)};
     return;
   }
@@ -110,7 +111,7 @@ void SurfaceIndex::FitBox(Node* node) const {
   node->box.upper_m = -node->box.lower_m;
   for (int k = node->first; k < node->first + node->count; ++k) {
     for (int corner = 0; corner < 3; ++corner) {
-      const Eigen::Vector3d point_m = surface_.Corner(order_[static_cast<size_t>(k)], corner);
+      const Eigen::Vector3d point_m = surface_.Corner(order_[At(k)], corner);
       node->box.lower_m = node->box.lower_m.cwiseMin(point_m);
       node->box.upper_m = node->box.upper_m.cwiseMax(point_m);
     }
@@ -126,7 +127,7 @@ void SurfaceIndex::Refit(const Eigen::Ref<const Eigen::Matrix3Xd>& vertices_m) {
 SurfacePoint SurfaceIndex::ClosestInLeaf(const Node& leaf, const Eigen::Vector3d& point_m) const {
   SurfacePoint best{.distance_m = std::numeric_limits<double>::infinity()};
   for (int k = leaf.first; k < leaf.first + leaf.count; ++k) {
-    const int t = order_[static_cast<size_t>(k)];
+    const int t = order_[At(k)];
     const Eigen::Vector3d weights = ClosestPointOnTriangle(
         surface_.Corner(t, 0), surface_.Corner(t, 1), surface_.Corner(t, 2), point_m);
     const Eigen::Vector3d position_m = weights(0) * surface_.Corner(t, 0) +
@@ -145,7 +146,7 @@ SurfacePoint SurfaceIndex::Closest(const Eigen::Vector3d& point_m) const {
   std::array<int, kMaxStack> stack{};
   size_t size = 1;
   while (size > 0) {
-    const Node& node = nodes_[static_cast<size_t>(stack[--size])];
+    const Node& node = nodes_[At(stack[--size])];
     if (node.box.SquaredDistance_m2(point_m) > best.distance_m * best.distance_m) continue;
     if (node.left < 0) {
       const SurfacePoint candidate = ClosestInLeaf(node, point_m);
@@ -155,9 +156,8 @@ SurfacePoint SurfaceIndex::Closest(const Eigen::Vector3d& point_m) const {
       }
       continue;
     }
-    const bool left_is_nearer =
-        nodes_[static_cast<size_t>(node.left)].box.SquaredDistance_m2(point_m) <=
-        nodes_[static_cast<size_t>(node.right)].box.SquaredDistance_m2(point_m);
+    const bool left_is_nearer = nodes_[At(node.left)].box.SquaredDistance_m2(point_m) <=
+                                nodes_[At(node.right)].box.SquaredDistance_m2(point_m);
     stack[size++] = left_is_nearer ? node.right : node.left;
     stack[size++] = left_is_nearer ? node.left : node.right;
   }
@@ -170,7 +170,7 @@ std::vector<int> SurfaceIndex::TrianglesWithin(const Eigen::Vector3d& point_m,
   std::array<int, kMaxStack> stack{};
   size_t size = 1;
   while (size > 0) {
-    const Node& node = nodes_[static_cast<size_t>(stack[--size])];
+    const Node& node = nodes_[At(stack[--size])];
     if (node.box.SquaredDistance_m2(point_m) > radius_m * radius_m) continue;
     if (node.left >= 0) {
       stack[size++] = node.right;

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::geometry {
@@ -150,7 +151,7 @@ NormalEquations Linearise(const Points& source_m, const Points& target_m,
   NormalEquations equations;
   const Eigen::Matrix3d R_back = T_target_source.rotation().toRotationMatrix().transpose();
   for (Eigen::Index k = 0; k < source_m.cols(); ++k) {
-    const auto& L = factors[static_cast<size_t>(k)].matrixL();
+    const auto& L = factors[At(k)].matrixL();
     const Eigen::Vector3d arm_m = target_m.col(k) - T_target_source.translation_m();
     const Eigen::Vector3d e = L.solve(R_back * arm_m - source_m.col(k));
     Eigen::Matrix<double, 3, 6> J;
@@ -258,7 +259,7 @@ Registration RegisterRigid(const Points& source_m, const Points& target_m,
       return Refusal(StatusCode::kInvalidInput,
                      "covariance of point " + std::to_string(k) + " is not positive definite");
     }
-    weight(static_cast<Eigen::Index>(k)) = 3.0 / covariance_m2.trace();
+    weight(ToIndex(k)) = 3.0 / covariance_m2.trace();
   }
   Registration result = RegisterWeighted(source_m, target_m, weight);
   if (!result.status.ok()) return result;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::geometry {
 
@@ -88,7 +89,7 @@ SurfaceSamples SpreadEvenly(const TriangleSurface& surface, int count) {
     const Eigen::Index column = spread.Count();
     spread.positions_m.col(column) = dense.positions_m.col(i);
     spread.normals.col(column) = dense.normals.col(i);
-    spread.triangles.push_back(dense.triangles[static_cast<size_t>(i)]);
+    spread.triangles.push_back(dense.triangles[At(i)]);
   }
   return spread;
 }

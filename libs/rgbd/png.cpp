@@ -14,6 +14,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::rgbd {
 
@@ -35,7 +36,7 @@ struct Rows {
     rows.resize(static_cast<std::size_t>(image.height_px));
     for (int v = 0; v < image.height_px; ++v) {
       const void* row = image.Pixel(0, v);
-      rows[static_cast<std::size_t>(v)] = static_cast<png_bytep>(const_cast<void*>(row));
+      rows[At(v)] = static_cast<png_bytep>(const_cast<void*>(row));
     }
   }
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/eyelets.hpp"
@@ -111,7 +112,7 @@ Status CheckRoutes(const std::vector<CalibratedRoute>& routes, const RobotBody& 
       return Foreign("the calibration holds the route of cable '" + route.cable +
                      "', which the robot file does not have" + DidYouMean(route.cable, names));
     }
-    const std::size_t points = 1 + body.cables[static_cast<std::size_t>(*cable)].eyelets.size();
+    const std::size_t points = 1 + body.cables[At(*cable)].eyelets.size();
     if (route.point < static_cast<int>(points)) continue;
     return Foreign("the calibration holds point " + std::to_string(route.point) + " of cable '" +
                    route.cable + "', whose path has " + std::to_string(points) +
@@ -175,8 +176,7 @@ void ApplyCalibration(const CalibrationFile& calibration, RobotModel* model) {
     if (route.point > 0) continue;  // ApplyGeometry's
     const int cable = IndexOf(cables, route.cable).value();
     const RobotBody& body = model->body();
-    model->SetPullPoint(
-        cable, body.cables[static_cast<size_t>(cable)].pull_point_m + body.scale * route.moved_m);
+    model->SetPullPoint(cable, body.cables[At(cable)].pull_point_m + body.scale * route.moved_m);
   }
   for (const CalibratedModulus& modulus : calibration.moduli) {
     model->SetYoungsModulus(MaterialIndex(model->body(), modulus.part).value(),

@@ -4,6 +4,7 @@
 #include "libs/robot/compliance.hpp"
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -23,7 +24,7 @@ Compliance::Compliance(fem::Linearisation& linearisation, std::vector<Observatio
 
 void Compliance::SetEffectors(std::vector<ObservationRow> effectors) {
   effectors_ = std::move(effectors);
-  const auto e = static_cast<Eigen::Index>(effectors_.size());
+  const auto e = ToIndex(effectors_.size());
   W_ea_.resize(e, W_ea_.cols());
   W_ef_.resize(e, W_ef_.cols());
   delta_e_free_.resize(e);
@@ -31,9 +32,9 @@ void Compliance::SetEffectors(std::vector<ObservationRow> effectors) {
 
 void Compliance::SetForces(std::vector<ForceDirection> forces) {
   forces_ = std::move(forces);
-  const auto a = static_cast<Eigen::Index>(linearisation_.constraints().size());
-  const auto f = static_cast<Eigen::Index>(forces_.size());
-  const auto e = static_cast<Eigen::Index>(effectors_.size());
+  const auto a = ToIndex(linearisation_.constraints().size());
+  const auto f = ToIndex(forces_.size());
+  const auto e = ToIndex(effectors_.size());
   directions_.resize(linearisation_.Size(), a + f);
   columns_.resize(linearisation_.Size(), 1 + a + f);
   W_ea_.resize(e, a);
@@ -47,7 +48,7 @@ void Compliance::SetForces(std::vector<ForceDirection> forces) {
   cable_rows_.resize(static_cast<size_t>(a));
   for (Eigen::Index k = 0; k < f; ++k) {
     nodal_.setZero();
-    forces_[static_cast<size_t>(k)].AddForce(1.0, nodal_);
+    forces_[At(k)].AddForce(1.0, nodal_);
     linearisation_.matrix().Reduce(nodal_, directions_.col(a + k));
   }
 }
@@ -91,12 +92,12 @@ void Compliance::ObserveResponse(const Eigen::VectorXd& x_m,
       if (free_node < 0) continue;
       value += effectors_[e].coefficients[k].dot(columns_.col(0).segment<3>(3 * free_node));
     }
-    delta_e_free_[static_cast<Eigen::Index>(e)] = value;
+    delta_e_free_[ToIndex(e)] = value;
   }
   const auto& cables = linearisation_.constraints();
   for (Eigen::Index c = 0; c < delta_a_free_.size(); ++c) {
-    delta_a_free_[c] = cable_rest_length_m[c] - cables[static_cast<size_t>(c)]->Value(x_m) +
-                       AlongCable(c, columns_.col(0));
+    delta_a_free_[c] =
+        cable_rest_length_m[c] - cables[At(c)]->Value(x_m) + AlongCable(c, columns_.col(0));
   }
   // The free values are those without cable and contact forces; the residual holds both.
   delta_e_free_.noalias() -= W_ea_ * lambda_a_;
@@ -110,7 +111,7 @@ void Compliance::FillColumns(const Eigen::VectorXd& x_m) {
   for (size_t c = 0; c < cables.size(); ++c) {
     nodal_.setZero();
     cables[c]->AddGradient(x_m, -1.0, nodal_);
-    auto direction = directions_.col(static_cast<Eigen::Index>(c));
+    auto direction = directions_.col(ToIndex(c));
     linearisation_.matrix().Reduce(nodal_, direction);
     cable_rows_[c].clear();
     for (Eigen::Index row = 0; row < direction.size(); ++row) {
@@ -125,7 +126,7 @@ void Compliance::FillColumns(const Eigen::VectorXd& x_m) {
 double Compliance::AlongCable(Eigen::Index cable,
                               const Eigen::Ref<const Eigen::VectorXd>& column) const {
   double sum = 0.0;
-  for (const Eigen::Index row : cable_rows_[static_cast<size_t>(cable)]) {
+  for (const Eigen::Index row : cable_rows_[At(cable)]) {
     sum += directions_(row, cable) * column[row];
   }
   return sum;
@@ -139,7 +140,7 @@ void Compliance::ObserveColumns() {
   W_ea_.setZero();
   W_ef_.setZero();
   for (size_t e = 0; e < effectors_.size(); ++e) {
-    const auto row = static_cast<Eigen::Index>(e);
+    const auto row = ToIndex(e);
     for (size_t k = 0; k < effectors_[e].nodes.size(); ++k) {
       const int free_node = matrix.FreeIndex(effectors_[e].nodes[k]);
       if (free_node < 0) continue;

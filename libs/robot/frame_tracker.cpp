@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -43,8 +44,7 @@ void FrameTracker::SetLoads(const std::vector<CableCommand>& cables,
   state_.loads.external_force_N = force_N;
   model_.AddWeight(state_.loads.external_force_N);
   for (int c = 0; c < model_.CableCount(); ++c) {
-    state_.loads.commands[static_cast<size_t>(c)] =
-        model_.ToConstraint(c, cables[static_cast<size_t>(c)]);
+    state_.loads.commands[At(c)] = model_.ToConstraint(c, cables[At(c)]);
   }
 }
 

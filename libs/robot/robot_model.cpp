@@ -4,6 +4,7 @@
 #include "libs/robot/robot_model.hpp"
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/surface_patch.hpp"
 #include "libs/robot/eyelets.hpp"
@@ -45,7 +46,7 @@ RobotModel::RobotModel(RobotBody body, const fem::StaticSettings& settings,
       cables_(MakeCables(body_, elastic_body_.rest_m())),
       linearisation_(elastic_body_, Constraints(further), body_.fixed, solver),
       static_solver_(linearisation_, settings),
-      cable_rest_length_m_(static_cast<Eigen::Index>(cables_.size())),
+      cable_rest_length_m_(ToIndex(cables_.size())),
       gravity_m_s2_(body_.gravity_m_s2),
       drives_(cables_.size()) {
   for (int c = 0; c < CableCount(); ++c) cable_rest_length_m_[c] = cable(c).rest_length_m();
@@ -124,7 +125,7 @@ void RobotModel::AddWeight(Eigen::VectorXd& force_N) const {
 
 fem::ConstraintCommand RobotModel::ToConstraint(int cable_index,
                                                 const CableCommand& command) const {
-  const double limit = body_.cables[static_cast<size_t>(cable_index)].max_tension_N;
+  const double limit = body_.cables[At(cable_index)].max_tension_N;
   switch (command.kind) {
     case CableCommand::Kind::kNone: return {};
     case CableCommand::Kind::kTension:
@@ -153,7 +154,7 @@ fem::LoadState RobotModel::Loads(const std::vector<CableCommand>& cables,
     }
   }
   for (int c = 0; c < CableCount(); ++c) {
-    state.commands.push_back(ToConstraint(c, cables[static_cast<size_t>(c)]));
+    state.commands.push_back(ToConstraint(c, cables[At(c)]));
   }
   state.commands.resize(linearisation_.constraints().size());
   return state;
@@ -163,8 +164,8 @@ fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
                                     const std::vector<DeadLoad>& loads, fem::StaticState* state) {
   const fem::LoadState target = Loads(cables, loads);
   for (int c = 0; c < CableCount(); ++c) {
-    const CableCommand& command = cables[static_cast<size_t>(c)];
-    const BodyCable& driven = body_.cables[static_cast<size_t>(c)];
+    const CableCommand& command = cables[At(c)];
+    const BodyCable& driven = body_.cables[At(c)];
     if (command.kind == CableCommand::Kind::kTension &&
         !(command.value >= 0.0 && command.value <= driven.max_tension_N)) {
       fem::StaticResult refused;
@@ -178,8 +179,8 @@ fem::StaticResult RobotModel::Solve(const std::vector<CableCommand>& cables,
   fem::StaticResult result = static_solver_.Solve(target, state);
   if (result.status.code() != StatusCode::kTensionLimit) return result;
   for (int c = 0; c < CableCount(); ++c) {
-    const CableCommand& command = cables[static_cast<size_t>(c)];
-    const BodyCable& driven = body_.cables[static_cast<size_t>(c)];
+    const CableCommand& command = cables[At(c)];
+    const BodyCable& driven = body_.cables[At(c)];
     if (command.kind != CableCommand::Kind::kDisplacement ||
         result.multipliers_N[c] < driven.max_tension_N) {
       continue;

@@ -9,6 +9,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::scenario {
@@ -101,13 +102,12 @@ BenchInputs Schedule::During(const RecordingPlan& plan, double t_s) const {
 }
 
 Eigen::VectorXd Schedule::Commands(const RecordingPlan& plan, double t_s) const {
-  Eigen::VectorXd commands =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cables_.size()), kNothingDriven);
+  Eigen::VectorXd commands = Eigen::VectorXd::Constant(ToIndex(cables_.size()), kNothingDriven);
   if (plan.commands.cables.empty()) return commands;
   const Eigen::VectorXd driven = plan.commands.At(t_s);
   for (std::size_t i = 0; i < plan.commands.cables.size(); ++i) {
     const auto cable = std::find(cables_.begin(), cables_.end(), plan.commands.cables[i]);
-    commands[cable - cables_.begin()] = driven[static_cast<Eigen::Index>(i)];
+    commands[cable - cables_.begin()] = driven[ToIndex(i)];
   }
   return commands;
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
@@ -159,8 +160,8 @@ ThinCloud Thin(const rgbd::SensedCloud& cloud, double spacing_m) {
     if (!is_new && off < at->second.off) at->second = {k, off};
   }
   ThinCloud thin;
-  thin.points_m.resize(3, static_cast<Eigen::Index>(of_cell.size()));
-  thin.sigma_m.resize(static_cast<Eigen::Index>(of_cell.size()));
+  thin.points_m.resize(3, ToIndex(of_cell.size()));
+  thin.sigma_m.resize(ToIndex(of_cell.size()));
   Eigen::Index n = 0;
   for (const auto& [key, nearest] : of_cell) {
     thin.points_m.col(n) = cloud.points_m.col(nearest.point).cast<double>();

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::calibration {
 
 namespace {
@@ -43,9 +45,9 @@ SkinInView::SkinInView(const robot::RobotBody& body)
 }
 
 void SkinInView::TakeShape(const Eigen::VectorXd& x_m) {
-  surface_.vertices_m.resize(3, static_cast<Eigen::Index>(nodes_.size()));
+  surface_.vertices_m.resize(3, ToIndex(nodes_.size()));
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
-    surface_.vertices_m.col(static_cast<Eigen::Index>(v)) = x_m.segment<3>(3 * nodes_[v]);
+    surface_.vertices_m.col(ToIndex(v)) = x_m.segment<3>(3 * nodes_[v]);
   }
   const Eigen::Matrix3Xd at_vertices = geometry::VertexNormals(surface_);
   const int count = surface_.TriangleCount();
@@ -104,7 +106,7 @@ void SkinInView::CollectSeen() {
     for (int u = bounds.u_begin; u < bounds.u_end; ++u) {
       const int triangle = view_.Triangle(u, v);
       if (triangle == rgbd::SurfaceView::kNothing) continue;
-      is_seen[static_cast<size_t>(triangle)] = true;
+      is_seen[At(triangle)] = true;
       triangle_of_place_.push_back(triangle);
       const auto z_m = static_cast<double>(view_.Z_m(u, v));
       const Eigen::Vector3d aimed((u - kCentre_px) / focal_px_, (v - kCentre_px) / focal_px_, 1.0);
@@ -113,17 +115,17 @@ void SkinInView::CollectSeen() {
   }
   for (int t = 0; t < surface_.TriangleCount(); ++t) {
     const Eigen::Vector3d sight_m = eye_m_ - surface_.Corner(t, 0);
-    if (is_seen[static_cast<size_t>(t)] && normals_.col(t).dot(sight_m) > 0.0) seen_.push_back(t);
+    if (is_seen[At(t)] && normals_.col(t).dot(sight_m) > 0.0) seen_.push_back(t);
   }
   seen_places_m_.resize(3, static_cast<Eigen::Index>(places_m.size()));
   for (std::size_t k = 0; k < places_m.size(); ++k) {
-    seen_places_m_.col(static_cast<Eigen::Index>(k)) = places_m[k];
+    seen_places_m_.col(ToIndex(k)) = places_m[k];
   }
   if (seen_.empty()) return;
   geometry::TriangleSurface part{surface_.vertices_m, {}};
-  part.triangles.resize(3, static_cast<Eigen::Index>(seen_.size()));
+  part.triangles.resize(3, ToIndex(seen_.size()));
   for (std::size_t k = 0; k < seen_.size(); ++k) {
-    part.triangles.col(static_cast<Eigen::Index>(k)) = surface_.triangles.col(seen_[k]);
+    part.triangles.col(ToIndex(k)) = surface_.triangles.col(seen_[k]);
   }
   seen_index_ = std::make_unique<geometry::SurfaceIndex>(std::move(part));
 }
@@ -147,7 +149,7 @@ bool SkinInView::IsHidden(const Eigen::Vector3d& place_robot_m) const {
 std::optional<SkinFoot> SkinInView::FootOf(const Eigen::Vector3d& point_robot_m) const {
   if (!seen_index_) return std::nullopt;
   const geometry::SurfacePoint nearest = seen_index_->Closest(point_robot_m);
-  const int triangle = seen_[static_cast<size_t>(nearest.triangle)];
+  const int triangle = seen_[At(nearest.triangle)];
   const Eigen::Vector3d normal = normals_.col(triangle);
   const Eigen::Vector3d sight = (eye_m_ - nearest.position_m).normalized();
   const double cosine = normal.dot(sight);
@@ -164,7 +166,7 @@ fem::InterpolationWeights SkinInView::WeightsOf(const SkinFoot& foot) const {
   fem::InterpolationWeights weights;
   for (int k = 0; k < 3; ++k) {
     const int vertex = surface_.triangles(k, foot.triangle);
-    weights.nodes.push_back(nodes_[static_cast<size_t>(vertex)]);
+    weights.nodes.push_back(nodes_[At(vertex)]);
     weights.weights.push_back(foot.barycentric[k]);
   }
   return weights;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/static_solver.hpp"
 #include "libs/robot/frame_tracker.hpp"
 
@@ -49,12 +50,12 @@ void BodyShapes::Return() { states_ = kept_; }
 
 double BodyShapes::ValueOf(std::size_t unknown, const Eigen::VectorXd& variables) const {
   const Belief& belief = setup_.unknowns[unknown]->belief();
-  const auto column = first_column_ + static_cast<Eigen::Index>(unknown);
+  const auto column = first_column_ + ToIndex(unknown);
   return belief.mean + ScaleOf(belief) * variables[column];
 }
 
 FrameInputs BodyShapes::InputsOf(int frame, const Eigen::VectorXd& variables) const {
-  const CalibrationFrame& given = setup_.frames[static_cast<size_t>(frame)];
+  const CalibrationFrame& given = setup_.frames[At(frame)];
   FrameInputs inputs{.cables = given.cables,
                      .loads = given.loads,
                      .nominal_gravity_m_s2 = given.gravity_m_s2,
@@ -138,7 +139,7 @@ void BodyShapes::DescribeInfluences(int frame, const FrameInputs& inputs,
     for (Influence& influence :
          unknown.InfluencesOn(worker->model, ValueOf(u, variables), frame, inputs)) {
       worker->parameters.push_back(std::move(influence.parameter));
-      worker->column_of.push_back(first_column_ + static_cast<Eigen::Index>(u));
+      worker->column_of.push_back(first_column_ + ToIndex(u));
       worker->factor_of.push_back(influence.per_value * ScaleOf(unknown.belief()));
     }
   }
@@ -170,7 +171,7 @@ Status BodyShapes::FollowFrame(int frame, const Eigen::VectorXd& variables, Work
   Eigen::VectorXd weight_N = Eigen::VectorXd::Zero(model.elastic_body().rest_m().size());
   model.AddWeight(weight_N);
   robot::FrameTracker tracker(model, {.relative_tolerance = kNear});
-  fem::StaticState& state = states_[static_cast<size_t>(frame)];
+  fem::StaticState& state = states_[At(frame)];
   tracker.Start(state);
   const fem::LoadState loads = model.Loads(acting.cables, acting.loads);
   const fem::FrameOutcome& outcome =
@@ -239,7 +240,7 @@ Status BodyShapes::LineariseKeptFrame(int frame, const Eigen::VectorXd& variable
 double BodyShapes::StepTo(const Eigen::VectorXd& variables) {
   std::vector<double> furthest(states_.size(), 0.0);
   const Status always_ok = OnEachFrame([&](int frame, Worker* worker) {
-    furthest[static_cast<size_t>(frame)] = StepFrame(frame, variables, worker);
+    furthest[At(frame)] = StepFrame(frame, variables, worker);
     return Status::Ok();
   });
   if (!always_ok.ok()) return std::numeric_limits<double>::infinity();
@@ -275,7 +276,7 @@ bool BodyShapes::AreBalanced(const Eigen::VectorXd& variables) {
 
 Status BodyShapes::CheckFrame(int frame, const Eigen::VectorXd& variables, Worker* worker) {
   constexpr double kMostMissed_m = fem::StaticSettings().constraint_tolerance_m;
-  fem::StaticState& state = states_[static_cast<size_t>(frame)];
+  fem::StaticState& state = states_[At(frame)];
   Load(ToModel(InputsOf(frame, variables)), &state, worker);
   fem::Linearisation& linearisation = worker->model.linearisation();
   if (Status status = linearisation.UpdateResidual(state.x_m, state.multipliers_N,
@@ -310,12 +311,12 @@ void BodyShapes::CheckConditions(int frame, const Worker& worker, LeastSquaresPo
   for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
     const Condition& condition = *setup_.conditions[c];
     if (condition.frame() != frame) continue;
-    const auto row = static_cast<Eigen::Index>(c);
-    point->constraint[row] = condition.Value(worker.model, states_[static_cast<size_t>(frame)]);
+    const auto row = ToIndex(c);
+    point->constraint[row] = condition.Value(worker.model, states_[At(frame)]);
     const Eigen::RowVectorXd derivative = condition.Derivative(worker.sensitivity);
     for (std::size_t p = 0; p < worker.column_of.size(); ++p) {
       point->constraint_jacobian(row, worker.column_of[p]) +=
-          worker.factor_of[p] * derivative[static_cast<Eigen::Index>(p)];
+          worker.factor_of[p] * derivative[ToIndex(p)];
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -23,14 +24,13 @@ class CableLengthsCondition final : public Condition {
     PALPATE_CHECK(static_cast<int>(shares_.size()) == model.CableCount(), shares_.size());
     double sum_m = 0.0;
     for (int c = 0; c < model.CableCount(); ++c) {
-      sum_m += shares_[static_cast<size_t>(c)] * model.cable(c).Displacement_m(state.x_m);
+      sum_m += shares_[At(c)] * model.cable(c).Displacement_m(state.x_m);
     }
     return kPerMillimetre * sum_m;
   }
 
   Eigen::RowVectorXd Derivative(const robot::SensitivitySolver& sensitivity) const override {
-    const Eigen::Map<const Eigen::RowVectorXd> shares(shares_.data(),
-                                                      static_cast<Eigen::Index>(shares_.size()));
+    const Eigen::Map<const Eigen::RowVectorXd> shares(shares_.data(), ToIndex(shares_.size()));
     return -kPerMillimetre * shares * sensitivity.length_m();
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/calibration/joint/robust_loss.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::calibration {
@@ -20,7 +21,7 @@ Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& rows
   Eigen::MatrixXd picked(std::ssize(rows), std::ssize(columns));
   for (Eigen::Index i = 0; i < picked.rows(); ++i) {
     for (Eigen::Index j = 0; j < picked.cols(); ++j) {
-      picked(i, j) = matrix(rows[static_cast<size_t>(i)], columns[static_cast<size_t>(j)]);
+      picked(i, j) = matrix(rows[At(i)], columns[At(j)]);
     }
   }
   return picked;
@@ -48,7 +49,7 @@ Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::Matr
                               const std::vector<int>& free, const JointProblem& problem) {
   std::vector<int> considered;
   for (int v = 0; v < CountOf(problem); ++v) {
-    if (problem.variables()[static_cast<size_t>(v)].considered) considered.push_back(v);
+    if (problem.variables()[At(v)].considered) considered.push_back(v);
   }
   const Eigen::MatrixXd information =
       jacobian(Eigen::all, free).transpose() * jacobian(Eigen::all, considered);
@@ -72,7 +73,7 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
   for (const bool pose : {false, true}) {
     for (std::size_t k = 0; k < free.size(); ++k) {
       if (IsOfPose(free[k], problem) != pose) continue;
-      const double sigma = std::sqrt(variance[static_cast<Eigen::Index>(k)]);
+      const double sigma = std::sqrt(variance[ToIndex(k)]);
       if (sigma <= share || sigma <= worst_sigma) continue;
       worst = free[k];
       worst_sigma = sigma;
@@ -84,7 +85,7 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
       variance + ShiftVariance(point.jacobian.topRows(problem.DataRows()), inverse, free, problem);
   double worst_total = 1.0;
   for (std::size_t k = 0; k < free.size(); ++k) {
-    const double of_this = total[static_cast<Eigen::Index>(k)];
+    const double of_this = total[ToIndex(k)];
     if (!IsOfDepthBias(free[k], problem) || of_this <= worst_total) continue;
     worst = free[k];
     worst_total = of_this;
@@ -107,7 +108,7 @@ Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem
                              Against against) {
   std::vector<int> estimated, believed;
   for (int v = 0; v < CountOf(problem); ++v) {
-    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
+    const Variable& variable = problem.variables()[At(v)];
     if (!problem.IsHeld(v)) {
       estimated.push_back(v);
     } else if (std::isfinite(variable.belief.sigma) &&
@@ -118,8 +119,8 @@ Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem
   const Eigen::MatrixXd inverse = linalg::InverseSymmetric(Pick(fit.information, estimated));
   Eigen::VectorXd sigma(std::ssize(believed));
   for (Eigen::Index k = 0; k < sigma.size(); ++k) {
-    const int v = believed[static_cast<size_t>(k)];
-    sigma[k] = problem.variables()[static_cast<size_t>(v)].belief.sigma / problem.Scale(v);
+    const int v = believed[At(k)];
+    sigma[k] = problem.variables()[At(v)].belief.sigma / problem.Scale(v);
   }
   // One held a sigma too high shifts the estimates by this.
   const Eigen::MatrixXd shift =

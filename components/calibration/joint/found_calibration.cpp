@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/calibration/joint/route_unknowns.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -20,8 +21,7 @@ std::vector<CorrelatedValues> FindCorrelated(const JointCalibration& fit, double
   std::vector<CorrelatedValues> found;
   for (std::size_t i = 0; i < fit.values.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const double correlation =
-          fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const double correlation = fit.correlation(ToIndex(i), ToIndex(j));
       const bool determined = fit.values[i].determined && fit.values[j].determined;
       if (!determined || std::abs(correlation) < least) continue;
       found.push_back({fit.values[j].name, fit.values[i].name, correlation});
@@ -109,8 +109,7 @@ void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s
 /// Of a point of a cable's path.
 void TakeRoute(const JointCalibration& fit, const robot::RobotBody& body, int cable, int point,
                robot::CalibrationFile* file) {
-  robot::CalibratedRoute route{.cable = body.cables[static_cast<std::size_t>(cable)].name,
-                               .point = point};
+  robot::CalibratedRoute route{.cable = body.cables[At(cable)].name, .point = point};
   Eigen::Vector3d variance_m2 = Eigen::Vector3d::Zero();
   for (const TiltAxis& axis : AcrossCable(body, cable, point)) {
     const FittedValue* off = FindValue(fit, RouteName(route.cable, point, axis.name));

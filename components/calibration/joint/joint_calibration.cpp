@@ -13,6 +13,7 @@
 #include "components/calibration/joint/determination.hpp"
 #include "components/calibration/joint/lifted_gauss_newton.hpp"
 #include "components/calibration/joint/model_snapshot.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -25,7 +26,7 @@ Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& set
   for (;;) {
     const std::optional<int> worst = MostUndetermined(point, *problem, settings.undetermined_share);
     if (!worst) return Status::Ok();
-    const Variable& variable = problem->variables()[static_cast<size_t>(*worst)];
+    const Variable& variable = problem->variables()[At(*worst)];
     if (IsOfPose(*worst, *problem)) {
       return {StatusCode::kUnobservable, "the data do not determine the camera's pose (" +
                                              variable.name + "): it takes " +
@@ -86,11 +87,11 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
                   const Eigen::MatrixXd& covariance, JointCalibration* result) {
   std::vector<int> reported;
   for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
-    const bool considered = problem.variables()[static_cast<size_t>(v)].considered;
+    const bool considered = problem.variables()[At(v)].considered;
     if (!IsOfPose(v, problem) && !considered) reported.push_back(v);
   }
   for (const int v : reported) {
-    const Variable& variable = problem.variables()[static_cast<size_t>(v)];
+    const Variable& variable = problem.variables()[At(v)];
     const double value = problem.ValueOf(v, solution.variables);
     double error = problem.Scale(v) * std::sqrt(covariance(v, v));
     if (problem.IsHeld(v)) error = variable.belief.sigma;
@@ -104,12 +105,12 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
          .determined = !problem.IsHeld(v),
          .what_would_tell = problem.IsHeld(v) ? variable.what_would_tell : std::string()});
   }
-  const auto count = static_cast<Eigen::Index>(reported.size());
+  const auto count = ToIndex(reported.size());
   result->correlation.setZero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < count; ++j) {
-      const int a = reported[static_cast<size_t>(i)];
-      const int b = reported[static_cast<size_t>(j)];
+      const int a = reported[At(i)];
+      const int b = reported[At(j)];
       const double product = covariance(a, a) * covariance(b, b);
       if (product > 0.0) result->correlation(i, j) = covariance(a, b) / std::sqrt(product);
     }
@@ -166,10 +167,7 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   result->chi_squared = fit.chi_squared;
   int free = 0;
   for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
-    free +=
-        problem.IsHeld(v) || std::isfinite(problem.variables()[static_cast<size_t>(v)].belief.sigma)
-            ? 0
-            : 1;
+    free += problem.IsHeld(v) || std::isfinite(problem.variables()[At(v)].belief.sigma) ? 0 : 1;
   }
   result->degrees_of_freedom = static_cast<int>(rows) - free;
   const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -14,8 +15,6 @@ namespace {
 
 constexpr double kPlausibleTurn_rad = 0.1;
 constexpr double kPlausibleShift_m = 0.02;
-
-Eigen::Index At(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
@@ -25,9 +24,9 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
       shapes_(model, setup, AddVariables()),
       residual_rms_m_(setup.frames.size(), 0.0) {
   for (const Variable& variable : variables_) held_.push_back(variable.considered);
-  start_ = Eigen::VectorXd::Zero(At(variables_.size()));
+  start_ = Eigen::VectorXd::Zero(ToIndex(variables_.size()));
   for (const CalibrationFrame& frame : setup.frames) {
-    data_rows_ += At(3 * frame.markers.size() + frame.surface.size());
+    data_rows_ += ToIndex(3 * frame.markers.size() + frame.surface.size());
   }
 }
 
@@ -162,9 +161,9 @@ Eigen::MatrixX2d JointProblem::Bounds() const {
 }
 
 Eigen::MatrixX2d JointProblem::ConstraintBounds() const {
-  Eigen::MatrixX2d bounds(At(setup_.conditions.size()), 2);
+  Eigen::MatrixX2d bounds(ToIndex(setup_.conditions.size()), 2);
   for (std::size_t c = 0; c < setup_.conditions.size(); ++c) {
-    bounds.row(At(c)) << setup_.conditions[c]->lower(), setup_.conditions[c]->upper();
+    bounds.row(ToIndex(c)) << setup_.conditions[c]->lower(), setup_.conditions[c]->upper();
   }
   return bounds;
 }
@@ -192,14 +191,14 @@ void JointProblem::See(const Eigen::VectorXd& variables, LeastSquaresPoint* poin
 }
 
 void JointProblem::Clear(LeastSquaresPoint* point) const {
-  const auto columns = At(variables_.size());
+  const auto columns = ToIndex(variables_.size());
   const auto beliefs = std::count_if(variables_.begin(), variables_.end(), [](const Variable& v) {
     return std::isfinite(v.belief.sigma);
   });
   point->residual.setZero(data_rows_ + beliefs);
   point->jacobian.setZero(data_rows_ + beliefs, columns);
-  point->constraint.setZero(At(setup_.conditions.size()));
-  point->constraint_jacobian.setZero(At(setup_.conditions.size()), columns);
+  point->constraint.setZero(ToIndex(setup_.conditions.size()));
+  point->constraint_jacobian.setZero(ToIndex(setup_.conditions.size()), columns);
 }
 
 void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
@@ -296,7 +295,7 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
   }
   for (std::size_t p = 0; p < seen.column.size(); ++p) {
     point->jacobian.block<Rows, 1>(row, seen.column[p]) +=
-        scale_ * rows.per_point_m * seen.place.motion_m.col(At(p));
+        scale_ * rows.per_point_m * seen.place.motion_m.col(ToIndex(p));
   }
   if (scale_column_ >= 0) {
     point->jacobian.block<Rows, 1>(row, scale_column_) +=

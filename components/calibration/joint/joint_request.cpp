@@ -12,6 +12,7 @@
 #include "components/calibration/joint/models_like.hpp"
 #include "components/calibration/joint/route_unknowns.hpp"
 #include "components/calibration/size_comparison.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/core/thread_team.hpp"
 #include "libs/geometry/rigid_registration.hpp"
@@ -66,11 +67,11 @@ geometry::Registration Register(const robot::RobotModel& model, const JointSetup
       expected.push_back(marker.point.weights.Position(x_m[f]));
     }
   }
-  const auto count = static_cast<Eigen::Index>(seen.size());
+  const auto count = ToIndex(seen.size());
   Eigen::Matrix3Xd source_m(3, count), target_m(3, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    source_m.col(k) = seen[static_cast<size_t>(k)];
-    target_m.col(k) = expected[static_cast<size_t>(k)];
+    source_m.col(k) = seen[At(k)];
+    target_m.col(k) = expected[At(k)];
   }
   return geometry::RegisterRigid(source_m, target_m);
 }
@@ -180,7 +181,7 @@ void AddWeight(const robot::RobotModel& model, const JointRequest& request, Join
 /// Where the points of a cable's path sit.
 void AddRoute(const robot::RobotBody& body, const JointRequest& request, int cable,
               JointSetup* setup) {
-  const auto points = 1 + body.cables[static_cast<size_t>(cable)].eyelets.size();
+  const auto points = 1 + body.cables[At(cable)].eyelets.size();
   for (int point = 0; point < static_cast<int>(points); ++point) {
     const double sigma_m = point == 0 ? request.cable_route_sigma_m : request.cable_eyelet_sigma_m;
     if (sigma_m <= 0.0) continue;
@@ -217,10 +218,10 @@ SizeComparison CompareSizes(const robot::RobotModel& model,
   SizeComparison sizes;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     const std::vector<MarkerSighting>& seen = frames[f].markers;
-    Eigen::Matrix3Xd model_m(3, static_cast<Eigen::Index>(seen.size()));
+    Eigen::Matrix3Xd model_m(3, ToIndex(seen.size()));
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const auto& marker = model.body().markers.at(static_cast<std::size_t>(seen[k].marker));
-      model_m.col(static_cast<Eigen::Index>(k)) = marker.point.weights.Position(x_m[f]);
+      model_m.col(ToIndex(k)) = marker.point.weights.Position(x_m[f]);
     }
     sizes.Add(PositionsOf(seen), model_m);
   }

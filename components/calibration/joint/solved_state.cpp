@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "components/calibration/joint/solved_state.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -22,14 +23,14 @@ void SolvedState::Keep(const fem::StaticState& state, const Eigen::VectorXd& var
                        const robot::SensitivitySolver& sensitivity) {
   MoveBase(state, variables);
   column_ = column;
-  const auto columns = static_cast<Eigen::Index>(column.size());
+  const auto columns = ToIndex(column.size());
   motion_m_.resize(x_m_.size(), columns);
   multiplier_rise_N_ = sensitivity.tension_N();
   Eigen::VectorXd motion_m;
   for (Eigen::Index p = 0; p < columns; ++p) {
     sensitivity.NodalMotion(static_cast<int>(p), &motion_m);
-    motion_m_.col(p) = factor[static_cast<size_t>(p)] * motion_m;
-    multiplier_rise_N_.col(p) *= factor[static_cast<size_t>(p)];
+    motion_m_.col(p) = factor[At(p)] * motion_m;
+    multiplier_rise_N_.col(p) *= factor[At(p)];
   }
 }
 
@@ -42,7 +43,7 @@ void SolvedState::MoveBase(const fem::StaticState& state, const Eigen::VectorXd&
 Eigen::VectorXd SolvedState::ChangeTo(const Eigen::VectorXd& variables) const {
   Eigen::VectorXd change(motion_m_.cols());
   for (std::size_t p = 0; p < column_.size(); ++p) {
-    change[static_cast<Eigen::Index>(p)] = variables[column_[p]] - variables_[column_[p]];
+    change[ToIndex(p)] = variables[column_[p]] - variables_[column_[p]];
   }
   return change;
 }

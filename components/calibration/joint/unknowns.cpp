@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::calibration {
@@ -305,8 +306,8 @@ std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
   std::array<TiltAxis, 2> axes;
   for (Eigen::Index i = 0, k = 0; i < 3; ++i) {
     if (i == along) continue;
-    axes[static_cast<std::size_t>(k++)] = {
-        std::string(1, "xyz"[i]), (Eigen::Vector3d::Unit(i) - down[i] * down).normalized()};
+    axes[At(k++)] = {std::string(1, "xyz"[i]),
+                     (Eigen::Vector3d::Unit(i) - down[i] * down).normalized()};
   }
   return axes;
 }

@@ -16,6 +16,7 @@
 #include "components/calibration/pose/sighting_check.hpp"
 #include "components/calibration/size_comparison.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::calibration {
@@ -114,7 +115,7 @@ bool Alternation::Fail(PoseFinding finding, StatusCode code, const std::string& 
 bool Alternation::Start() {
   Eigen::VectorXd least_N(model_.CableCount());
   for (Index c = 0; c < least_N.size(); ++c) {
-    least_N[c] = problem_.limits[static_cast<size_t>(c)].least_tension_N;
+    least_N[c] = problem_.limits[At(c)].least_tension_N;
   }
   Status status = follower_.Start(least_N);
   if (status.ok()) status = follower_.Linearise();
@@ -138,8 +139,7 @@ std::string Alternation::UndeterminedCables() const {
   std::string names;
   for (Index c = 0; c < result_.standard_error_N.size(); ++c) {
     if (result_.standard_error_N[c] <= settings_.undetermined_sigma_N) continue;
-    names +=
-        (names.empty() ? "cable " : ", cable ") + model_.body().cables[static_cast<size_t>(c)].name;
+    names += (names.empty() ? "cable " : ", cable ") + model_.body().cables[At(c)].name;
   }
   return names;
 }

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "libs/core/index.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::calibration {
@@ -55,9 +56,9 @@ std::vector<Triplet> ChooseTriplets(const Eigen::Matrix3Xd& points_m, int most) 
   std::vector<Triplet> chosen;
   for (const RankedTriplet& one : ranked) {
     if (static_cast<int>(chosen.size()) == most) break;
-    const auto used_up = [&](int p) { return uses[static_cast<size_t>(p)] >= share; };
+    const auto used_up = [&](int p) { return uses[At(p)] >= share; };
     if (std::any_of(one.points.begin(), one.points.end(), used_up)) continue;
-    for (const int p : one.points) ++uses[static_cast<size_t>(p)];
+    for (const int p : one.points) ++uses[At(p)];
     chosen.push_back(one.points);
   }
   return chosen;
@@ -119,9 +120,9 @@ std::vector<int> MatchNearest(const Eigen::Matrix3Xd& points_m, const Eigen::Mat
   std::vector<int> marker_of_point(static_cast<size_t>(points_m.cols()), -1);
   std::vector<bool> taken(static_cast<size_t>(markers_m.cols()), false);
   for (const auto& [distance_m, p, m] : pairs) {
-    if (marker_of_point[static_cast<size_t>(p)] >= 0 || taken[static_cast<size_t>(m)]) continue;
-    marker_of_point[static_cast<size_t>(p)] = m;
-    taken[static_cast<size_t>(m)] = true;
+    if (marker_of_point[At(p)] >= 0 || taken[At(m)]) continue;
+    marker_of_point[At(p)] = m;
+    taken[At(m)] = true;
   }
   return marker_of_point;
 }

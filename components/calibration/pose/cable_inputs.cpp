@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/bounded_qp.hpp"
 #include "libs/linalg/cholesky.hpp"
 
@@ -34,7 +35,7 @@ struct HalfSpace {
 using SpaceKind = HalfSpace::Kind;
 
 HalfSpace MakeHalfSpace(const CableInputProblem& problem, SpaceKind kind, Index cable) {
-  const CableLimits& limits = problem.limits[static_cast<size_t>(cable)];
+  const CableLimits& limits = problem.limits[At(cable)];
   const Eigen::RowVectorXd unit = Eigen::RowVectorXd::Unit(problem.c.size(), cable);
   const double free_m = problem.delta_a_free_m[cable];
   switch (kind) {
@@ -75,8 +76,8 @@ Status CheckLimits(const CableInputProblem& problem) {
 Status SolveTensions(const CableInputProblem& problem, Eigen::VectorXd* lambda_a_N) {
   fem::BoundedQp qp{problem.Q, problem.c, problem.c, problem.c};
   for (Index i = 0; i < problem.c.size(); ++i) {
-    qp.lower[i] = problem.limits[static_cast<size_t>(i)].least_tension_N;
-    qp.upper[i] = problem.limits[static_cast<size_t>(i)].most_tension_N;
+    qp.lower[i] = problem.limits[At(i)].least_tension_N;
+    qp.upper[i] = problem.limits[At(i)].most_tension_N;
   }
   const fem::BoundedQpResult solution = fem::SolveBoundedQp(qp, fem::QpVector(*lambda_a_N));
   if (solution.status.ok()) *lambda_a_N = solution.x;
@@ -94,7 +95,7 @@ Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
   Eigen::MatrixXd A(count, problem.c.size());
   fem::QpVector b(count), start(count);
   for (Index i = 0; i < count; ++i) {
-    const HalfSpace& one = (*half_spaces)[static_cast<size_t>(i)];
+    const HalfSpace& one = (*half_spaces)[At(i)];
     A.row(i) = one.row;
     b[i] = one.bound;
     start[i] = one.multiplier;
@@ -111,7 +112,7 @@ Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
   }
   if (!solution.status.ok()) return solution.status;
   for (Index i = 0; i < count; ++i) {
-    (*half_spaces)[static_cast<size_t>(i)].multiplier = solution.x[i];
+    (*half_spaces)[At(i)].multiplier = solution.x[i];
   }
   *lambda_a_N = -Q.Solve(problem.c) - responses * solution.x;
   return Status::Ok();

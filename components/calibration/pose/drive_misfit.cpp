@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "components/calibration/joint/model_snapshot.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -56,7 +57,7 @@ Eigen::MatrixXd CommandedDisplacements_m(robot::RobotModel& model,
     auto column = commanded_m.col(static_cast<Index>(f));
     column = Displacements_m(model, frames[f], frames[f].cables);
     for (int c = 0; c < model.CableCount(); ++c) {
-      if (frames[f].cables[static_cast<std::size_t>(c)].kind == Kind::kNone) column[c] = kUnknown;
+      if (frames[f].cables[At(c)].kind == Kind::kNone) column[c] = kUnknown;
     }
   }
   return commanded_m;
@@ -76,8 +77,7 @@ double DriveMisfit(robot::RobotModel& model, const std::vector<CalibrationFrame>
   for (Index c = 0; c < off_m.rows(); ++c) {
     bool by_displacement = false;
     for (const CalibrationFrame& frame : frames) {
-      by_displacement =
-          by_displacement || frame.cables[static_cast<std::size_t>(c)].kind == Kind::kDisplacement;
+      by_displacement = by_displacement || frame.cables[At(c)].kind == Kind::kDisplacement;
     }
     misfit += MisfitOf(off_m.row(c), by_displacement, errors);
   }

@@ -10,6 +10,7 @@
 
 #include "components/calibration/pose/assignment_hypotheses.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/bounded_qp.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
@@ -107,7 +108,7 @@ bool Refiner::Step(Explanation* explanation) const {
   Eigen::VectorXd e(3 * explanation->matches);
   Index row = 0;
   for (Index p = 0; p < points_m_.cols(); ++p) {
-    const int marker = explanation->marker_of_point[static_cast<size_t>(p)];
+    const int marker = explanation->marker_of_point[At(p)];
     if (marker < 0) continue;
     e.segment<3>(row) = moved_m.col(p) - markers_m.col(marker);
     J.block<3, 3>(row, 0) = -geometry::CrossMatrix(moved_m.col(p) - origin_m);
@@ -141,7 +142,7 @@ void Refiner::Rate(Explanation* explanation) const {
   const double unmatched = settings_.gate_sigmas * settings_.gate_sigmas;
   explanation->cost = 0.0;
   for (Index p = 0; p < points_m_.cols(); ++p) {
-    const int marker = explanation->marker_of_point[static_cast<size_t>(p)];
+    const int marker = explanation->marker_of_point[At(p)];
     explanation->cost +=
         marker < 0 ? unmatched
                    : (moved_m.col(p) - markers_m.col(marker)).squaredNorm() / (sigma_m_ * sigma_m_);

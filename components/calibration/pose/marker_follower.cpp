@@ -3,6 +3,7 @@
 
 #include "components/calibration/pose/marker_follower.hpp"
 
+#include "libs/core/index.hpp"
 #include "libs/fem/equilibrium_step.hpp"
 
 namespace palpate::calibration {
@@ -116,9 +117,9 @@ Status MarkerFollower::Balance() {
 }
 
 Eigen::Matrix3Xd MarkerFollower::Markers_m() const {
-  Eigen::Matrix3Xd markers_m(3, static_cast<Eigen::Index>(rows_.size() / 3));
+  Eigen::Matrix3Xd markers_m(3, ToIndex(rows_.size() / 3));
   for (size_t row = 0; row < rows_.size(); ++row) {
-    markers_m.reshaped()[static_cast<Eigen::Index>(row)] = rows_[row].Value(state_.x_m);
+    markers_m.reshaped()[ToIndex(row)] = rows_[row].Value(state_.x_m);
   }
   return markers_m;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/qr.hpp"
 
 namespace palpate::calibration {
@@ -118,8 +119,7 @@ SolvedShapes SolveMarkerShapes(robot::RobotModel& model, const Eigen::VectorXd& 
   for (Index s = 0; s < samples; ++s) {
     std::vector<robot::CableCommand> commands;
     for (Index c = 0; c < cables; ++c) {
-      tensions_N(c, s) =
-          most_tension_N[c] * RadicalInverse(static_cast<int>(s), kPrimes[static_cast<size_t>(c)]);
+      tensions_N(c, s) = most_tension_N[c] * RadicalInverse(static_cast<int>(s), kPrimes[At(c)]);
       commands.push_back({robot::CableCommand::Kind::kTension, tensions_N(c, s)});
     }
     solved.status = model.Solve(commands, {}, &state).status;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/calibration/joint/model_snapshot.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::calibration {
 
@@ -19,9 +20,9 @@ constexpr double kOffsetSigmas = 2.0;
 
 Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticState& state) {
   const auto& markers = model.body().markers;
-  Eigen::Matrix3Xd markers_m(3, static_cast<Eigen::Index>(markers.size()));
+  Eigen::Matrix3Xd markers_m(3, ToIndex(markers.size()));
   for (std::size_t m = 0; m < markers.size(); ++m) {
-    markers_m.col(static_cast<Eigen::Index>(m)) = markers[m].point.weights.Position(state.x_m);
+    markers_m.col(ToIndex(m)) = markers[m].point.weights.Position(state.x_m);
   }
   return markers_m;
 }
@@ -30,7 +31,7 @@ Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticStat
 double ReachOf(robot::RobotModel& model, int cable) {
   constexpr double kFarShare = 0.25;
   constexpr int kDoublings = 12;
-  const double most_N = model.body().cables[static_cast<std::size_t>(cable)].max_tension_N;
+  const double most_N = model.body().cables[At(cable)].max_tension_N;
   fem::StaticState state = model.RestState();
   const Eigen::Matrix3Xd rest_m = MarkersAt(model, state);
   const Eigen::Vector3d middle_m = rest_m.rowwise().mean();
@@ -38,7 +39,7 @@ double ReachOf(robot::RobotModel& model, int cable) {
   double reach_N = std::ldexp(most_N, -kDoublings);
   for (double tension_N = reach_N; tension_N <= most_N; tension_N *= 2.0) {
     std::vector<robot::CableCommand> commands(static_cast<std::size_t>(model.CableCount()));
-    commands[static_cast<std::size_t>(cable)] = {Kind::kTension, tension_N};
+    commands[At(cable)] = {Kind::kTension, tension_N};
     if (!model.Solve(commands, {}, &state).status.ok()) break;
     const Eigen::Matrix3Xd moved_m = MarkersAt(model, state) - rest_m;
     if (moved_m.colwise().norm().maxCoeff() > kFarShare * spread_m) break;
@@ -82,7 +83,7 @@ Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationF
   if (!status.ok()) return status;
   for (int c = 0; c < model.CableCount(); ++c) {
     const auto is_unknown = [&](const CalibrationFrame& frame) {
-      return frame.cables[static_cast<std::size_t>(c)].kind == Kind::kNone;
+      return frame.cables[At(c)].kind == Kind::kNone;
     };
     const bool unknown = std::any_of(frames.begin(), frames.end(), is_unknown);
     if (!unknown && (*most_N)[c] > 0.0) continue;

@@ -10,6 +10,7 @@
 #include "components/perception/contacts/point_grid.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/rgbd/depth_noise.hpp"
 
@@ -27,9 +28,8 @@ Eigen::Vector3d Direction(const Eigen::Vector3d& rgb) {
 }
 
 double ShareOf(const std::vector<int>& region, const std::vector<char>& marked) {
-  const auto count = std::count_if(region.begin(), region.end(), [&](int point) {
-    return marked[static_cast<std::size_t>(point)] != 0;
-  });
+  const auto count = std::count_if(region.begin(), region.end(),
+                                   [&](int point) { return marked[At(point)] != 0; });
   return static_cast<double>(count) / static_cast<double>(region.size());
 }
 
@@ -105,7 +105,7 @@ void ColorSegmenter::MarkOnSurface(const VoxelCloud& cloud, const PredictedSurfa
     const auto z_m =
         static_cast<double>(view_->Z_m(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())));
     const bool near = std::abs(point_m.z() - z_m) <= config_.color.surface_distance_m;
-    on_surface_[static_cast<std::size_t>(i)] = near ? 1 : 0;
+    on_surface_[At(i)] = near ? 1 : 0;
   }
 }
 
@@ -115,7 +115,7 @@ void ColorSegmenter::LearnColor(const VoxelCloud& cloud) {
   if (!config_.robot_color_rgb.empty()) return;
   std::vector<double> channels[3];
   for (int i = 0; i < cloud.Count(); ++i) {
-    if (on_surface_[static_cast<std::size_t>(i)] == 0) continue;
+    if (on_surface_[At(i)] == 0) continue;
     const Eigen::Vector3d direction = Direction(cloud.Color(i));
     for (int k = 0; k < 3; ++k) channels[k].push_back(direction[k]);
   }
@@ -137,7 +137,7 @@ void ColorSegmenter::LabelRobot(const VoxelCloud& cloud,
                                 const std::vector<std::vector<int>>& regions) {
   for (const std::vector<int>& region : regions) {
     if (!IsRobot(cloud, region)) continue;
-    for (const int point : region) labels_[static_cast<std::size_t>(point)] = Label::kRobot;
+    for (const int point : region) labels_[At(point)] = Label::kRobot;
   }
 }
 
@@ -148,15 +148,15 @@ void ColorSegmenter::LabelObjects(const VoxelCloud& cloud,
   robot.Build(segmented_.robot.points_m, near_m);
   std::vector<char> in_region(static_cast<std::size_t>(cloud.Count()), 0);
   for (const std::vector<int>& region : regions) {
-    for (const int point : region) in_region[static_cast<std::size_t>(point)] = 1;
-    if (labels_[static_cast<std::size_t>(region.front())] == Label::kRobot) continue;
+    for (const int point : region) in_region[At(point)] = 1;
+    if (labels_[At(region.front())] == Label::kRobot) continue;
     for (const int point : region) {
       bool near = false;
       robot.ForEachNear(cloud.points_m.col(point), near_m, [&](int, float) {
         near = true;
         return false;
       });
-      if (near) labels_[static_cast<std::size_t>(point)] = Label::kObject;
+      if (near) labels_[At(point)] = Label::kObject;
     }
   }
   for (int i = 0; i < cloud.Count(); ++i) {

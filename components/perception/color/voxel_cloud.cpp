@@ -17,6 +17,7 @@
 #include "components/perception/color/large_planes.hpp"
 #include "components/perception/noise_law.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
@@ -137,9 +138,9 @@ Cloud::Ptr Downsample(const Cloud::Ptr& cloud, int most_points, double* voxel_m)
 Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const Config& config, const NoiseLaw& noise) {
   double voxel_m = std::max(config.color.background_thickness_m, SmallestVoxel_m(*cloud));
   const Cloud::Ptr coarse = Downsample(cloud, config.max_cloud_points, &voxel_m);
-  Eigen::Matrix3Xf points_m(3, static_cast<Eigen::Index>(coarse->size()));
+  Eigen::Matrix3Xf points_m(3, ToIndex(coarse->size()));
   for (std::size_t i = 0; i < coarse->size(); ++i) {
-    points_m.col(static_cast<Eigen::Index>(i)) = (*coarse)[i].getVector3fMap();
+    points_m.col(ToIndex(i)) = (*coarse)[i].getVector3fMap();
   }
   const std::vector<Eigen::Vector4f> planes = FindLargePlanes(points_m, config.color);
   const auto thickness_m = static_cast<float>(config.color.background_thickness_m);
@@ -167,12 +168,12 @@ pcl::Indices WithNeighbours(const Cloud::Ptr& voxels, double radius_m, int neigh
 
 VoxelCloud Take(const Cloud& voxels, const std::vector<int>& pixels, const pcl::Indices& kept) {
   VoxelCloud taken;
-  taken.points_m.resize(3, static_cast<Eigen::Index>(kept.size()));
+  taken.points_m.resize(3, ToIndex(kept.size()));
   for (const int i : kept) {
-    const Point& point = voxels[static_cast<std::size_t>(i)];
+    const Point& point = voxels[At(i)];
     taken.points_m.col(taken.Count()) = point.getVector3fMap();
     taken.colors_rgb.insert(taken.colors_rgb.end(), {point.r, point.g, point.b});
-    taken.pixels.push_back(pixels[static_cast<std::size_t>(i)]);
+    taken.pixels.push_back(pixels[At(i)]);
   }
   return taken;
 }

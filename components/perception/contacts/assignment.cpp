@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -30,11 +31,11 @@ class Assignment {
     came_from_.assign(columns, kFree);
     done_.assign(columns, 0);
     int column = kFree;
-    for (int from = row; from != kFree; from = row_of_column_[static_cast<std::size_t>(column)]) {
+    for (int from = row; from != kFree; from = row_of_column_[At(column)]) {
       Relax(from, column);
       column = Nearest();
-      Pay(row, distance_[static_cast<std::size_t>(column)]);
-      done_[static_cast<std::size_t>(column)] = 1;
+      Pay(row, distance_[At(column)]);
+      done_[At(column)] = 1;
     }
     Augment(row, column);
   }
@@ -43,7 +44,7 @@ class Assignment {
     std::vector<int> columns(static_cast<std::size_t>(cost_.rows()), kFree);
     for (std::size_t column = 0; column < row_of_column_.size(); ++column) {
       const int row = row_of_column_[column];
-      if (row != kFree) columns[static_cast<std::size_t>(row)] = static_cast<int>(column);
+      if (row != kFree) columns[At(row)] = static_cast<int>(column);
     }
     return columns;
   }
@@ -51,7 +52,7 @@ class Assignment {
  private:
   void Relax(int row, int over_column) {
     for (std::size_t column = 0; column < done_.size(); ++column) {
-      const auto c = static_cast<Eigen::Index>(column);
+      const auto c = ToIndex(column);
       const double reduced = cost_(row, c) - row_price_[row] - column_price_[c];
       if (done_[column] != 0 || reduced >= distance_[column]) continue;
       distance_[column] = reduced;
@@ -80,16 +81,15 @@ class Assignment {
         continue;
       }
       row_price_[row_of_column_[column]] += step;
-      column_price_[static_cast<Eigen::Index>(column)] -= step;
+      column_price_[ToIndex(column)] -= step;
     }
   }
 
   void Augment(int row, int column) {
     while (true) {
-      const int before = came_from_[static_cast<std::size_t>(column)];
+      const int before = came_from_[At(column)];
       const bool first = before == kFree;
-      row_of_column_[static_cast<std::size_t>(column)] =
-          first ? row : row_of_column_[static_cast<std::size_t>(before)];
+      row_of_column_[At(column)] = first ? row : row_of_column_[At(before)];
       if (first) return;
       column = before;
     }

@@ -12,6 +12,7 @@
 
 #include "components/perception/contacts/hidden_surface.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
@@ -53,7 +54,7 @@ const std::vector<DetectedContact>& ContactLocator::Locate(const rgbd::SensedClo
     if (!LookBehind(robot, object, members, surface, &contact)) continue;
     contacts_.push_back(std::move(contact));
     for (const int k : members) {
-      in_contact_[static_cast<std::size_t>(touching_[static_cast<std::size_t>(k)].object)] = 1;
+      in_contact_[At(touching_[At(k)].object)] = 1;
     }
   }
   if (surface != nullptr) LocateLarge(object, *surface);
@@ -113,11 +114,10 @@ void ContactLocator::KeepNearest(const rgbd::SensedCloud& object) {
   for (std::size_t k = 0; k < touching_.size(); ++k) {
     const float limit_m = touching_[k].distance_m - resolution_m;
     int nearer = 0;
-    grid_.ForEachNear(
-        touching_m_.col(static_cast<Eigen::Index>(k)), radius_m, [&](int other, float) {
-          nearer += touching_[static_cast<std::size_t>(other)].distance_m < limit_m ? 1 : 0;
-          return nearer < config_.min_points;
-        });
+    grid_.ForEachNear(touching_m_.col(ToIndex(k)), radius_m, [&](int other, float) {
+      nearer += touching_[At(other)].distance_m < limit_m ? 1 : 0;
+      return nearer < config_.min_points;
+    });
     taken_[k] = nearer < config_.min_points ? 0 : 1;
   }
   for (std::size_t k = 0; k < touching_.size(); ++k) {
@@ -128,9 +128,9 @@ void ContactLocator::KeepNearest(const rgbd::SensedCloud& object) {
 }
 
 void ContactLocator::Gather(const rgbd::SensedCloud& object) {
-  touching_m_.resize(3, static_cast<Eigen::Index>(touching_.size()));
+  touching_m_.resize(3, ToIndex(touching_.size()));
   for (std::size_t k = 0; k < touching_.size(); ++k) {
-    touching_m_.col(static_cast<Eigen::Index>(k)) = object.points_m.col(touching_[k].object);
+    touching_m_.col(ToIndex(k)) = object.points_m.col(touching_[k].object);
   }
 }
 
@@ -145,7 +145,7 @@ void ContactLocator::Cluster(const Eigen::Matrix3Xf& points_m, double link_m) {
     std::vector<int>& members = clusters_.emplace_back(1, static_cast<int>(seed));
     for (std::size_t next = 0; next < members.size(); ++next) {
       grid_.ForEachNear(points_m.col(members[next]), distance_m, [&](int other, float) {
-        char& taken = taken_[static_cast<std::size_t>(other)];
+        char& taken = taken_[At(other)];
         if (taken == 0) members.push_back(other);
         taken = 1;
         return true;
@@ -158,7 +158,7 @@ void ContactLocator::Cluster(const Eigen::Matrix3Xf& points_m, double link_m) {
 void ContactLocator::LocateLarge(const rgbd::SensedCloud& object, const PredictedSurface& surface) {
   Cluster(object.points_m, 0.5 * thresholds_.cluster_distance_m);
   for (const std::vector<int>& members : clusters_) {
-    const auto is_located = [this](int k) { return in_contact_[static_cast<std::size_t>(k)] != 0; };
+    const auto is_located = [this](int k) { return in_contact_[At(k)] != 0; };
     if (std::any_of(members.begin(), members.end(), is_located)) continue;
     const Eigen::Matrix3Xd points_m = object.points_m(Eigen::all, members).cast<double>();
     const auto hidden = FindContactUnder(points_m, surface, thresholds_.noise_m);
@@ -184,7 +184,7 @@ DetectedContact ContactLocator::Summarise(const rgbd::SensedCloud& robot,
   Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d noise_m2 = Eigen::Matrix3d::Zero();
   for (const int k : members) {
-    const Touch& touch = touching_[static_cast<std::size_t>(k)];
+    const Touch& touch = touching_[At(k)];
     contact.position_m += robot.points_m.col(touch.robot).cast<double>() / count;
     lower_m = lower_m.cwiseMin(touching_m_.col(k));
     upper_m = upper_m.cwiseMax(touching_m_.col(k));

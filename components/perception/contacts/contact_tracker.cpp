@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "components/perception/contacts/assignment.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -19,8 +20,8 @@ const std::vector<DetectedContact>& ContactTracker::Update(
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const int detection = detection_of_track_[t];
     if (detection >= 0) {
-      known[static_cast<std::size_t>(detection)] = 1;
-      See(detected[static_cast<std::size_t>(detection)], &tracks_[t]);
+      known[At(detection)] = 1;
+      See(detected[At(detection)], &tracks_[t]);
     } else {
       ++tracks_[t].frames_missing;
       tracks_[t].contact.frames_seen = 0;
@@ -47,18 +48,17 @@ void ContactTracker::Forget() {
 
 /// Rows are tracks; columns are detections, and for each track one that means "missing".
 void ContactTracker::Associate(const std::vector<DetectedContact>& detected) {
-  const auto tracks = static_cast<Eigen::Index>(tracks_.size());
-  const auto detections = static_cast<Eigen::Index>(detected.size());
+  const auto tracks = ToIndex(tracks_.size());
+  const auto detections = ToIndex(detected.size());
   const double gate_m2 = config_.gate_m * config_.gate_m;
   const double missing = 2.0 * gate_m2;  // dearer than any match
   const double never = 4.0 * gate_m2 * static_cast<double>(tracks + 1);
   cost_.setConstant(tracks, detections + tracks, missing);
   for (Eigen::Index t = 0; t < tracks; ++t) {
-    const Track& track = tracks_[static_cast<std::size_t>(t)];
+    const Track& track = tracks_[At(t)];
     for (Eigen::Index d = 0; d < detections; ++d) {
       const double distance_m2 =
-          (detected[static_cast<std::size_t>(d)].position_m - track.contact.position_m)
-              .squaredNorm();
+          (detected[At(d)].position_m - track.contact.position_m).squaredNorm();
       // Where contacts merge, the one that was seen last takes what there is, and a new one waits.
       const bool behind = track.frames_missing > 0 || track.number == 0;
       cost_(t, d) = distance_m2 > gate_m2 ? never : distance_m2 + (behind ? 0.5 * gate_m2 : 0.0);

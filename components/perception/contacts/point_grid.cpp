@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -31,7 +32,7 @@ void PointGrid::Build(const Eigen::Matrix3Xf& points_m, float radius_m) {
   cell_of_point_.resize(count);
   const Eigen::Vector3i last = cells_.array() - 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f at = (points_m.col(static_cast<Eigen::Index>(i)) - lower_m_) * per_cell_;
+    const Eigen::Vector3f at = (points_m.col(ToIndex(i)) - lower_m_) * per_cell_;
     cell_of_point_[i] = CellOf(at.cast<int>().cwiseMin(last));
     ++first_[cell_of_point_[i] + 1];
   }
@@ -40,8 +41,8 @@ void PointGrid::Build(const Eigen::Matrix3Xf& points_m, float radius_m) {
   sorted_m_.resize(3, points_m.cols());
   for (std::size_t i = count; i-- > 0;) {  // first_ moves down to where each cell begins
     const int place = --first_[cell_of_point_[i] + 1];
-    index_[static_cast<std::size_t>(place)] = static_cast<int>(i);
-    sorted_m_.col(place) = points_m.col(static_cast<Eigen::Index>(i));
+    index_[At(place)] = static_cast<int>(i);
+    sorted_m_.col(place) = points_m.col(ToIndex(i));
   }
   // Now first_[cell + 1] is the begin of `cell`: shift back.
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell] = first_[cell + 1];
@@ -66,7 +67,7 @@ float MedianSpacing_m(const Eigen::Matrix3Xf& points_m, PointGrid* grid) {
         if (other != i) nearest = std::min(nearest, squared_m2);
         return true;
       });
-      nearest_m2[static_cast<std::size_t>(i)] = nearest;
+      nearest_m2[At(i)] = nearest;
     }
     std::nth_element(nearest_m2.begin(), median, nearest_m2.end());
     if (std::isfinite(*median) || radius_m > largest_m) return std::sqrt(*median);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -24,8 +25,7 @@ Eigen::Matrix3Xf Directions(const std::vector<double>& rgb) {
                      " colours");
   }
   Eigen::Matrix3Xf directions =
-      Eigen::Map<const Eigen::Matrix3Xd>(rgb.data(), 3, static_cast<Eigen::Index>(rgb.size() / 3))
-          .cast<float>();
+      Eigen::Map<const Eigen::Matrix3Xd>(rgb.data(), 3, ToIndex(rgb.size() / 3)).cast<float>();
   for (auto color : directions.colwise()) {
     const float length = color.norm();
     if (!(length > 0.0f)) throw InputError("color_rgb has black, which has no direction");

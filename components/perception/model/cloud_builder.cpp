@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 std::int64_t CloudBuilder::Build(const Registration& registration, const RegisteredFrame& frame,
@@ -76,12 +78,12 @@ void CloudBuilder::AddPixel(const Eigen::Vector3f& point_m, float step_m, const 
 }
 
 void CloudBuilder::Write(const rgbd::RgbdCamera& camera, rgbd::SensedCloud* cloud) const {
-  const auto count = static_cast<Eigen::Index>(groups_.size());
+  const auto count = ToIndex(groups_.size());
   cloud->points_m.resize(3, count);
   cloud->sigma_m.resize(count);
   cloud->colors_rgb.resize(3 * groups_.size());
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Group& group = groups_[static_cast<std::size_t>(i)];
+    const Group& group = groups_[At(i)];
     const Eigen::Vector3f mean_m = group.sum_m / static_cast<float>(group.count);
     cloud->points_m.col(i) = mean_m;
     const double sigma_m = rgbd::DepthSigma_m(camera, noise_, static_cast<double>(mean_m.z()));

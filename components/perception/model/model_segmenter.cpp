@@ -16,6 +16,7 @@
 #include "components/perception/registered_frame.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::perception {
 
@@ -322,9 +323,8 @@ void ModelSegmenter::Parts::DropFarObjects() {
       Label& label = region.label[region.At(column, row)];
       if (label != Label::kObject) continue;
       const int site = grid.nearest[grid.At(column / step, row / step)];
-      const bool near =
-          site != SampleGrid::kNone &&
-          (point_at(column, row) - grid.site_m[static_cast<std::size_t>(site)]).norm() < near_m;
+      const bool near = site != SampleGrid::kNone &&
+                        (point_at(column, row) - grid.site_m[At(site)]).norm() < near_m;
       if (!near) label = Label::kBackground;
     }
   }

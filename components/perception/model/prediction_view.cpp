@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -141,10 +143,8 @@ PredictionView::Agreement PredictionView::Agree(const Registration& registration
           registration.Ray(u, v);
       if (point_m.z() <= 0.0f) continue;
       const int nearest = grid_.nearest[at];
-      const bool is_near =
-          nearest != SampleGrid::kNone &&
-          (point_m - grid_.site_m[static_cast<std::size_t>(nearest)]).squaredNorm() <
-              near_m * near_m;
+      const bool is_near = nearest != SampleGrid::kNone &&
+                           (point_m - grid_.site_m[At(nearest)]).squaredNorm() < near_m * near_m;
       const float behind_m =
           grid_.site_m[at].z() > 0.0f ? grid_.normal[at].dot(grid_.site_m[at] - point_m) : 0.0f;
       agreement.agree += is_near ? 1 : 0;

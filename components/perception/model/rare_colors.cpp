@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -23,11 +25,11 @@ float NumberGroup(const std::vector<float>& counts, float least, int seed, int n
                   std::vector<int>* group) {
   float sum = 0.0f;
   std::vector<int> open = {seed};
-  (*group)[static_cast<std::size_t>(seed)] = number;
+  (*group)[At(seed)] = number;
   while (!open.empty()) {
     const int at = open.back();
     open.pop_back();
-    sum += counts[static_cast<std::size_t>(at)];
+    sum += counts[At(at)];
     for (int green = std::max(0, at / kBins - 1); green <= std::min(kBins - 1, at / kBins + 1);
          ++green) {
       for (int red = std::max(0, at % kBins - 1); red <= std::min(kBins - 1, at % kBins + 1);
@@ -64,7 +66,7 @@ RareColors::RareColors(const ColorModel::Histogram& counts) {
   const float fewest = kRareShare * *std::max_element(sizes.begin(), sizes.end());
   rare_.resize(kChromaticities);
   for (std::size_t at = 0; at < rare_.size(); ++at) {
-    const bool common = group[at] >= 0 && sizes[static_cast<std::size_t>(group[at])] >= fewest;
+    const bool common = group[at] >= 0 && sizes[At(group[at])] >= fewest;
     rare_[at] = common ? 0 : 1;
   }
 }

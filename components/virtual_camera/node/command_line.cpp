@@ -9,6 +9,7 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/sha256.hpp"
 #include "libs/scenario/robot_names.hpp"
 
@@ -27,9 +28,9 @@ Scene OpenScene(const Command& command) {
               seed,
               scenario::DrawEffects(scenario, names, seed),
               {}};
-  scene.markers_m.resize(3, static_cast<Eigen::Index>(robot.markers.size()));
+  scene.markers_m.resize(3, ToIndex(robot.markers.size()));
   for (size_t m = 0; m < robot.markers.size(); ++m) {
-    scene.markers_m.col(static_cast<Eigen::Index>(m)) = robot.markers[m].position_m;
+    scene.markers_m.col(ToIndex(m)) = robot.markers[m].position_m;
   }
   return scene;
 }

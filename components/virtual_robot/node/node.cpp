@@ -8,6 +8,7 @@
 
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/geometry_messages.hpp"
@@ -26,8 +27,7 @@ double Seconds(Clock::time_point time) { return ToSeconds(time.time_since_epoch(
 Clock::time_point TimePoint(double seconds) { return Clock::time_point(FromSeconds(seconds)); }
 
 Eigen::VectorXd NothingDriven(size_t cables) {
-  return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cables),
-                                   std::numeric_limits<double>::quiet_NaN());
+  return Eigen::VectorXd::Constant(ToIndex(cables), std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ void VirtualRobotNode::Publish(const scenario::BenchInputs& inputs,
   const std::int64_t stamp_ns = dds::WallClockNs();
   const VirtualRobot& robot = *bench_.robot;
   const auto& scenario = bench_.schedule.scenario();
-  const auto& plan = scenario.recordings[static_cast<size_t>(moment.recording)];
+  const auto& plan = scenario.recordings[At(moment.recording)];
   BenchFacts facts{bench_.scenario_sha256, bench_.seed, moment, Eigen::Isometry3d::Identity()};
   if (scenario.camera) {
     facts.T_robot_camera = plan.T_robot_camera.value_or(scenario.camera->T_robot_camera);
@@ -153,7 +153,7 @@ Status VirtualRobotNode::StatusNow() const {
 
 void VirtualRobotNode::ReportHealth() {
   const auto moment = bench_.schedule.At(clock_.bench_s() - pass_start_s_);
-  const auto& plan = bench_.schedule.scenario().recordings[static_cast<size_t>(moment.recording)];
+  const auto& plan = bench_.schedule.scenario().recordings[At(moment.recording)];
   health_.Report(StatusNow(), counts_,
                  {{"recording", plan.name}, {"t_s", FormatNumber(moment.t_s)}}, Clock::now());
   counts_.latencies_s.clear();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/c3d/c3d_bytes.hpp"
 #include "libs/experiment/c3d/c3d_layout.hpp"
@@ -31,8 +32,7 @@ class SampleReader {
     if (word < 0) return sample;
     sample.position_m = Eigen::Vector3d::Zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      (*sample.position_m)[static_cast<Eigen::Index>(axis)] =
-          ReadCoordinate(offset + axis * layout_.value_size());
+      (*sample.position_m)[ToIndex(axis)] = ReadCoordinate(offset + axis * layout_.value_size());
     }
     sample.cameras = static_cast<std::uint8_t>(word >> 8);
     sample.residual_m = (word & 0xff) * layout_.scale * layout_.metres_per_unit;

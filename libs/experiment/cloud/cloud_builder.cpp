@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::experiment {
 
@@ -15,7 +16,7 @@ CloudBuilder::CloudBuilder(std::uint64_t width, std::uint64_t height, bool color
   PALPATE_CHECK(width * height <= kMostPoints, width, height);
   cloud_.width = static_cast<int>(width);
   cloud_.height = static_cast<int>(height);
-  cloud_.points_m.resize(3, static_cast<Eigen::Index>(width * height));
+  cloud_.points_m.resize(3, ToIndex(width * height));
   if (colored) cloud_.colors_rgb.reserve(3 * width * height);
 }
 
@@ -47,7 +48,7 @@ void CheckShape(const PointCloud& cloud) {
   const Eigen::Index points = cloud.points_m.cols();
   PALPATE_CHECK(Eigen::Index{cloud.width} * cloud.height == points, cloud.width, cloud.height,
                 points);
-  const auto colors = static_cast<Eigen::Index>(cloud.colors_rgb.size());
+  const auto colors = ToIndex(cloud.colors_rgb.size());
   PALPATE_CHECK(colors == 0 || colors == 3 * points, colors, points);
 }
 

@@ -11,6 +11,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/cloud/cloud_builder.hpp"
 #include "libs/experiment/cloud/ply_header.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
@@ -176,7 +177,7 @@ void WritePly(const PointCloud& cloud, const std::filesystem::path& file) {
     }
     if (!colored) continue;
     for (Eigen::Index c = 3 * i; c < 3 * i + 3; ++c) {
-      bytes.push_back(static_cast<char>(cloud.colors_rgb[static_cast<std::size_t>(c)]));
+      bytes.push_back(static_cast<char>(cloud.colors_rgb[At(c)]));
     }
   }
   WriteFile(file, bytes);

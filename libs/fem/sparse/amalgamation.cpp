@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/dense/front_kernels.hpp"
 
 namespace palpate::fem::internal {

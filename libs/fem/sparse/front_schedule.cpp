@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/amalgamation.hpp"
 
 namespace palpate::fem::internal {

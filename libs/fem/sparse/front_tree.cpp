@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "libs/core/check.hpp"
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem::internal {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem::internal {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/aligned_buffer.hpp"
 #include "libs/fem/sparse/dense/front_kernels.hpp"
 #include "libs/fem/sparse/factor_store.hpp"

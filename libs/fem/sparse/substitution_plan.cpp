@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "libs/fem/index.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem::internal {
 

@@ -4,6 +4,7 @@
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -19,9 +20,9 @@ EquilibriumPoint::EquilibriumPoint(RobotModel& model)
 /// Pull points may have moved.
 void EquilibriumPoint::EvaluateRestPaths() {
   for (int c = 0; c < model_.CableCount(); ++c) {
-    Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
+    Eigen::Matrix3Xd& path_m = path_m_[At(c)];
     model_.cable(c).FindPath(model_.elastic_body().rest_m(), &path_m);
-    rest_paths_[static_cast<size_t>(c)].Evaluate(path_m, {});
+    rest_paths_[At(c)].Evaluate(path_m, {});
   }
 }
 
@@ -36,9 +37,9 @@ void EquilibriumPoint::Set(const std::vector<CableCommand>& commands,
   EvaluateRestPaths();
   for (int c = 0; c < model_.CableCount(); ++c) {
     const Cable& cable = model_.cable(c);
-    Eigen::Matrix3Xd& path_m = path_m_[static_cast<size_t>(c)];
+    Eigen::Matrix3Xd& path_m = path_m_[At(c)];
     cable.FindPath(x_m_, &path_m);
-    paths_[static_cast<size_t>(c)].Evaluate(path_m, cable.friction());
+    paths_[At(c)].Evaluate(path_m, cable.friction());
   }
 }
 
@@ -48,7 +49,7 @@ size_t EquilibriumPoint::Index(int cable) const {
 }
 
 bool EquilibriumPoint::KeepsLength(int cable) const {
-  const double limit_N = model_.body().cables[static_cast<size_t>(cable)].max_tension_N;
+  const double limit_N = model_.body().cables[At(cable)].max_tension_N;
   return command(cable).kind == CableCommand::Kind::kDisplacement && tension_N(cable) > 0.0 &&
          tension_N(cable) < limit_N;
 }
@@ -101,10 +102,10 @@ const Eigen::MatrixXd& EquilibriumPoint::forces_per_mu_m2() const {
 void EquilibriumPoint::PathMotion(int cable, const Eigen::VectorXd& nodal_m,
                                   Eigen::Matrix3Xd* motion_m) const {
   const std::vector<fem::InterpolationWeights>& eyelets = model_.cable(cable).eyelets();
-  motion_m->resize(3, static_cast<Eigen::Index>(eyelets.size()) + 1);
+  motion_m->resize(3, ToIndex(eyelets.size()) + 1);
   motion_m->col(0).setZero();
   for (size_t e = 0; e < eyelets.size(); ++e) {
-    motion_m->col(static_cast<Eigen::Index>(e) + 1) = eyelets[e].Position(nodal_m);
+    motion_m->col(ToIndex(e) + 1) = eyelets[e].Position(nodal_m);
   }
 }
 
@@ -112,7 +113,7 @@ void EquilibriumPoint::MovePath(int cable, const Eigen::Matrix3Xd& motion_m,
                                 ParameterColumn* column) const {
   const CablePath& moved = path(cable);
   column->length_m[cable] += moved.LengthAlong(motion_m);
-  Eigen::Matrix3Xd& force = force_[static_cast<size_t>(cable)];
+  Eigen::Matrix3Xd& force = force_[At(cable)];
   moved.ForceAlong(motion_m, &force);
   PullPath(cable, tension_N(cable), force, column);
 }
@@ -122,7 +123,7 @@ void EquilibriumPoint::PullPath(int cable, double tension_N, const Eigen::Matrix
   if (tension_N == 0.0) return;
   const std::vector<fem::InterpolationWeights>& eyelets = model_.cable(cable).eyelets();
   for (size_t e = 0; e < eyelets.size(); ++e) {
-    column->AddForce(eyelets[e], tension_N * force.col(static_cast<Eigen::Index>(e) + 1));
+    column->AddForce(eyelets[e], tension_N * force.col(ToIndex(e) + 1));
   }
 }
 
@@ -138,7 +139,7 @@ void EquilibriumPoint::ApplyHeldMotion(ParameterColumn* column) const {
   const Eigen::VectorXd& motion_m = column->held_motion_m();
   elements().AddAlongPositions(materials(), x_m_, motion_m, -1.0, column->distributed_force_N());
   for (int c = 0; c < model_.CableCount(); ++c) {
-    Eigen::Matrix3Xd& path_motion_m = path_m_[static_cast<size_t>(c)];
+    Eigen::Matrix3Xd& path_motion_m = path_m_[At(c)];
     PathMotion(c, motion_m, &path_motion_m);
     MovePath(c, path_motion_m, column);
   }

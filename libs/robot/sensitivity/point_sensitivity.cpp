@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::robot {
 
 PointSensitivity::PointSensitivity(RobotModel& model, std::vector<ObservationRow> rows)
@@ -91,7 +93,7 @@ Status PointSensitivity::CoupleFriction() {
 
 void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> parameters) {
   const Eigen::Index cables = model_.CableCount();
-  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const auto count = ToIndex(parameters.size());
   commanded_length_m_.resize(cables, count);
   length_m_.resize(cables, count);
   tension_N_.resize(cables, count);
@@ -100,7 +102,7 @@ void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> paramete
   distributed_.clear();
   for (Eigen::Index p = 0; p < count; ++p) {
     column_.Reset(nodal_.size(), cables);
-    parameters[static_cast<size_t>(p)]->Describe(point_, &column_);
+    parameters[At(p)]->Describe(point_, &column_);
     point_.Complete(&column_);
     commanded_length_m_.col(p) = column_.commanded_length_m;
     length_m_.col(p) = column_.length_m;
@@ -110,17 +112,17 @@ void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> paramete
       response_m_.col(p) += per_force_m_N_.middleCols<3>(3 * node) * force_N;
     }
     if (!column_.IsDistributed()) continue;
-    const auto next = static_cast<Eigen::Index>(distributed_.size());
+    const auto next = ToIndex(distributed_.size());
     if (next == distributed_N_.cols()) {
       distributed_N_.conservativeResize(nodal_.size(), std::max<Eigen::Index>(8, 2 * next));
     }
     distributed_N_.col(next) = column_.distributed_force_N();
     distributed_.push_back(p);
   }
-  const auto distributed = static_cast<Eigen::Index>(distributed_.size());
+  const auto distributed = ToIndex(distributed_.size());
   const Eigen::MatrixXd moved_m = per_force_m_N_ * distributed_N_.leftCols(distributed);
   for (Eigen::Index k = 0; k < distributed; ++k) {
-    response_m_.col(distributed_[static_cast<size_t>(k)]) += moved_m.col(k);
+    response_m_.col(distributed_[At(k)]) += moved_m.col(k);
   }
   length_m_ += response_m_.topRows(cables);
   motion_m_ += response_m_.bottomRows(rows_ - cables);
@@ -129,8 +131,7 @@ void PointSensitivity::DescribeParameters(std::span<const ParameterPtr> paramete
 /// What the held nodes carry along at fixed free ones.
 void PointSensitivity::MoveWithBase(Eigen::Index parameter) {
   for (size_t e = 0; e < observed_.size(); ++e) {
-    motion_m_(static_cast<Eigen::Index>(e), parameter) =
-        observed_[e].Value(column_.held_motion_m());
+    motion_m_(ToIndex(e), parameter) = observed_[e].Value(column_.held_motion_m());
   }
 }
 
@@ -140,15 +141,15 @@ Status PointSensitivity::PullTautCables() {
   Eigen::MatrixXd per_tension(rows_, taut);
   for (Eigen::Index t = 0; t < taut; ++t) {
     nodal_.setZero();
-    model_.cable(cables_.taut()[static_cast<size_t>(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
+    model_.cable(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
     per_tension.col(t) = per_force_m_N_ * nodal_;
   }
   Status status = cables_.HoldLengths(per_tension.topRows(cables), commanded_length_m_, &length_m_,
                                       &tension_N_);
   if (!status.ok()) return status;
   for (Eigen::Index t = 0; t < taut; ++t) {
-    motion_m_.noalias() += per_tension.bottomRows(rows_ - cables).col(t) *
-                           tension_N_.row(cables_.taut()[static_cast<size_t>(t)]);
+    motion_m_.noalias() +=
+        per_tension.bottomRows(rows_ - cables).col(t) * tension_N_.row(cables_.taut()[At(t)]);
   }
   return Status::Ok();
 }

@@ -4,6 +4,7 @@
 #include "libs/robot/sensitivity/sensitivity_solver.hpp"
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -62,7 +63,7 @@ void SensitivitySolver::FillColumns() {
   }
   for (Eigen::Index t = 0; t < taut; ++t) {
     nodal_.setZero();
-    model_.cable(cables_.taut()[static_cast<size_t>(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
+    model_.cable(cables_.taut()[At(t)]).AddGradient(point_.x_m(), -1.0, nodal_);
     matrix.Reduce(nodal_, columns_.col(t));
   }
   for (size_t p = 0; p < columns_of_.size(); ++p) {
@@ -83,7 +84,7 @@ Status SensitivitySolver::CoupleFriction() {
   Eigen::MatrixXd coupling(turns, turns);
   Eigen::MatrixXd angles(turns, others);
   for (Eigen::Index i = 0; i < turns; ++i) {
-    const NodalRow& B = cables_.angles()[static_cast<size_t>(i)];
+    const NodalRow& B = cables_.angles()[At(i)];
     for (Eigen::Index j = 0; j < turns; ++j) coupling(i, j) = B.Dot(Z.col(j));
     for (Eigen::Index j = 0; j < others; ++j) angles(i, j) = B.Dot(columns_.col(j));
   }
@@ -100,16 +101,16 @@ Status SensitivitySolver::EliminateTautCables() {
   length_m_.resize(cables, count);
   tension_N_.resize(cables, count);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const ParameterColumn& column = columns_of_[static_cast<size_t>(p)];
+    const ParameterColumn& column = columns_of_[At(p)];
     commanded_length_m_.col(p) = column.commanded_length_m;
     length_m_.col(p) = column.length_m;
     tension_N_.col(p) = column.commanded_tension_N;
   }
   fem::QpMatrix per_tension(cables, taut);  // dlength/dtension
   for (Eigen::Index c = 0; c < cables; ++c) {
-    const NodalRow& row = cables_.lengths()[static_cast<size_t>(c)];
+    const NodalRow& row = cables_.lengths()[At(c)];
     for (Eigen::Index p = 0; p < count; ++p) {
-      const int load = load_of_[static_cast<size_t>(p)];
+      const int load = load_of_[At(p)];
       if (load >= 0) length_m_(c, p) += row.Dot(columns_.col(taut + load));
     }
     for (Eigen::Index t = 0; t < taut; ++t) per_tension(c, t) = row.Dot(columns_.col(t));
@@ -120,22 +121,22 @@ Status SensitivitySolver::EliminateTautCables() {
 void SensitivitySolver::PointMotions(std::span<const fem::InterpolationWeights> points,
                                      Eigen::MatrixXd* motions_m) const {
   const Eigen::Index taut = cables_.TautCount();
-  motions_m->setZero(static_cast<Eigen::Index>(3 * points.size()), ParameterCount());
+  motions_m->setZero(ToIndex(3 * points.size()), ParameterCount());
   for (size_t e = 0; e < points.size(); ++e) {
-    const auto row = static_cast<Eigen::Index>(3 * e);
+    const auto row = ToIndex(3 * e);
     for (size_t k = 0; k < points[e].nodes.size(); ++k) {
       const int node = points[e].nodes[k];
       const int free_node = model_.linearisation().matrix().FreeIndex(node);
       for (Eigen::Index p = 0; p < ParameterCount(); ++p) {
-        const ParameterColumn& column = columns_of_[static_cast<size_t>(p)];
+        const ParameterColumn& column = columns_of_[At(p)];
         Eigen::Vector3d moved = Eigen::Vector3d::Zero();
         if (column.HasHeldMotion()) moved = column.held_motion_m().segment<3>(3 * node);
         if (free_node >= 0) {
-          const int load = load_of_[static_cast<size_t>(p)];
+          const int load = load_of_[At(p)];
           if (load >= 0) moved += columns_.col(taut + load).segment<3>(3 * free_node);
           for (Eigen::Index t = 0; t < taut; ++t) {
-            moved += tension_N_(cables_.taut()[static_cast<size_t>(t)], p) *
-                     columns_.col(t).segment<3>(3 * free_node);
+            moved +=
+                tension_N_(cables_.taut()[At(t)], p) * columns_.col(t).segment<3>(3 * free_node);
           }
         }
         motions_m->col(p).segment<3>(row) += points[e].weights[k] * moved;
@@ -154,14 +155,13 @@ void SensitivitySolver::NodalMotion(int parameter, Eigen::VectorXd* motion_m) co
   PALPATE_CHECK(parameter >= 0 && parameter < ParameterCount(), parameter);
   const Eigen::Index taut = cables_.TautCount();
   const fem::StiffnessMatrix& matrix = model_.linearisation().matrix();
-  const ParameterColumn& column = columns_of_[static_cast<size_t>(parameter)];
+  const ParameterColumn& column = columns_of_[At(parameter)];
   motion_m->setZero(point_.x_m().size());
   if (column.HasHeldMotion()) *motion_m = column.held_motion_m();
-  const int load = load_of_[static_cast<size_t>(parameter)];
+  const int load = load_of_[At(parameter)];
   if (load >= 0) matrix.AddExpanded(columns_.col(taut + load), 1.0, *motion_m);
   for (Eigen::Index t = 0; t < taut; ++t) {
-    matrix.AddExpanded(columns_.col(t),
-                       tension_N_(cables_.taut()[static_cast<size_t>(t)], parameter), *motion_m);
+    matrix.AddExpanded(columns_.col(t), tension_N_(cables_.taut()[At(t)], parameter), *motion_m);
   }
 }
 

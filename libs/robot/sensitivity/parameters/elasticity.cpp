@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
@@ -19,7 +20,7 @@ class ElasticConstant final : public Parameter {
 
   void Describe(const EquilibriumPoint& at, ParameterColumn* column) const override {
     PALPATE_CHECK(material_ >= 0 && material_ < std::ssize(at.materials()), material_);
-    const fem::Material& material = at.materials()[static_cast<size_t>(material_)];
+    const fem::Material& material = at.materials()[At(material_)];
     const double E = material.youngs_modulus_Pa;
     const double nu = material.poissons_ratio;
     double lambda_along = material.LameLambda_Pa() / E;
