@@ -16,31 +16,21 @@ Worker::Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker mak
                std::function<void()> on_result)
     : model_(std::move(model)),
       maker_(std::move(maker)),
-      on_result_(std::move(on_result)),
       estimator_(maker_(*model_)),
-      frames_(kMostFrames),
-      results_(kMostResults) {
-  thread_ = std::thread([this] { Run(); });
-}
-
-Worker::~Worker() {
-  frames_.Stop();
-  thread_.join();
-}
+      worker_({.run = [this](FrameInput& input) { return Estimate(input); },
+               .on_result = std::move(on_result),
+               .afterwards = [this](const FrameInput& input) { estimator_->AfterUpdate(input); }},
+              {.jobs = kMostFrames, .results = kMostResults}) {}
 
 void Worker::Push(FrameInput input) {
   const bool overtakable = input.overtakable();
-  frames_.Push(std::move(input), overtakable);
+  worker_.Push(std::move(input), overtakable);
 }
 
-void Worker::Run() {
-  while (std::optional<FrameInput> input = frames_.Pop()) {
-    if (input->calibration) Adopt(*input->calibration);
-    if (input->new_sequence) estimator_ = maker_(*model_);
-    results_.Push(estimator_->Update(*input), false);
-    on_result_();
-    estimator_->AfterUpdate(*input);
-  }
+FrameResult Worker::Estimate(FrameInput& input) {
+  if (input.calibration) Adopt(*input.calibration);
+  if (input.new_sequence) estimator_ = maker_(*model_);
+  return estimator_->Update(input);
 }
 
 void Worker::Adopt(const NewCalibration& found) {

@@ -5,11 +5,11 @@
 
 #include <functional>
 #include <memory>
-#include <thread>
+#include <optional>
 
 #include "components/force_estimation/node/frame_estimator.hpp"
 #include "components/force_estimation/node/frame_input.hpp"
-#include "libs/core/bounded_queue.hpp"
+#include "libs/core/worker.hpp"
 
 namespace palpate::force_estimation {
 
@@ -20,24 +20,20 @@ class Worker {
   /// `on_result` is called from that thread when a result waits. Throws what `maker` throws.
   Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker maker,
          std::function<void()> on_result);
-  ~Worker();
 
   const robot::RobotModel& model() const { return *model_; }
   void Push(FrameInput input);
-  std::optional<FrameResult> TakeResult() { return results_.TryPop(); }
-  uint64_t dropped() const { return frames_.dropped() + results_.dropped(); }
+  std::optional<FrameResult> TakeResult() { return worker_.TakeResult(); }
+  uint64_t dropped() const { return worker_.dropped(); }
 
  private:
-  void Run();
+  FrameResult Estimate(FrameInput& input);
   void Adopt(const NewCalibration& found);
 
   std::unique_ptr<robot::RobotModel> model_;
   FrameEstimatorMaker maker_;
-  std::function<void()> on_result_;
   std::unique_ptr<FrameEstimator> estimator_;
-  BoundedQueue<FrameInput> frames_;
-  BoundedQueue<FrameResult> results_;
-  std::thread thread_;
+  palpate::Worker<FrameInput, FrameResult> worker_;
 };
 
 }  // namespace palpate::force_estimation
