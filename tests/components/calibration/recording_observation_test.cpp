@@ -19,7 +19,6 @@ namespace {
 using force_estimation::BeamRobot;
 using force_estimation::Build;
 using force_estimation::FramesOfRecording;
-using robot::CableInput;
 
 /// The beam with markers m0, m1, m2 and a cable.
 std::unique_ptr<robot::RobotModel> CableBeam() {
@@ -36,7 +35,7 @@ std::unique_ptr<robot::RobotModel> CableBeam() {
 StaticObservation Observe(const RecordingFolder& folder, double marker_bias_m = 0.0) {
   const auto experiment = folder.Read();
   return ObserveRecording(experiment, experiment.recordings[0], *CableBeam(),
-                          CableInput::kDisplacement, marker_bias_m);
+                          robot::CableInput::kDisplacement, marker_bias_m);
 }
 
 std::string RefusalOf(const std::function<void()>& action) {
@@ -88,13 +87,13 @@ TEST(ObserveRecording, TakesLoadsCablesAndTiltedGravity) {
   const auto observe = [&](CableInput preferred) {
     return ObserveRecording(experiment, experiment.recordings[0], *model, preferred, 0.0);
   };
-  const StaticObservation observation = observe(CableInput::kDisplacement);
+  const StaticObservation observation = observe(robot::CableInput::kDisplacement);
   ASSERT_EQ(observation.loads.size(), 1U);
   EXPECT_EQ(observation.loads[0].force_N, Eigen::Vector3d(0.0, 0.0, -0.5));
   ASSERT_EQ(observation.cables.size(), 1U);
   EXPECT_EQ(observation.cables[0].kind, robot::CableCommand::Kind::kDisplacement);
   EXPECT_NEAR(observation.cables[0].value, 0.011, 1e-12);
-  EXPECT_NEAR(observe(CableInput::kTension).cables[0].value, 2.1, 1e-12);
+  EXPECT_NEAR(observe(robot::CableInput::kTension).cables[0].value, 2.1, 1e-12);
   // R = Rx(90 deg); R' (0, 0, -g) = (0, -g, 0).
   EXPECT_LT((observation.gravity_m_s2 - Eigen::Vector3d(0.0, -9.81, 0.0)).norm(), 1e-12);
 }
@@ -123,7 +122,7 @@ TEST(FramesOfRecording, GivesMarkersCablesAndReferenceOfEachFrame) {
   folder.Write("recordings/hang/actuation.csv", "t_s,top.displacement_m\n0,0\n2,0.02\n");
   const auto experiment = folder.Read();
   const auto frames = FramesOfRecording(experiment, experiment.recordings[0], *CableBeam(),
-                                        CableInput::kDisplacement);
+                                        robot::CableInput::kDisplacement);
   ASSERT_EQ(frames.size(), 5U);
   EXPECT_EQ(frames[1].reference, force_estimation::ReferenceShape::kUndeformed);
   EXPECT_EQ(frames[2].reference, force_estimation::ReferenceShape::kNone);
@@ -143,7 +142,7 @@ TEST(FramesOfRecording, TurnsCameraMeasurementsIntoTheRobotFrame) {
   const auto frames = [&] {
     const auto experiment = folder.Read();
     return FramesOfRecording(experiment, experiment.recordings[0], *CableBeam(),
-                             CableInput::kDisplacement);
+                             robot::CableInput::kDisplacement);
   };
   folder.Write("experiment.yaml", "frame: camera\nmarkers_sigma_m: [1.0e-4, 2.0e-4, 3.0e-4]\n");
   EXPECT_THAT(RefusalOf([&] { frames(); }), testing::HasSubstr("hang: "));
@@ -152,7 +151,7 @@ TEST(FramesOfRecording, TurnsCameraMeasurementsIntoTheRobotFrame) {
       Eigen::Translation3d(1.0, 2.0, 3.0) *
       Eigen::AngleAxisd(0.5 * 3.14159265358979323846, Eigen::Vector3d::UnitZ());
   const auto turned = FramesOfRecording(experiment, experiment.recordings[0], *CableBeam(),
-                                        CableInput::kDisplacement);
+                                        robot::CableInput::kDisplacement);
   EXPECT_LT((turned[0].markers[0].position_m - Eigen::Vector3d(0.8, 2.1, 3.3)).norm(), 1e-12);
   EXPECT_LT((turned[0].markers[0].sigma_m - Eigen::Vector3d(2e-4, 1e-4, 3e-4)).norm(), 1e-12);
 }
@@ -163,7 +162,7 @@ TEST(FramesOfRecording, RefusesUnknownNames) {
     return RefusalOf([&] {
       const auto experiment = folder.Read();
       FramesOfRecording(experiment, experiment.recordings[0], *CableBeam(),
-                        CableInput::kDisplacement);
+                        robot::CableInput::kDisplacement);
     });
   };
   folder.Write("recordings/hang/actuation.csv", "t_s,topp.displacement_m\n0,0\n");

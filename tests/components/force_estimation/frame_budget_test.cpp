@@ -10,7 +10,7 @@ namespace palpate::force_estimation {
 namespace {
 
 const Eigen::Vector3d kHub(0.0, 0.0, 0.125);
-const Eigen::Vector3d kPush_N(0.2, -0.1, -0.7);
+const Eigen::Vector3d kTipForce_N(0.2, -0.1, -0.7);
 
 /// four_leg with a force on its hub, by a clock that the test steps: each look takes `tick_s`.
 class FrameBudget : public testing::Test {
@@ -25,7 +25,7 @@ class FrameBudget : public testing::Test {
   }
   MarkerFrame FrameAt(double cable_m) {
     const std::vector<robot::CableCommand> cables(4, {Kind::kDisplacement, cable_m});
-    return FrameUnder(*model_, cables, {LoadAt(*model_, kHub, 0.008, kPush_N)});
+    return FrameUnder(*model_, cables, {LoadAt(*model_, kHub, 0.008, kTipForce_N)});
   }
 
   std::unique_ptr<robot::RobotModel> model_;
@@ -64,7 +64,7 @@ TEST_F(FrameBudget, TheNextFramesGoOnFromThere) {
   ASSERT_TRUE(estimate.status.ok());
   ASSERT_EQ(estimate.contacts.size(), 1U);
   EXPECT_EQ(estimate.contacts[0].name, "hub");
-  EXPECT_LT((estimate.contacts[0].force_N - kPush_N).norm(), 1e-6);
+  EXPECT_LT((estimate.contacts[0].force_N - kTipForce_N).norm(), 1e-6);
 }
 
 TEST_F(FrameBudget, TheFirstFrameTakesTheTimeThatItNeeds) {
@@ -104,7 +104,7 @@ TEST_F(FrameBudget, ALooseToleranceTakesFewerStepsAndIsKeptTo) {
   ASSERT_TRUE(estimate.status.ok());
   EXPECT_LT(estimate.iterations, tight_steps);
   EXPECT_LE(estimate.frame_error, 1e-3);
-  EXPECT_LT((estimate.contacts[0].force_N - kPush_N).norm(), 5e-3);
+  EXPECT_LT((estimate.contacts[0].force_N - kTipForce_N).norm(), 5e-3);
 }
 
 TEST_F(FrameBudget, AFrameThatCannotBeFittedLeavesTheLastGoodState) {
@@ -118,7 +118,7 @@ TEST_F(FrameBudget, AFrameThatCannotBeFittedLeavesTheLastGoodState) {
   EXPECT_EQ(estimator.last_good().x_m, good.x_m);
   const ForceEstimate& again = estimator.Update(good_frame);
   ASSERT_TRUE(again.status.ok());
-  EXPECT_LT((again.contacts[0].force_N - kPush_N).norm(), 1e-6);
+  EXPECT_LT((again.contacts[0].force_N - kTipForce_N).norm(), 1e-6);
 }
 
 }  // namespace

@@ -22,10 +22,10 @@ constexpr double kLooks = 60.0;
 
 RowTargets NoisyTargets(const robot::RobotModel& model, const fem::StaticState& truth,
                         std::mt19937& random) {
-  constexpr double kSigma_m = 1e-4;
-  RowTargets targets = test_support::ExactTargets(model, truth.x_m, kSigma_m);
+  constexpr double kTargetSigma_m = 1e-4;
+  RowTargets targets = test_support::ExactTargets(model, truth.x_m, kTargetSigma_m);
   for (int row = 0; row < targets.rows; row += 3) {
-    targets.value_m.segment<3>(row) += NormalNoise(kSigma_m, random);
+    targets.value_m.segment<3>(row) += NormalNoise(kTargetSigma_m, random);
   }
   return targets;
 }

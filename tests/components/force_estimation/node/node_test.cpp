@@ -22,9 +22,9 @@ using idl::palpate_msgs::ForceArray;
 using idl::palpate_msgs::MarkerArray3;
 using ::testing::HasSubstr;
 
-constexpr double kCable_m = 0.002;
+constexpr double kPulled_m = 0.002;
 
-NodeConfig TestConfig() {
+NodeConfig MarkersConfig() {
   NodeConfig config;
   config.frame_tolerance = Config().frame_tolerance;  // forces are compared with the truth
   config.contacts = {"tip: 0, 0.015, 0.03, 0.008"};
@@ -36,7 +36,7 @@ NodeConfig TestConfig() {
 MarkerFrame FrameUnderLoad(const Eigen::Vector3d& force_N, ReferenceShape reference, double t_s) {
   const auto model = NodeTestRobot();
   const std::vector<robot::CableCommand> cables{
-      {robot::CableCommand::Kind::kDisplacement, kCable_m}};
+      {robot::CableCommand::Kind::kDisplacement, kPulled_m}};
   const auto patch = model->Patch({0.0, 0.015, 0.03}, 0.008);
   fem::StaticState state = model->RestState();
   EXPECT_TRUE(model->Solve(cables, {{patch.weights, force_N}}, &state).status.ok());
@@ -52,7 +52,7 @@ MarkerFrame FrameUnderLoad(const Eigen::Vector3d& force_N, ReferenceShape refere
 class ForceEstimationNodeTest : public testing::Test {
  protected:
   explicit ForceEstimationNodeTest()
-      : node_(TestConfig(), NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()),
+      : node_(MarkersConfig(), NodeTestRobot(), {}, static_cast<int>(dds::TestDomain()),
               dds::BuiltInTable(), {}),
         test_("test"),
         markers_(test_.participant.CreateWriter(dds::kMarkersTopic, test_.Waker())),
@@ -81,7 +81,7 @@ class ForceEstimationNodeTest : public testing::Test {
     dds::SetHeader(message->header, stamp_ns, "robot");
     dds::Resize(message->name, 1);
     dds::SetText(message->name._buffer[0], "top");
-    dds::SetNumbers(message->position, &kCable_m, 1);
+    dds::SetNumbers(message->position, &kPulled_m, 1);
     ASSERT_TRUE(joint_states_.Write(message));
   }
 
@@ -144,7 +144,7 @@ TEST_F(ForceEstimationNodeTest, PublishesTheVeryForcesOfTheEstimator) {
       FrameUnderLoad(Eigen::Vector3d::Zero(), ReferenceShape::kEquilibrium, 1.0);
   const MarkerFrame loaded = FrameUnderLoad(kLoad_N, ReferenceShape::kNone, 1.1);
   const auto model = NodeTestRobot();
-  MarkerForceEstimator estimator(*model, TestConfig());
+  MarkerForceEstimator estimator(*model, MarkersConfig());
   (void)estimator.Update(tare);
   const ForceEstimate& expected = estimator.Update(loaded);
   ASSERT_TRUE(expected.status.ok()) << expected.status.message();
