@@ -15,7 +15,7 @@ add_dependencies(nightly tests)
 #                    [RUNS program...] [LOOPBACK] [NO_PCH]
 #                    [NIGHTLY] [NIGHTLY_CASES regex...] [ALONE_CASES regex...])
 # One test program from the sources of FOLDERS (default: this folder) and SOURCES. Each of its cases
-# is a test of ctest, named NAME.Suite.Case; regular expressions are of Suite.Case.
+# is a test of ctest, named NAME.Suite.Case. Regular expressions are of the beginning of Suite.Case.
 #   RUNS           programs that it starts
 #   LOOPBACK       DDS on 127.0.0.1 only, with a domain id of its own: tests run in parallel and
 #                  never meet

@@ -84,7 +84,7 @@ TEST(ObserveRecording, TakesLoadsCablesAndTiltedGravity) {
                "kind: base_tilted\nbase_tilt_deg: [90, 0]\nsteady_window_s: [0.95, 1.25]\n");
   const auto experiment = folder.Read();
   const auto model = CableBeam();
-  const auto observe = [&](CableInput preferred) {
+  const auto observe = [&](robot::CableInput preferred) {
     return ObserveRecording(experiment, experiment.recordings[0], *model, preferred, 0.0);
   };
   const StaticObservation observation = observe(robot::CableInput::kDisplacement);
