@@ -60,7 +60,7 @@ app::Verb CaptureVerb() {
             auto options = std::make_shared<CaptureOptions>();
             arguments.Flag("--list", &options->list,
                            "List the cameras that answer: model, serial number, address, "
-                           "components and formats (required)");
+                           "components and formats; required");
             arguments.Flag("--json", &options->json, "Print JSON instead of text");
             arguments.Positionals("ADDRESS", &options->addresses,
                                   "IPv4 address of a camera outside the local network",

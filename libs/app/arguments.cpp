@@ -46,19 +46,20 @@ std::string Range(int min, int max) {
   return "from " + std::to_string(min) + " to " + std::to_string(max);
 }
 
-/// `help` with what else is known of the option, such as "(from 1 to 64; default: 2)".
+/// `help` with what else is known of the option, such as "[from 1 to 64; default: 2]".
 std::string WithNotes(const std::string& help, const std::vector<std::string>& notes) {
   std::string list;
   for (const std::string& note : notes) {
     if (!note.empty()) list += (list.empty() ? "" : "; ") + note;
   }
-  return list.empty() ? help : help + " (" + list + ")";
+  return list.empty() ? help : help + " [" + list + "]";
 }
 
 std::string NoteOnNeed(Need need) { return need == Need::kRequired ? "required" : ""; }
 
-std::string NoteOnDefault(const std::string& value) {
-  return value.empty() ? "" : "default: " + value;
+/// A required argument has no default, whatever its target holds.
+std::string NoteOnDefault(Need need, const std::string& value) {
+  return value.empty() || need == Need::kRequired ? "" : "default: " + value;
 }
 
 /// "--out FOLDER" -> "--out", "FOLDER"; without a second word `placeholder`.
@@ -152,14 +153,15 @@ Arguments::~Arguments() = default;
 
 void Arguments::Positional(const std::string& name, std::filesystem::path* value,
                            const std::string& help, Need need) {
-  impl_->Add(
-      {.name = name, .help = WithNotes(help, {NoteOnDefault(value->string())}), .is_path = true},
-      need, [value](const std::string& text) { *value = text; });
+  impl_->Add({.name = name,
+              .help = WithNotes(help, {NoteOnDefault(need, value->string())}),
+              .is_path = true},
+             need, [value](const std::string& text) { *value = text; });
 }
 
 void Arguments::Positional(const std::string& name, std::string* value, const std::string& help,
                            Need need) {
-  impl_->Add({.name = name, .help = WithNotes(help, {NoteOnDefault(*value)})}, need,
+  impl_->Add({.name = name, .help = WithNotes(help, {NoteOnDefault(need, *value)})}, need,
              [value](const std::string& text) { *value = text; });
 }
 
@@ -171,7 +173,7 @@ void Arguments::Positionals(const std::string& name, std::vector<std::string>* v
 void Arguments::Option(const std::string& name, std::filesystem::path* value,
                        const std::string& help, Need need) {
   ArgumentText argument = OptionText(name, "FILE");
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(value->string())});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, value->string())});
   argument.is_path = true;
   impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
@@ -179,7 +181,7 @@ void Arguments::Option(const std::string& name, std::filesystem::path* value,
 void Arguments::Option(const std::string& name, std::string* value, const std::string& help,
                        Need need) {
   ArgumentText argument = OptionText(name, "TEXT");
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(*value)});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value)});
   impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
 
@@ -188,7 +190,7 @@ void Arguments::Option(const std::string& name, int* value, int min, int max,
   const bool has_default = *value >= min && *value <= max;
   ArgumentText argument = OptionText(name, "N");
   argument.help = WithNotes(help, {NoteOnNeed(need), Range(min, max),
-                                   NoteOnDefault(has_default ? std::to_string(*value) : "")});
+                                   NoteOnDefault(need, has_default ? std::to_string(*value) : "")});
   const auto check = [min, max](const std::string& text) {
     int number = 0;
     if (ParseWhole(text, &number) && number >= min && number <= max) return std::string();
@@ -201,7 +203,8 @@ void Arguments::Option(const std::string& name, int* value, int min, int max,
 void Arguments::Option(const std::string& name, double* value, const std::string& help, Need need) {
   ArgumentText argument = OptionText(name, "NUMBER");
   argument.help = WithNotes(
-      help, {NoteOnNeed(need), NoteOnDefault(std::isfinite(*value) ? FormatNumber(*value) : "")});
+      help,
+      {NoteOnNeed(need), NoteOnDefault(need, std::isfinite(*value) ? FormatNumber(*value) : "")});
   impl_->Add(argument, need, [value](const std::string& text) { ParseFinite(text, value); })
       ->check(CheckFinite);
 }
@@ -211,7 +214,7 @@ void Arguments::Choice(const std::string& name, std::string* value,
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : "|") + choice;
   ArgumentText argument = OptionText(name, list);
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(*value)});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value)});
   argument.words = choices;
   const auto check = [choices = std::move(choices), list](const std::string& text) {
     const bool known = std::find(choices.begin(), choices.end(), text) != choices.end();

@@ -20,7 +20,24 @@ std::string Left(const ArgumentText& argument) {
   return argument.name + (argument.value.empty() ? "" : " " + argument.value);
 }
 
-/// Appends a line of the list: `left`, then `text` from kTextColumn on.
+/// Appends the words of `text` to `line` and that to the page; further lines begin at `column`.
+void AppendWrapped(std::string line, std::size_t column, const std::string& text,
+                   std::string* page) {
+  std::istringstream words(text);
+  bool begins_line = line.size() <= column;
+  for (std::string word; words >> word;) {
+    if (!begins_line && line.size() + 1 + word.size() > kPageWidth) {
+      *page += line + "\n";
+      line.assign(column, ' ');
+      begins_line = true;
+    }
+    line += (begins_line ? "" : " ") + word;
+    begins_line = false;
+  }
+  *page += line + "\n";
+}
+
+/// Appends an item of a list: `left`, then `text` from kTextColumn on.
 void AppendItem(const std::string& left, const std::string& text, std::string* page) {
   std::string line = "  " + left;
   if (line.size() + 2 > kTextColumn) {
@@ -28,18 +45,7 @@ void AppendItem(const std::string& left, const std::string& text, std::string* p
     line.clear();
   }
   line.resize(kTextColumn, ' ');
-  std::istringstream words(text);
-  bool begins_line = true;
-  for (std::string word; words >> word;) {
-    if (!begins_line && line.size() + 1 + word.size() > kPageWidth) {
-      *page += line + "\n";
-      line.assign(kTextColumn, ' ');
-      begins_line = true;
-    }
-    line += (begins_line ? "" : " ") + word;
-    begins_line = false;
-  }
-  *page += line + "\n";
+  AppendWrapped(line, kTextColumn, text, page);
 }
 
 bool HasPositionals(const CommandText& command) {
@@ -133,8 +139,10 @@ std::vector<ArgumentText> CommonArguments(const std::string& command, bool is_ve
 }
 
 std::string FormatHelp(const CommandText& command) {
-  std::string page =
-      command.purpose + "\n\nUsage: " + command.name + " " + Synopsis(command) + "\n";
+  std::string page;
+  AppendWrapped("", 0, command.purpose, &page);
+  page += "\n";
+  AppendWrapped("Usage: " + command.name, std::string("Usage: ").size(), Synopsis(command), &page);
   if (!command.verbs.empty()) page += "\nVerbs:\n";
   for (const VerbText& verb : command.verbs) AppendItem(verb.name, verb.purpose, &page);
   if (HasPositionals(command)) page += "\nArguments:\n";

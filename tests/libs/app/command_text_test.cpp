@@ -51,6 +51,7 @@ struct Options {
     arguments.Option("--domain", &domain, 0, 232, "DDS domain; without it 0");
     arguments.Option("--sigma M", &sigma_m, "Standard deviation, m");
     arguments.Flag("--json", &json, "Print JSON");
+    robot = "four_leg";
     arguments.Positional("ROBOT", &robot, "Robot file");
     arguments.Suggest("ROBOT", {"beam", "four_leg"});
   }
@@ -185,12 +186,13 @@ TEST(Completion, OffersNoWordThatTheScriptCouldNotHold) {
 TEST(Help, SaysNeedRangeDefaultAndRepetition) {
   const std::string help = Output({"solve", "--help"});
   EXPECT_THAT(help, HasSubstr("Usage: palpate solve ROBOT --out FOLDER [OPTIONS]\n"));
-  EXPECT_THAT(help, HasSubstr("  --out FOLDER            Folder of the results (required)\n"));
-  EXPECT_THAT(help, HasSubstr("What to estimate (default: material)\n"));
-  EXPECT_THAT(help, HasSubstr("Use this recording (may be repeated)\n"));
-  EXPECT_THAT(help, HasSubstr("Number of samples (from 10 to 2000; default: 120)\n"));
-  EXPECT_THAT(help, HasSubstr("DDS domain; without it 0 (from 0 to 232)\n"));
-  EXPECT_THAT(help, HasSubstr("Standard deviation, m (default: 0.002)\n"));
+  EXPECT_THAT(help, HasSubstr("  ROBOT                   Robot file\n"));
+  EXPECT_THAT(help, HasSubstr("  --out FOLDER            Folder of the results [required]\n"));
+  EXPECT_THAT(help, HasSubstr("What to estimate [default: material]\n"));
+  EXPECT_THAT(help, HasSubstr("Use this recording [may be repeated]\n"));
+  EXPECT_THAT(help, HasSubstr("Number of samples [from 10 to 2000; default: 120]\n"));
+  EXPECT_THAT(help, HasSubstr("DDS domain; without it 0 [from 0 to 232]\n"));
+  EXPECT_THAT(help, HasSubstr("Standard deviation, m [default: 0.002]\n"));
   EXPECT_THAT(help, Not(HasSubstr("--completion")));
 }
 
@@ -199,7 +201,7 @@ TEST(Help, KeepsToEightyColumns) {
   for (int i = 0; i < 100; ++i) text += " word";
   const CommandText command{
       .name = "palpate-x",
-      .purpose = "Do it",
+      .purpose = text,
       .arguments = {
           {.name = "--long-option-name-that-needs-its-own-line", .value = "VALUE", .help = text}}};
   std::istringstream help(FormatHelp(command));
