@@ -73,7 +73,7 @@ namespace value {
 
 ValueType Boolean() { return {.kind = ValueKind::kBoolean}; }
 
-ValueType Integer(int min, int max) {
+ValueType WholeNumber(int min, int max) {
   return Numeric(ValueKind::kInteger,
                  {.min = static_cast<double>(min), .max = static_cast<double>(max)});
 }

@@ -34,7 +34,7 @@ struct ValueType {
 namespace value {
 
 ValueType Boolean();
-ValueType Integer(int min, int max);  ///< both included
+ValueType WholeNumber(int min, int max);  ///< both included
 ValueType Real(const NumberRule& rule = kAnyNumber);
 ValueType Text();
 ValueType Choice(std::vector<std::string> choices);

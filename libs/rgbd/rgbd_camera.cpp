@@ -34,8 +34,8 @@ std::array<double, 5> ReadDistortion(const ConfigNode& node) {
 }
 
 std::vector<Key> ModelKeys() {
-  return {{"width_px", value::Integer(1, kLargestSize_px), kRequired, "Width of the image."},
-          {"height_px", value::Integer(1, kLargestSize_px), kRequired, "Height of the image."},
+  return {{"width_px", value::WholeNumber(1, kLargestSize_px), kRequired, "Width of the image."},
+          {"height_px", value::WholeNumber(1, kLargestSize_px), kRequired, "Height of the image."},
           {"fx_px", value::Real(kPositive), kRequired, "Focal length along u."},
           {"fy_px", value::Real(kPositive), kRequired, "Focal length along v."},
           {"cx_px", value::Real(), kRequired,
@@ -56,7 +56,7 @@ const KeyTable& DepthKeys() {
                    .keys = ModelKeys()};
     table.keys.push_back(
         {"unit_m", value::Real(kUnitRule), kRequired, "Depth of one step of the 16-bit image."});
-    table.keys.push_back({"invalid_value", value::Integer(0, kLargestDepthValue),
+    table.keys.push_back({"invalid_value", value::WholeNumber(0, kLargestDepthValue),
                           Default(defaults.invalid_value), "Value of a pixel without depth."});
     table.keys.push_back({"baseline_m", value::Real(kBaselineRule), Default(defaults.baseline_m),
                           "Baseline of a stereo camera. 0: unknown, or not a stereo camera."});

@@ -24,8 +24,8 @@ const KeyTable& PictureKeys() {
   static const KeyTable keys{
       .title = "image of the depth bias",
       .about = "The depth images that the bias belongs to.",
-      .keys = {{"width_px", value::Integer(1, kMostPixels), kRequired, "Width."},
-               {"height_px", value::Integer(1, kMostPixels), kRequired, "Height."},
+      .keys = {{"width_px", value::WholeNumber(1, kMostPixels), kRequired, "Width."},
+               {"height_px", value::WholeNumber(1, kMostPixels), kRequired, "Height."},
                {"fx_px", value::Real(kPositive), kRequired, "Focal length along u."},
                {"fy_px", value::Real(kPositive), kRequired, "Focal length along v."},
                {"cx_px", value::Real(), kRequired, "Principal point, u."},
@@ -92,15 +92,16 @@ const KeyTable& DepthBiasKeys() {
       .about =
           "A point that is measured at p is at (1 + b) p, camera frame. b is a polynomial in "
           "x / (z span) and y / (z span).",
-      .keys = {{"image", value::Map(PictureKeys()), kRequired, "The images that it belongs to."},
-               {"order", value::Integer(0, kHighestOrder), kRequired, "Order of the polynomial."},
-               {"span", value::Real(kPositive), kRequired,
-                "Tangent of the angle to the optical axis at which a monomial is 1."},
-               {"coefficients", value::Numbers(), kRequired,
-                "Coefficients of the monomials: (order + 1)(order + 2) / 2 numbers."},
-               {"covariance", value::List(value::Numbers()), kRequired,
-                "Lower triangle, one row each: rotation (rad) and translation (m) of "
-                "`T_robot_camera`, then the coefficients."}}};
+      .keys = {
+          {"image", value::Map(PictureKeys()), kRequired, "The images that it belongs to."},
+          {"order", value::WholeNumber(0, kHighestOrder), kRequired, "Order of the polynomial."},
+          {"span", value::Real(kPositive), kRequired,
+           "Tangent of the angle to the optical axis at which a monomial is 1."},
+          {"coefficients", value::Numbers(), kRequired,
+           "Coefficients of the monomials: (order + 1)(order + 2) / 2 numbers."},
+          {"covariance", value::List(value::Numbers()), kRequired,
+           "Lower triangle, one row each: rotation (rad) and translation (m) of "
+           "`T_robot_camera`, then the coefficients."}}};
   return keys;
 }
 

@@ -39,7 +39,7 @@ const KeyTable& CableRouteKeys() {
       .title = "cable route",
       .about = "Offset of a point of a cable's route from its place in the robot file.",
       .keys = {{"cable", value::Text(), kRequired, "Name of the cable."},
-               {"point", value::Integer(0, kMostPoints), Default(CalibratedRoute{}.point),
+               {"point", value::WholeNumber(0, kMostPoints), Default(CalibratedRoute{}.point),
                 "Index into `path_m`. 0: the point that the cable is pulled from."},
                {"moved_m", value::Vector3({.min = -kFarthestOff_m, .max = kFarthestOff_m}),
                 kRequired, "Offset, robot frame."},

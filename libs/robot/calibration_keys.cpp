@@ -120,7 +120,7 @@ const KeyTable& CalibrationFileKeys() {
                {"residual_rms_m", value::Real(kNonNegative), kRequired,
                 "RMS of measured minus computed."},
                {"chi_squared", value::Real(kNonNegative), kRequired, "Chi-squared of the fit."},
-               {"degrees_of_freedom", value::Integer(0, 1 << 30), kRequired,
+               {"degrees_of_freedom", value::WholeNumber(0, 1 << 30), kRequired,
                 "Degrees of freedom of the fit."}}};
   return keys;
 }

@@ -118,7 +118,7 @@ const KeyTable& MarkerKeys() {
 const KeyTable& FeaturePointKeys() {
   static const KeyTable keys{.title = "feature points",
                              .about = "Points of the surface at which contacts are searched.",
-                             .keys = {{"count", value::Integer(1, kMaxFeaturePoints), kOptional,
+                             .keys = {{"count", value::WholeNumber(1, kMaxFeaturePoints), kOptional,
                                        "Number of points, spread evenly over the surface."},
                                       {"positions_m", value::Points(1), kOptional,
                                        "The points themselves, robot frame, undeformed body."}},

@@ -111,7 +111,7 @@ const KeyTable& BodyKeys() {
       .keys = {
           {"mesh_file", value::File(), kOfRobotFile,
            "Mesh. Unit and placement are those of the mesh of the robot file."},
-          {"refine", value::Integer(0, 2), Default(BodyTruth{}.refine),
+          {"refine", value::WholeNumber(0, 2), Default(BodyTruth{}.refine),
            "How often each tetrahedron is cut in eight."},
           {"element", value::Choice({"tet4", "tet10"}), kOfRobotFile, "Finite element."},
           {"material", value::Map(BodyMaterialKeys()), kOfRobotFile, "Elasticity."},

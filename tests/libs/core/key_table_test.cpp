@@ -21,7 +21,7 @@ const KeyTable& CablesOfTheTest() {
       .about = "A cable.",
       .keys = {{"name", value::Text(), kRequired, "Its name."},
                {"limit_N", value::Real(kPositive), Default(20.0), "Its limit."},
-               {"turns", value::Integer(1, 4), RequiredFor("`kind: wound`"), "Its turns."}},
+               {"turns", value::WholeNumber(1, 4), RequiredFor("`kind: wound`"), "Its turns."}},
       .open_keys = {{"<drive>.offset_m", value::Real(), kOptional, "An offset."}}};
   return keys;
 }
