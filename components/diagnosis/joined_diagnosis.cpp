@@ -9,7 +9,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Squares beyond the noise, as a robot within its tolerances leaves them; m^2 times moments.
+/// Squares beyond the noise, as a robot within its tolerances leaves them; m^2 times samples.
 double Excess(const std::vector<RecordingError>& recordings) {
   double sum = 0.0;
   for (const RecordingError& one : recordings) {
@@ -19,7 +19,7 @@ double Excess(const std::vector<RecordingError>& recordings) {
   return sum;
 }
 
-/// The gap was there as the robot file has it.
+/// The model error was there as the robot file has it.
 void PutBefore(const DiagnosisResult& of_file, DiagnosisResult* result) {
   result->model_error.before_m = of_file.model_error.before_m;
   result->model_error.heldout_before_m = of_file.model_error.heldout_before_m;

@@ -170,7 +170,7 @@ std::vector<DepthFrame> Few(const Recording& recording, const std::vector<DepthF
   return few;
 }
 
-/// A sample that only pictures were taken of.
+/// A sample that only depth frames were taken of.
 void TakeStamps(const std::vector<DepthFrame>& depth_frames, Sample* sample) {
   for (const DepthFrame& frame : depth_frames) {
     sample->frame_t_s.push_back(frame.t_s);

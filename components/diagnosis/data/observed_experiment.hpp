@@ -18,9 +18,9 @@
 
 namespace palpate::diagnosis {
 
-/// Markers, and the skin as pictures show it, averaged over a short time in which the commands go
-/// one way, and what was done then. Mean positions go with mean commands: over a window the body
-/// bends little.
+/// Markers, and the surface as depth frames show it, averaged over a short time in which the
+/// commands go one way, and what was done then. Mean positions go with mean commands: over a window
+/// the body bends little.
 struct Sample {
   int recording = 0;              ///< index into the experiment's
   double t_s = 0.0;               ///< mean of the frames' stamps
@@ -34,7 +34,8 @@ struct Sample {
   Eigen::VectorXi count;                     ///< [markers] frames that saw it
   std::vector<experiment::KnownLoad> loads;  ///< robot frame
   std::vector<DepthFrame> depth_frames;      ///< that were taken then
-  std::vector<SurfaceMeasurement> surface;   ///< [features] what they show (skin/skin_matcher.hpp)
+  std::vector<SurfaceMeasurement>
+      surface;  ///< [features] what they show (surface/surface_matcher.hpp)
 };
 
 struct ObservedRecording {
@@ -46,13 +47,13 @@ struct ObservedRecording {
   /// A depth camera saw the markers: they are in its frame, all before it, and do not count from a
   /// held shape, as those of motion capture do.
   bool by_depth_camera = false;
-  /// fx, fy of that camera's data sheet; nothing: nobody says.
+  /// fx, fy of that camera's data sheet; nothing: it is not given.
   std::optional<Eigen::Vector2d> focal_px = {};
   /// R of `base_tilt_deg`; gravity in the robot frame is R' g.
   Eigen::Matrix3d base_rotation = Eigen::Matrix3d::Identity();
-  /// The depth camera whose pictures show the skin: where it stood; nothing: none did. Markers that
-  /// are in the camera's frame beside pictures are a tracker's, which has that frame but none of
-  /// the depth camera's errors.
+  /// The depth camera whose depth frames show the surface: where it stood; nothing: none did.
+  /// Markers that are in the camera's frame beside depth frames are a tracker's, which has that
+  /// frame but none of the depth camera's errors.
   std::optional<Eigen::Isometry3d> T_camera_robot = {};
   double stereo_px_m =
       0.0;  ///< of that camera, focal length times baseline; 0: not known, or no stereo
@@ -60,7 +61,7 @@ struct ObservedRecording {
   std::optional<double> held_until_s = {};
   int pose_of = -1;  ///< recording from the same place as which it is planned; -1: it was made
 
-  /// From where it was seen, pictures before markers.
+  /// From where it was seen, depth frames before markers.
   const Eigen::Isometry3d& T_view_robot() const {
     return T_camera_robot ? *T_camera_robot : T_measurement_robot;
   }
@@ -75,10 +76,11 @@ struct ObservedExperiment {
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();  ///< of one frame, measurement frame
   /// How well a reference window has the undeformed places of markers, one sigma of an axis.
   double reference_sigma_m = 0.0;
-  Eigen::Matrix3Xd feature_rest_m;  ///< [3 x features] of the skin, undeformed; empty: no pictures
+  Eigen::Matrix3Xd
+      feature_rest_m;  ///< [3 x features] of the surface, undeformed; empty: no depth frames
 
   bool HasSurface() const { return feature_rest_m.cols() > 0; }
-  /// Of a sample: x, y, z of each marker, then each feature of the skin along its normal.
+  /// Of a sample: x, y, z of each marker, then each feature of the surface along its normal.
   Eigen::Index CoordinateCount() const { return 3 * std::ssize(markers) + feature_rest_m.cols(); }
 };
 
@@ -90,20 +92,20 @@ double Measured_m(const Sample& sample, Eigen::Index coordinate);
 double Sigma_m(const ObservedExperiment& observed, const Sample& sample, Eigen::Index coordinate);
 
 struct ObservationSettings {
-  int most_samples = 120;  ///< moments of all recordings together
+  int most_samples = 120;  ///< samples of all recordings together
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};
   bool with_depth_frames = false;  ///< depth images and clouds count, too
 };
 
-/// Whether a depth camera saw the markers, or the skin, of any recording.
+/// Whether a depth camera saw the markers, or the surface, of any recording.
 bool HasDepthCamera(const ObservedExperiment& observed);
 
 /// Cuts the recordings where commands or loads turn, and averages the markers over parts of these
-/// pieces: of a motion up to four, of a hold over times that double. Of pictures it takes a few of
-/// each part; what they show is not looked at yet. Pictures from where nobody knows are left out.
-/// Throws InputError (file:line) where a marker or cable is not the robot's, or no recording has
-/// markers or such pictures.
+/// pieces: of a motion up to four, of a hold over times that double. Of depth frames it takes a few
+/// of each part; what they show is not evaluated yet. Depth frames from where nobody knows are left
+/// out. Throws InputError (file:line) where a marker or cable is not the robot's, or no recording
+/// has markers or such depth frames.
 ObservedExperiment Observe(const experiment::Experiment& experiment, const robot::RobotBody& body,
                            const ObservationSettings& settings = {});
 

@@ -22,7 +22,7 @@ struct Piece {
 std::vector<Piece> PiecesOf(const experiment::Recording& recording, const Timeline& timeline,
                             double begin_s, double end_s);
 
-/// Up to `most` windows of a piece: alike long in a motion, each twice as long as the one before
+/// Up to `most` windows of a piece: equally long in a motion, each twice as long as the one before
 /// where nothing is moved.
 std::vector<experiment::TimeWindow> WindowsOf(const Piece& piece, int most);
 

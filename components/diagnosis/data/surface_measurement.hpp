@@ -15,14 +15,14 @@ struct DepthFrame {
   double t_s = 0.0;
 };
 
-/// Where a depth camera has the skin about one feature point of the body, along the normal alone:
-/// of how it moves along the skin a cloud tells nothing. Point and normal are held where the cloud
-/// was matched with a shape of the body; the measured coordinate is linear about there.
+/// Where a depth camera has the surface about one feature point of the body, along the normal
+/// alone: of how it moves along the surface a cloud tells nothing. Point and normal are held where
+/// the cloud was matched with a shape of the body; the measured coordinate is linear about there.
 struct SurfaceMeasurement {
-  int count = 0;  ///< pictures that show it; 0: none does, and all else says nothing
+  int count = 0;  ///< depth frames that show it; 0: none does, and all else says nothing
   fem::InterpolationWeights point;  ///< of the body, in the middle of its cloud points
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< of that point, undeformed, robot frame
-  /// Mean over its cloud points, outward, camera frame; shorter than 1 where the skin bends.
+  /// Mean over its cloud points, outward, camera frame; shorter than 1 where the surface bends.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double measured_m = 0.0;  ///< normal' x of that point as the camera has it, mean over the sample
   double sigma_m = 0.0;     ///< of that mean, > 0

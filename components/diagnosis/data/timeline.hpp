@@ -11,8 +11,8 @@
 
 namespace palpate::diagnosis {
 
-/// What the drives were told through a whole experiment, rests between recordings included: causes
-/// that have a memory (play, friction, creep, lag) run through it. Piecewise linear in time.
+/// What the actuators were commanded through a whole experiment, rests between recordings included:
+/// faults that have a memory (play, friction, creep, lag) run through it. Piecewise linear in time.
 struct Timeline {
   std::vector<std::string> cables;       ///< of the robot
   std::vector<bool> by_tension;          ///< [cables] command is a tension, N; else m

@@ -16,7 +16,7 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr double kInQuestion = 10.0;   ///< ln BF below the best
-constexpr double kSomeEvidence = 3.0;  ///< ln BF against the healthy robot
+constexpr double kSomeEvidence = 3.0;  ///< ln BF against the nominal robot
 constexpr std::size_t kMostRivals = 6;
 
 Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int> faults,
@@ -28,7 +28,7 @@ Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int>
   return hypothesis;
 }
 
-/// The named causes with one of them exchanged, the one for which that fits best.
+/// The named faults with one of them exchanged, the one for which that fits best.
 Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival) {
   Hypothesis best;
   best.posterior.ln_evidence = -std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival
   return best;
 }
 
-/// Numbers of the causes that the first named one is to be told from.
+/// Numbers of the faults that the first named one is to be told from.
 std::vector<int> RivalsOf(const Selection& selection) {
   std::vector<int> rivals;
   const auto add = [&](int fault) {
@@ -64,7 +64,7 @@ std::vector<int> RivalsOf(const Selection& selection) {
   return rivals;
 }
 
-/// Where none was named: the causes that there is some evidence for, the most first.
+/// Where none was named: the faults that there is some evidence for, the most first.
 std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
   std::vector<Candidate> some = selection.candidates;
   std::erase_if(some, [](const Candidate& one) {
@@ -75,7 +75,7 @@ std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
   return some;
 }
 
-/// Causes that any hypothesis believes in.
+/// Faults that any hypothesis allows.
 std::vector<int> ColumnsOf(const HypothesisSet& hypotheses, const Question& question) {
   std::set<int> columns;
   const auto add = [&](const Hypothesis& hypothesis) {

@@ -25,12 +25,12 @@ struct Question {
   std::vector<Hypothesis> rivals;  ///< none: nothing is in question
 };
 
-/// The rivals of the first cause that was named are those that fit as well, and those whose
-/// evidence is less clearly below than what a cause must have (ln BF 10). Where none was named and
-/// nothing else is left to explain, causes with some evidence are asked against the healthy robot,
+/// The rivals of the first fault that was named are those that fit as well, and those whose
+/// evidence is less clearly below than what a fault must have (ln BF 10). Where none was named and
+/// nothing else is left to explain, faults with some evidence are asked against the nominal robot,
 /// or, where that is less likely than the likeliest of them, this one against the others and the
-/// healthy robot. An unexplained gap leaves no question: what makes it is not in the catalogue.
-/// Causes that are ruled out are in no question.
+/// nominal robot. An unexplained model error leaves no question: what makes it is not in the
+/// catalogue. Faults that are ruled out are in no question.
 Question QuestionOf(const Fitter& fitter, const Selection& selection);
 
 /// A proposal and what is expected of it.
@@ -38,12 +38,12 @@ struct RankedProposal {
   Proposal proposal;
   CauseName worst_rival;
   double expected_ln_bayes_factor = 0.0;  ///< of the best against that one, whichever is right
-  double information = 0.0;               ///< InformationGain about the cause in question
+  double information = 0.0;               ///< InformationGain about the fault in question
 };
 
 /// What a bench can do, the best first: the worst rival's expected ln BF decides, to a tenth, then
-/// the information about the cause in question (DIAGNOSIS, "Method" 9). The predictions are linear
-/// about `selection.best`. `experiment` is on one clock.
+/// the information about the fault in question (docs/theory/model_selection.md, Design of the next
+/// experiment). The predictions are linear about `selection.best`. `experiment` is on one clock.
 std::vector<RankedProposal> RankProposals(const experiment::Experiment& experiment,
                                           const ObservedExperiment& observed,
                                           const robot::RobotBody& body, const Fitter& fitter,

@@ -69,7 +69,7 @@ experiment::MarkerTracks Frames(const ObservedExperiment& observed, const robot:
   return tracks;
 }
 
-/// The skin as a recording's pictures show it where most of it is in view; empty: none do.
+/// The surface as a recording's depth frames show it where most of it is in view; empty: none do.
 std::vector<SurfaceMeasurement> SurfaceOf(const ObservedExperiment& observed, int recording) {
   const auto seen = [](const std::vector<SurfaceMeasurement>& surface) {
     return std::count_if(surface.begin(), surface.end(),

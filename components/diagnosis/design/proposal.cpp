@@ -24,7 +24,7 @@ constexpr double kHang_s = 4.0;
 constexpr double kTilt_deg = 15.0;
 constexpr int kMostPairs = 6;
 
-/// What the drives of a robot can be told.
+/// What the actuators of a robot can be told.
 struct Drives {
   std::vector<std::string> cables;
   std::vector<bool> by_tension;

@@ -10,7 +10,8 @@
 
 namespace palpate::diagnosis {
 
-/// What data of this kind cannot tell, whatever they say, for people (DIAGNOSIS, "Method").
+/// What data of this kind cannot tell, whatever they say, for people
+/// (docs/theory/model_selection.md).
 std::vector<std::string> Identities(const ObservedExperiment& observed);
 
 }  // namespace palpate::diagnosis

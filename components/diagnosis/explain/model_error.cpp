@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Squares of what is left of the coordinates that were seen.
+/// Squares of the residual of the coordinates that were seen.
 struct Squares {
   double sum_m2 = 0.0;
   int count = 0;
@@ -95,7 +95,7 @@ Eigen::VectorXd Noise_m(const ObservedExperiment& observed, std::size_t sample) 
 }
 
 /// Places of what is measured [3 x places], robot frame: residuals of markers as they are, of the
-/// skin along its normal.
+/// surface along its normal.
 Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
                         const Eigen::VectorXd& residual_m) {
   const Sample& seen = observed.samples[sample];
@@ -152,7 +152,7 @@ double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& h
   std::vector<int> others = best.faults;
   std::erase(others, cause);
   const Residuals null_model_m = left_m(null_model, null_model.faults);
-  // The only one is far from none: the healthy robot's own fit knows better than a linear model.
+  // The only one is far from none: the nominal robot's own fit knows better than a linear model.
   const Residuals without_m = others.empty() ? null_model_m : left_m(best, others);
   const Residuals with_m = left_m(best, best.faults);
   std::vector<Squares> of_null_model(observed.recordings.size());

@@ -9,9 +9,9 @@
 
 namespace palpate::diagnosis {
 
-/// Fills what a result says of the gap between simulation and robot: in each recording and in all,
-/// as built, within tolerances, with the causes that were named, and in recordings left out; and
-/// the moments that figures are drawn from.
+/// Fills what a result says of the model error between simulation and robot: in each recording and
+/// in all, as built, within tolerances, with the causes that were named, and in recordings left
+/// out; and the samples that figures are drawn from.
 void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBody& body,
                         const HypothesisSet& hypotheses, const Fit& as_built,
                         const Selection& selection, DiagnosisResult* result);

@@ -10,8 +10,8 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Capstan friction in the eyelets that a cable runs through (model/sticking.hpp); one with a knot
-/// only has none.
+/// Capstan friction in the eyelets that a cable runs through (forward/sticking.hpp); one with a
+/// knot only has none.
 class CableFrictionFault final : public FaultModel {
  public:
   CableFrictionFault(const std::string& cable, int index)
@@ -54,9 +54,9 @@ void MakeCableFriction(const CatalogueInputs& inputs, std::vector<FaultModelPtr>
 
 namespace {
 
-/// What a healthy robot's simulation has of it, m/N, beside what all cables have
-/// (AnchorCompliance): a cable ends in a point, at which every mesh gives way by something else.
-/// Two meshes of four_leg of like fineness differ by 0.03 to 0.09 mm/N.
+/// What a nominal robot's simulation has of it, m/N, beside what all cables have
+/// (AnchorCompliance): a cable ends in a point, at which every mesh yields by something else. Two
+/// meshes of four_leg of like fineness differ by 0.03 to 0.09 mm/N.
 constexpr double kOfMesh_m_N = 5e-5;
 
 /// z is the compliance, m/N.
@@ -80,7 +80,7 @@ class CableElasticity final : public FaultModel {
     return robot::CableCompliance(index_);
   }
 
-  /// What the mesh gives way by is in what was fitted, and nobody knows how much it is.
+  /// What the mesh yields by is in what was fitted, and nobody knows how much it is.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
     return FaultModel::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
@@ -105,7 +105,7 @@ namespace {
 /// Nobody mounts a guide so far beside its place.
 constexpr double kFarthest_m = 0.02;
 
-/// The point that the cable is pulled from sits elsewhere; the drive is zeroed with it there.
+/// The point that the cable is pulled from sits elsewhere; the actuator is zeroed with it there.
 class CableRouting final : public FaultModel {
  public:
   CableRouting(const std::string& cable, int index)
@@ -156,7 +156,7 @@ void MakeCableRouting(const CatalogueInputs& inputs, std::vector<FaultModelPtr>*
 
 namespace {
 
-/// z = 1: each of two drives pulls the other's cable; 0: its own. Nothing between is believed in.
+/// z = 1: each of two actuators pulls the other's cable; 0: its own. Nothing between is possible.
 class SwappedCables final : public FaultModel {
  public:
   SwappedCables(const CatalogueInputs& inputs, int a, int b)
@@ -177,7 +177,7 @@ class SwappedCables final : public FaultModel {
     mixing.row(b_) += z[0] * (row_a - row_b);
   }
 
-  /// Each drive keeps its name and its limits, and pulls what the other one pulled.
+  /// Each actuator keeps its name and its limits, and pulls what the other one pulled.
   bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
     robot::CableSettings& a = robot->cables[static_cast<std::size_t>(a_)];

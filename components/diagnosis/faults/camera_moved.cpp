@@ -79,7 +79,7 @@ class CameraMoved final : public FaultModel {
   int from_recording_;
   Eigen::Vector3d middle_m_;  ///< of the body, measurement frame of that recording
   std::vector<Eigen::Isometry3d> T_view_robot_;  ///< [recordings] that were made
-  std::vector<bool> moves_markers_;              ///< [recordings] and not what pictures show alone
+  std::vector<bool> moves_markers_;  ///< [recordings] and not what depth frames show alone
 };
 
 }  // namespace

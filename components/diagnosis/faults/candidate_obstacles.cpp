@@ -12,9 +12,9 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr int kDirections = 250;             ///< some 13 degrees from each other
-constexpr std::size_t kMostWays = 16;        ///< directions that are looked at
+constexpr std::size_t kMostWays = 16;        ///< directions that are evaluated
 constexpr double kBeside = 0.9;              ///< cosine; ways are farther than that from each other
-constexpr double kLeastTravel_m = 5e-4;      ///< a wall would move markers by less than noise
+constexpr double kLeastTravel_m = 5e-4;      ///< an obstacle would move markers by less than noise
 constexpr double kGaps[] = {0.1, 0.3, 0.6};  ///< of how far the body goes
 constexpr double kGapSigma = 0.15;
 
@@ -28,7 +28,7 @@ Eigen::Vector3d Direction(int k) {
 }
 
 struct Way {
-  Eigen::Vector3d normal;  ///< of a wall that would end it
+  Eigen::Vector3d normal;  ///< of an obstacle that would end it
   double nearest_m = 0.0;  ///< normal' x of the undeformed body
   double travel_m = 0.0;   ///< against the normal, from there
 };
@@ -59,7 +59,7 @@ std::vector<Way> FarthestWays(const ObstacleSurface& surface, const Eigen::Vecto
   return apart;
 }
 
-/// The middle of what goes beyond a wall, the deeper and the longer the more, moved onto it.
+/// The middle of what goes beyond an obstacle, the deeper and the longer the more, moved onto it.
 Eigen::Vector3d MiddleOn(const Obstacle& obstacle, const Simulation& as_built) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   double weight = 0.0;

@@ -13,7 +13,7 @@
 
 namespace palpate::diagnosis {
 
-/// A wall that would be met in an experiment, near which one is looked for.
+/// An obstacle that would be met in an experiment, near which one is searched.
 struct CandidateObstacle {
   int way = 0;                 ///< number of the direction
   Eigen::Vector3d normal;      ///< unit, towards the body
@@ -23,7 +23,7 @@ struct CandidateObstacle {
   double most_shift_m = 0.0;   ///< beyond, nothing touches it
 };
 
-/// Nodes of a body that are beyond a wall.
+/// Nodes of a body that are beyond an obstacle.
 struct Beyond {
   std::vector<std::pair<int, double>> share;           ///< (node, of all depth)
   double depth_m = 0.0;                                ///< mean by these shares

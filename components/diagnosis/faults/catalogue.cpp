@@ -54,8 +54,8 @@ constexpr Entry kCatalogue[] = {
     {"discretisation", MakeDiscretisation},
 };
 
-/// Of the catalogue as well, but not looked for. Flying pixels lie along depth edges: a marker
-/// inside a surface has none.
+/// Of the catalogue as well, but not searched. Flying pixels lie along depth edges: a marker inside
+/// a surface has none.
 constexpr const char* kNotLookedFor[] = {
     "cable_cutting",
     "flying_pixels",

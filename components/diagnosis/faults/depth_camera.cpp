@@ -63,8 +63,9 @@ void MakeDepthIncidenceBias(const CatalogueInputs& inputs, std::vector<FaultMode
 
 namespace {
 
-/// The camera's focal length and image centre are not those of its data sheet. Where nobody says
-/// how many pixels that focal length is, its centre cannot be told in pixels, and is left out.
+/// The camera's focal length and image centre are not those of its data sheet. Where it is not
+/// given how many pixels that focal length is, its centre cannot be told in pixels, and is left
+/// out.
 class Intrinsics final : public FaultModel {
  public:
   explicit Intrinsics(bool with_centre)
@@ -142,7 +143,7 @@ void MakeLensDistortion(const CatalogueInputs& inputs, std::vector<FaultModelPtr
 
 namespace {
 
-/// Depth drifts while the camera gets warm, with a time constant near one that it is looked for at.
+/// Depth drifts while the camera gets warm, with a time constant near one that it is searched at.
 /// Nobody knows when the camera was switched on: it counts from the first stamp.
 class WarmUpDrift final : public FaultModel {
  public:

@@ -10,7 +10,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// The mesh is too coarse: the body moves farther than it lets it, by z times what cells of ten
+/// The mesh is too coarse: the body moves farther than it lets it, by z times what elements of ten
 /// nodes in the place of its four would add. What that does to the cables' tensions is left out.
 class Discretisation final : public FaultModel {
  public:
@@ -20,10 +20,10 @@ class Discretisation final : public FaultModel {
                      .fault = 0.3,
                      .fault_at = 1.0,
                      .least = 0.0,
-                     .plausible = 2.0}}),  // cells of ten nodes come far nearer than that
+                     .plausible = 2.0}}),  // elements of ten nodes come far nearer than that
         error_(std::move(error)) {}
 
-  /// By how much the mesh errs is worked out, and not fitted.
+  /// By how much the mesh errs is computed, and not fitted.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& /*z*/,
                                       const Eigen::MatrixXd& /*covariance*/,
                                       const Eigen::VectorXd& /*undeformed_m*/) const override {

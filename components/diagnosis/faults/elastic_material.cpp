@@ -156,7 +156,7 @@ std::vector<fem::Material> AsYeoh(std::vector<fem::Material> materials, double c
   return materials;
 }
 
-/// The material stiffens with strain as Yeoh's with C20 = C2_over_C1 C10 does. With the cause a
+/// The material stiffens with strain as Yeoh's with C20 = C2_over_C1 C10 does. With the fault a
 /// material of another kind becomes Yeoh's of the same modulus, which the derivative leaves out.
 class Stiffening final : public FaultModel {
  public:
@@ -200,7 +200,7 @@ class Stiffening final : public FaultModel {
 
  private:
   mutable std::mutex mutex_;          ///< bodies keep the sums of their threads
-  mutable fem::ElasticBody without_;  ///< of the moment's moduli
+  mutable fem::ElasticBody without_;  ///< of the sample's moduli
   mutable fem::ElasticBody with_;
 };
 

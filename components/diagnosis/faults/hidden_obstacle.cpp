@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kTiltSigma_rad = 0.2;
 constexpr double kMostTilt_rad = 0.6;
-/// By which the model's skin of nodes may lie off the body's, one sigma.
+/// By which the model's surface of nodes may lie off the body's, one sigma.
 constexpr double kSurface_m = 3e-4;
 
-/// z: whether the wall is there (1; 0: not; nothing between is believed in), how much farther from
-/// the body than where it is looked for, and two turns about the middle of where it is met there.
+/// z: whether the obstacle is there (1; 0: not; nothing between is possible), how much farther from
+/// the body than where it is searched, and two turns about the middle of where it is met there.
 class HiddenObstacle final : public FaultModel {
  public:
   HiddenObstacle(const CandidateObstacle& at, std::shared_ptr<const ObstacleSurface> surface)
@@ -89,8 +89,8 @@ class HiddenObstacle final : public FaultModel {
     return push;
   }
 
-  /// The gap is to the robot as it stands there: of one that is larger than its file says, the wall
-  /// stands that much farther from the file's body.
+  /// The gap is to the robot as it stands there: of one that is larger than its file says, the
+  /// obstacle stands that much farther from the file's body.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
     constexpr double k95 = 1.959964;
@@ -109,7 +109,7 @@ class HiddenObstacle final : public FaultModel {
     for (int k = 0; k < 4; ++k) {
       const double of_skin_m2 = k == 0 ? kSurface_m * kSurface_m : 0.0;
       const double half = k95 * std::sqrt(slope.row(k).dot(slope.row(k) * covariance) + of_skin_m2);
-      // A wall that stands in the model's skin touches it.
+      // An obstacle that stands in the model's surface touches it.
       const double least = k == 0 ? 0.0 : -1.0;
       const double most = k == 0 ? std::numeric_limits<double>::infinity() : 1.0;
       const double can_be = std::clamp(value[k], least, most);

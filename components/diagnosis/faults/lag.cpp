@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// z[0] by how much drives are late in all, delay and time constant together; z[1] how much more
+/// z[0] by how much actuators are late in all, delay and time constant together; z[1] how much more
 /// than half of the square of it is the time constant's. Commands that turn slowly are answered
 /// late by the sum, and the squares tell by how much their turns are rounded off: these, other than
 /// delay and time constant, are nearly linear in what is seen, and the second is often all but

@@ -8,7 +8,7 @@
 
 #include "components/diagnosis/faults/catalogue.hpp"
 
-/// One function for each cause, in the file of its name: adds it at every place where it can be.
+/// One function for each fault, in the file of its name: adds it at every place where it can be.
 namespace palpate::diagnosis {
 
 void MakeYoungsModulus(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* faults);

@@ -13,11 +13,11 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// MullinsSoftening: z[0] how much a cell softens that is so far below its largest energy density
-/// as m is looked for at, z[1] ln of how many times that m is. Data that tell little of where
+/// MullinsSoftening: z[0] how much a element softens that is so far below its largest energy
+/// density as m is searched at, z[1] ln of how many times that m is. Data that tell little of where
 /// softening ends tell z[0] all the same; of 1 / r they would only tell what it is if m were known,
-/// and about every m another share of that. What it does at a moment is a force: that of the
-/// softened cells, as far as they are. What the energies then answer is left out.
+/// and about every m another share of that. What it does at a sample is a force: that of the
+/// softened elements, as far as they are. What the energies then answer is left out.
 class Mullins final : public FaultModel {
  public:
   explicit Mullins(double m_J_m3)
@@ -86,7 +86,7 @@ class Mullins final : public FaultModel {
     return -2.0 * std::numbers::inv_sqrtpi * u * std::exp(-u * u);
   }
 
-  /// F_int of the cells, each so weighted; weights above -1.
+  /// F_int of the elements, each so weighted; weights above -1.
   static Eigen::VectorXd ForceOf(const Eigen::VectorXd& weight, const FaultContext& at) {
     fem::ElasticBody& body = at.model.elastic_body();
     const Eigen::VectorXd& x_m = at.shape.state.x_m;

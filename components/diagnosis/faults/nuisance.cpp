@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// A point force gives way by some 0.2 / (E h) in cells of size h, without end as these get
+/// A point force yields by some 0.2 / (E h) in elements of size h, without end as these get
 /// smaller, and a real cable's end by what it is spread out over. Against the mesh of four_leg (4.4
 /// mm) one of 6.1 mm has 0.15 mm/N less and one twice as fine some 0.3 mm/N more, or 0.07 and 0.13
 /// / (E h).
@@ -41,8 +41,8 @@ Eigen::VectorXd AnchorCompliance_m_N(const robot::RobotBody& body) {
   return compliance_m_N;
 }
 
-/// By how much more, or less, than the mesh has it the body gives way where its cables end: at all
-/// of them alike, which is no fault. Here z is of one sigma.
+/// By how much more, or less, than the mesh has it the body yields where its cables end: at all of
+/// them alike, which is no fault. Here z is of one sigma.
 class AnchorCompliance final : public FaultModel {
  public:
   explicit AnchorCompliance(Eigen::VectorXd compliance_m_N)
@@ -143,7 +143,8 @@ bool SamePose(const View& a, const View& b) {
   return a.known == b.known && a.T_measurement_robot.isApprox(b.T_measurement_robot, 1e-12);
 }
 
-/// Those whose pose may be off. Pictures and markers that are in the camera's frame have one pose.
+/// Those whose pose may be off. Depth frames and markers that are in the camera's frame have one
+/// pose.
 std::vector<View> Views(const CatalogueInputs& inputs) {
   std::vector<View> views;
   const std::vector<ObservedRecording>& recordings = inputs.observed.recordings;
@@ -186,10 +187,10 @@ namespace {
 constexpr double kSigma = 0.003;
 constexpr double kSigmaOfConstant = 0.002;
 /// Over what a camera sees from several places, a finer one than over a robot that stays in the
-/// middle of its picture.
+/// middle of its depth frame.
 constexpr geometry::DepthBiasBasis kBasis{.order = 4, .span = 0.4};
 
-/// Depth that is off by a smooth share over the picture, as every depth camera's is: no fault.
+/// Depth that is off by a smooth share over the depth frame, as every depth camera's is: no fault.
 class DepthBias final : public FaultModel {
  public:
   explicit DepthBias(const geometry::DepthBiasBasis& basis)
@@ -277,11 +278,11 @@ void MakeStereoRipple(const CatalogueInputs& inputs, std::vector<FaultModelPtr>*
 
 namespace {
 
-/// Facets of the mesh lie off the skin, and where the camera errs less smoothly than DepthBias.
+/// Facets of the mesh lie off the surface, and where the camera errs less smoothly than DepthBias.
 constexpr double kSigma_m = 3e-4;
 
-/// Every feature of the skin is off along its normal by a constant of its own, in all recordings:
-/// no fault.
+/// Every feature of the surface is off along its normal by a constant of its own, in all
+/// recordings: no fault.
 class SurfaceOffset final : public FaultModel {
  public:
   explicit SurfaceOffset(Eigen::Index features)

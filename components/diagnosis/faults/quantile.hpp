@@ -18,9 +18,9 @@ struct TwoParameters {
 };
 
 /// The value below which a quantity in [0, `largest`] lies with this probability. It grows with
-/// z[0], and changes in any way with z[1], of which many values stand for as much of what is
-/// believed of it each: `z_at`(value, z[1]) is the z[0] at which it has that value, infinity where
-/// none is large enough.
+/// z[0], and changes in any way with z[1], of which many values stand for as much of the prior of
+/// it each: `z_at`(value, z[1]) is the z[0] at which it has that value, infinity where none is
+/// large enough.
 double Quantile(double probability, const TwoParameters& of, double largest,
                 const std::function<double(double value, double second)>& z_at);
 

@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 namespace {
 
 /// The body is larger about the middle of its base; the points that cables are pulled from stay on
-/// the ground, and the drives are zeroed on it as it is.
+/// the ground, and the actuators are zeroed on it as it is.
 class GeometryScale final : public FaultModel {
  public:
   explicit GeometryScale(const Eigen::Vector3d& middle_m)
@@ -163,7 +163,7 @@ std::vector<FaultParameter> PartsOfShapes(const Eigen::VectorXd& compliance) {
   return parts;
 }
 
-/// The body was bent for good after the drives were zeroed, in a mixture of its softest shapes.
+/// The body was bent for good after the actuators were zeroed, in a mixture of its softest shapes.
 class PlasticSet final : public FaultModel {
  public:
   explicit PlasticSet(SoftShapes soft)

@@ -8,9 +8,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// One Prony term with a relaxation time near one that it is looked for at. What it does at a
-/// moment is the force of a stress: the elastic ones of the past, as far as they have not faded
-/// (Memory::Fading), which have stayed with the material.
+/// One Prony term with a relaxation time near one that it is searched at. What it does at a sample
+/// is the force of a stress: the elastic ones of the past, as far as they have not faded
+/// (HistoryOperator::Fading), which have stayed with the material.
 class ViscoelasticCreep final : public FaultModel {
  public:
   ViscoelasticCreep(double tau_s, double tolerance)

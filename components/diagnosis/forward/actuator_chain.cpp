@@ -37,7 +37,7 @@ ActuatorChain::ActuatorChain(const ObservedExperiment& observed) : observed_(obs
   }
 }
 
-/// After mixing and delay. A cable that gets nothing but commands of drives that are off is off.
+/// After mixing and delay. A cable that gets nothing but commands of actuators that are off is off.
 Eigen::VectorXd ActuatorChain::Commanded(const ActuatorSettings& settings, double t_s) const {
   const Eigen::VectorXd command = observed_.timeline.CommandAt(t_s - settings.delay_s);
   Eigen::VectorXd commanded(command.size());

@@ -10,11 +10,12 @@
 
 namespace palpate::diagnosis {
 
-/// How drives turn what they are told into cable. At first as told.
+/// How actuators turn commands into cable. At first as told.
 struct ActuatorSettings {
   explicit ActuatorSettings(int cables);
 
-  Eigen::MatrixXd mixing;  ///< [cables x drives] what share of each drive's command a cable gets
+  Eigen::MatrixXd
+      mixing;  ///< [cables x actuators] what share of each actuator's command a cable gets
   double delay_s = 0.0;
   double tau_s = 0.0;        ///< of a first order, after the delay
   Eigen::VectorXd gain;      ///< [cables] g: takes in 1 + g times as much
@@ -33,16 +34,15 @@ struct SamplePart {
   Eigen::VectorXd sliding;   ///< [eyelets that rub] mean CableFriction::sliding; empty: 1
 };
 
-/// The drives through the whole experiment: mixing, lag, gain and offset, play, in
-/// this order; the play begins in its middle. Offset and play are of cables that are told a
-/// displacement.
+/// The actuators through the whole experiment: mixing, lag, gain and offset, play, in this order;
+/// the play begins in its middle. Offset and play are of cables that are commanded by displacement.
 class ActuatorChain {
  public:
   /// `observed` must outlive it.
   explicit ActuatorChain(const ObservedExperiment& observed);
 
-  /// [cables x samples] what the drives take in, m, or pull with, N: mean over the frames of each
-  /// sample; NaN: not driven.
+  /// [cables x samples] what the actuators take in, m, or pull with, N: mean over the frames of
+  /// each sample; NaN: not driven.
   Eigen::MatrixXd At(const ActuatorSettings& settings) const;
   /// [samples] parts in order of time: one of a sample in which nothing is moved, up to five of a
   /// motion, in which a cable may get taut.
@@ -51,11 +51,11 @@ class ActuatorChain {
   Eigen::MatrixXi Sliding(const ActuatorSettings& settings) const;
   /// [times] all stamps of commands and frames, rising.
   const std::vector<double>& t_s() const { return t_s_; }
-  /// [cables x times] what the drives take in or pull with.
+  /// [cables x times] what the actuators take in or pull with.
   Eigen::MatrixXd Path(const ActuatorSettings& settings) const;
 
  private:
-  /// Where drives are, [cables] each.
+  /// Where actuators are, [cables] each.
   struct Place {
     double t_s;
     Eigen::VectorXd commanded;

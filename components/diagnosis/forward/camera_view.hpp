@@ -16,14 +16,14 @@ struct DepthDrift {
   double tau_s = 1.0;
 };
 
-/// What a depth camera does wrong (DIAGNOSIS, "Catalogue").
+/// What a depth camera does wrong (docs/diagnosis.md).
 struct CameraErrors {
   double depth_scale = 0.0;       ///< depth is 1 + this times the true one
   double incidence_bias_m = 0.0;  ///< b of b (1/cos a - 1) along the ray
-  double focal = 0.0;             ///< the true focal length is 1 + this times the believed one
-  double cx_px = 0.0;             ///< the true image centre less the believed one
+  double focal = 0.0;             ///< the true focal length is 1 + this times the assumed one
+  double cx_px = 0.0;             ///< the true image centre less the assumed one
   double cy_px = 0.0;
-  double k1 = 0.0;  ///< true distortion, less the believed one
+  double k1 = 0.0;  ///< true distortion, less the assumed one
   std::vector<DepthDrift> drifts = {};
   /// Disparities of a stereo camera are off by a wave of them, cosine and sine, px.
   Eigen::Vector2d ripple_px = Eigen::Vector2d::Zero();

@@ -15,10 +15,10 @@ namespace palpate::diagnosis {
 /// An eyelet that a cable runs through, where it may rub: all but the last, where it is attached.
 struct RubbingEyelet {
   int cable = 0;
-  int eyelet = 0;  ///< 0: next to the drive
+  int eyelet = 0;  ///< 0: next to the actuator
 };
 
-/// Cable by cable, from the drive on.
+/// Cable by cable, from the actuator on.
 std::vector<RubbingEyelet> RubbingEyelets(const robot::RobotBody& body);
 
 /// [eyelets] the friction coefficients of their cables.
@@ -28,7 +28,7 @@ Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets, const robo
 /// the length from each eyelet to the end of its cable grows, m.
 struct EyeletSlides {
   double t_s = 0.0;             ///< when the body is there
-  Eigen::MatrixXd by_command;   ///< [eyelets x cables] per m, or N, that a drive takes in
+  Eigen::MatrixXd by_command;   ///< [eyelets x cables] per m, or N, that an actuator takes in
   Eigen::MatrixXd by_friction;  ///< [eyelets x eyelets] per CableFriction::Signed of each
 
   bool IsKnown() const { return by_command.size() > 0; }

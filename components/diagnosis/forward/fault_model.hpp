@@ -24,8 +24,8 @@
 
 namespace palpate::diagnosis {
 
-/// One number of a cause. Inside, it is counted as z, 0 for the robot as its file has it, so that
-/// every belief about it is a normal distribution of z about 0.
+/// One number of a fault. Inside, it is counted as z, 0 for the robot as its file has it, so that
+/// every prior is a normal distribution of z about 0.
 struct FaultParameter {
   /// How the value that people see follows from z.
   enum class Scale {
@@ -33,20 +33,21 @@ struct FaultParameter {
     kFactor,   ///< nominal exp(z)
     kInverse,  ///< 1 / z
   };
-  std::string name;  ///< of verdict.json (DIAGNOSIS, "Conventions"), with its unit
+  std::string name;  ///< of verdict.json (docs/diagnosis.md), with its unit
   double nominal = 0.0;
-  double tolerance = 0.0;  ///< sigma of z for a healthy robot; 0: a healthy robot has none of it
+  double tolerance = 0.0;  ///< sigma of z for a nominal robot; 0: a nominal robot has none of it
   double fault = 0.0;      ///< sigma of z for a robot that has the fault, > tolerance,
   double fault_at = 0.0;   ///< about this
   double least = -std::numeric_limits<double>::infinity();  ///< of z: what can be
   double most = std::numeric_limits<double>::infinity();
   Scale scale = Scale::kLinear;
-  /// It says where or how the cause's other parameters act: without these it is of no effect.
+  /// It says where or how the fault's other parameters act: without these it is of no effect.
   bool qualifies = false;
-  /// It is one of the vector that the cause's parameters so marked make up together: how large the
-  /// cause is, and which tolerance it has, is said of the length of that.
+  /// It is one of the vector that the fault's parameters so marked make up together: how large the
+  /// fault is, and which tolerance it has, is said of the length of that.
   bool component = false;
-  /// Of |z|: beyond, something else looks like it (DIAGNOSIS, "Method" 5).
+  /// Of |z|: beyond, something else looks like it (docs/theory/model_selection.md, Forward
+  /// selection).
   double plausible = std::numeric_limits<double>::infinity();
 
   double ValueOf(double z) const {
@@ -59,7 +60,7 @@ struct FaultParameter {
   }
 };
 
-/// A moment about which a cause is asked what it does.
+/// A sample about which a fault is asked what it does.
 struct FaultContext {
   const ObservedExperiment& observed;
   const ModelHypothesis& hypothesis;
@@ -69,7 +70,7 @@ struct FaultContext {
   const HeldShape& shape;    ///< one of the sample's
   robot::RobotModel& model;  ///< its linearisation is at that shape
   const fem::PointStress& points;
-  /// Of that shape, where a cause is asked what it shows.
+  /// Of that shape, where a fault is asked what it shows.
   Target target = Target::kMarkers;
   MeasuredPoints measured_points = {};
 
@@ -88,7 +89,7 @@ struct FaultContext {
 };
 
 /// What something in the body's way does to it as a whole: a force on the body as it is without
-/// what the draft has in its way. Per z of each of a cause's parameters
+/// what the hypothesis has in its way. Per z of each of a fault's parameters
 struct Push {
   Eigen::VectorXd force_N;  ///< [3n]
   Eigen::VectorXd times;    ///< [parameters] so many times that force, and
@@ -96,9 +97,9 @@ struct Push {
       displacement_m;  ///< [parameters] as often as makes force' x (in N) grow by so much
 };
 
-/// Something that a simulation may get wrong, at one place of the robot (DIAGNOSIS, "Catalogue").
-/// What it does is said twice: Apply changes a draft by any z; the other functions give what a
-/// small z does at a moment of a simulation, to first order, which a test holds against Apply.
+/// Something that a simulation may get wrong, at one place of the robot (docs/diagnosis.md). What
+/// it does is said twice: Apply changes a hypothesis by any z; the other functions give what a
+/// small z does at a sample of a simulation, to first order, which a test holds against Apply.
 class FaultModel {
  public:
   FaultModel(CauseName name, std::string words, std::vector<FaultParameter> parameters)
@@ -120,33 +121,33 @@ class FaultModel {
 
   /// `z` [parameters].
   virtual void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const = 0;
-  /// Writes `z` into the robot file, or the drives of a calibration; false where neither can say
+  /// Writes `z` into the robot file, or the actuators of a calibration; false where neither can say
   /// it.
   virtual bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
                       std::vector<robot::CalibratedDrive>* drives) const;
-  /// Where what it does has kinks a linear model says little: then the most probable causes of its
+  /// Where what it does has kinks a linear model says little: then the most probable faults of its
   /// name are simulated before one stands for all, of those with the same number here only one.
   virtual std::optional<int> Start() const { return std::nullopt; }
-  /// Id of a simpler cause that is a special case of this one: what that does this one does, too,
+  /// Id of a simpler fault that is a special case of this one: what that does this one does, too,
   /// with parameters that it has no need of; empty: there is none.
   virtual std::string SpecialCase() const { return {}; }
   /// Whether more is known of the robot file that it extends than what Apply makes: once it is
-  /// named, the search begins anew with that.
+  /// named, the search begins again with that.
   virtual bool RestartsSearch() const { return false; }
-  /// Whether Apply changes the drives: their derivative is a difference of two of their runs.
+  /// Whether Apply changes the actuators: their derivative is a difference of two of their runs.
   virtual bool OnActuators() const { return false; }
   /// Whether OnBody leaves out at `z` what matters, as of a body that answers to its own past: then
   /// differences of simulations tell it (Simulator::DifferentiateBySimulation).
   virtual bool NeedsSimulation(const Eigen::VectorXd& /*z*/) const { return false; }
-  /// What dz of one parameter does to the body where this cause is at `z` [parameters];
-  /// nullptr: nothing.
+  /// What dz of one parameter does to the body where this fault is at `z` [parameters]; nullptr:
+  /// nothing.
   virtual robot::ParameterPtr OnBody(int parameter, const Eigen::VectorXd& z,
                                      const FaultContext& at) const;
   /// What it does that no small z can say; none: nothing.
   virtual std::optional<Push> PushOf(const Eigen::VectorXd& z, const FaultContext& at) const;
-  /// Adds what it does to where markers, or features of the skin, are seen with the body where it
-  /// is, [3 x markers or features], m, frame of the robot as it is seen (ModelHypothesis::T_seen,
-  /// T_surface_seen).
+  /// Adds what it does to where markers, or features of the surface, are seen with the body where
+  /// it is, [3 x markers or features], m, frame of the robot as it is seen
+  /// (ModelHypothesis::T_seen, T_surface_seen).
   virtual void OnView(int parameter, const Eigen::VectorXd& z, const FaultContext& at,
                       Eigen::Matrix3Xd* motion_m) const;
   /// Adds what it does to where a depth camera measures them (FaultContext::sight has one) while
@@ -160,7 +161,7 @@ class FaultModel {
   std::vector<FaultParameter> parameters_;
 };
 
-/// The drive of a cable in a calibration, added where it is not there.
+/// The actuator of a cable in a calibration, added where it is not there.
 robot::CalibratedDrive& DriveOf(const std::string& cable,
                                 std::vector<robot::CalibratedDrive>* drives);
 
@@ -170,7 +171,7 @@ FittedParameter SizeOf(const std::string& name, const Eigen::VectorXd& z,
 
 using FaultModelPtr = std::unique_ptr<const FaultModel>;
 
-/// Causes together; their parameters follow each other in this order.
+/// Faults together; their parameters follow each other in this order.
 using FaultModelList = std::vector<const FaultModel*>;
 
 }  // namespace palpate::diagnosis

@@ -15,10 +15,10 @@
 
 namespace palpate::diagnosis {
 
-/// What a body remembers of the experiment. A quantity that was worked out at the samples, with
-/// every command at zero, and where motions begin and end, is followed through all times: linearly
-/// from one to the next, and to that of zero commands in the rests and where a piece begins or ends
-/// with them. Where nothing is moved it stays, until a motion begins. Where a load comes or goes it
+/// What a body remembers of the experiment. A quantity that was computed at the samples, with every
+/// command at zero, and where motions begin and end, is followed through all times: linearly from
+/// one to the next, and to that of zero commands in the rests and where a piece begins or ends with
+/// them. Where nothing is moved it stays, until a motion begins. Where a load comes or goes it
 /// jumps, and where a body is let go that was held in its undeformed shape.
 class HistoryOperator {
  public:
@@ -33,8 +33,8 @@ class HistoryOperator {
   /// asked for once is kept; threads may ask at once.
   const Eigen::MatrixXd& Fading(double tau_s) const;
 
-  /// Times in the course of a sample at which all is looked at that goes up to its largest: each
-  /// stands for alike many of its frames.
+  /// Times in the course of a sample at which all is evaluated that goes up to its largest: each
+  /// stands for equally many of its frames.
   static constexpr Eigen::Index kTimesPerSample = 5;
   struct Course {
     Eigen::MatrixXf now;
@@ -44,7 +44,7 @@ class HistoryOperator {
   Course Follow(const Eigen::MatrixXf& values) const;
 
  private:
-  /// A time at which the quantity is a combination of those that were worked out.
+  /// A time at which the quantity is a combination of those that were computed.
   struct Node {
     double t_s = 0.0;
     Eigen::RowVectorXd share;  ///< [columns]
@@ -67,12 +67,12 @@ class HistoryOperator {
   mutable std::map<double, Eigen::MatrixXd> fading_;  ///< by tau
 };
 
-/// [cells] by their corners.
+/// [elements] by their corners.
 Eigen::VectorXd CellVolumes_m3(const fem::TetMesh& mesh);
 
-/// [cells x samples Memory::kLooks] by how much the energy density lies below the largest that each
-/// cell has seen until then, J/m^3. It grows as the square of how far the body is bent, and that is
-/// followed.
+/// [elements x samples HistoryOperator::kTimesPerSample] by how much the energy density lies below
+/// the largest that each element has seen until then, J/m^3. It grows as the square of how far the
+/// body is bent, and that is followed.
 Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulation& simulation);
 
 /// A step of the damage of all samples towards what MullinsSoftening asks for after the energies of
@@ -80,7 +80,7 @@ Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulati
 void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
             const Simulation& simulation, std::vector<HistoryVariables>* history_variables);
 
-/// Whether a robot as a draft has it remembers anything.
+/// Whether a robot as a hypothesis has it remembers anything.
 bool HasHistory(const ModelHypothesis& hypothesis);
 
 /// Brings `past` [samples] to what `simulation`, which had another past, leaves of creep and of

@@ -14,7 +14,7 @@
 namespace palpate::diagnosis {
 
 /// Second Piola-Kirchhoff stresses at the integration points of a body [6 x points], Pa, as
-/// fem::PointStress has them; such as are kept of many moments.
+/// fem::PointStress has them; such as are kept of many samples.
 using PointStresses = Eigen::Matrix<float, 6, Eigen::Dynamic>;
 
 /// A stress that stays with the material while the body moves on: what a body remembers of its
@@ -32,7 +32,7 @@ class KeptStress final : public fem::ScalarConstraint {
   double Value(const Eigen::VectorXd& x_m) const override;
   void AddGradient(const Eigen::VectorXd& x_m, double factor,
                    Eigen::VectorXd& nodal) const override;
-  fem::NodePairs CoupledPairs() const override { return {}; }  // the cells' own
+  fem::NodePairs CoupledPairs() const override { return {}; }  // the elements' own
   void BindTo(const fem::StiffnessMatrix& stiffness) override { stiffness_ = &stiffness; }
   void AddCurvature(const Eigen::VectorXd& x_m, double multiplier,
                     fem::StiffnessMatrix& stiffness) const override;

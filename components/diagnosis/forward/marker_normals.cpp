@@ -9,7 +9,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// A marker is a disc of some millimetres, and facets of a mesh are askew to the skin that they
+/// A marker is a disc of some millimetres, and facets of a mesh are askew to the surface that they
 /// stand for.
 constexpr double kRadius_m = 6e-3;
 /// Faces that look elsewhere belong to the body's other side.

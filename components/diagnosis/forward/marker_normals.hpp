@@ -10,12 +10,12 @@
 
 namespace palpate::diagnosis {
 
-/// The body's skin about each marker.
+/// The body's surface about each marker.
 class MarkerNormals {
  public:
   explicit MarkerNormals(const ModelHypothesis& hypothesis);
 
-  /// Mean over that skin with the nodes at `x_m` [3n]; unit, outward, robot frame.
+  /// Mean over that surface with the nodes at `x_m` [3n]; unit, outward, robot frame.
   Eigen::Vector3d Normal(std::size_t marker, const Eigen::VectorXd& x_m) const;
 
  private:

@@ -15,8 +15,8 @@ namespace palpate::diagnosis {
 /// What is measured: by what, and in which frame, may differ between them.
 enum class Target { kMarkers, kSurface };
 
-/// The markers, or the features of the skin, as they stand before whatever measures them; frame of
-/// the measurement, of the skin that of the depth camera.
+/// The markers, or the features of the surface, as they stand before whatever measures them; frame
+/// of the measurement, of the surface that of the depth camera.
 struct MeasuredPoints {
   std::vector<SeenPoint> points;     ///< [markers] or [features]
   std::optional<CameraView> camera;  ///< nothing: they are measured where they are

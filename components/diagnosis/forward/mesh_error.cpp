@@ -62,7 +62,7 @@ std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simul
 
 namespace {
 
-/// How bodies are bent shows in so many moments.
+/// How bodies are bent shows in so many samples.
 constexpr std::size_t kMostSamples = 40;
 
 /// Numbers of so many samples, spread evenly.
@@ -97,7 +97,8 @@ std::shared_ptr<const MeshError> CompareWithFinerMesh(const robot::RobotDescript
     known.status = simulated.samples[s].status;
     known.middle.state = simulated.samples[s].middle.state;
   }
-  // Ends with the first sample that fails: cells so bad that ten nodes buckle fail all, and slowly.
+  // Ends with the first sample that fails: elements so bad that ten nodes buckle fail all, and
+  // slowly.
   const Simulation nothing;
   const Simulation on_finer =
       Simulator(few, threads).Run(NominalHypothesis(finer_body, few), &nothing);

@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 
 /// By how much farther a finer mesh would let the body move, as far as that is linear in how the
 /// body is bent. Of other loads and cables than it was found with it tells a half or more: enough
-/// to know this cause from others.
+/// to know this fault from others.
 struct MeshError {
   Eigen::MatrixXd shapes;            ///< [3n x shapes] orthonormal, in which bodies are bent
   Eigen::MatrixXd of_nodes;          ///< [3n x shapes] m of motion per m of bend in each
@@ -35,14 +35,15 @@ struct MeshError {
 std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simulation& simulated,
                                        const robot::RobotBody& finer, const Simulation& on_finer);
 
-/// The robot on cells of ten nodes.
+/// The robot on elements of ten nodes.
 robot::RobotDescription OnFinerMesh(robot::RobotDescription robot);
 
-/// What the mesh of `robot` errs by in an experiment that was simulated on it: of cells with four
-/// nodes, against the same cells with ten, on `threads`. Nothing of meshes that have these already:
-/// what they err by smoothly is within the noise model, and what the points give way by at which
-/// cables end has no limit that finer ones would come nearer to. Nothing either of a mass that is
-/// shared by the nodes (other nodes are another body), or where the finer mesh finds no balance.
+/// What the mesh of `robot` errs by in an experiment that was simulated on it: of elements with
+/// four nodes, against the same elements with ten, on `threads`. Nothing of meshes that have these
+/// already: what they err by smoothly is within the noise model, and what the points yield by at
+/// which cables end has no limit that finer ones would come nearer to. Nothing either of a mass
+/// that is shared by the nodes (other nodes are another body), or where the finer mesh finds no
+/// balance.
 std::shared_ptr<const MeshError> CompareWithFinerMesh(const robot::RobotDescription& robot,
                                                       const robot::RobotBody& body,
                                                       const ObservedExperiment& observed,

@@ -46,7 +46,7 @@ struct WorldForce {
 };
 
 /// Everything that a robot's simulation in an experiment is made of. It begins as the robot file
-/// has it (NominalHypothesis), and causes change it.
+/// has it (NominalHypothesis), and faults change it.
 struct ModelHypothesis {
   explicit ModelHypothesis(const robot::RobotBody& of)
       : body(of), actuators(static_cast<int>(of.cables.size())) {}
@@ -55,12 +55,12 @@ struct ModelHypothesis {
   /// The robot file's body, on which places are named: where the body is of another shape, what
   /// hangs on it keeps its weights, as markers and eyelets do.
   std::shared_ptr<const fem::PointLocator> places;
-  /// [3n] the shape at which the drives were zeroed; that of the body unless something was bent
+  /// [3n] the shape at which the actuators were zeroed; that of the body unless something was bent
   /// afterwards.
   Eigen::VectorXd assembled_m;
   ActuatorSettings actuators;
-  Eigen::VectorXd cable_compliance_m_N;  ///< [cables] stretch per tension at the drive; < 0: less
-                                         ///< than the mesh gives way by
+  Eigen::VectorXd cable_compliance_m_N;  ///< [cables] stretch per tension at the actuator; < 0:
+                                         ///< less than the mesh yields by
   /// The base stands askew by so much beside what is known of its tilt: gravity in the robot frame
   /// is (R_tilt R_tilt_error)' g.
   Eigen::Matrix3d R_tilt_error = Eigen::Matrix3d::Identity();
@@ -77,16 +77,16 @@ struct ModelHypothesis {
   /// [recordings] how what is seen lies to the robot frame: p_seen = T_seen p_robot, before
   /// T_measurement_robot.
   std::vector<Eigen::Isometry3d> T_seen;
-  /// [recordings] the same of what pictures show, before T_camera_robot.
+  /// [recordings] the same of what depth frames show, before T_camera_robot.
   std::vector<Eigen::Isometry3d> T_surface_seen;
-  Eigen::VectorXd surface_offset_m;  ///< [features] by which the skin is seen beyond the body's
+  Eigen::VectorXd surface_offset_m;  ///< [features] by which the surface is seen beyond the body's
   CameraErrors camera;               ///< of the depth camera, in recordings that one saw
 };
 
 /// The robot file's.
 ModelHypothesis NominalHypothesis(const robot::RobotBody& body, const ObservedExperiment& observed);
 
-/// Known loads this much along what gravity was believed to be (cosine; a degree) are weights.
+/// Known loads this much along what gravity was assumed to be (cosine; a degree) are weights.
 inline constexpr double kHangs = 0.99985;
 
 /// Gravity in the robot frame of a recording, m/s^2.

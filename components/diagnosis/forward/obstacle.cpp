@@ -17,7 +17,7 @@ namespace {
 /// Depth at the pressure of the body's modulus.
 constexpr double kDepthAtModulus_m = 1e-5;
 
-/// A wall that moves while the body stands.
+/// An obstacle that moves while the body stands.
 class ObstacleMotionParameter final : public robot::Parameter {
  public:
   ObstacleMotionParameter(const Obstacle& obstacle, const Eigen::VectorXd& force_N,

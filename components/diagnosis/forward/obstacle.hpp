@@ -14,11 +14,11 @@
 
 namespace palpate::diagnosis {
 
-/// Where a body can meet a wall, and how hard walls are there: a node that is pressed with the
-/// largest modulus on its share of the surface goes some micrometres deep.
+/// Where a body can meet an obstacle, and how hard obstacles are there: a node that is pressed with
+/// the largest modulus on its share of the surface goes some micrometres deep.
 struct ObstacleSurface {
   std::vector<int> nodes;      ///< of the faces that are not held altogether
-  double stiffness_N_m = 0.0;  ///< of a wall against each of them
+  double stiffness_N_m = 0.0;  ///< of an obstacle against each of them
 
   double Force_N(double depth_m) const { return stiffness_N_m * std::max(0.0, depth_m); }
 };
@@ -36,31 +36,31 @@ struct Obstacle {
   }
 };
 
-/// The least normal' x of a body with its nodes at `x_m` [3n], m: the offset of a wall that would
-/// just touch it.
+/// The least normal' x of a body with its nodes at `x_m` [3n], m: the offset of an obstacle that
+/// would just touch it.
 double NearestAlong(const ObstacleSurface& surface, const Eigen::Vector3d& normal,
                     const Eigen::VectorXd& x_m);
 
-/// How far the body is from the wall, m; negative where it presses on it.
+/// How far the body is from the obstacle, m; negative where it presses on it.
 inline double ObstacleClearance_m(const Obstacle& obstacle, const Eigen::VectorXd& x_m) {
   return NearestAlong(*obstacle.surface, obstacle.normal, x_m) - obstacle.offset_m;
 }
 
-/// [3n] of a wall that presses with `force_N` on the nodes of its surface.
+/// [3n] of an obstacle that presses with `force_N` on the nodes of its surface.
 Eigen::VectorXd NodalForces_N(const Obstacle& obstacle, const Eigen::VectorXd& force_N,
                               Eigen::Index size);
 
-/// What the wall presses with where its normal and its offset change by so much per p; it presses
-/// with `force_N` [nodes of its surface].
+/// What the obstacle presses with where its normal and its offset change by so much per p; it
+/// presses with `force_N` [nodes of its surface].
 robot::ParameterPtr ObstacleMotion(const Obstacle& obstacle, const Eigen::VectorXd& force_N,
                                    const Eigen::Vector3d& normal_change, double offset_change_m);
 
-/// The wall in a body's tangent: its energy is what a constraint with a given multiplier adds.
+/// The obstacle in a body's tangent: its energy is what a constraint with a given multiplier adds.
 /// Where the body comes to rest at it: ObstacleBalance.
 class ObstacleContact final : public fem::ScalarConstraint {
  public:
-  /// The multiplier that a wall has which is there. Far below any force, since what a balance may
-  /// leave follows the largest multiplier: a wall that nothing touches changes nothing.
+  /// The multiplier that an obstacle has which is there. Far below any force, since what a balance
+  /// may leave follows the largest multiplier: an obstacle that nothing touches changes nothing.
   static constexpr double kThere_N = 1e-9;
 
   explicit ObstacleContact(Obstacle obstacle) : obstacle_(std::move(obstacle)) {}

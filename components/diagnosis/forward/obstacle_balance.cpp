@@ -59,8 +59,8 @@ Status ObstacleBalance::Solve(const std::vector<robot::CableCommand>& cables,
   return status;
 }
 
-/// A step of the body towards balance and new forces of the wall, in turn: most of what each does
-/// to the other is foreseen, so that both settle as fast as one.
+/// A step of the body towards balance and new forces of the obstacle, in turn: most of what each
+/// does to the other is foreseen, so that both settle as fast as one.
 Status ObstacleBalance::StepTogether(const std::vector<robot::CableCommand>& cables,
                                      const Eigen::VectorXd& others_N, fem::LoadState* loads,
                                      fem::StaticState* state) {
@@ -111,8 +111,8 @@ Status ObstacleBalance::Step(const fem::LoadState& loads, const fem::StaticState
   return known.ok() ? step_.ComputeChord(loads, state.x_m, state.multipliers_N) : known;
 }
 
-/// The body in balance under what the wall presses with, and what it does then, in turn: slow, and
-/// for steps that StepTogether does not find its way with.
+/// The body in balance under what the obstacle presses with, and what it does then, in turn: slow,
+/// and for steps that StepTogether does not find its way with.
 Status ObstacleBalance::BalanceInTurn(const std::vector<robot::CableCommand>& cables,
                                       const Eigen::VectorXd& others_N, fem::LoadState* loads,
                                       fem::StaticState* state) {
@@ -158,7 +158,7 @@ bool ObstacleBalance::CoversWhatTouches() const {
   return true;
 }
 
-/// How the nodes that touch, or may come to, give way to each other's forces.
+/// How the nodes that touch, or may come to, yield to each other's forces.
 Status ObstacleBalance::UpdateCompliance(const std::vector<robot::CableCommand>& cables,
                                          const fem::StaticState& state) {
   active_.clear();
@@ -187,8 +187,8 @@ Status ObstacleBalance::UpdateCompliance(const std::vector<robot::CableCommand>&
   return known;
 }
 
-/// To forces under which, to first order, every node is out of the wall or as deep as its force has
-/// it; of a wall that is met deep inside of the body, of one a stride farther in than now.
+/// To forces under which, to first order, every node is out of the obstacle or as deep as its force
+/// has it; of an obstacle that is met deep inside of the body, of one a stride farther in than now.
 void ObstacleBalance::PressAgain() {
   const Eigen::VectorXd pressed_N = force_N_(active_);
   Eigen::MatrixXd M = compliance_m_N_;

@@ -14,18 +14,18 @@
 
 namespace palpate::diagnosis {
 
-/// Brings a robot into balance at a wall. From how far the nodes near it give way to each other's
+/// Brings a robot into balance at an obstacle. From how far the nodes near it yield to each other's
 /// forces (W, as eq. 4 of the paper has it for cables) follows a linear complementarity problem for
-/// what the wall presses with; the body goes a step on towards balance under that, and so in turn.
-/// The tangents are the free body's: one serves whatever touches, and many equilibria near each
-/// other.
+/// what the obstacle presses with; the body goes a step on towards balance under that, and so in
+/// turn. The tangents are the free body's: one serves whatever touches, and many equilibria near
+/// each other.
 class ObstacleBalance {
  public:
-  /// Both must outlive it; the model's last constraint is the wall (ObstacleContact).
+  /// Both must outlive it; the model's last constraint is the obstacle (ObstacleContact).
   ObstacleBalance(const Obstacle& obstacle, robot::RobotModel* model);
 
-  /// As StaticSolver::Solve, of cables as commanded. `force_N` [nodes of the wall's surface, or
-  /// empty: none] is what the wall presses with: a guess before, and what it does after.
+  /// As StaticSolver::Solve, of cables as commanded. `force_N` [nodes of the obstacle's surface, or
+  /// empty: none] is what the obstacle presses with: a guess before, and what it does after.
   Status Solve(const std::vector<robot::CableCommand>& cables, const fem::LoadState& loads,
                fem::StaticState* state, Eigen::VectorXd* force_N);
 
@@ -51,7 +51,7 @@ class ObstacleBalance {
   Eigen::VectorXd depth_m_;         ///< [nodes of the surface]
   Eigen::VectorXd force_N_;         ///< [nodes of the surface]
   std::vector<int> active_;         ///< places in the surface's nodes, ascending
-  Eigen::MatrixXd compliance_m_N_;  ///< [looked at x looked at], W
+  Eigen::MatrixXd compliance_m_N_;  ///< [evaluated x evaluated], W
   int compliance_of_ = -1;          ///< Linearisation::factor_count() that it is of
 };
 

@@ -103,7 +103,7 @@ Status SampleDifferentiator::AddPushes(const FaultContext& at, Eigen::MatrixXd* 
   std::vector<Eigen::Index> first_of;
   std::vector<robot::ParameterPtr> forces;
   for (const WantedParameter& one : parameters_) {
-    if (one.number > 0) continue;  // the cause was asked
+    if (one.number > 0) continue;  // the fault was asked
     std::optional<Push> push = one.fault->PushOf(one.z, at);
     if (!push) continue;
     forces.push_back(robot::NodalForce(push->force_N));
@@ -153,7 +153,7 @@ Eigen::MatrixXd SampleDifferentiator::At(const FaultContext& at) {
   return jacobian_m;
 }
 
-/// Rows of what is measured at this moment: markers where they are on the body, the skin as its
+/// Rows of what is measured at this sample: markers where they are on the body, the surface as its
 /// camera measures it.
 void SampleDifferentiator::Observe(const FaultContext& at) {
   rows_.clear();
@@ -180,7 +180,7 @@ void SampleDifferentiator::Observe(const FaultContext& at) {
 }
 
 /// From how the markers move on the body to how what is measured of them does. What the body's
-/// skin turns by is left out where it is measured askew.
+/// surface turns by is left out where it is measured askew.
 void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const {
   const auto markers = std::ssize(solver_.markers());
   FaultContext at = of;
@@ -208,7 +208,7 @@ void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacob
   }
 }
 
-/// Adds what causes do to how the skin is seen where it is; how it moves with the body is there.
+/// Adds what faults do to how the surface is seen where it is; how it moves with the body is there.
 void SampleDifferentiator::ShowSurfaceTo(const FaultContext& of,
                                          Eigen::MatrixXd* jacobian_m) const {
   FaultContext at = of;

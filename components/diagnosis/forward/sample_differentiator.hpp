@@ -14,16 +14,16 @@
 
 namespace palpate::diagnosis {
 
-/// [parameters][cables x samples] what dz of each parameter changes of what the drives take in;
-/// empty for those of causes that do not act on drives, or are not `wanted` [causes]. `drives` are
-/// those at `z`.
+/// [parameters][cables x samples] what dz of each parameter changes of what the actuators take in;
+/// empty for those of faults that do not act on actuators, or are not `wanted` [faults].
+/// `actuators` are those at `z`.
 std::vector<Eigen::MatrixXd> ActuatorChanges(const ActuatorChain& train,
                                              const ModelHypothesis& nominal,
                                              const FaultModelList& models, const Eigen::VectorXd& z,
                                              const std::vector<bool>& wanted,
                                              const ActuatorSettings& drives);
 
-/// How what is measured moves with the parameters of causes. What compliant cables give way by when
+/// How what is measured moves with the parameters of faults. What compliant cables yield by when
 /// their tension changes is counted, what a compliant base then turns by is not. For one thread.
 class SampleDifferentiator {
  public:
@@ -33,16 +33,16 @@ class SampleDifferentiator {
                        const std::vector<Eigen::MatrixXd>& actuator_change,
                        const ObservedExperiment& observed, SampleSolver* solver);
 
-  /// [coordinates x parameters] m per z; 0 for causes that are not wanted, and for what nobody
+  /// [coordinates x parameters] m per z; 0 for faults that are not wanted, and for what nobody
   /// measured. NaN where there are no derivatives.
   Eigen::MatrixXd At(const FaultContext& at);
 
  private:
   struct WantedParameter {
     const FaultModel* fault;
-    int number;           ///< of the cause's
-    Eigen::Index column;  ///< among those of all causes
-    Eigen::VectorXd z;    ///< [parameters of the cause]
+    int number;           ///< of the fault's
+    Eigen::Index column;  ///< among those of all faults
+    Eigen::VectorXd z;    ///< [parameters of the fault]
   };
 
   static std::vector<WantedParameter> Wanted(const FaultModelList& models, const Eigen::VectorXd& z,
@@ -54,8 +54,8 @@ class SampleDifferentiator {
   void ShowSurfaceTo(const FaultContext& of, Eigen::MatrixXd* jacobian_m) const;
 
   const ModelHypothesis& hypothesis_;
-  std::vector<WantedParameter> parameters_;  ///< one cause after the other
-  Eigen::Index parameter_count_;             ///< of all causes, those that are not wanted, too
+  std::vector<WantedParameter> parameters_;  ///< one fault after the other
+  Eigen::Index parameter_count_;             ///< of all faults, those that are not wanted, too
   const std::vector<Eigen::MatrixXd>& actuator_change_;
   SampleSolver& solver_;
   bool markers_seen_;  ///< of any marker there is a measurement

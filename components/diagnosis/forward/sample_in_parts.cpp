@@ -11,7 +11,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Which cables pull, and whether the body is at a wall.
+/// Which cables pull, and whether the body is at an obstacle.
 std::vector<bool> WhatHolds(const HeldShape& shape) {
   constexpr double kNothing_N = 1e-6;
   const auto cables = std::ssize(shape.commands);
@@ -182,7 +182,7 @@ class SampleInParts {
           grown * end.elastic_Pa + after.elastic_Pa - grown * before.elastic_Pa;
       now->at_ends[k].energy_J_m3 = end.energy_J_m3.cwiseProduct(
           after.energy_J_m3.binaryExpr(before.energy_J_m3, [](float a, float b) {
-            constexpr float kMost = 4.0F;  // of cells that held next to nothing
+            constexpr float kMost = 4.0F;  // of elements that held next to nothing
             return b > 0.0F ? std::min(kMost, a / b) : 1.0F;
           }));
     }
@@ -212,7 +212,7 @@ class SampleInParts {
   SampleSolver& solver_;
 };
 
-/// Whether no shape is so near a wall that the body may touch it elsewhere in the sample.
+/// Whether no shape is so near an obstacle that the body may touch it elsewhere in the sample.
 bool IsClearOfObstacles(const SampleSolver& solver, const SimulatedSample& simulated) {
   return !solver.IsNearObstacle(simulated.middle.state) &&
          std::none_of(simulated.beside.begin(), simulated.beside.end(),

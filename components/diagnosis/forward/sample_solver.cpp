@@ -17,10 +17,10 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-/// Of loops between equilibrium and what gives way under it.
+/// Of loops between equilibrium and what yields under it.
 constexpr int kMostRounds = 12;
 constexpr double kSettled_rad = 1e-8;
-/// By which a wall may stand in the undeformed body: what file and mesh may be off.
+/// By which an obstacle may stand in the undeformed body: what file and mesh may be off.
 constexpr double kDeepest_m = 1e-3;
 
 std::vector<fem::InterpolationWeights> MarkerPoints(const ModelHypothesis& hypothesis) {
@@ -92,7 +92,7 @@ std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& t
   return commands;
 }
 
-/// Weights that hang along what gravity was believed to be hang along what it is.
+/// Weights that hang along what gravity was assumed to be hang along what it is.
 std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
   const auto& recording = observed_.recordings[static_cast<std::size_t>(sample.recording)];
   const Eigen::Matrix3d& R_tilt = recording.base_rotation;
@@ -190,7 +190,7 @@ void SampleSolver::HoldBase(fem::LoadState* loads) const {
   }
 }
 
-/// A step towards the turn that goes with the moment on the base. Sets `moved` where it is not
+/// A step towards the turn that goes with the sample on the base. Sets `moved` where it is not
 /// there yet.
 Status SampleSolver::TurnBase(const fem::LoadState& loads, const fem::StaticState& state,
                               bool* moved) {
@@ -301,7 +301,7 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   Prepare(sample, history_variables);
   fem::StaticState& state = solved->middle.state;
   if (state.x_m.size() == 0) state = model_.RestState();
-  // It may come from a robot without the wall, or with one.
+  // It may come from a robot without the obstacle, or with one.
   state.multipliers_N.conservativeResizeLike(Eigen::VectorXd::Zero(
       static_cast<Eigen::Index>(model_.linearisation().constraints().size())));
   solved->middle.commands = Commands(taken_in);

@@ -19,7 +19,7 @@
 
 namespace palpate::diagnosis {
 
-/// Equilibria of a draft's robot at single samples. For one thread.
+/// Equilibria of a hypothesis's robot at single samples. For one thread.
 class SampleSolver {
  public:
   /// Both must outlive it.
@@ -30,20 +30,21 @@ class SampleSolver {
   /// [markers] points of the body that the markers sit at, offsets included.
   const std::vector<fem::InterpolationWeights>& markers() const { return markers_; }
 
-  /// [3n] where the nodes would be on the finer mesh of which the draft has the error, of a body
-  /// with its nodes at `x_m` [3n].
+  /// [3n] where the nodes would be on the finer mesh of which the hypothesis has the error, of a
+  /// body with its nodes at `x_m` [3n].
   Eigen::VectorXd OnFinerMesh(const Eigen::VectorXd& x_m) const;
   /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
   MeasuredPoints MeasuredPointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
-  /// The same of the skin; features that nobody saw then are nowhere (0). A camera is there
-  /// wherever the recording has pictures.
+  /// The same of the surface; features that nobody saw then are nowhere (0). A camera is there
+  /// wherever the recording has depth frames.
   MeasuredPoints SurfacePointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
 
   /// Brings `solved` from the state that it has (an empty one: from rest) to the balance at a
-  /// sample with `taken_in` [cables], a compliant base at what it gives way by.
+  /// sample with `taken_in` [cables], a compliant base at what it yields by.
   void Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
              const HistoryVariables& history_variables, SimulatedSample* solved);
-  /// Whether the body is so near the draft's wall that it may touch it elsewhere in the sample.
+  /// Whether the body is so near the hypothesis's obstacle that it may touch it elsewhere in the
+  /// sample.
   bool IsNearObstacle(const fem::StaticState& state) const;
   /// What a body will remember of where it is in the middle of `solved`; nothing (0) of one that
   /// failed.
@@ -53,7 +54,7 @@ class SampleSolver {
   HistoryInput Rest();
   /// Puts the model's moduli and gravity to what they are at a sample.
   void Prepare(const Sample& sample, const HistoryVariables& history_variables);
-  /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the drives.
+  /// [RubbingEyelets] CableFriction::sliding from now on; empty: everywhere towards the actuators.
   void SetSliding(const Eigen::VectorXd& sliding);
   /// [RubbingEyelets] friction coefficients.
   Eigen::VectorXd FrictionOfEyelets() const { return FrictionAt(eyelets_, hypothesis_.body); }
@@ -76,15 +77,15 @@ class SampleSolver {
   const ObservedExperiment& observed_;
   fem::PointStress points_;
   KeptStress kept_;                            ///< the first constraint after the cables
-  std::unique_ptr<ObstacleContact> obstacle_;  ///< the draft's, or none: the last
+  std::unique_ptr<ObstacleContact> obstacle_;  ///< the hypothesis's, or none: the last
   robot::RobotModel model_;
   std::vector<RubbingEyelet> eyelets_;
-  std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the wall
+  std::unique_ptr<ObstacleBalance> at_obstacle_;  ///< with the obstacle
   robot::SensitivitySolver sensitivity_;
   std::vector<fem::InterpolationWeights> markers_;
   MarkerNormals skin_;
   Eigen::VectorXd cell_volume_m3_;
-  Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the drives were zeroed at
+  Eigen::VectorXd zero_shift_m_;  ///< [cables] of the shape that the actuators were zeroed at
   Eigen::Vector3d base_turn_rad_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_middle_m_;
 };

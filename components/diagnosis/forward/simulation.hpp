@@ -21,7 +21,8 @@ struct HeldShape {
   std::size_t part = 0;  ///< of its parts, in which it is
   fem::StaticState state;
   std::vector<robot::CableCommand> commands;
-  /// [nodes of ObstacleSurface] with which the draft's wall presses on the body; empty: nowhere.
+  /// [nodes of ObstacleSurface] with which the hypothesis's obstacle presses on the body; empty:
+  /// nowhere.
   Eigen::VectorXd obstacle_force_N;
   Eigen::VectorXd seen_m;  ///< [coordinates] as SimulatedSample::seen_m
 
@@ -29,17 +30,17 @@ struct HeldShape {
 };
 
 /// What the past leaves for a sample: the body answers 1 + scale times as stiff, keeps stresses,
-/// and its cells are softened.
+/// and its elements are softened.
 struct HistoryVariables {
   double scale = 0.0;
   PointStresses stress_Pa;      ///< or empty: none
-  Eigen::VectorXd cell_factor;  ///< [cells] of the moduli, or empty: 1
+  Eigen::VectorXd cell_factor;  ///< [elements] of the moduli, or empty: 1
 };
 
-/// What a body may remember of a moment.
+/// What a body may remember of a sample.
 struct HistoryInput {
   PointStresses elastic_Pa;     ///< without what the body remembers itself
-  Eigen::VectorXf energy_J_m3;  ///< [cells] of the undamaged material
+  Eigen::VectorXf energy_J_m3;  ///< [elements] of the undamaged material
 };
 
 /// One sample of a simulated experiment.
@@ -59,13 +60,13 @@ struct SimulatedSample {
   /// it is no other than in the middle.
   std::array<HistoryInput, 2> at_ends;
   /// [coordinates] mean over the sample: x, y, z of each marker, measurement frame, then each
-  /// feature of the skin along its normal (SurfaceMeasurement::measured_m); NaN: not known, or
-  /// nobody measured it.
+  /// feature of the surface along its normal (SurfaceMeasurement::measured_m); NaN: not known, or
+  /// not measured.
   Eigen::VectorXd seen_m;
   Eigen::Index markers = 0;
   Eigen::VectorXd bend_m;      ///< [coordinates] by which that mean is not where the middle is
   bool bend_is_own = true;     ///< and not that of another robot
-  Eigen::MatrixXd jacobian_m;  ///< [coordinates x parameters] of them; 0: nobody measured it
+  Eigen::MatrixXd jacobian_m;  ///< [coordinates x parameters] of them; 0: not measured
 
   /// [3 x markers] of seen_m.
   Eigen::Map<const Eigen::Matrix3Xd> markers_m() const { return {seen_m.data(), 3, markers}; }
@@ -76,15 +77,15 @@ struct Simulation {
   Status status;  ///< of the first sample that failed
   std::vector<SimulatedSample> samples;
   HistoryInput at_rest;                ///< with every command at zero, as between recordings
-  Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (damage.hpp)
+  Eigen::MatrixXf below_largest_J_m3;  ///< BelowLargest_J_m3 (history.hpp)
   std::vector<HistoryVariables> history_variables;  ///< [samples] with which they are in balance
 };
 
-/// What a column of Memory stands for.
+/// What a column of HistoryOperator stands for.
 const HistoryInput& HistoryInputOf(const Simulation& simulation, Eigen::Index column);
 
-/// Adds the elastic stresses of all moments of Memory, each so often: `weights` [columns of it], of
-/// which those that matter nowhere are left out.
+/// Adds the elastic stresses of all samples of HistoryOperator, each so often: `weights` [columns
+/// of it], of which those that matter nowhere are left out.
 void AddHistoryStress(const Simulation& simulation, const Eigen::VectorXd& weights,
                       PointStresses* stress_Pa);
 

@@ -19,9 +19,9 @@
 
 namespace palpate::diagnosis {
 
-/// Works out where the markers would be seen at every sample of an experiment, if the robot were as
-/// a draft has it, and what a change of causes does to that. Recordings are shared by threads, each
-/// with a model of its own.
+/// Computes where the markers would be seen at every sample of an experiment, if the robot were as
+/// a hypothesis has it, and what a change of faults does to that. Recordings are shared by threads,
+/// each with a model of its own.
 class Simulator {
  public:
   /// `observed` must outlive it.
@@ -33,28 +33,28 @@ class Simulator {
   Simulation Run(const ModelHypothesis& hypothesis, const Simulation* start = nullptr,
                  Detail detail = Detail::kParts) const;
 
-  /// Fills jacobian_m of all samples: columns for every parameter of `causes`, in their order, z at
-  /// `z` [parameters of all]; `draft` is what these made. Of causes that are not `wanted` [causes]
-  /// the columns are 0.
+  /// Fills jacobian_m of all samples: columns for every parameter of `faults`, in their order, z at
+  /// `z` [parameters of all]; `hypothesis` is what these made. Of faults that are not `wanted`
+  /// [faults] the columns are 0.
   void Differentiate(const ModelHypothesis& hypothesis, const FaultModelList& models,
                      const Eigen::VectorXd& z, const std::vector<bool>& wanted,
                      const ModelHypothesis& nominal, Simulation* simulation) const;
 
-  /// Puts differences of simulations in the place of the columns of causes of which Differentiate
-  /// leaves out what matters (Cause::NeedsSimulation); one that cannot be simulated there keeps
-  /// them.
+  /// Puts differences of simulations in the place of the columns of faults of which Differentiate
+  /// leaves out what matters (FaultModel::NeedsSimulation); one that cannot be simulated there
+  /// keeps them.
   void DifferentiateBySimulation(const ModelHypothesis& nominal, const FaultModelList& models,
                                  const Eigen::VectorXd& z, Simulation* simulation) const;
 
-  /// [samples] all shapes of those with pictures, one for each part of a motion; `simulation` is of
-  /// this draft. Empty where it failed, or there are no pictures.
+  /// [samples] all shapes of those with depth frames, one for each part of a motion; `simulation`
+  /// is of this hypothesis. Empty where it failed, or there are no depth frames.
   std::vector<ShapesInTime> Shapes(const ModelHypothesis& hypothesis,
                                    const Simulation& simulation) const;
 
   const HistoryOperator& history() const { return history_; }
 
  private:
-  /// [threads] of one draft, each made where it is first needed.
+  /// [threads] of one hypothesis, each made where it is first needed.
   using Solvers = std::vector<std::unique_ptr<SampleSolver>>;
 
   /// [samples] parts of those, as they slide in a robot of which `simulated` is known.
@@ -71,10 +71,10 @@ class Simulator {
   HistoryOperator history_;
 };
 
-/// Parameters of all causes together.
+/// Parameters of all faults together.
 Eigen::Index ParameterCount(const FaultModelList& models);
 
-/// What causes make of the robot file's draft.
+/// What faults make of the nominal hypothesis.
 ModelHypothesis HypothesisWith(const ModelHypothesis& nominal, const FaultModelList& models,
                                const Eigen::VectorXd& z);
 

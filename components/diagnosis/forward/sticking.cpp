@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// [times] what is known of the moment that is nearest to each.
+/// [times] what is known of the sample that is nearest to each.
 std::vector<const EyeletSlides*> NearestSlides(const std::vector<double>& t_s,
                                                const std::vector<SimulatedSample>& samples) {
   std::vector<const EyeletSlides*> known;

@@ -29,7 +29,7 @@ class SumOfParameters final : public robot::Parameter {
 /// factor times the parameter.
 robot::ParameterPtr Scaled(double factor, robot::ParameterPtr parameter);
 
-/// What the drives take in changes by so much (m, or N where a tension is commanded).
+/// What the actuators take in changes by so much (m, or N where a tension is commanded).
 robot::ParameterPtr CommandChange(Eigen::VectorXd change);
 
 /// Dead loads on points of the body.

@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// A named cause for another one.
+/// A named fault for another one.
 struct Exchange {
   std::size_t named = 0;
   int other = -1;
@@ -24,16 +24,17 @@ std::vector<int> Exchanged(std::vector<int> faults, int from, int to) {
   return faults;
 }
 
-/// Whether the book's cause k is named already, at another place or with another time, too.
+/// Whether the hypothesis set's fault k is named already, at another place or with another time,
+/// too.
 bool IsNamed(const HypothesisSet& hypotheses, const std::vector<int>& faults, int k) {
   return std::any_of(faults.begin(), faults.end(), [&](int f) {
     return hypotheses.model(f).name() == hypotheses.model(k).name();
   });
 }
 
-/// What could stand in the place of each that is named, the most promising first, each cause by the
+/// What could stand in the place of each that is named, the most promising first, each fault by the
 /// best of its name. The linear model about the fit tells within one or two of ln p what a refit
-/// gives: named causes are far from none, but rivals do about the same as them.
+/// gives: named faults are far from none, but rivals do about the same as them.
 std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& selection) {
   constexpr double kWorthALook = -8.0;
   const HypothesisSet& hypotheses = fitter.hypotheses();

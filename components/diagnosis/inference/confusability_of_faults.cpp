@@ -16,7 +16,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Data about causes, where a healthy robot's tolerances are not known.
+/// Data about faults, where the tolerances are not known.
 class BesideTolerances {
  public:
   BesideTolerances(const HypothesisSet& hypotheses, const Information& data)
@@ -50,7 +50,7 @@ class BesideTolerances {
     return H + cross.transpose() * linalg::SolveSymmetric(left, cross);
   }
 
-  /// Squares of noise that a fault of this cause would make, expected.
+  /// Squares of noise that a fault of this fault would make, expected.
   double Size(int withheld) const {
     const std::vector<Eigen::Index> own = hypotheses_.ParametersOf({withheld});
     return About(own).diagonal().dot(FaultSquares(withheld));
@@ -79,7 +79,7 @@ class BesideTolerances {
   }
 
  private:
-  /// [parameters] of a fault, what is believed of their squares.
+  /// [parameters] of a fault, the prior of their squares.
   Eigen::VectorXd FaultSquares(int fault) const {
     constexpr double kNone = 1e-12;  // of what is held where it is
     const GaussianPrior prior = hypotheses_.PriorWith({fault});
@@ -100,7 +100,7 @@ struct ConfusabilityOfFaults {
   double explained = 0.0;  ///< together with those named before
 };
 
-/// The cause of another id that explains most of the withheld one; none: there is no other.
+/// The fault of another id that explains most of the withheld one; none: there is no other.
 std::optional<ConfusabilityOfFaults> BestBeside(const HypothesisSet& hypotheses,
                                                 const BesideTolerances& beside,
                                                 const std::vector<int>& named, int withheld) {
@@ -168,7 +168,7 @@ double ExplainedOfMisfit(const Fit& null_model, const Fit& fit) {
 
 double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& null_model,
                               const Fit& fit, bool is_noise) {
-  constexpr double kOutside = 1.0 / 20.0;  // as likely as one cause of the catalogue
+  constexpr double kOutside = 1.0 / 20.0;  // as likely as one fault of the catalogue
   constexpr double kFurther = 1.0 / 3.0;   // as likely as that there is none
   const std::size_t named = fit.faults.size();
   const double before =

@@ -9,7 +9,7 @@
 
 namespace palpate::diagnosis {
 
-/// A normal belief about each parameter before the data: sigma 0 holds it at its mean.
+/// A Gaussian prior about each parameter before the data: sigma 0 holds it at its mean.
 struct GaussianPrior {
   Eigen::VectorXd mean;
   Eigen::VectorXd sigma;
@@ -18,15 +18,15 @@ struct GaussianPrior {
       : mean(Eigen::VectorXd::Zero(parameters)), sigma(Eigen::VectorXd::Zero(parameters)) {}
 };
 
-/// What belief and data say together.
+/// What prior and data say together.
 struct Posterior {
   double ln_evidence = 0.0;  ///< ln p(data) up to a constant of the data
-  double misfit = 0.0;       ///< chi-squared of data and belief at the mean
+  double misfit = 0.0;       ///< chi-squared of data and prior at the mean
   Eigen::VectorXd mean;      ///< [parameters] the most probable
   Eigen::MatrixXd covariance;
 };
 
-/// Normal beliefs, linear data: exact. With D = diag(sigma), A = I + D H D,
+/// Normal priors, linear data: exact. With D = diag(sigma), A = I + D H D,
 ///   ln p = -(c - g' A^-1 g + ln det A) / 2, g = D (b - H mean), all about the mean.
 Posterior Infer(const Information& data, const GaussianPrior& prior);
 

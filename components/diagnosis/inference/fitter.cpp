@@ -35,7 +35,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
   }
 }
 
-/// What the `wanted` causes do at fit->z, of the rest what they do in `others`; all in all detail,
+/// What the `wanted` faults do at fit->z, of the rest what they do in `others`; all in all detail,
 /// where there are no others.
 void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* others,
                            Fit* fit) const {
@@ -137,14 +137,14 @@ Fit Fitter::Complete(Fit fit) const {
 }
 
 /// Tolerances may matter more than faults let see: a cable that is about to get taut moves nothing
-/// as long as its drive's zero is where the file has it.
+/// as long as its actuator's zero is where the file has it.
 Fit Fitter::Continued(Fit fit) const {
   constexpr int kMostSteps = 4;
   constexpr int kMostFailures = 2;
   constexpr double kLittle = 2.0;  // of chi-squared
   int failures = 0;
   Eigen::VectorXd to = PointFrom(fit, fit.faults);
-  // Against a healthy robot that was not fitted to its end anything is evidence.
+  // Against a nominal robot that was not fitted to its end anything is evidence.
   const bool may_end = !fit.faults.empty();
   for (int step = 0; step < kMostSteps && failures < kMostFailures; ++step) {
     if (may_end && IsOutOfTime()) return fit;

@@ -28,22 +28,22 @@ struct Fit {
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
-/// Of a healthy robot what has one sign only (play, creep, delay) stays linear while it is small:
+/// Of a nominal robot what has one sign only (play, creep, delay) stays linear while it is small:
 /// its derivative has two sides.
 class Fitter {
  public:
   /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at, but
-  /// for that of a healthy robot.
+  /// for that of a nominal robot.
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
          const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
          TimeLimit limit = {});
 
   /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
-  /// and what a healthy robot makes of it.
+  /// and what a nominal robot makes of it.
   Fit AsBuilt(const Simulation* simulated = nullptr) const;
   /// With these faults, from what `start` is fitted to. Ends where the linear model reaches, or
   /// after so many rounds, or where the evidence with a further fault stays below that of `start`;
-  /// a step after which the data fit worse is damped. Only what the faults do is worked out anew on
+  /// a step after which the data fit worse is damped. Only what the faults do is computed again on
   /// the way: what others do, tolerances as well, is taken from `start`, which is good enough to
   /// find the place, not to stand on it (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
@@ -53,20 +53,20 @@ class Fitter {
   /// With these faults as large as they are likely to be, all else as `start` has it, in all
   /// detail: where one that is there or not, and moves the body far, is fitted from.
   Fit WithFaults(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit in all detail, with what every cause does worked out where it is, and taken
-  /// further until the data fit where it leads as well as it promises. One that could not be
-  /// simulated stays as it is.
+  /// The same fit in all detail, with what every fault does computed where it is, and taken further
+  /// until the data fit where it leads as well as it promises. One that could not be simulated
+  /// stays as it is.
   Fit Complete(Fit fit) const;
-  /// A fit where it is, of measurements that have changed since (the skin matched anew), in all
+  /// A fit where it is, of measurements that have changed since (the surface matched again), in all
   /// detail; it may lead elsewhere now.
   Fit Remeasured(Fit fit) const;
-  /// The same without what causes do there.
+  /// The same without what faults do there.
   Fit Resimulated(Fit fit) const;
   /// The robot as a fit has it.
   ModelHypothesis HypothesisAt(const Fit& fit) const {
     return HypothesisWith(nominal_, models_, fit.z);
   }
-  /// [samples] where it is while pictures are taken.
+  /// [samples] where it is while depth frames are taken.
   std::vector<ShapesInTime> Shapes(const Fit& fit) const {
     return simulator_.Shapes(HypothesisAt(fit), fit.simulation);
   }
@@ -87,22 +87,22 @@ class Fitter {
                             double damping = 0.0) const;
   bool HasKinks(const std::vector<int>& faults) const;
   Eigen::VectorXd FaultStart(const std::vector<int>& faults, const Fit& start) const;
-  /// Chi-squared of data and belief at `z`, as the linear model of `fit` has it.
+  /// Chi-squared of data and prior at `z`, as the linear model of `fit` has it.
   double MisfitAt(const Fit& fit, const Eigen::VectorXd& z) const;
   /// Whether a fit's linear model was made where its posterior is.
   bool IsNear(const Fit& fit) const;
-  /// With the same faults at `z`, what causes do there taken from `fit`.
+  /// With the same faults at `z`, what faults do there taken from `fit`.
   Fit MovedTo(const Eigen::VectorXd& z, const Fit& fit) const;
-  /// With what every cause does there; what only runs tell, from `near` where there is one.
+  /// With what every fault does there; what only runs tell, from `near` where there is one.
   Fit InAllDetail(Fit fit, const Fit* near = nullptr) const;
   Fit Continued(Fit fit) const;
-  /// Whether the columns of cause k in a fit are of simulations.
+  /// Whether the columns of fault k in a fit are of simulations.
   bool IsKnownBySimulation(int k, const Fit& fit) const;
   void Differentiate(const std::vector<bool>& wanted, const Simulation* others, Fit* fit) const;
 
   const ObservedExperiment& observed_;
   const HypothesisSet& hypotheses_;
-  FaultModelList models_;  ///< all of the book
+  FaultModelList models_;  ///< all of the hypothesis set
   NoiseModel noise_;
   ModelHypothesis nominal_;
   Simulator simulator_;

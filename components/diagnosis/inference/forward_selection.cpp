@@ -111,8 +111,8 @@ namespace {
 
 constexpr double kBeyondTolerance = 3.0;
 
-/// By how many sigmas the data exclude a healthy robot, of a cause with sizes that begin at nothing
-/// beside such as a healthy robot may have: of these the likeliest where the others are nothing. 0:
+/// By how many sigmas the data exclude a nominal robot, of a fault with sizes that begin at nothing
+/// beside such as a nominal robot may have: of these the likeliest where the others are nothing. 0:
 /// it has none of them. Data may tell the sum of a delay and a time constant, and neither of them.
 double SigmasFromNominal(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   std::vector<Eigen::Index> tolerated;
@@ -147,7 +147,7 @@ double SigmasFromNominal(const HypothesisSet& hypotheses, const Posterior& poste
   return std::sqrt(off.dot(linalg::SolveSymmetric(covariance_of_all, off)));
 }
 
-/// How many of its tolerances a cause is away from the robot file; infinite for one that a healthy
+/// How many of its tolerances a fault is away from the robot file; infinite for one that a nominal
 /// robot has nothing of, of which the evidence says all.
 double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   double most = -1.0;
@@ -171,7 +171,8 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
 }
 
 /// Whether what is known of how large it is does not exclude that there is nothing of it. Evidence
-/// for such a one is of fits that did not come to their ends. A wall that nearly touches is one.
+/// for such a one is of fits that did not come to their ends. An obstacle that nearly touches is
+/// one.
 bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
   constexpr double kClearly_sigmas = 2.0;
   if (hypotheses.model(fault).Start()) return false;
@@ -211,8 +212,8 @@ std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posteri
 
 namespace {
 
-constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated anew
-constexpr double kMayGetClear = 5.0;     ///< ln BF that a further cause promises before
+constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated again
+constexpr double kMayGetClear = 5.0;     ///< ln BF that a further fault promises before
 constexpr std::size_t kMostRefined = 4;  ///< in a round
 constexpr int kMostRounds = 2;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated

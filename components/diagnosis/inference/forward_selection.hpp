@@ -14,50 +14,50 @@
 
 namespace palpate::diagnosis {
 
-/// A cause that was looked at as the next one, and what became of it.
+/// A fault that was evaluated as the next one, and what became of it.
 struct Candidate {
   int fault = -1;  ///< the best of those that have its name (places, relaxation times)
-  double ln_bayes_factor = 0.0;  ///< against the causes named before; those of one name averaged
+  double ln_bayes_factor = 0.0;  ///< against the faults named before; those of one name averaged
   double ln_screened = 0.0;      ///< the same of that one alone, before it was simulated
   double canonical_correlation =
       0.0;                   ///< canonical correlation of its effect with that of the first named
-  bool refined = false;      ///< simulated anew where it fits best
+  bool refined = false;      ///< simulated again where it fits best
   std::string why_not = {};  ///< empty: named
   bool ruled_out = false;    ///< where it fits best it is no fault, or more than any robot has
-  std::vector<int> starts = {};  ///< causes of its name to simulate, the most probable first
+  std::vector<int> starts = {};  ///< faults of its name to simulate, the most probable first
 };
 
 /// `faults`, and one more.
 std::vector<int> With(std::vector<int> faults, int fault);
 
-/// All causes that could be the next beside `faults`, by the linear model of `about`, the most
+/// All faults that could be the next beside `faults`, by the linear model of `about`, the most
 /// probable first; the best of each name stands for it.
 std::vector<Candidate> Screen(const Fitter& fitter, const Fit& about,
                               const std::vector<int>& faults);
 /// The most probable first.
 void SortByEvidence(std::vector<Candidate>* candidates);
 
-/// The largest canonical correlation between what two causes do, what manufacturing tolerances can
+/// The largest canonical correlation between what two faults do, what manufacturing tolerances can
 /// make up for taken out; in [0, 1].
 double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
                             int b);
 
-/// Why a cause as large as a fit has it is no fault (DIAGNOSIS, "Method" 5): within three of the
-/// tolerances that a healthy robot has, as likely nothing at all, or so large that it is rather
-/// another cause in disguise.
-/// Empty: it may be one.
+/// Why a fault as large as a fit has it is no fault (docs/theory/model_selection.md, Forward
+/// selection): within three of the tolerances that a nominal robot has, as likely nothing at all,
+/// or so large that it is rather another fault in disguise. Empty: it may be one.
 std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault);
 
-inline constexpr double kClearEvidence = 10.0;             ///< ln BF that a cause must have
-inline constexpr double kIndistinguishableEvidence = 3.0;  ///< ln BF within which causes fit alike
+inline constexpr double kClearEvidence = 10.0;             ///< ln BF that a fault must have
+inline constexpr double kIndistinguishableEvidence = 3.0;  ///< ln BF within which faults fit alike
 
-/// ln BF within which a rival is not told apart from the cause that is named. Of causes whose
-/// effects are the same (canonical correlation above 0.95; DIAGNOSIS, "Method" 8) what is believed
-/// beforehand of their sizes decides, not the data: only clear evidence is enough. Not so of a
-/// special case: what speaks against it is what the data have of all else that the cause can do.
+/// ln BF within which a rival is not told apart from the fault that is named. Of faults whose
+/// effects are the same (canonical correlation above 0.95; docs/theory/model_selection.md,
+/// Identifiability) what is assumed a priori beforehand of their sizes decides, not the data: only
+/// clear evidence is enough. Not so of a special case: what speaks against it is what the data have
+/// of all else that the fault can do.
 double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival);
 
-/// One cause that was named.
+/// One fault that was named.
 struct Choice {
   int fault = -1;
   double ln_bayes_factor = 0.0;
@@ -66,8 +66,8 @@ struct Choice {
   std::vector<double> ln_gain_of_recording = {};  ///< of what was predicted
 };
 
-/// Looks for one further cause: all are screened, those that promise most simulated, and the best
-/// of these taken that a robot can have and that predicts what it was not fitted to.
+/// Searches for one further fault: all are screened, those that promise most simulated, and the
+/// best of these taken that a robot can have and that predicts what it was not fitted to.
 class ForwardSelectionStep {
  public:
   /// All must outlive it.
@@ -85,7 +85,7 @@ class ForwardSelectionStep {
 
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const;
-  /// Simulates the cause of this name: what that says of it takes the place of what the linear
+  /// Simulates the fault of this name: what that says of it takes the place of what the linear
   /// model says.
   void SimulateLikely(const CauseName& name);
   /// Whether to simulate further ones: those that were are none that a robot can have, or explain
@@ -95,22 +95,22 @@ class ForwardSelectionStep {
   bool PromisesAnotherMoreThan(std::size_t k) const;
   /// Of those that were simulated and explain no less than another promises; each is judged once.
   void FindOneThatIsClear(const CrossValidation& cross_validation);
-  /// Behind those that they are special cases of, as far as these are looked at.
+  /// Behind those that they are special cases of, as far as these are evaluated.
   void PutSpecialCasesNext(std::size_t first, std::size_t end);
   /// The next ones that were not simulated before.
   void RefineTheBest();
-  /// The start that fits best after a few rounds becomes the candidate's cause, and goes on.
+  /// The start that fits best after a few rounds becomes the candidate's fault, and goes on.
   Fit RefineFromItsStarts(Candidate* candidate) const;
   /// With what tolerances do where the fit is, and at the best of its places.
   void Complete(std::size_t k);
   void SortRefined();
   bool IsClear(const CrossValidation& before, std::size_t k);
-  /// Half of what is believed before is that there is no further cause.
+  /// Half of what is assumed a priori before is that there is no further fault.
   double Probability(std::size_t k) const;
-  /// Whether the robot without the cause fits only far off its tolerances, and with it near them:
-  /// it may then predict as well, but no healthy robot does.
+  /// Whether the robot without the fault fits only far off its tolerances, and with it near them:
+  /// it may then predict as well, but no nominal robot does.
   bool KeepsTolerances(std::size_t k) const;
-  /// In how many recordings the fit is clearly better with the cause.
+  /// In how many recordings the fit is clearly better with the fault.
   int SeenIn(std::size_t k) const;
   void Explain();
 

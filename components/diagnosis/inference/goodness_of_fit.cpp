@@ -174,8 +174,8 @@ Eigen::Index ResidualStatistics::MisfitBeside(Eigen::Index test) const {
 
 namespace {
 
-/// A gap smaller than this share of the noise's chi-squared may be the mesh's: its errors, a per
-/// cent of some 10 mm, are not quite the constants that NoiseModel takes them for.
+/// A model error smaller than this share of the noise's chi-squared may be the mesh's: its errors,
+/// a per cent of some 10 mm, are not quite the constants that NoiseModel takes them for.
 constexpr double kLeastExcess = 0.15;
 /// Of the bootstrap: one right model in so many fails.
 constexpr double kFalseAlarms = 0.02;

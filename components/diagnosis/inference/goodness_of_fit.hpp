@@ -19,10 +19,10 @@ namespace palpate::diagnosis {
 /// - the misfit of all recordings;
 /// and of each recording
 /// - its misfit;
-/// - how neighbouring moments hang together (runs);
-/// - how neighbouring markers do, and neighbouring features of the skin (the products of Moran's
+/// - how neighbouring samples hang together (runs);
+/// - how neighbouring markers do, and neighbouring features of the surface (the products of Moran's
 /// I);
-/// - what goes along with the commands, and with how fast they change, beyond a constant.
+/// - what correlates with the commands, and with how fast they change, beyond a constant.
 class ResidualStatistics {
  public:
   /// `rest_m` [3 x markers]: of the undeformed body.
@@ -49,7 +49,7 @@ class ResidualStatistics {
     std::vector<Eigen::Index> rows;
     std::vector<Pair> in_time, on_body;
   };
-  /// Rows of one recording and coordinate, and what goes along with them, orthonormal.
+  /// Rows of one recording and coordinate, and what correlates with them, orthonormal.
   struct Series {
     Eigen::Index recording, first_row;
     Eigen::MatrixXd commands, rates;  ///< [rows x directions]
@@ -67,7 +67,7 @@ class ResidualStatistics {
   std::vector<Series> series_;
 };
 
-/// Whether what a fit leaves over is what noise and belief would leave.
+/// Whether what a fit leaves over is what noise and prior would leave.
 struct GoodnessOfFit {
   bool passed = false;
   double surprise = 0.0;  ///< the worst test, in standard deviations of what a right model leaves

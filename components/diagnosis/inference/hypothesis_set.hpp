@@ -12,13 +12,13 @@
 
 namespace palpate::diagnosis {
 
-/// All causes that a robot may have, where their parameters stand among all, and what is believed
-/// of them. Causes are known by their number here.
+/// All faults that a robot may have, where their parameters stand among all, and the prior of them.
+/// Faults are known by their number here.
 class HypothesisSet {
  public:
-  /// `tolerances` (experiment.yaml): cause id -> sigma of its first parameter for a healthy robot,
+  /// `tolerances` (experiment.yaml): fault id -> sigma of its first parameter for a nominal robot,
   /// or of the length of the vector that this is a component of, the others in proportion. One of
-  /// something that is no cause here is of no effect.
+  /// something that is no fault here is of no effect.
   HypothesisSet(std::vector<FaultModelPtr> models, std::map<std::string, double> tolerances);
 
   int size() const { return static_cast<int>(models_.size()); }
@@ -28,13 +28,13 @@ class HypothesisSet {
   Eigen::Index count(int k) const { return first(k + 1) - first(k); }
   double ToleranceOf(int k, int parameter) const;
 
-  /// Whether the one is a special case of the other (Cause::SpecialCase).
+  /// Whether the one is a special case of the other (FaultModel::SpecialCase).
   bool IsSpecialCase(int special, int of) const {
     return model(of).SpecialCase() == model(special).name().id;
   }
-  /// Whether a robot may have it as a fault: beyond what a healthy one has of it.
+  /// Whether a robot may have it as a fault: beyond what a nominal one has of it.
   bool CanBeFault(int k) const;
-  /// A robot within its manufacturing tolerances, but for the causes in `faults`.
+  /// A robot within its manufacturing tolerances, but for the faults in `faults`.
   GaussianPrior PriorWith(const std::vector<int>& faults) const;
   /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
   /// its bound. The parameters `at_zero` are held there, the idle ones where the data are linear:
@@ -43,16 +43,16 @@ class HypothesisSet {
   Posterior InferWithin(const Information& data, const std::vector<int>& faults,
                         const std::vector<Eigen::Index>& at_zero = {}) const;
 
-  /// Parameters that only qualify what causes do that are not in `faults`.
+  /// Parameters that only qualify what faults do that are not in `faults`.
   std::vector<Eigen::Index> Idle(const std::vector<int>& faults) const;
 
   FaultModelList All() const;
-  /// The parameters of these causes, one after the other.
+  /// The parameters of these faults, one after the other.
   std::vector<Eigen::Index> ParametersOf(const std::vector<int>& numbers) const;
 
  private:
   std::vector<FaultModelPtr> models_;
-  std::vector<Eigen::Index> first_;  ///< [causes + 1]
+  std::vector<Eigen::Index> first_;  ///< [faults + 1]
   std::map<std::string, double> tolerances_;
 };
 

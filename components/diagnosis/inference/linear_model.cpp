@@ -46,13 +46,13 @@ bool IsSeen(const ObservedExperiment& observed, const Simulation& simulation, st
          simulated.jacobian_m.row(coordinate).allFinite();
 }
 
-/// How far a place of the skin is from where it is in the undeformed body, m.
+/// How far a place of the surface is from where it is in the undeformed body, m.
 double SurfaceDisplacement_m(const SurfaceMeasurement& surface, const SimulatedSample& simulated) {
   return (surface.point.Position(simulated.middle.state.x_m) - surface.rest_m).norm();
 }
 
-/// From where another recording was seen, other parts of the skin about a feature are in view, and
-/// what its drawing is off by is not what it is there.
+/// From where another recording was seen, other parts of the surface about a feature are in view,
+/// and what its drawing is off by is not what it is there.
 double SkinError_m(const ObservedExperiment& observed, int recording, const NoiseModel& noise) {
   constexpr double kFromElsewhere_m = 3e-4;
   const auto first =

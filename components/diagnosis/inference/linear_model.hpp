@@ -31,7 +31,7 @@ struct LinearModel {
   Eigen::MatrixXd J;  ///< [rows x parameters]
   Eigen::VectorXd y;  ///< [rows]
   std::vector<int> sample_of_row;
-  std::vector<int> coordinate_of_row;  ///< 3 marker + axis, then features of the skin
+  std::vector<int> coordinate_of_row;  ///< 3 marker + axis, then features of the surface
   std::vector<Information> of_recording;
 
   Information All() const;
@@ -39,11 +39,11 @@ struct LinearModel {
 };
 
 struct NoiseModel {
-  /// What a mesh gets wrong, as a share of how far a marker, or the skin, is displaced: of each
+  /// What a mesh gets wrong, as a share of how far a marker, or the surface, is displaced: of each
   /// coordinate and recording a constant, one sigma. Noise that no averaging removes.
   double relative_error = 0.01;
-  /// The same of the skin, m: where it lies beside its drawing and the camera's smooth error, from
-  /// another side, or in another shape.
+  /// The same of the surface, m: where it lies beside its drawing and the camera's smooth error,
+  /// from another side, or in another shape.
   double skin_error_m = 1e-4;
 };
 

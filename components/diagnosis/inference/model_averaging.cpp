@@ -14,7 +14,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// What a linear model says of the cause at another of its places.
+/// What a linear model says of the fault at another of its places.
 struct Elsewhere {
   int fault = -1;
   Posterior posterior;

@@ -12,7 +12,7 @@ namespace {
 /// One sigma of each component.
 constexpr double kPrior_N = 0.05;
 
-/// Forces are the first three parameters of their cause, along the world's axes; then the place.
+/// Forces are the first three parameters of their fault, along the world's axes; then the place.
 constexpr Eigen::Index kComponents = 3;
 
 std::vector<int> ForcesOf(const HypothesisSet& hypotheses) {

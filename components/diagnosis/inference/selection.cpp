@@ -11,7 +11,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Whether a cause that fitted as well as one that was named still could stand in its place, now
+/// Whether a fault that fitted as well as one that was named still could stand in its place, now
 /// that others are named beside.
 bool IsIndistinguishable(const Fitter& fitter, const Selection& selection, const Candidate& rival) {
   const std::vector<int>& faults = selection.best.faults;

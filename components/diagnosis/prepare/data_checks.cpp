@@ -90,7 +90,7 @@ bool IsShuffled(const Recording& recording, const Eigen::Vector3d& sigma_m) {
          markers.Ratio() > kMoreThanCommands * OfCommands(recording).Ratio();
 }
 
-/// Pictures of one recording that were matched, by time.
+/// Depth frames of one recording that were matched, by time.
 std::vector<const SeenCloud*> CloudsOf(const ObservedExperiment& observed,
                                        const SurfaceClouds& clouds, std::size_t recording) {
   std::vector<const SeenCloud*> seen;
@@ -103,7 +103,7 @@ std::vector<const SeenCloud*> CloudsOf(const ObservedExperiment& observed,
   return seen;
 }
 
-/// The whole of a picture, down to its noise, is never the same twice.
+/// The whole of a depth frame, down to its noise, is never the same twice.
 bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
   constexpr std::size_t kFewestPairs = 3;
   constexpr double kShare = 0.3;
@@ -115,7 +115,7 @@ bool IsFrozen(const std::vector<const SeenCloud*>& clouds) {
   return pairs >= kFewestPairs && static_cast<double>(same) > kShare * static_cast<double>(pairs);
 }
 
-/// How the commands go at the stamps of pictures.
+/// How the commands go at the stamps of depth frames.
 Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud*>& clouds) {
   Jumpiness jumpiness;
   for (Eigen::Index c = 0; c < std::ssize(timeline.cables); ++c) {
@@ -129,7 +129,7 @@ Jumpiness OfCommands(const Timeline& timeline, const std::vector<const SeenCloud
   return jumpiness;
 }
 
-/// [features] variance of the noise of one picture in a recording, m2; NaN: never seen there.
+/// [features] variance of the noise of one depth frame in a recording, m2; NaN: never seen there.
 Eigen::VectorXd NoiseOfFrames_m2(const ObservedExperiment& observed, std::size_t recording) {
   Eigen::VectorXd sum_m2 = Eigen::VectorXd::Zero(observed.feature_rest_m.cols());
   Eigen::VectorXd samples = sum_m2;
@@ -146,7 +146,7 @@ Eigen::VectorXd NoiseOfFrames_m2(const ObservedExperiment& observed, std::size_t
   return sum_m2.cwiseQuotient(samples);
 }
 
-/// The skin lies off where it is thought to be as smoothly as the body moves: most features of
+/// The surface lies off where it is thought to be as smoothly as the body moves: most features of
 /// which that is far more than noise jump as much as their stamps make of it. One alone may look
 /// from edge to edge.
 bool IsShuffled(const ObservedExperiment& observed, std::size_t recording,

@@ -19,9 +19,9 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Points that lie farther off the skin are of something else, or on a leg that is elsewhere.
+/// Points that lie farther off the surface are of something else, or on a leg that is elsewhere.
 constexpr double kFarthest_m = 0.03;
-/// Points of a picture that are looked at, about as many.
+/// Points of a depth frame that are evaluated, about as many.
 constexpr Eigen::Index kPoints = 500;
 /// Another robot is taken for it where the mean square of what points are off by is so much less.
 constexpr double kClearlyLess = 0.5;
@@ -69,7 +69,7 @@ ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
 /// not known.
 class Distance {
  public:
-  /// Both must outlive it. Looks at the pictures from where `as_in_file` stands.
+  /// Both must outlive it. Looks at the depth frames from where `as_in_file` stands.
   Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
            SurfaceSource* source, const ModelHypothesis& as_in_file)
       : telling_(telling),

@@ -9,9 +9,9 @@
 
 namespace palpate::diagnosis {
 
-/// verdict.json (ARCHITECTURE, "The command"), SI. What is not known is null, and so is
-/// `next_experiment` where nothing is left to tell apart. A cause's `where` is a text, or a list
-/// where the cause is at several places.
+/// verdict.json (docs/experiment.md), SI. What is not known is null, and so is `next_experiment`
+/// where nothing is left to tell apart. A cause's `where` is a text, or a list where the cause is
+/// at several places.
 std::string FormatVerdict(const DiagnosisResult& result);
 
 }  // namespace palpate::diagnosis

@@ -13,14 +13,14 @@
 
 namespace palpate::diagnosis {
 
-/// What was seen of the robot in one picture of a sample.
+/// What was seen of the robot in one depth frame of a sample.
 struct SeenCloud {
   DepthFrame frame;
   rgbd::SensedCloud cloud;   ///< of the robot alone, camera frame; empty: it was not seen
   std::uint64_t digest = 0;  ///< SegmentedCloud::digest
   std::string why_not = {};  ///< it was not seen
-  /// [features] mean over the skin where the robot was thought to be when it was matched last; NaN:
-  /// not seen. Empty: nothing was matched.
+  /// [features] mean over the surface where the robot was thought to be when it was matched last;
+  /// NaN: not seen. Empty: nothing was matched.
   Eigen::VectorXd height_m = {};
 };
 

@@ -18,19 +18,20 @@ namespace {
 
 /// How far beside the predicted outline a cloud point may lie.
 constexpr double kBeside_m = 3e-3;
-/// A cloud that lies farther off the skin is of something else: a depth scale of 3.5 % moves it by
-/// 16 mm half a metre away.
+/// A cloud that lies farther off the surface is of something else: a depth scale of 3.5 % moves it
+/// by 16 mm half a metre away.
 constexpr double kFarthest_m = 0.02;
 /// What changes from shape to shape as other facets and other pixels come into view, one sigma; no
-/// number of pictures takes it away.
+/// number of depth frames takes it away.
 constexpr double kMatching_m = 8e-5;
-/// Pictures that follow each other err alike.
+/// Depth frames that follow each other err alike.
 constexpr double kInCommon = 1.3;
 /// By how much of a wave the effect of one is found, and where the two begin.
 constexpr double kRipple_px = 0.02;
 constexpr double kRippleTurns[] = {0.0, 0.25};
 
-/// Nodes as the camera measures them, but for what it errs by on slanted skin, camera frame [3n].
+/// Nodes as the camera measures them, but for what it errs by on slanted surface, camera frame
+/// [3n].
 Eigen::VectorXd AsMeasured(const CameraView& camera, const Eigen::Isometry3d& T_camera_robot,
                            const Eigen::Matrix3Xf& nodes_m) {
   Eigen::Matrix3Xd measured_m = T_camera_robot * nodes_m.cast<double>();
@@ -177,7 +178,7 @@ void SurfaceMatcher::MatchSample(const ModelHypothesis& hypothesis, const Shapes
   }
 }
 
-/// Adds what one picture shows of each feature.
+/// Adds what one depth frame shows of each feature.
 void SurfaceMatcher::MeasureFeatures(const Eigen::VectorXd& measured_m, double stereo_px_m,
                                      SeenCloud* seen,
                                      std::vector<std::vector<FeatureInFrame>>* in_frames) {

@@ -15,8 +15,8 @@
 
 namespace palpate::diagnosis {
 
-/// Brings what pictures show of the skin into the samples of an experiment: one coordinate for each
-/// feature point of the robot that is in view (SurfaceMeasurement).
+/// Brings what depth frames show of the surface into the samples of an experiment: one coordinate
+/// for each feature point of the robot that is in view (SurfaceMeasurement).
 class SurfaceMatcher {
  public:
   /// Throws InputError where the robot has no feature points.
@@ -25,15 +25,15 @@ class SurfaceMatcher {
   /// [3 x features] of the undeformed body.
   const Eigen::Matrix3Xd& rest_m() const { return features_.rest_m(); }
 
-  /// Looks at all pictures; `shapes` [samples]: where the robot is thought to be then.
+  /// Looks at all depth frames; `shapes` [samples]: where the robot is thought to be then.
   void Read(const ObservedExperiment& observed, const std::vector<ShapesInTime>& shapes,
             SurfaceSource* source);
   const SurfaceClouds& clouds() const { return clouds_; }
 
-  /// Fills Sample::skin of all samples, matched about `shapes` [samples] of `draft`.
+  /// Fills Sample::surface of all samples, matched about `shapes` [samples] of `hypothesis`.
   void Match(const ModelHypothesis& hypothesis, const std::vector<ShapesInTime>& shapes,
              ObservedExperiment* observed);
-  /// Of the last Match: features in view whose clouds lie on the skin, and beyond it.
+  /// Of the last Match: features in view whose clouds lie on the surface, and beyond it.
   int matched() const { return matched_; }
   int outliers() const { return outliers_; }
 
@@ -49,11 +49,11 @@ class SurfaceMatcher {
     double Mean() const { return sum / count; }
   };
 
-  /// One feature in one picture.
+  /// One feature in one depth frame.
   struct FeatureInFrame {
-    double height_m;  ///< mean of its cloud points over the skin as it is expected
+    double height_m;  ///< mean of its cloud points over the surface as it is expected
     double sigma_m;
-    robot::ObservationRow row;                              ///< of that skin
+    robot::ObservationRow row;                              ///< of that surface
     Eigen::Vector3d normal;                                 ///< camera frame
     Eigen::Vector2d ripple_m_px = Eigen::Vector2d::Zero();  ///< SurfaceMeasurement::ripple_m_px
   };
@@ -72,8 +72,9 @@ class SurfaceMatcher {
   correspondence::PredictedView view_;
   correspondence::PatchMatching patches_;
   SurfaceClouds clouds_;
-  std::vector<MeanOf> measured_;  ///< [features] variance of one picture where nothing moves, m2
-  std::vector<MeanOf> nominal_;   ///< [features] as the depth noise makes it, m2
+  std::vector<MeanOf>
+      measured_;                 ///< [features] variance of one depth frame where nothing moves, m2
+  std::vector<MeanOf> nominal_;  ///< [features] as the depth noise makes it, m2
   int matched_ = 0;
   int outliers_ = 0;
 };

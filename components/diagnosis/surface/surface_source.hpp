@@ -13,20 +13,21 @@
 
 namespace palpate::diagnosis {
 
-/// Where the robot is thought to be in a picture.
+/// Where the robot is thought to be in a depth frame.
 struct ExpectedShape {
   Eigen::Matrix3Xf nodes_m;  ///< [3 x nodes] robot frame
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
 };
 
-/// What a picture shows of the robot.
+/// What a depth frame shows of the robot.
 struct SegmentedCloud {
-  Status status;             ///< why nothing of it, or ok
-  rgbd::SensedCloud cloud;   ///< points of the robot alone, camera frame
-  std::uint64_t digest = 0;  ///< of all that was measured: alike in two pictures only if they are
+  Status status;            ///< why nothing of it, or ok
+  rgbd::SensedCloud cloud;  ///< points of the robot alone, camera frame
+  std::uint64_t digest =
+      0;  ///< of all that was measured: alike in two depth frames only if they are
 };
 
-/// The pictures of an experiment. What tells the robot from all else in them is not known here.
+/// The depth frames of an experiment. What tells the robot from all else in them is not known here.
 class SurfaceSource {
  public:
   SurfaceSource() = default;
@@ -34,11 +35,11 @@ class SurfaceSource {
   SurfaceSource(const SurfaceSource&) = delete;
   SurfaceSource& operator=(const SurfaceSource&) = delete;
 
-  /// `recording`: index into the experiment's; `picture`: number in it, by time. Pictures of a
-  /// recording are asked for by rising time, or all over again. Throws InputError where a file
+  /// `recording`: index into the experiment's; `depth frame`: number in it, by time. Depth frames
+  /// of a recording are asked for by rising time, or all over again. Throws InputError where a file
   /// cannot be read.
   virtual SegmentedCloud Segment(int recording, int frame, const ExpectedShape& expected) = 0;
-  /// The camera of a recording, as its data sheet has it. Throws InputError where nobody says.
+  /// The camera of a recording, as its data sheet has it. Throws InputError where it is not given.
   virtual rgbd::RgbdCamera Camera(int recording) = 0;
 };
 

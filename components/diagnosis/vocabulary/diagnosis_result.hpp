@@ -12,7 +12,7 @@
 
 namespace palpate::diagnosis {
 
-/// A parameter of a cause with its 95 % interval; name and unit as in DIAGNOSIS, "Conventions".
+/// A parameter of a cause with its 95 % interval; name and unit as in docs/diagnosis.md.
 struct FittedParameter {
   std::string name;
   double value = 0.0;
@@ -20,13 +20,13 @@ struct FittedParameter {
   double ci95_high = 0.0;
 };
 
-/// What is said of a robot's simulation (DIAGNOSIS, "Method").
+/// What is said of a robot's simulation (docs/theory/model_selection.md).
 enum class Verdict {
   kNoFault,            ///< what it gets wrong is within noise and manufacturing tolerances
-  kCause,              ///< the causes named explain the gap
-  kIndistinguishable,  ///< there is a gap, and these data fit two causes or more alike
-  kPartlyExplained,    ///< a cause is named, and a gap beyond the noise remains
-  kUnexplained,        ///< there is a gap that no cause of the catalogue explains
+  kCause,              ///< the causes named explain the model error
+  kIndistinguishable,  ///< there is a model error, and these data fit two causes or more alike
+  kPartlyExplained,    ///< a cause is named, and a model error beyond the noise remains
+  kUnexplained,        ///< there is a model error that no cause of the catalogue explains
   kDataUnfit,          ///< the data cannot tell; `reason` says why
 };
 
@@ -35,7 +35,7 @@ std::string ToString(Verdict verdict);
 
 /// A cause of the catalogue at one place of the robot.
 struct CauseName {
-  std::string id;                  ///< of DIAGNOSIS, "Catalogue"
+  std::string id;                  ///< of docs/diagnosis.md
   std::vector<std::string> where;  ///< "cable:north", "region:leg_north", "body", "base", "camera"
 
   bool operator==(const CauseName&) const = default;
@@ -46,9 +46,10 @@ struct NamedCause {
   CauseName name;
   std::string words;  ///< for people: "friction of cable north"
   std::vector<FittedParameter> parameters;
-  double probability = 0.0;          ///< in (0, 0.99]
-  double ln_bayes_factor = 0.0;      ///< against the same model without it
-  double explained_share = 0.0;      ///< of what tolerances leave beyond noise (gap.hpp)
+  double probability = 0.0;      ///< in (0, 0.99]
+  double ln_bayes_factor = 0.0;  ///< against the same model without it
+  double explained_share =
+      0.0;  ///< of what tolerances leave beyond noise (explain/model_error.hpp)
   bool cross_validated = false;      ///< it lowers the error in recordings it was not fitted to
   std::vector<std::string> seen_in;  ///< recordings that speak for it
 };
@@ -58,7 +59,7 @@ struct Rival {
   CauseName name;
   std::string words;
   double probability = 0.0;
-  double ln_bayes_factor = 0.0;  ///< against the healthy robot
+  double ln_bayes_factor = 0.0;  ///< against the nominal robot
   double canonical_correlation =
       0.0;  ///< canonical correlation with the first named cause, in [0, 1]
   std::string why_not;
@@ -68,11 +69,11 @@ struct Rival {
 struct RecordingError {
   std::string name;
   std::string kind;
-  int samples = 0;                ///< moments that were compared
+  int samples = 0;                ///< samples that were compared
   double before_m = 0.0;          ///< the simulation as the robot file has it
   double null_model_m = 0.0;      ///< fitted within the manufacturing tolerances
   double after_m = 0.0;           ///< with the causes that were named
-  double heldout_before_m = 0.0;  ///< healthy robot, fitted to the other recordings
+  double heldout_before_m = 0.0;  ///< nominal robot, fitted to the other recordings
   double heldout_after_m = 0.0;   ///< extended model, fitted to the other recordings
   double noise_m = 0.0;           ///< what measuring alone leaves
 };
@@ -86,13 +87,13 @@ struct ErrorSummary {
   double noise_m = 0.0;
 };
 
-/// One moment that simulation and robot were compared at.
+/// One sample that simulation and robot were compared at.
 struct ComparedSample {
   int recording = 0;  ///< index into DiagnosisResult::recordings
   double t_s = 0.0;
   Eigen::VectorXd command;    ///< [cables] m or N as commanded; NaN: not driven
   Eigen::Matrix3Xd before_m;  ///< [3 x markers] measured - simulated, robot frame; NaN: not seen
-  Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the healthy robot's fit)
+  Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the nominal robot's fit)
 };
 
 /// What tells the causes apart that are left.
@@ -104,7 +105,7 @@ struct ExperimentProposal {
 };
 
 /// Forces on the body, in one recording throughout, that would do what the simulation leaves there.
-/// Without columns where nobody looked for forces.
+/// Without columns where nobody searched forces.
 struct ResidualForces {
   std::string recording;
   Eigen::Matrix3Xd place_m;   ///< [3 x places] of the undeformed body, robot frame
@@ -112,7 +113,7 @@ struct ResidualForces {
   Eigen::Matrix3Xd after_N;   ///< for what the named causes leave
 };
 
-/// The test of what is left that is least like noise (GoodnessOfFit).
+/// The test of the residual that is least like noise (GoodnessOfFit).
 struct ResidualTest {
   bool is_noise = false;
   std::string test;

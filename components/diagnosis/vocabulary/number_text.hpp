@@ -24,7 +24,7 @@ std::string ProbabilityText(double probability);
 /// "83 %"
 std::string PercentText(double share);
 
-/// How a parameter is shown; its name ends in its SI unit (DIAGNOSIS, "Conventions").
+/// How a parameter is shown; its name ends in its SI unit (docs/diagnosis.md).
 struct ParameterText {
   std::string name;      ///< "offset"
   std::string unit;      ///< "mm"; empty: a plain number

@@ -121,7 +121,7 @@ TEST(ActuatorChain, FirstOrderIsExactForARampHoweverFewTheFrames) {
   };
   EXPECT_NEAR(taken_in[0], rising(0.5), 1e-15);
   EXPECT_NEAR(taken_in[1], rising(7.0), 1e-15);
-  // After the turn: the steady way down and what is left of the difference to it.
+  // After the turn: the steady way down and the residual of the difference to it.
   const double steady_at_turn = 0.010 + 0.001 * settings.tau_s;
   const double expected = 0.008 + 0.001 * settings.tau_s +
                           (rising(10.0) - steady_at_turn) * std::exp(-2.0 / settings.tau_s);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kGainBesideEnds = 0.1;
 constexpr double kLessThanTheMesh = -1.5;
 
-/// What the mesh gives way by where cables end, as a diagnosis counts with it.
+/// What the mesh yields by where cables end, as a diagnosis counts with it.
 class AnchorCompliance : public HiddenFaults {
  protected:
   AnchorCompliance() : HiddenFaults(SmallRobot(), SmallExperimentOfEachCable(SmallRobot())) {

@@ -40,7 +40,7 @@ class CameraRecovery : public testing::Test {
     hypotheses_.emplace(MakeFaultModels({body_, observed_}, {}), std::map<std::string, double>{});
   }
 
-  /// The first cause of this name; of those that begin with a recording, with this one.
+  /// The first fault of this name; of those that begin with a recording, with this one.
   int Find(const std::string& id, const std::string& recording = "") const {
     for (int k = 0; k < hypotheses_->size(); ++k) {
       const FaultModel& cause = hypotheses_->model(k);

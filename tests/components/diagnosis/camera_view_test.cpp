@@ -60,7 +60,7 @@ TEST(CameraView, AnErrorOfDepthActsAlongTheRay) {
 }
 
 TEST(CameraView, AnErrorOfTheLensLeavesDepthAsItIs) {
-  // Seen at u = 420 (1 + 0.02) 0.11 / 0.41 + 3 from the believed centre.
+  // Seen at u = 420 (1 + 0.02) 0.11 / 0.41 + 3 from the assumed centre.
   const CameraView view({.focal = 0.02, .cx_px = 3.0, .cy_px = -5.0}, kFocal_px, 0.0);
   const Vector measured = view.Measured(kAskew);
   EXPECT_DOUBLE_EQ(measured.z(), 0.41);

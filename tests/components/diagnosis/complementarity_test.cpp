@@ -10,7 +10,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-/// As compliance has it: everything gives way together, and each node a little by itself.
+/// As compliance has it: everything yields together, and each node a little by itself.
 Eigen::MatrixXd Compliance(int count, double own, std::mt19937* random) {
   std::normal_distribution<double> normal;
   const Eigen::MatrixXd modes =

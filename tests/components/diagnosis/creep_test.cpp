@@ -68,8 +68,8 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
 
 TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
   robot::RobotBody body = SmallRobot();
-  // Hanging upwards it would be held by the lower cable, which nobody drives: it holds nothing, in
-  // the rests either.
+  // Hanging upwards it would be held by the lower cable, which nobody actuators: it holds nothing,
+  // in the rests either.
   body.gravity_m_s2 *= -1.0;
   experiment::Experiment experiment;
   experiment.recordings = {MakeRecording("still", body, {{0.0, {0.0}}, {5.0, {0.0}}}, 0.5)};
@@ -109,7 +109,7 @@ TEST(Creep, OfABodyThatWasHeldBentIsALittleOfThatBend) {
       continue;
     }
     ++let_go;
-    // With a modulus that relaxes by g / (1 + g), what is left fades with tau (1 + g).
+    // With a modulus that relaxes by g / (1 + g), the residual fades with tau (1 + g).
     const double expected = kG / (1.0 + kG) * std::exp(-since_s / (kTau_s * (1.0 + kG)));
     EXPECT_NEAR(moved_m / held_m, expected, 0.1 * expected) << since_s << " s later";
   }

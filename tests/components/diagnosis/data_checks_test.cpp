@@ -20,8 +20,8 @@ constexpr int kFrames = 5;  ///< of each
 constexpr int kFeatures = 12;
 constexpr double kFitnessNoise_m = 5e-4;
 
-/// One recording of a robot whose skin lies so far off where it is thought to be, in `height_m` of
-/// feature and picture, beside the noise.
+/// One recording of a robot whose surface lies so far off where it is thought to be, in `height_m`
+/// of feature and depth frame, beside the noise.
 class PicturesOfARecording : public testing::Test {
  protected:
   std::string Judge(const std::function<double(int feature, int frame)>& height_m) {

@@ -48,7 +48,7 @@ GaussianPrior SomePrior() {
   return prior;
 }
 
-/// What normal beliefs and data say, from the covariance of the data: no Woodbury.
+/// What normal priors and data say, from the covariance of the data: no Woodbury.
 Posterior Dense(const Problem& problem, const GaussianPrior& prior) {
   const Eigen::MatrixXd S = prior.sigma.array().square().matrix().asDiagonal();
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(problem.y.size(), problem.y.size()) +

@@ -13,7 +13,7 @@
 #include "tests/components/diagnosis/small_robot.hpp"
 #include "tests/support/robots.hpp"
 
-/// A robot file that was extended by a cause makes the robot that the cause makes.
+/// A robot file that was extended by a fault makes the robot that the fault makes.
 namespace palpate::diagnosis {
 namespace {
 

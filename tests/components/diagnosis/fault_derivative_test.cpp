@@ -19,7 +19,7 @@ experiment::Experiment WithATension(experiment::Experiment experiment) {
   return experiment;
 }
 
-/// Another cause, which says by a share too much what it does to the body.
+/// Another fault, which says by a share too much what it does to the body.
 class SaysTooMuch final : public FaultModel {
  public:
   SaysTooMuch(const FaultModel& right, double share)
@@ -93,9 +93,9 @@ TEST_F(FaultDerivatives, AreThoseOfApplyWhereABodySoftensTooLittleForRuns) {
 }
 
 TEST_F(FaultDerivatives, AreThoseOfApplyWhereTheFaultIsThere) {
-  constexpr double kShare = 0.31;  // of the fault sigma; no kink of the drives' play lies there
+  constexpr double kShare = 0.31;  // of the fault sigma; no kink of the actuators' play lies there
   constexpr double kTolerance = 2e-3;
-  /// What the base turns by when its moment changes is left out: of the order of what the
+  /// What the base turns by when its sample changes is left out: of the order of what the
   /// compliance of this body is changed by, here 0.4 %.
   constexpr double kToleranceOfBase = 1e-2;
   /// Differences over a step, of runs whose pasts are settled so far: of what it does as a whole.
@@ -132,8 +132,8 @@ TEST_F(FaultDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
   const auto parameter_of = [&](const FaultModel& cause, Eigen::Index p) {
     return cause.parameters()[static_cast<std::size_t>(p)];
   };
-  // Causes that bend the undeformed body are differentiated as if alone, and a drive's play and lag
-  // have kinks at single frames: per cents of per cents of the shape, and one frame in fifty.
+  // Faults that bend the undeformed body are differentiated as if alone, and an actuator's play and
+  // lag have kinks at single frames: per cents of per cents of the shape, and one frame in fifty.
   constexpr double kTolerance = 0.03;
   Eigen::VectorXd z(ParameterCount(all));
   Eigen::Index first = 0;
@@ -158,7 +158,7 @@ TEST_F(FaultDerivatives, AreThoseOfApplyWhereAllOfARobotIsALittleOff) {
 
 TEST_F(FaultDerivatives, AreThoseOfApplyBehindACameraThatMeasuresWrongly) {
   // Five fault sigmas: what a camera makes of a motion then is 5 to 10 % off. The bias of surfaces
-  // seen askew stays 0: by what the body's skin turns is left out.
+  // seen askew stays 0: by what the body's surface turns is left out.
   constexpr double kSigmas = 5.0;
   constexpr double kTolerance = 2e-3;
   const std::vector<std::string> with_error = {"depth_scale", "intrinsics", "lens_distortion",
@@ -240,7 +240,7 @@ TEST_F(FaultDerivatives, AreOfTheMeanOverASampleInWhichACableGetsTaut) {
 }
 
 TEST_F(FaultDerivatives, AndSimulationsDoNotDependOnWhereTheyStart) {
-  // A cable that gives way keeps where it was; the others must follow their drives all the same.
+  // A cable that yields keeps where it was; the others must follow their actuators all the same.
   const auto find = [&](const std::string& id, const std::string& where) -> const FaultModel* {
     for (const FaultModelPtr& cause : causes_) {
       if (cause->name().id == id && cause->name().where.front() == where) return cause.get();

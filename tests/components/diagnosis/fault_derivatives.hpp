@@ -21,7 +21,7 @@ namespace palpate::diagnosis {
 inline constexpr double kStep = 1e-3;
 /// What is found by steps that end at 1e-8 rad needs a longer one.
 inline constexpr double kStepOfBase = 1e-2;
-/// A node begins to press on a wall over some micrometres.
+/// A node begins to press on an obstacle over some micrometres.
 inline constexpr double kStepOfObstacle = 3e-5;
 /// What a whole fault sigma moves all markers by that counts as none.
 inline constexpr double kNothing_m = 1e-6;
@@ -32,10 +32,10 @@ inline ObservedExperiment SingleFrames(ObservedExperiment observed) {
   return observed;
 }
 
-/// Adds what pictures show.
+/// Adds what depth frames show.
 using Seeing = std::function<void(const robot::RobotBody&, ObservedExperiment*)>;
 
-/// The derivatives that causes tell of what is seen of a small robot, against differences of
+/// The derivatives that faults tell of what is seen of a small robot, against differences of
 /// simulations.
 class FaultDerivatives : public testing::Test {
  protected:

@@ -12,7 +12,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-/// Why a gain of this size, tolerance 0.005, at most 0.2 of which is believed, is no fault.
+/// Why a gain of this size, tolerance 0.005, at most 0.2 of which is assumed a priori, is no fault.
 std::string WhyNot(double gain) {
   std::vector<FaultModelPtr> causes;
   causes.push_back(std::make_unique<ToyFault>(
@@ -62,7 +62,7 @@ TEST(FaultSize, OfAVectorIsItsLengthWhereverItPoints) {
   }
 }
 
-/// Of what a healthy robot has nothing of: two sizes known to these sigmas, correlated, and where
+/// Of what a nominal robot has nothing of: two sizes known to these sigmas, correlated, and where
 /// it acts.
 std::string WhyNotBoth(double a, double b, double correlation) {
   std::vector<FaultModelPtr> causes;
@@ -85,7 +85,7 @@ TEST(FaultSize, DoesNotExcludeNothingWhereItIsKnownNoBetter) {
   EXPECT_EQ(WhyNotBoth(1.5, 1.5, -0.9), "");  // each may be nothing, their sum may not
 }
 
-/// A delay, tolerance 0.01 s, and a time constant that a healthy robot has nothing of, known to
+/// A delay, tolerance 0.01 s, and a time constant that a nominal robot has nothing of, known to
 /// these sigmas.
 std::string WhyNotLate(const Eigen::Vector2d& late_s, const Eigen::Vector2d& sigma_s,
                        double correlation) {

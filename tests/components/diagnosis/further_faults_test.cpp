@@ -12,7 +12,7 @@ namespace palpate::diagnosis {
 namespace {
 
 constexpr double kGain = 0.1;
-/// Three and a half tolerances of a drive's zero: ln BF can be no more than half its square.
+/// Three and a half tolerances of an actuator's zero: ln BF can be no more than half its square.
 constexpr double kOffset_m = 1.05e-3;
 
 class FurtherCausesOfAGain : public HiddenFaults {

@@ -16,11 +16,11 @@
 
 namespace palpate::diagnosis {
 
-/// A robot with causes hidden in it, measured with 0.1 mm. SmallExperiment pulls all cables
-/// together, where the gain of one looks like what their ends give way by: that is left out there.
+/// A robot with faults hidden in it, measured with 0.1 mm. SmallExperiment pulls all cables
+/// together, where the gain of one looks like what their ends yield by: that is left out there.
 class HiddenFaults : public testing::Test {
  protected:
-  /// z of a parameter of the cause of this id at this place.
+  /// z of a parameter of the fault of this id at this place.
   struct Hidden {
     std::string id;
     std::string where;
@@ -50,7 +50,7 @@ class HiddenFaults : public testing::Test {
     ADD_FAILURE() << "no " << id << " of " << where;
     return -1;
   }
-  /// Of the cause's first parameter.
+  /// Of the fault's first parameter.
   Eigen::Index ColumnOf(const std::string& id, const std::string& where) const {
     return hypotheses_.first(Number(id, where));
   }

@@ -21,7 +21,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-/// The beam is bent sideways and up; a wall stands beside it at its tip.
+/// The beam is bent sideways and up; an obstacle stands beside it at its tip.
 class HiddenObstacle : public testing::Test {
  protected:
   Simulation Run(const std::optional<Obstacle>& obstacle, const Simulation* start = nullptr) const {
@@ -30,7 +30,7 @@ class HiddenObstacle : public testing::Test {
     return simulator_.Run(hypothesis, start);
   }
 
-  /// A wall that ends `share` of how far the body goes along `way`.
+  /// An obstacle that ends `share` of how far the body goes along `way`.
   Obstacle ObstacleAcross(const Eigen::Vector3d& way, double share) const {
     const Eigen::Vector3d normal = -way.normalized();
     const double undeformed_m = NearestAlong(*surface_, normal, nominal_.assembled_m);
@@ -92,7 +92,7 @@ TEST_F(HiddenObstacle, IsInBalanceWithTheBody) {
   solver.Solve(observed_.samples[static_cast<std::size_t>(s)], taken_in.col(s), {}, &solved);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message();
   ASSERT_TRUE(solved.middle.AtObstacle());
-  // Weight, loads, cables, wall and base: what the base gives is minus all else.
+  // Weight, loads, cables, obstacle and base: what the base gives is minus all else.
   const Eigen::VectorXd& x_m = solved.middle.state.x_m;
   const Eigen::VectorXd obstacle_N =
       NodalForces_N(obstacle, solved.middle.obstacle_force_N, x_m.size());
@@ -142,7 +142,7 @@ TEST_F(HiddenObstacle, IsMetWhereverASimulationStarts) {
   const Simulation from_beside = Run(obstacle, &beside);
   ASSERT_TRUE(cold.status.ok() && from_free.status.ok() && from_beside.status.ok());
   const Simulation free_again = Run(std::nullopt, &from_beside);
-  constexpr double kSame_m = 1e-6;  // how a sample bends is kept where the wall is far
+  constexpr double kSame_m = 1e-6;  // how a sample bends is kept where the obstacle is far
   for (std::size_t s = 0; s < cold.samples.size(); ++s) {
     const auto differ_m = [&](const Simulation& a, const Simulation& b) {
       return (a.samples[s].markers_m() - b.samples[s].markers_m()).cwiseAbs().maxCoeff();
@@ -291,7 +291,7 @@ TEST_F(HiddenObstacleIsFound, AsFarAsItIsFromABodyOfAnotherSize) {
   EXPECT_NEAR(gap_m(nearer_m), gap_m(nominal_.assembled_m) - kNearer_m, 1e-9);
 }
 
-/// A wall through the body, however far it is moved.
+/// An obstacle through the body, however far it is moved.
 class ObstacleThroughTheBody final : public FaultModel {
  public:
   explicit ObstacleThroughTheBody(std::shared_ptr<const ObstacleSurface> surface)

@@ -86,8 +86,8 @@ TEST(HypothesisSet, WhatWouldGoBeyondItsBoundsEndsThere) {
               1e-6);
 }
 
-/// One size times exp of another parameter, which says how it acts, on six moments: seen from
-/// where both are far from zero.
+/// One size times exp of another parameter, which says how it acts, on six samples: seen from where
+/// both are far from zero.
 struct Product {
   HypothesisSet hypotheses = [] {
     std::vector<FaultModelPtr> causes;

@@ -17,7 +17,7 @@ constexpr unsigned kLinearSeed = 7;
 constexpr Eigen::Index kParameters = 3;
 constexpr Eigen::Index kMarkerCount = 2;
 
-/// Four moments of two recordings, two markers, made up.
+/// Four samples of two recordings, two markers, made up.
 class LinearModelTest : public testing::Test {
  protected:
   LinearModelTest() {

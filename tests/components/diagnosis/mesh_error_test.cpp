@@ -58,7 +58,7 @@ TEST_F(MeshErrorTest, TellsWhatCoarseCellsErrByInTheMotionsItWasFoundFrom) {
   const Pulled pulled = PulledBy(each_);
   const auto error = Compared(pulled);
   ASSERT_TRUE(error);
-  EXPECT_GT(error->relative, 0.02);  // linear cells, two across the beam
+  EXPECT_GT(error->relative, 0.02);  // linear elements, two across the beam
   EXPECT_LT(error->share_beyond_shapes, 1e-3);
   for (std::size_t s = 0; s < pulled.simulated.samples.size(); ++s) {
     EXPECT_LT(NotTold(*error, pulled, s), 0.01) << s;
@@ -71,7 +71,7 @@ TEST_F(MeshErrorTest, TellsWhatCoarseCellsErrByInTheMotionsItWasFoundFrom) {
   }
 }
 
-/// So far that the mesh is told from other causes; what it does exactly the finer mesh says then.
+/// So far that the mesh is told from other faults; what it does exactly the finer mesh says then.
 TEST_F(MeshErrorTest, TellsMostOfItForOtherPullsOfTheSameCables) {
   std::vector<std::vector<double>> pulls = each_;
   for (const std::vector<double>& pull : each_) {

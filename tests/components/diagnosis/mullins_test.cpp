@@ -12,7 +12,7 @@ namespace {
 using Mullins = HiddenFaults;
 
 constexpr double kSoftening = 0.25;
-constexpr double kLnM = -0.4;  // about where m is looked for
+constexpr double kLnM = -0.4;  // about where m is searched
 const Eigen::Vector2d kZ(kSoftening, kLnM);
 
 TEST_F(Mullins, SoftensSoMuchAsItIsSaidToWhereMIsLookedFor) {

@@ -68,7 +68,7 @@ TEST_F(NearStart, KeepsTheShapesOfAMotionAndTheirMean) {
   EXPECT_LT(Apart_m(whole, kept), 0.1 * effect_m);
 }
 
-/// What nothing is known of begins, as one that was near, with the first moment that fails.
+/// What nothing is known of begins, as one that was near, with the first sample that fails.
 TEST_F(NearStart, EndsWithTheFirstMomentWithoutABalance) {
   ModelHypothesis hypothesis = NominalHypothesis(body_, observed_);
   hypothesis.body.gravity_m_s2 *= 1e4;

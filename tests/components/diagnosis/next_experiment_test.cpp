@@ -20,8 +20,8 @@ namespace {
 
 using experiment::RecordingKind;
 
-/// A small robot that was pulled up and aside and has a fault, measured without noise; what is
-/// believed of it is one of two causes.
+/// A small robot that was pulled up and aside and has a fault, measured without noise; the prior of
+/// it is one of two faults.
 class NextExperiment : public testing::Test {
  protected:
   NextExperiment() : body_(SmallRobot()) {
@@ -42,7 +42,7 @@ class NextExperiment : public testing::Test {
     return 0;
   }
 
-  /// Proposals that are to tell the first cause, hidden with z in its first parameter, from the
+  /// Proposals that are to tell the first fault, hidden with z in its first parameter, from the
   /// second.
   std::vector<RankedProposal> Rank(const std::string& hidden, double z, const std::string& rival,
                                    std::size_t nth = 0) {
@@ -73,7 +73,7 @@ class NextExperiment : public testing::Test {
     return RankProposals(experiment_, observed_, body_, *fitter_, selection_, question_, 1);
   }
 
-  /// A healthy robot where there is some evidence for these, of a hundred causes: those with ln BF
+  /// A nominal robot where there is some evidence for these, of a hundred faults: those with ln BF
   /// 4.6 and more are likelier than none.
   void NameNone(std::vector<Candidate> candidates) {
     selection_.named.clear();

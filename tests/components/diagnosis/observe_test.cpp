@@ -39,7 +39,7 @@ TEST_F(ObserveTest, CutsWhereCommandsTurn) {
     EXPECT_EQ(sample.still, s >= 8);
     EXPECT_NEAR(sample.piece_begin_s, s < 4 ? 0.0 : s < 8 ? 4.0 : 8.0, 1e-12);
     EXPECT_NEAR(sample.piece_end_s, s < 4 ? 4.0 : s < 8 ? 8.0 : 23.5, 1e-12);
-    // Of a motion alike long; of a hold each twice as long as the one before: 0.5, 1, 2, 4, 8 s.
+    // Of a motion equally long; of a hold each twice as long as the one before: 0.5, 1, 2, 4, 8 s.
     const double frames = s < 8 ? 10.0 : 5.0 * std::exp2(static_cast<double>(s) - 8.0);
     EXPECT_NEAR(static_cast<double>(sample.frame_t_s.size()), frames, 1.0) << "sample " << s;
     const double before_s = s > 0 ? observed.samples[s - 1].frame_t_s.back() : -1.0;

@@ -31,7 +31,7 @@ class OtherPlaces : public HiddenFaults {
 
   static constexpr int kAlong = 3;  ///< the parameter x_m of a force
 
-  /// Forces [places] by how far out on the beam they are looked for.
+  /// Forces [places] by how far out on the beam they are searched.
   std::vector<int> Forces() const {
     std::vector<int> forces;
     for (int k = 0; k < hypotheses_.size(); ++k) {
@@ -46,7 +46,7 @@ class OtherPlaces : public HiddenFaults {
     return X_m(force) + fit.posterior.mean[hypotheses_.first(force) + kAlong];
   }
 
-  /// A force sideways at one of the places it is looked for at, `noise` times as noisy as usual.
+  /// A force sideways at one of the places it is searched at, `noise` times as noisy as usual.
   void MeasureForceAt(int force, double noise) {
     observed_.sigma_m *= noise;
     Measure({});

@@ -12,7 +12,7 @@ namespace {
 
 using PlasticSet = HiddenFaults;
 
-/// [3n] how a body at rest gives way where each node is pushed by so much.
+/// [3n] how a body at rest yields where each node is pushed by so much.
 Eigen::VectorXd GivesWay(const robot::RobotBody& body, const Eigen::VectorXd& push) {
   fem::ElasticBody elastic(body.mesh, body.materials, body.material_of_cell);
   fem::Linearisation linearisation(elastic, {}, body.fixed);

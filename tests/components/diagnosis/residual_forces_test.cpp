@@ -43,7 +43,7 @@ TEST_F(ResidualForcesOfOneForce, PushTheWayItDoes) {
   ASSERT_EQ(forces.before_N.cols(), forces.place_m.cols());
   const Eigen::Vector3d sum_N = forces.before_N.rowwise().sum();
   const Eigen::Vector3d direction = Direction(forces.recording);
-  // Tolerances may have done some of it, and small forces are believed in more than large ones.
+  // Tolerances may have done some of it, and small forces are possible more than large ones.
   EXPECT_GT(sum_N.dot(direction), 0.3 * kResidualForce_N) << "seed " << kSeed;
   // Along the beam hardly anything moves it, and hardly anything is known.
   const Eigen::Vector3d across = direction.cross(Eigen::Vector3d::UnitX());

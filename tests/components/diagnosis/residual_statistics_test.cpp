@@ -74,7 +74,7 @@ struct Scene {
 
 TEST(ResidualStatistics, FindWhatNeighboursHaveInCommon) {
   const Scene scene;
-  // From moment to moment there and back: nothing goes along with time.
+  // From sample to sample there and back: nothing correlates with time.
   const auto in_turn = [](const Sample& sample) {
     return std::fmod(sample.t_s, 2.0) == 0.0 ? 1.0 : -1.0;
   };

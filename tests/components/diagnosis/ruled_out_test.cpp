@@ -67,7 +67,7 @@ class RuledOut : public HiddenFaults {
     std::erase(ids, "cable_gain");
     return ids;
   }
-  /// With so many causes of this class beside the real ones.
+  /// With so many faults of this class beside the real ones.
   template <class Other>
   Selection Select(int others, const std::vector<std::string>& without, TimeLimit limit = {}) {
     Measure({{"cable_gain", "cable:up", kGain}});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHiddenGain = 0.1;
 
-/// A gain of the same cable of which much more is believed to be likely.
+/// A gain of the same cable of which much more is assumed a priori to be likely.
 class Twin final : public FaultModel {
  public:
   explicit Twin(double fault)
@@ -30,7 +30,7 @@ class Twin final : public FaultModel {
 
 class SameEffect : public HiddenFaults {
  protected:
-  /// With a twin of the gain that is hidden beside the real causes.
+  /// With a twin of the gain that is hidden beside the real faults.
   Selection Select(double fault_of_twin) {
     Measure({{"cable_gain", "cable:up", kHiddenGain}});
     std::vector<FaultModelPtr> causes = Causes();

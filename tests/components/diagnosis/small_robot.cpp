@@ -65,7 +65,7 @@ robot::RobotBody RobotOf(const fem::TetMesh& mesh) {
   body.gravity_m_s2 = {0.0, 0.0, -9.81};
   const fem::PointLocator locator(body.mesh);
   AddCables(locator, &body);
-  // Inside cells, so that a little of any move leaves them there.
+  // Inside elements, so that a little of any move leaves them there.
   const Eigen::Vector3d markers_m[] = {
       {0.097, 0.011, 0.012}, {0.071, 0.017, 0.013}, {0.034, 0.004, 0.017}, {0.011, 0.012, 0.004}};
   for (const Eigen::Vector3d& marker_m : markers_m) {

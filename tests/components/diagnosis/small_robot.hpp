@@ -19,7 +19,7 @@ namespace palpate::diagnosis {
 /// gravity, four markers and three cables that bend it up, sideways and down; the first runs
 /// through three eyelets. Computed in milliseconds.
 robot::RobotBody SmallRobot(fem::ElementType element = fem::ElementType::kTet4);
-/// The robot of tet4 with the same cells as tet10.
+/// The robot of tet4 with the same elements as tet10.
 robot::RobotBody SmallRobotOnFinerMesh();
 
 /// What was commanded at a time.
@@ -35,7 +35,7 @@ experiment::Recording MakeRecording(const std::string& name, const robot::RobotB
                                     const std::vector<Knot>& knots, double frame_s,
                                     const Seen& seen_m = nullptr);
 
-/// Everything that causes act on: a ramp up and down, a long hold under a hanging weight and a side
+/// Everything that faults act on: a ramp up and down, a long hold under a hanging weight and a side
 /// load, a tilted base seen by a camera that rides on it, the camera at another place.
 experiment::Experiment SmallExperiment(const robot::RobotBody& body);
 /// That and each cable pulled by itself: what one of them does is told from what all do.

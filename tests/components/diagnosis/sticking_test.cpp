@@ -86,7 +86,7 @@ TEST_F(StickingTest, SlidesInUntilItTurnsRoundAndSticksOnTheWay) {
       EXPECT_GT(std::min(first, second), 0.999) << part.t_s;
     }
     if (part.t_s > 4.0 && part.t_s < 6.0) {
-      EXPECT_LE(first, second + 1e-9) << part.t_s;  // tensions turn round from the drive on
+      EXPECT_LE(first, second + 1e-9) << part.t_s;  // tensions turn round from the actuator on
       sticking += std::abs(second) < 0.99 ? 1 : 0;
     }
     if (part.t_s > 5.9 && part.t_s < 6.0) {

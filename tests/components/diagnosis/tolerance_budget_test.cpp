@@ -9,14 +9,14 @@
 namespace palpate::diagnosis {
 namespace {
 
-/// Proof that the tolerance budget is what keeps healthy robots from being accused: the same
+/// Proof that the tolerance budget is what keeps nominal robots from being accused: the same
 /// robots, built within their tolerances, before a judge that knows of these and one that does not.
 class ToleranceBudget : public HiddenFaults {
  protected:
   static constexpr int kRobots = 20;
   static constexpr double kClearEvidence = 10.0;
 
-  /// The same causes, all parts as exact as the robot file.
+  /// The same faults, all parts as exact as the robot file.
   HypothesisSet BookWithoutTolerances() const {
     constexpr double kExact = 1e-9;  // of any unit: nothing moves by so little
     std::map<std::string, double> exact;
@@ -24,7 +24,7 @@ class ToleranceBudget : public HiddenFaults {
     return {Causes(), exact};
   }
 
-  /// ln BF of the cause that looks most like what was measured.
+  /// ln BF of the fault that looks most like what was measured.
   static double MostAccusing(const HypothesisSet& hypotheses, const Information& data) {
     const double null_model = hypotheses.InferWithin(data, {}).ln_evidence;
     double most = -std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ class ToyFault final : public FaultModel {
   void Apply(const Eigen::VectorXd& /*z*/, ModelHypothesis* /*hypothesis*/) const override {}
 };
 
-/// Two causes of which a healthy robot has a little, and two faults; the last has two parameters.
+/// Two faults of which a nominal robot has a little, and two faults; the last has two parameters.
 inline HypothesisSet ToyBook() {
   std::vector<FaultModelPtr> causes;
   const auto add = [&](const std::string& id, std::vector<FaultParameter> parameters) {
@@ -34,7 +34,7 @@ inline HypothesisSet ToyBook() {
   return {std::move(causes), {}};
 }
 
-/// Three recordings of 12 moments and one marker, whitened: y - J z is noise of unit variance.
+/// Three recordings of 12 samples and one marker, whitened: y - J z is noise of unit variance.
 class ToyData {
  public:
   explicit ToyData(const HypothesisSet& hypotheses, unsigned seed) : random_(seed) {
@@ -63,7 +63,7 @@ class ToyData {
     std::normal_distribution<double> normal;
     return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random_); });
   }
-  /// A robot out of a belief, measured.
+  /// A robot out of a prior, measured.
   Eigen::VectorXd Draw(const GaussianPrior& prior) {
     const Eigen::VectorXd z =
         prior.mean + prior.sigma.cwiseProduct(Eigen::VectorXd(Normal(prior.sigma.size(), 1)));

@@ -48,7 +48,7 @@ double LongestOf(const BodyArrows& arrows) {
   return std::max(Longest(arrows.before), Longest(arrows.after));
 }
 
-/// What must be inside the picture.
+/// What must be inside the depth frame.
 Eigen::Matrix3Xd Outline_m(const DiagnosisResult& result, const BodyArrows& arrows) {
   Eigen::Matrix3Xd outline_m(3, result.surface_m.cols() + arrows.foot_m.cols());
   outline_m << result.surface_m, arrows.foot_m;

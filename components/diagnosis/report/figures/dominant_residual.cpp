@@ -17,7 +17,7 @@ namespace {
 
 constexpr Eigen::Index kFewestMoments = 4;
 
-/// One marker's residuals before, where it was seen, and the moments' x.
+/// One marker's residuals before, where it was seen, and the samples' x.
 struct Seen {
   Eigen::Matrix3Xd residual_m;
   Eigen::VectorXd x;

@@ -11,7 +11,7 @@
 
 namespace palpate::diagnosis {
 
-/// What changes most in some moments: one marker's residual along one direction.
+/// What changes most in some samples: one marker's residual along one direction.
 struct DominantResidual {
   Eigen::Index marker = -1;  ///< -1: nothing to be seen
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
@@ -19,11 +19,11 @@ struct DominantResidual {
 
 using ComparedSamples = std::vector<const ComparedSample*>;
 
-/// What varies most, from the residuals before about their mean over the moments; the sign is such
-/// that the last half of the moments is at the positive side of the first.
+/// What varies most, from the residuals before about their mean over the samples; the sign is such
+/// that the last half of the samples is at the positive side of the first.
 DominantResidual FindDominant(const ComparedSamples& compared_samples);
 
-/// What rises most with `x` [moments] (least squares), NaN: that moment does not count.
+/// What rises most with `x` [samples] (least squares), NaN: that sample does not count.
 DominantResidual FindRise(const ComparedSamples& compared_samples, const std::vector<double>& x);
 
 /// One residual along the direction, mm; NaN: not seen.

@@ -10,17 +10,17 @@
 
 namespace palpate::diagnosis {
 
-/// A picture of the report. Either `svg` or `absent` is empty.
+/// A depth frame of the report. Either `svg` or `absent` is empty.
 struct Figure {
   std::string id;       ///< of the HTML element
   std::string title;    ///< plain text
   std::string caption;  ///< one sentence, plain text
   std::string svg;      ///< an svg element
-  std::string absent;   ///< why there is no picture, one sentence
+  std::string absent;   ///< why there is no depth frame, one sentence
 };
 
-/// All pictures are as wide as a page of A4 between its margins, so that texts print as large as
-/// they are meant.
+/// All depth frames are as wide as a page of A4 between its margins, so that texts print as large
+/// as they are meant.
 inline constexpr int kFigureWidth_px = 720;
 inline constexpr double kLabelSize_px = 12.0;
 

@@ -11,7 +11,7 @@ namespace palpate::diagnosis {
 /// The markers' mean residuals on the body, before and after.
 Figure DrawResidualField(const DiagnosisResult& result);
 
-/// The forces that would do what is left, before and after.
+/// The forces that would do the residual, before and after.
 Figure DrawResidualForces(const DiagnosisResult& result);
 
 /// RMS of the residual in each recording.

@@ -21,7 +21,7 @@ double CommandOf(const ComparedSample& compared, Eigen::Index cable) {
                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// How far a cable was moved in these moments, in its unit.
+/// How far a cable was moved in these samples, in its unit.
 double Travel(const ComparedSamples& compared_samples, Eigen::Index cable) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const ComparedSample* compared : compared_samples) {

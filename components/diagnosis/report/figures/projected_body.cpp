@@ -28,7 +28,7 @@ struct Surface {
   Triangles triangles;
 };
 
-/// Joins the nodes of each cell of a grid: what is smaller cannot be seen, and makes the file
+/// Joins the nodes of each element of a grid: what is smaller cannot be seen, and makes the file
 /// large.
 Surface Coarsened(const Eigen::Matrix3Xd& nodes_m, const Triangles& triangles) {
   if (triangles.size() <= kFewTriangles) return {nodes_m, triangles};

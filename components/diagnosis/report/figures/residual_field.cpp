@@ -13,16 +13,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// So many moments make a mean; of a recording that has no more, half of them, for what its
+/// So many samples make a mean; of a recording that has no more, half of them, for what its
 /// reference was off by has been taken off the mean of all.
 constexpr std::size_t kMeanOf = 5;
 
-/// Some moments of one recording, one after another: [first, last).
+/// Some samples of one recording, one after another: [first, last).
 struct Stretch {
   std::size_t first = 0, last = 0;
 };
 
-/// Mean residual of each marker over the moments that saw it, m; NaN: never seen.
+/// Mean residual of each marker over the samples that saw it, m; NaN: never seen.
 Eigen::Matrix3Xd MeanResidual(const DiagnosisResult& result, const Stretch& stretch,
                               Eigen::Matrix3Xd ComparedSample::*field) {
   const Eigen::Index count = result.marker_rest_m.cols();
@@ -50,7 +50,7 @@ double Rms(const Eigen::Matrix3Xd& vectors) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-/// Where the simulation is most wrong. A mean over all moments would cancel what changes its sign,
+/// Where the simulation is most wrong. A mean over all samples would cancel what changes its sign,
 /// as friction does; a single one would show noise.
 Stretch FindWorst(const DiagnosisResult& result) {
   Stretch worst;

@@ -11,13 +11,13 @@
 
 namespace palpate::browser {
 
-/// A text of a picture, where Chromium has set it.
+/// A text of a depth frame, where Chromium has set it.
 struct SetText {
   std::string text;
   plot::Rect box;
 };
 
-/// A picture of a page: where it is, and its texts, in pixels of the page.
+/// A depth frame of a page: where it is, and its texts, in pixels of the page.
 struct Picture {
   std::string id;
   plot::Rect box;
@@ -29,7 +29,7 @@ struct Layout {
   std::vector<Picture> pictures;
 };
 
-/// Red, green and blue of an 8-bit picture, rows from the top.
+/// Red, green and blue of an 8-bit depth frame, rows from the top.
 struct Pixels {
   int width_px = 0;
   int height_px = 0;
@@ -41,12 +41,12 @@ struct Pixels {
 };
 
 /// Chromium without a window (Debian package chromium), on pages of a folder of its own. Each call
-/// starts it anew; throws RunError where it fails or is not installed.
+/// starts it again; throws RunError where it fails or is not installed.
 class Browser {
  public:
   explicit Browser(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Where the figures' pictures stand on a page of this width.
+  /// Where the figures' depth frames stand on a page of this width.
   Layout Measure(const std::string& html, int width_px) const;
   Pixels Screenshot(const std::string& html, int width_px, int height_px) const;
   /// How many pages it prints on.

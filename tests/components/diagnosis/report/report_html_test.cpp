@@ -57,7 +57,7 @@ void Visit(const tinyxml2::XMLElement* element, Drawing* drawing) {
   }
 }
 
-/// Reads a picture; a failure of the test where it is no XML.
+/// Reads a depth frame; a failure of the test where it is no XML.
 Drawing Read(const std::string& svg) {
   tinyxml2::XMLDocument document;
   EXPECT_EQ(document.Parse(svg.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();

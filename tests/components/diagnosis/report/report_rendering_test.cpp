@@ -65,7 +65,7 @@ plot::Rect Letters(const plot::Rect& box) {
   return {box.x_px + x_px, box.y_px + y_px, box.width_px - 2.0 * x_px, box.height_px - 2.0 * y_px};
 }
 
-/// "a / b" for each pair of texts that overlap, "a" for each that leaves the picture.
+/// "a / b" for each pair of texts that overlap, "a" for each that leaves the depth frame.
 std::vector<std::string> BadlySet(const Picture& picture) {
   std::vector<std::string> bad;
   for (std::size_t i = 0; i < picture.texts.size(); ++i) {
