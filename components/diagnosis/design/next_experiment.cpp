@@ -15,9 +15,14 @@ namespace palpate::diagnosis {
 
 namespace {
 
-constexpr double kInQuestion = 10.0;   ///< ln BF below the best
-constexpr double kSomeEvidence = 3.0;  ///< ln BF against the nominal robot
-constexpr std::size_t kMostRivals = 6;
+/// Which rivals a proposal must separate: more of them ask for more general experiments.
+struct DesignTuning {
+  double in_question = 10.0;    ///< ln BF below the best
+  double some_evidence = 3.0;   ///< ln BF against the null model
+  std::size_t most_rivals = 6;  ///< that are compared
+  double tie = 0.1;             ///< of expected ln BF; then the information gain decides
+};
+constexpr DesignTuning kDesignTuning;
 
 Hypothesis HypothesisOf(const Fitter& fitter, const Fit& about, std::vector<int> faults,
                         int fault) {
@@ -48,7 +53,7 @@ std::vector<int> RivalsOf(const Selection& selection) {
     const auto& faults = selection.best.faults;
     const bool known = std::find(faults.begin(), faults.end(), fault) != faults.end() ||
                        std::find(rivals.begin(), rivals.end(), fault) != rivals.end();
-    if (!known && rivals.size() < kMostRivals) rivals.push_back(fault);
+    if (!known && rivals.size() < kDesignTuning.most_rivals) rivals.push_back(fault);
   };
   for (const Candidate& indistinguishable : selection.indistinguishable)
     add(indistinguishable.fault);
@@ -59,7 +64,7 @@ std::vector<int> RivalsOf(const Selection& selection) {
   if (first == candidates.end()) return rivals;
   for (const Candidate& one : candidates) {
     if (one.ruled_out) continue;
-    if (one.ln_bayes_factor > first->ln_bayes_factor - kInQuestion) add(one.fault);
+    if (one.ln_bayes_factor > first->ln_bayes_factor - kDesignTuning.in_question) add(one.fault);
   }
   return rivals;
 }
@@ -68,10 +73,10 @@ std::vector<int> RivalsOf(const Selection& selection) {
 std::vector<Candidate> WithSomeEvidence(const Selection& selection) {
   std::vector<Candidate> some = selection.candidates;
   std::erase_if(some, [](const Candidate& one) {
-    return one.ruled_out || one.ln_bayes_factor < kSomeEvidence;
+    return one.ruled_out || one.ln_bayes_factor < kDesignTuning.some_evidence;
   });
   SortByEvidence(&some);
-  if (some.size() > kMostRivals) some.resize(kMostRivals);
+  if (some.size() > kDesignTuning.most_rivals) some.resize(kDesignTuning.most_rivals);
   return some;
 }
 
@@ -108,9 +113,8 @@ RankedProposal Rank(const Proposal& proposal, const Eigen::MatrixXd& J, const Qu
 }
 
 bool IsBetter(const RankedProposal& a, const RankedProposal& b) {
-  constexpr double kTie = 0.1;
-  const double of_a = std::round(a.expected_ln_bayes_factor / kTie);
-  const double of_b = std::round(b.expected_ln_bayes_factor / kTie);
+  const double of_a = std::round(a.expected_ln_bayes_factor / kDesignTuning.tie);
+  const double of_b = std::round(b.expected_ln_bayes_factor / kDesignTuning.tie);
   return of_a != of_b ? of_a > of_b : a.information > b.information;
 }
 

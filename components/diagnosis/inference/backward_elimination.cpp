@@ -36,7 +36,6 @@ bool IsNamed(const HypothesisSet& hypotheses, const std::vector<int>& faults, in
 /// best of its name. The linear model about the fit tells within one or two of ln p what a refit
 /// gives: named faults are far from none, but rivals do about the same as them.
 std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& selection) {
-  constexpr double kWorthALook = -8.0;
   const HypothesisSet& hypotheses = fitter.hypotheses();
   const Fit& best = selection.best;
   const Information data = best.model.All();
@@ -47,7 +46,7 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
       const std::vector<int> others = Exchanged(best.faults, selection.named[n].fault, k);
       const double promised =
           hypotheses.InferWithin(data, others).ln_evidence - best.posterior.ln_evidence;
-      if (promised < kWorthALook) continue;
+      if (promised < kSelectionTuning.exchange_screened) continue;
       const auto same = std::find_if(exchanges.begin(), exchanges.end(), [&](const Exchange& one) {
         return one.named == n && hypotheses.model(one.other).name() == hypotheses.model(k).name();
       });
@@ -66,19 +65,17 @@ std::vector<Exchange> PromisingExchanges(const Fitter& fitter, const Selection& 
 /// The first of the promising exchanges that keeps its promise. What was named last was chosen
 /// beside all others: it stays.
 void ExchangeOne(const Fitter& fitter, Selection* selection) {
-  constexpr double kWorthAFit = -3.0;
-  constexpr int kMostTried = 2;
   const double before = selection->best.posterior.ln_evidence;
   int tried = 0;
   for (const Exchange& exchange : PromisingExchanges(fitter, *selection)) {
-    const int most_tried = fitter.IsOutOfTime() ? 1 : kMostTried;
-    if (exchange.ln_gain < kWorthAFit || tried >= most_tried) break;
+    const int most_tried = fitter.IsOutOfTime() ? 1 : kSelectionTuning.most_exchanges;
+    if (exchange.ln_gain < kSelectionTuning.exchange_refined || tried >= most_tried) break;
     if (exchange.named + 1 == selection->named.size()) continue;
     ++tried;
     Choice& choice = selection->named[exchange.named];
     Fit other = fitter.Refine(Exchanged(selection->best.faults, choice.fault, exchange.other),
                               selection->best);
-    if (other.posterior.ln_evidence - before < kWorthAFit) continue;
+    if (other.posterior.ln_evidence - before < kSelectionTuning.exchange_refined) continue;
     other = fitter.Complete(std::move(other));
     if (!other.status.ok() || other.posterior.ln_evidence <= before) continue;
     if (!WhyNoFault(fitter.hypotheses(), other.posterior, exchange.other).empty()) continue;

@@ -16,6 +16,15 @@ namespace palpate::diagnosis {
 
 namespace {
 
+/// Prior odds of an unmodelled cause; docs/diagnosis.md says from which blind sets.
+struct ConfusabilityTuning {
+  double least_effect = 20.0;      ///< chi-squared of a fault that the data would show
+  double scatter_sigmas = 2.0;     ///< of chi-squared, that count as unexplained
+  double unmodelled = 1.0 / 20.0;  ///< prior odds of an unmodelled cause, one fault named
+  double further = 1.0 / 3.0;      ///< prior odds of a further fault
+};
+constexpr ConfusabilityTuning kConfusabilityTuning;
+
 /// Data about faults, where the tolerances are not known.
 class BesideTolerances {
  public:
@@ -120,11 +129,10 @@ std::optional<ConfusabilityOfFaults> BestBeside(const HypothesisSet& hypotheses,
 
 std::vector<double> ExplainedByOthers(const HypothesisSet& hypotheses, const Information& data,
                                       std::size_t others) {
-  constexpr double kWouldShow = 20.0;  // squares of noise
   const BesideTolerances beside(hypotheses, data);
   std::vector<double> most(static_cast<std::size_t>(hypotheses.size()), -1.0);
   for (int k = 0; k < hypotheses.size(); ++k) {
-    if (!hypotheses.CanBeFault(k) || beside.Size(k) < kWouldShow) continue;
+    if (!hypotheses.CanBeFault(k) || beside.Size(k) < kConfusabilityTuning.least_effect) continue;
     double& explained = most[static_cast<std::size_t>(k)];
     explained = 0.0;
     std::vector<int> named;
@@ -159,20 +167,20 @@ double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& dat
 }
 
 double ExplainedOfMisfit(const Fit& null_model, const Fit& fit) {
-  constexpr double kSeen = 2.0;  // sigma of chi-squared
   const auto rows = static_cast<double>(fit.model.y.size());
   const double explained = null_model.posterior.misfit - fit.posterior.misfit;
-  const double left = std::max(kSeen * std::sqrt(2.0 * rows), fit.posterior.misfit - rows);
+  const double left = std::max(kConfusabilityTuning.scatter_sigmas * std::sqrt(2.0 * rows),
+                               fit.posterior.misfit - rows);
   return explained > 0.0 ? explained / (explained + left) : 0.0;
 }
 
 double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& null_model,
                               const Fit& fit, bool is_noise) {
-  constexpr double kOutside = 1.0 / 20.0;  // as likely as one fault of the catalogue
-  constexpr double kFurther = 1.0 / 3.0;   // as likely as that there is none
   const std::size_t named = fit.faults.size();
   const double before =
-      is_noise ? kOutside / std::pow(kFurther, static_cast<double>(named) - 1.0) : 1.0;
+      is_noise ? kConfusabilityTuning.unmodelled /
+                     std::pow(kConfusabilityTuning.further, static_cast<double>(named) - 1.0)
+               : 1.0;
   const double confusable = before * ShareOfConfusable(hypotheses, null_model.model.All(), named,
                                                        ExplainedOfMisfit(null_model, fit));
   return confusable / (1.0 + confusable);

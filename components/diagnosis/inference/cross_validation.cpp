@@ -7,6 +7,17 @@
 
 namespace palpate::diagnosis {
 
+namespace {
+
+/// A larger share rejects faults that help little; the floor avoids a division by zero.
+struct CrossValidationTuning {
+  double least_share = 0.03;   ///< of the misfit beyond the noise that must go
+  double least_beyond = 0.01;  ///< of the noise, taken for the misfit beyond it
+};
+constexpr CrossValidationTuning kCrossValidationTuning;
+
+}  // namespace
+
 CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& model,
                             const std::vector<int>& faults) {
   CrossValidation out;
@@ -28,8 +39,6 @@ CrossValidation LeaveOneOut(const HypothesisSet& hypotheses, const LinearModel& 
 }
 
 CrossValidationGain Compare(const CrossValidation& before, const CrossValidation& after) {
-  constexpr double kShare = 0.03;
-  constexpr double kLeastBeyond = 0.01;  // of the noise: nothing is divided by nothing
   CrossValidationGain gain;
   double chi_before = 0.0;
   double chi_after = 0.0;
@@ -39,9 +48,9 @@ CrossValidationGain Compare(const CrossValidation& before, const CrossValidation
     chi_after += after.chi_squared[r];
   }
   const double noise = static_cast<double>(before.residual.size());
-  const double beyond = std::max(chi_before - noise, kLeastBeyond * noise);
+  const double beyond = std::max(chi_before - noise, kCrossValidationTuning.least_beyond * noise);
   gain.relative = (chi_before - chi_after) / beyond;
-  gain.clear = gain.relative > kShare && gain.ln_gain > 0.0;
+  gain.clear = gain.relative > kCrossValidationTuning.least_share && gain.ln_gain > 0.0;
   return gain;
 }
 

@@ -20,7 +20,7 @@ Status FewerData() {
 
 Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
                const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
-               TimeLimit limit)
+               TimeLimit limit, const FitterTuning& tuning)
     : observed_(observed),
       hypotheses_(hypotheses),
       models_(hypotheses.All()),
@@ -28,6 +28,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
       nominal_(NominalHypothesis(body, observed)),
       simulator_(observed, threads),
       limit_(limit),
+      tuning_(tuning),
       marker_rest_m_(3, std::ssize(body.markers)),
       null_prior_(hypotheses.PriorWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
@@ -139,21 +140,19 @@ Fit Fitter::Complete(Fit fit) const {
 /// Tolerances may matter more than faults let see: a cable that is about to get taut moves nothing
 /// as long as its actuator's zero is where the file has it.
 Fit Fitter::Continued(Fit fit) const {
-  constexpr int kMostSteps = 4;
-  constexpr int kMostFailures = 2;
-  constexpr double kLittle = 2.0;  // of chi-squared
   int failures = 0;
   Eigen::VectorXd to = PointFrom(fit, fit.faults);
   // Against a nominal robot that was not fitted to its end anything is evidence.
   const bool may_end = !fit.faults.empty();
-  for (int step = 0; step < kMostSteps && failures < kMostFailures; ++step) {
+  for (int step = 0;
+       step < tuning_.most_continuations && failures < tuning_.most_failed_continuations; ++step) {
     if (may_end && IsOutOfTime()) return fit;
     const double promised = MisfitAt(fit, to);
-    if (MisfitAt(fit, fit.z) - promised < kLittle) return fit;
+    if (MisfitAt(fit, fit.z) - promised < tuning_.continued_chi_squared) return fit;
     Fit next = MovedTo(to, fit);
     if (!next.status.ok()) return fit;
     const double found = MisfitAt(next, to);
-    if (std::abs(found - promised) < kLittle) return fit;
+    if (std::abs(found - promised) < tuning_.continued_chi_squared) return fit;
     if (found > MisfitAt(fit, fit.z)) {
       to = 0.5 * (fit.z + to);
       ++failures;
@@ -171,7 +170,6 @@ Fit Fitter::Continued(Fit fit) const {
 /// as far as it is no fault, with none of it. Damped, it is not far from there.
 Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faults,
                                   double damping) const {
-  constexpr double kLittle = 2.0;  // tolerances
   Information data = about.model.All();
   if (damping > 0.0) {
     const Eigen::VectorXd hold = damping * data.H.diagonal();
@@ -186,7 +184,8 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
       const Eigen::Index column = hypotheses_.first(k) + p;
       const bool one_sided =
           hypotheses_.model(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
-      const bool little = all.mean[column] < kLittle * null_prior_.sigma[column];
+      const bool little =
+          all.mean[column] < tuning_.one_sided_tolerances * null_prior_.sigma[column];
       if (one_sided && little) at_zero.push_back(column);
     }
   }
@@ -209,14 +208,13 @@ Eigen::VectorXd Fitter::FaultStart(const std::vector<int>& faults, const Fit& st
 }
 
 bool Fitter::IsNear(const Fit& fit) const {
-  constexpr double kOfFault = 0.5;  // of what it is known to
-  constexpr double kOfTolerance = 1.5;
   const GaussianPrior prior = hypotheses_.PriorWith(fit.faults);
   const Eigen::VectorXd step = PointFrom(fit, fit.faults) - fit.z;
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     const double known = std::sqrt(fit.posterior.covariance(p, p));
     const bool fault = prior.sigma[p] != null_prior_.sigma[p];
-    const double reach = fault ? kOfFault * known : kOfTolerance * prior.sigma[p];
+    const double reach =
+        fault ? tuning_.near_fault * known : tuning_.near_tolerance * prior.sigma[p];
     if (std::abs(step[p]) > reach) return false;
   }
   return true;
@@ -244,24 +242,17 @@ bool Fitter::HasKinks(const std::vector<int>& faults) const {
 }
 
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start) const {
-  constexpr int kMostRounds = 6;
-  constexpr int kMostRoundsOverKinks = 10;
-  if (!HasKinks(faults)) return Refine(faults, start, kMostRounds, Detail::kParts);
-  const Fit near = Refine(faults, start, kMostRoundsOverKinks, Detail::kMiddles);
+  if (!HasKinks(faults)) return Refine(faults, start, tuning_.most_rounds, Detail::kParts);
+  const Fit near = Refine(faults, start, tuning_.most_rounds_over_kinks, Detail::kMiddles);
   if (near.bends_known || !near.status.ok()) return near;
-  return Refine(faults, near, kMostRounds, Detail::kParts);
+  return Refine(faults, near, tuning_.most_rounds, Detail::kParts);
 }
 
 Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
                    Detail detail) const {
-  constexpr double kNothing = 0.5;  // of ln evidence
-  constexpr double kAlike = 0.01;   // of chi-squared, from where smaller steps find little
-  constexpr double kStillToGo = 0.2;
-  constexpr int kRoundsToHope = 3;
   // Over kinks chi-squared goes up and down by some hundredths from place to place.
   const bool has_kinks = HasKinks(faults);
-  constexpr double kLittleOverKinks = 0.03;  // of chi-squared
-  const int most_failures = has_kinks ? 2 : most_rounds;
+  const int most_failures = has_kinks ? tuning_.most_failures_over_kinks : most_rounds;
   std::vector<bool> wanted(models_.size(), false);
   for (const int k : faults) wanted[static_cast<std::size_t>(k)] = !IsKnownBySimulation(k, start);
   Fit fit;
@@ -270,9 +261,6 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   const Simulation* from = &start.simulation;
   Eigen::VectorXd to = PointFrom(start, faults);
   double misfit = std::numeric_limits<double>::infinity();
-  constexpr double kLeastDamping = 0.03;
-  constexpr double kDampMore = 10.0;
-  constexpr double kDampLess = 3.0;
   double damping = 0.0;
   int failures = 0;
   for (int round = 0; round < most_rounds && failures < most_failures; ++round) {
@@ -287,24 +275,26 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
     if (next.model.y.size() < start.model.y.size() && next.status.ok()) next.status = FewerData();
     const double now = next.status.ok() ? MisfitAt(next, next.z) : misfit;
     const bool placed = fit.status.ok();
-    if (next.status.ok() && now > misfit && now < (1.0 + kAlike) * misfit) break;
+    if (next.status.ok() && now > misfit && now < (1.0 + tuning_.settled_misfit) * misfit) break;
     if (!next.status.ok() || now > misfit) {
-      damping = std::max(kLeastDamping, kDampMore * damping);
+      damping = std::max(tuning_.least_damping, tuning_.damp_more * damping);
       to = placed ? PointFrom(fit, faults, damping) : 0.5 * (fit.z + to);
       failures += placed;
       if (placed && IsOutOfTime()) break;
       continue;
     }
     failures = 0;
-    damping = damping < kLeastDamping ? 0.0 : damping / kDampLess;
-    const bool little = has_kinks && placed && now > (1.0 - kLittleOverKinks) * misfit;
+    damping = damping < tuning_.least_damping ? 0.0 : damping / tuning_.damp_less;
+    const bool little = has_kinks && placed && now > (1.0 - tuning_.settled_over_kinks) * misfit;
     misfit = now;
     fit = std::move(next);
     from = &fit.simulation;
     to = PointFrom(fit, faults, damping);
-    const bool there = misfit < (1.0 + kStillToGo) * MisfitAt(fit, to);
-    const bool settled = there && std::abs(fit.posterior.ln_evidence - before) < kNothing;
-    const bool hopeless = round + 1 >= kRoundsToHope && faults.size() > start.faults.size() &&
+    const bool there = misfit < (1.0 + tuning_.still_to_go) * MisfitAt(fit, to);
+    const bool settled =
+        there && std::abs(fit.posterior.ln_evidence - before) < tuning_.settled_ln_evidence;
+    const bool hopeless = round + 1 >= tuning_.rounds_to_hope &&
+                          faults.size() > start.faults.size() &&
                           fit.posterior.ln_evidence < start.posterior.ln_evidence;
     if (little || settled || hopeless || IsNear(fit) || IsOutOfTime()) break;
   }

@@ -13,6 +13,28 @@
 
 namespace palpate::diagnosis {
 
+/// When fits end, and how their steps are damped. More rounds and smaller limits cost simulations
+/// and gain evidence, of which selection asks for ln BF 10.
+struct FitterTuning {
+  int most_rounds = 6;               ///< simulations of one refinement
+  int most_rounds_over_kinks = 10;   ///< of faults whose effect has kinks (obstacles), coarse
+  int most_failures_over_kinks = 2;  ///< steps in a row that fit worse, before such a one ends
+  int rounds_to_hope = 3;            ///< after which a fault without evidence is given up
+  double settled_ln_evidence = 0.5;  ///< a round that changes less is the last
+  double settled_misfit = 0.01;      ///< of chi-squared: a step that is worse by less ends the fit
+  double settled_over_kinks = 0.03;  ///< the same over kinks, where chi-squared is uneven
+  double still_to_go = 0.2;     ///< of chi-squared, that the linear model may promise at the end
+  double near_fault = 0.5;      ///< a step below this share of a fault's deviation is the last
+  double near_tolerance = 1.5;  ///< and below so many tolerances of any other parameter
+  double one_sided_tolerances = 2.0;   ///< one-sided parameters (backlash) below are held at zero
+  double least_damping = 0.03;         ///< Levenberg-Marquardt, of the diagonal
+  double damp_more = 10.0;             ///< after a step that fits worse
+  double damp_less = 3.0;              ///< after one that fits better
+  int most_continuations = 4;          ///< full steps of a complete fit
+  int most_failed_continuations = 2;   ///< of these, steps that are halved
+  double continued_chi_squared = 2.0;  ///< gain that such a step must promise
+};
+
 /// A robot with some faults, fitted to an experiment.
 struct Fit {
   Status status;
@@ -36,7 +58,7 @@ class Fitter {
   /// for that of a nominal robot.
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
          const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
-         TimeLimit limit = {});
+         TimeLimit limit = {}, const FitterTuning& tuning = {});
 
   /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
   /// and what a nominal robot makes of it.
@@ -107,6 +129,7 @@ class Fitter {
   ModelHypothesis nominal_;
   Simulator simulator_;
   TimeLimit limit_;
+  FitterTuning tuning_;
   Eigen::Matrix3Xd marker_rest_m_;
   GaussianPrior null_prior_;
 };

@@ -29,13 +29,12 @@ double LogMeanExp(const std::vector<double>& values) {
 
 /// Which of one name to simulate; `of_name`: the most probable first.
 std::vector<int> StartsOf(const HypothesisSet& hypotheses, const std::vector<Candidate>& of_name) {
-  constexpr std::size_t kMost = 3;
   std::vector<int> starts;
   for (const Candidate& one : of_name) {
     const bool there = std::any_of(starts.begin(), starts.end(), [&](int k) {
       return hypotheses.model(k).Start() == hypotheses.model(one.fault).Start();
     });
-    if (!there && starts.size() < kMost) starts.push_back(one.fault);
+    if (!there && starts.size() < kSelectionTuning.most_starts) starts.push_back(one.fault);
   }
   return starts;
 }
@@ -109,8 +108,6 @@ double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& 
 
 namespace {
 
-constexpr double kBeyondTolerance = 3.0;
-
 /// By how many sigmas the data exclude a nominal robot, of a fault with sizes that begin at nothing
 /// beside such as a nominal robot may have: of these the likeliest where the others are nothing. 0:
 /// it has none of them. Data may tell the sum of a delay and a time constant, and neither of them.
@@ -133,8 +130,8 @@ double SigmasFromNominal(const HypothesisSet& hypotheses, const Posterior& poste
   if (others.empty()) return 0.0;
   const Eigen::MatrixXd& covariance = posterior.covariance;
   const Eigen::VectorXd gone = posterior.mean(others);
-  const Eigen::VectorXd reach =
-      kBeyondTolerance * Eigen::VectorXd::Map(tolerance.data(), std::ssize(tolerance));
+  const Eigen::VectorXd reach = kSelectionTuning.least_tolerances *
+                                Eigen::VectorXd::Map(tolerance.data(), std::ssize(tolerance));
   const Eigen::MatrixXd covariance_of_others = covariance(others, others);
   const Eigen::MatrixXd both = covariance(tolerated, others);
   const Eigen::VectorXd likeliest =
@@ -166,7 +163,8 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
   }
   // The tolerance of a vector's length is by that root more than that of each of its components.
   if (components > 0) most = std::max(most, std::sqrt(squares / components));
-  const bool beyond = SigmasFromNominal(hypotheses, posterior, fault) > kBeyondTolerance;
+  const bool beyond =
+      SigmasFromNominal(hypotheses, posterior, fault) > kSelectionTuning.least_tolerances;
   return most < 0.0 || beyond ? std::numeric_limits<double>::infinity() : most;
 }
 
@@ -174,7 +172,6 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
 /// for such a one is of fits that did not come to their ends. An obstacle that nearly touches is
 /// one.
 bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
-  constexpr double kClearly_sigmas = 2.0;
   if (hypotheses.model(fault).Start()) return false;
   std::vector<Eigen::Index> sizes;
   for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
@@ -186,14 +183,15 @@ bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, i
   if (sizes.empty()) return false;
   const Eigen::VectorXd z = posterior.mean(sizes);
   const Eigen::MatrixXd covariance = posterior.covariance(sizes, sizes);
-  return z.dot(linalg::SolveSymmetric(covariance, z)) <
-         kClearly_sigmas * kClearly_sigmas * static_cast<double>(sizes.size());
+  return z.dot(linalg::SolveSymmetric(covariance, z)) < kSelectionTuning.nonzero_sigmas *
+                                                            kSelectionTuning.nonzero_sigmas *
+                                                            static_cast<double>(sizes.size());
 }
 
 }  // namespace
 
 std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault) {
-  if (SizeInTolerances(hypotheses, posterior, fault) < kBeyondTolerance) {
+  if (SizeInTolerances(hypotheses, posterior, fault) < kSelectionTuning.least_tolerances) {
     return "it is within three manufacturing tolerances of the nominal robot";
   }
   if (MayBeNothing(hypotheses, posterior, fault)) {
@@ -212,31 +210,28 @@ std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posteri
 
 namespace {
 
-constexpr double kWorthALook = 10.0;     ///< below the best, ln BF, to be simulated again
-constexpr double kMayGetClear = 5.0;     ///< ln BF that a further fault promises before
-constexpr std::size_t kMostRefined = 4;  ///< in a round
-constexpr int kMostRounds = 2;
 constexpr double kImpossible = -1e9;  ///< ln BF of what cannot be simulated
 
 }  // namespace
 
 double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival) {
-  constexpr double kSameEffect = 0.95;
-  const bool same =
-      rival.canonical_correlation > kSameEffect && !hypotheses.IsSpecialCase(rival.fault, named);
-  return same ? kClearEvidence : kIndistinguishableEvidence;
+  const bool same = rival.canonical_correlation > kSelectionTuning.same_effect &&
+                    !hypotheses.IsSpecialCase(rival.fault, named);
+  return same ? kSelectionTuning.clear_evidence : kSelectionTuning.indistinguishable_evidence;
 }
 
 bool ForwardSelectionStep::Search() {
   candidates_ = Screen(fitter_, before_, before_.faults);
   if (likely_) SimulateLikely(*likely_);
-  if (candidates_.empty() || candidates_.front().ln_bayes_factor < kIndistinguishableEvidence) {
+  if (candidates_.empty() ||
+      candidates_.front().ln_bayes_factor < kSelectionTuning.indistinguishable_evidence) {
     Explain();
     return false;
   }
   const CrossValidation cross_validation =
       LeaveOneOut(fitter_.hypotheses(), before_.model, before_.faults);
-  for (int round = 0; round < kMostRounds && found_ >= candidates_.size(); ++round) {
+  for (int round = 0; round < kSelectionTuning.most_rounds && found_ >= candidates_.size();
+       ++round) {
     if (round > 0 && !AreOthersPromising()) break;
     RefineTheBest();
     FindOneThatIsClear(cross_validation);
@@ -277,10 +272,11 @@ void ForwardSelectionStep::SimulateLikely(const CauseName& name) {
 bool ForwardSelectionStep::AreOthersPromising() const {
   const std::size_t next = fits_.size();
   if (next >= candidates_.size() || fitter_.IsOutOfTime()) return false;
-  if (candidates_[next].ln_bayes_factor < kClearEvidence) return false;
+  if (candidates_[next].ln_bayes_factor < kSelectionTuning.clear_evidence) return false;
   for (std::size_t k = 0; k < fits_.size(); ++k) {
     const Candidate& tried = candidates_[k];
-    const bool can_be = !tried.ruled_out && tried.ln_bayes_factor >= kClearEvidence;
+    const bool can_be =
+        !tried.ruled_out && tried.ln_bayes_factor >= kSelectionTuning.clear_evidence;
     if (can_be && !PromisesAnotherMoreThan(k)) return false;
   }
   return true;
@@ -289,7 +285,8 @@ bool ForwardSelectionStep::AreOthersPromising() const {
 bool ForwardSelectionStep::PromisesAnotherMoreThan(std::size_t k) const {
   const std::size_t next = fits_.size();
   return next < candidates_.size() &&
-         candidates_[next].ln_bayes_factor > candidates_[k].ln_bayes_factor + kWorthALook;
+         candidates_[next].ln_bayes_factor >
+             candidates_[k].ln_bayes_factor + kSelectionTuning.refined_within;
 }
 
 void ForwardSelectionStep::FindOneThatIsClear(const CrossValidation& cross_validation) {
@@ -314,14 +311,17 @@ void ForwardSelectionStep::PutSpecialCasesNext(std::size_t first, std::size_t en
 
 void ForwardSelectionStep::RefineTheBest() {
   const std::size_t first = fits_.size();
-  const std::size_t end = std::min(first + kMostRefined, candidates_.size());
+  const std::size_t end = std::min(first + kSelectionTuning.most_refined, candidates_.size());
   PutSpecialCasesNext(first, end);
-  const double least = before_.faults.empty() ? kIndistinguishableEvidence : kMayGetClear;
+  const double least = before_.faults.empty() ? kSelectionTuning.indistinguishable_evidence
+                                              : kSelectionTuning.further_promise;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t k = first; k < end; ++k) {
     Candidate& candidate = candidates_[k];
     const bool special = k > first && IsSpecialCaseOf(k, k - 1);
-    if (!special && candidate.ln_bayes_factor < std::max(least, best - kWorthALook)) break;
+    if (!special &&
+        candidate.ln_bayes_factor < std::max(least, best - kSelectionTuning.refined_within))
+      break;
     if (k > 0 && fitter_.IsOutOfTime()) break;
     Fit fit = RefineFromItsStarts(&candidate);
     const double now = fit.posterior.ln_evidence - before_.posterior.ln_evidence;
@@ -336,13 +336,14 @@ void ForwardSelectionStep::RefineTheBest() {
   for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
     const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
     // How likely a further one is that cannot get clear, nobody asks.
-    if (behind < kIndistinguishableEvidence && candidates_[k].ln_bayes_factor >= least) Complete(k);
+    if (behind < kSelectionTuning.indistinguishable_evidence &&
+        candidates_[k].ln_bayes_factor >= least)
+      Complete(k);
   }
   SortRefined();
 }
 
 Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
-  constexpr int kRoundsToCompare = 3;
   if (candidate->starts.size() < 2) {
     const std::vector<int> faults = With(before_.faults, candidate->fault);
     const bool was_tried = tried_.status.ok() && tried_.faults == faults;
@@ -351,8 +352,8 @@ Fit ForwardSelectionStep::RefineFromItsStarts(Candidate* candidate) const {
   Fit best;
   for (const int fault : candidate->starts) {
     if (!best.faults.empty() && fitter_.IsOutOfTime()) break;
-    Fit fit =
-        fitter_.Refine(With(before_.faults, fault), before_, kRoundsToCompare, Detail::kMiddles);
+    Fit fit = fitter_.Refine(With(before_.faults, fault), before_,
+                             kSelectionTuning.rounds_to_compare, Detail::kMiddles);
     const bool better = fit.status.ok() && (!best.status.ok() ||
                                             fit.posterior.ln_evidence > best.posterior.ln_evidence);
     if (!better && !best.faults.empty()) continue;
@@ -390,8 +391,8 @@ void ForwardSelectionStep::SortRefined() {
 
 bool ForwardSelectionStep::IsClear(const CrossValidation& before, std::size_t k) {
   Candidate& candidate = candidates_[k];
-  if (candidate.ln_bayes_factor >= kClearEvidence) Complete(k);
-  if (candidate.ln_bayes_factor < kClearEvidence) {
+  if (candidate.ln_bayes_factor >= kSelectionTuning.clear_evidence) Complete(k);
+  if (candidate.ln_bayes_factor < kSelectionTuning.clear_evidence) {
     candidate.why_not = "the evidence for it is below ln BF 10 (ln BF " +
                         FormatNumber(std::round(10.0 * candidate.ln_bayes_factor) / 10.0) + ")";
     return false;
@@ -439,11 +440,10 @@ bool ForwardSelectionStep::KeepsTolerances(std::size_t k) const {
     }
     return sum;
   };
-  return off(before_) - off(fits_[k]) > 2.0 * kClearEvidence;
+  return off(before_) - off(fits_[k]) > 2.0 * kSelectionTuning.clear_evidence;
 }
 
 int ForwardSelectionStep::SeenIn(std::size_t k) const {
-  constexpr double kClearly = 5.0;
   int recordings = 0;
   Eigen::Index first = 0;
   Eigen::Index first_before = 0;
@@ -455,7 +455,7 @@ int ForwardSelectionStep::SeenIn(std::size_t k) const {
           .squaredNorm();
     };
     const double gain = 0.5 * (misfit(before_, first_before) - misfit(fits_[k], first));
-    if (gain > kClearly) ++recordings;
+    if (gain > kSelectionTuning.seen_chi_squared) ++recordings;
     first += fits_[k].model.of_recording[r].rows;
     first_before += before_.model.of_recording[r].rows;
   }

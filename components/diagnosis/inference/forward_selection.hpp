@@ -14,6 +14,27 @@
 
 namespace palpate::diagnosis {
 
+/// Thresholds of forward selection and backward elimination. Higher evidence accuses fewer nominal
+/// robots and misses more small faults; more refinements cost simulations.
+struct SelectionTuning {
+  double clear_evidence = 10.0;             ///< ln BF that a fault must have to be named
+  double indistinguishable_evidence = 3.0;  ///< |ln BF| below which faults are not identifiable
+  double same_effect = 0.95;        ///< canonical correlation of faults with the same effect
+  double least_tolerances = 3.0;    ///< size of a fault that has a tolerance
+  double nonzero_sigmas = 2.0;      ///< deviations by which a size differs from zero
+  double refined_within = 10.0;     ///< ln BF below the best that is still simulated
+  double further_promise = 5.0;     ///< ln BF that a further fault promises before that
+  std::size_t most_refined = 4;     ///< candidates simulated in a round
+  int most_rounds = 2;              ///< rounds of simulated candidates
+  std::size_t most_starts = 3;      ///< places of one fault that are simulated
+  int rounds_to_compare = 3;        ///< simulations of each before the best goes on
+  double seen_chi_squared = 5.0;    ///< half chi-squared by which a recording shows a fault
+  double exchange_screened = -8.0;  ///< ln BF of an exchange that counts in probabilities
+  double exchange_refined = -3.0;   ///< ln BF of an exchange that is simulated
+  int most_exchanges = 2;           ///< that are simulated for each further fault
+};
+inline constexpr SelectionTuning kSelectionTuning;
+
 /// A fault that was evaluated as the next one, and what became of it.
 struct Candidate {
   int fault = -1;  ///< the best of those that have its name (places, relaxation times)
@@ -46,9 +67,6 @@ double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& 
 /// selection): within three of the tolerances that a nominal robot has, as likely nothing at all,
 /// or so large that it is rather another fault in disguise. Empty: it may be one.
 std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault);
-
-inline constexpr double kClearEvidence = 10.0;             ///< ln BF that a fault must have
-inline constexpr double kIndistinguishableEvidence = 3.0;  ///< ln BF within which faults fit alike
 
 /// ln BF within which a rival is not told apart from the fault that is named. Of faults whose
 /// effects are the same (canonical correlation above 0.95; docs/theory/model_selection.md,

@@ -15,9 +15,16 @@ namespace palpate::diagnosis {
 
 namespace {
 
+/// More false alarms detect smaller unmodelled causes.
+struct GoodnessOfFitTuning {
+  double least_excess = 0.15;  ///< of the noise's chi-squared; less may be mesh error
+  double false_alarms = 0.02;  ///< of right models that fail (bootstrap quantile)
+  std::size_t nearest = 2;     ///< neighbours of a point in Moran's I
+};
+constexpr GoodnessOfFitTuning kGoodnessOfFitTuning;
+
 /// Markers beside each other on the undeformed body: each with those nearest to it.
 std::set<std::pair<Eigen::Index, Eigen::Index>> Neighbours(const Eigen::Matrix3Xd& rest_m) {
-  constexpr std::size_t kNearest = 2;
   std::set<std::pair<Eigen::Index, Eigen::Index>> neighbours;
   for (Eigen::Index m = 0; m < rest_m.cols(); ++m) {
     std::vector<std::pair<double, Eigen::Index>> others;
@@ -25,7 +32,7 @@ std::set<std::pair<Eigen::Index, Eigen::Index>> Neighbours(const Eigen::Matrix3X
       if (other != m) others.emplace_back((rest_m.col(other) - rest_m.col(m)).norm(), other);
     }
     std::sort(others.begin(), others.end());
-    for (std::size_t k = 0; k < std::min(kNearest, others.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(kGoodnessOfFitTuning.nearest, others.size()); ++k) {
       neighbours.emplace(std::min(m, others[k].second), std::max(m, others[k].second));
     }
   }
@@ -172,15 +179,7 @@ Eigen::Index ResidualStatistics::MisfitBeside(Eigen::Index test) const {
   return test == 0 ? 0 : IndexOf(kMisfit, (test - 1) % std::ssize(recordings_));
 }
 
-namespace {
-
-/// A model error smaller than this share of the noise's chi-squared may be the mesh's: its errors,
-/// a per cent of some 10 mm, are not quite the constants that NoiseModel takes them for.
-constexpr double kLeastExcess = 0.15;
-/// Of the bootstrap: one right model in so many fails.
-constexpr double kFalseAlarms = 0.02;
-
-}  // namespace
+namespace {}  // namespace
 
 GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
                                 const Eigen::Matrix3Xd& marker_rest_m,
@@ -216,7 +215,8 @@ GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
     worst_of_draws.push_back(standardised(drawn.col(d)).maxCoeff());
   }
   std::sort(worst_of_draws.begin(), worst_of_draws.end());
-  const auto rank = static_cast<std::size_t>((1.0 - kFalseAlarms) * (draws - 1));
+  const auto rank =
+      static_cast<std::size_t>((1.0 - kGoodnessOfFitTuning.false_alarms) * (draws - 1));
   const Eigen::VectorXd tests = residual_statistics.Of(model.y - model.J * fit.posterior.mean);
   GoodnessOfFit result;
   Eigen::Index worst = 0;
@@ -225,7 +225,8 @@ GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
   const double expected = mean[residual_statistics.MisfitBeside(worst)];
   result.excess = (tests[worst] - mean[worst]) / expected;
   result.surprise_limit = worst_of_draws[rank];
-  result.passed = result.surprise <= result.surprise_limit || result.excess < kLeastExcess;
+  result.passed =
+      result.surprise <= result.surprise_limit || result.excess < kGoodnessOfFitTuning.least_excess;
   return result;
 }
 

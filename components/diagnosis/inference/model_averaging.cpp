@@ -14,6 +14,14 @@ namespace palpate::diagnosis {
 
 namespace {
 
+/// More moves find better places; a smaller weight widens intervals by less probable faults.
+struct AveragingTuning {
+  int most_moves = 2;           ///< to another place of a fault
+  double clearly_better = 2.0;  ///< ln evidence that a place must gain
+  double least_weight = 0.02;   ///< of a further fault that widens intervals
+};
+constexpr AveragingTuning kAveragingTuning;
+
 /// What a linear model says of the fault at another of its places.
 struct Elsewhere {
   int fault = -1;
@@ -51,16 +59,15 @@ Eigen::VectorXd CountedFrom(const FaultModel& other, const FaultModel& one, Eige
 }  // namespace
 
 Fit AtTheBestPlace(const Fitter& fitter, Fit fit, int* fault) {
-  constexpr int kMostMoves = 2;
-  constexpr double kClearly = 2.0;                                        // of ln evidence
   if (fitter.hypotheses().model(*fault).Start().has_value()) return fit;  // all were tried
-  for (int move = 0; move < kMostMoves && fit.status.ok() && !fitter.IsOutOfTime(); ++move) {
+  for (int move = 0; move < kAveragingTuning.most_moves && fit.status.ok() && !fitter.IsOutOfTime();
+       ++move) {
     const std::vector<Elsewhere> places = FitElsewhere(fitter, fit, *fault);
     const auto best =
         std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
           return a.posterior.ln_evidence < b.posterior.ln_evidence;
         });
-    const double least = fit.posterior.ln_evidence + kClearly;
+    const double least = fit.posterior.ln_evidence + kAveragingTuning.clearly_better;
     if (best == places.end() || best->posterior.ln_evidence < least) break;
     Fit there = fitter.Complete(fitter.Refine(Moved(fit.faults, *fault, best->fault), fit));
     if (!there.status.ok() || there.posterior.ln_evidence < least) break;
@@ -94,14 +101,13 @@ Eigen::MatrixXd CovarianceOverPlaces(const Fitter& fitter, const Fit& fit, int f
 }
 
 std::vector<FurtherFault> FurtherFaults(const Fitter& fitter, const Fit& fit) {
-  constexpr double kOfWeight = 0.02;
   const std::vector<Candidate> candidates = Screen(fitter, fit, fit.faults);
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, candidates.size()));
   std::vector<FurtherFault> further;
   for (const Candidate& candidate : candidates) {
     // A linear model that says more was not borne out, or it would have been named.
     const double weight = std::min(1.0, share * std::exp(candidate.ln_bayes_factor));
-    if (weight < kOfWeight) continue;
+    if (weight < kAveragingTuning.least_weight) continue;
     further.push_back(
         {.fault = candidate.fault,
          .weight = weight,

@@ -76,7 +76,7 @@ Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
       break;
     }
     selection.best = rematched(next.fit());
-    if (number > 0) EliminateBackward(fitter, kClearEvidence, &selection);
+    if (number > 0) EliminateBackward(fitter, kSelectionTuning.clear_evidence, &selection);
     if (static_cast<int>(selection.named.size()) <= number) break;  // one was dropped for it
   }
   selection.complete = !fitter.IsOutOfTime();  // else fits may have ended early, too

@@ -39,7 +39,7 @@ TEST_F(SpecialCase, IsNamedWhereTheGeneralCauseHasNoNeedOfWhatElseItCanDo) {
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double better =
       LnBayesFactorOf("payload", selection) - LnBayesFactorOf("permanent_force", selection);
-  ASSERT_GT(better, kIndistinguishableEvidence);
+  ASSERT_GT(better, kSelectionTuning.indistinguishable_evidence);
   EXPECT_EQ(IdOf(selection.named[0].fault), "payload");
   EXPECT_NEAR(selection.named[0].probability, 1.0 / (1.0 + std::exp(-better)), 1e-3);
   EXPECT_FALSE(IsIndistinguishable("permanent_force", selection));
@@ -51,14 +51,14 @@ TEST_F(SpecialCase, IsAlikeAsOtherCausesAreHoweverMuchTheirEffectsAreTheSame) {
   constexpr double kSame = 0.999;
   EXPECT_EQ(
       IndistinguishableWithin(hypotheses_, force, {.fault = mass, .canonical_correlation = kSame}),
-      kIndistinguishableEvidence);
+      kSelectionTuning.indistinguishable_evidence);
   const int other = Number("density", "body");
   EXPECT_EQ(
       IndistinguishableWithin(hypotheses_, force, {.fault = other, .canonical_correlation = kSame}),
-      kClearEvidence);
+      kSelectionTuning.clear_evidence);
   EXPECT_EQ(
       IndistinguishableWithin(hypotheses_, force, {.fault = other, .canonical_correlation = 0.9}),
-      kIndistinguishableEvidence);
+      kSelectionTuning.indistinguishable_evidence);
 }
 
 TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) {
@@ -66,8 +66,8 @@ TEST_F(SpecialCase, GivesWayToTheGeneralCauseWithMoreEvidenceThanAlikeOnesHave) 
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   const double behind =
       LnBayesFactorOf("permanent_force", selection) - LnBayesFactorOf("payload", selection);
-  ASSERT_GT(behind, kIndistinguishableEvidence);
-  ASSERT_LT(behind, kClearEvidence)
+  ASSERT_GT(behind, kSelectionTuning.indistinguishable_evidence);
+  ASSERT_LT(behind, kSelectionTuning.clear_evidence)
       << "their effects are much the same: that does not make them alike";
   EXPECT_EQ(IdOf(selection.named[0].fault), "permanent_force");
   EXPECT_FALSE(IsIndistinguishable("payload", selection));
