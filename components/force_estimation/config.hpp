@@ -37,29 +37,30 @@ struct Config {
       "empty: "
       "search");
     v("candidate_patch_radius_m", candidate_patch_radius_m, {.min = 0.0},
-      "Patch over which a contact found by search is spread");
+      "Radius of the patch of a contact found by search");
     v("max_contacts", max_contacts, {.min = 1.0, .max = 5.0},
-      "Contacts that the search may find at once");
+      "Largest number of contacts that the search may find at once");
     v("marker_sigma_m", marker_sigma_m, {.min = 0.0, .min_open = true},
-      "Marker noise where the data do not say theirs");
+      "Standard deviation of the marker noise where the data do not give it");
     v("marker_bias_m", marker_bias_m, {.min = 0.0},
-      "Constant error of each marker that averaging does not remove, one sigma");
+      "Standard deviation of the constant error of each marker, which averaging does not remove");
     v("contact_marker_weight", contact_marker_weight, {.min = 0.0, .max = 1.0},
-      "Weight of a marker that stands on a given contact's patch, where the pressure's unknown "
-      "distribution dents the surface");
+      "Weight of a marker on a given contact's patch, where the unknown pressure distribution "
+      "dents the surface");
     v("significance", significance, {.min = 0.0, .max = 0.5, .min_open = true},
-      "Chance of a false contact from noise alone in one frame");
+      "False-alarm probability per frame");
     v("unobservable_sigma_N", unobservable_sigma_N, {.min = 0.0, .min_open = true},
-      "A force component known no better than this is called unobservable");
-    v("max_iterations", max_iterations, {.min = 1.0, .max = 1000.0}, "Linearisations in one frame");
+      "Standard deviation above which a force component is unobservable");
+    v("max_iterations", max_iterations, {.min = 1.0, .max = 1000.0},
+      "Largest number of linearisations per frame");
     v("frame_tolerance", frame_tolerance, {.min = 1e-11, .max = 0.1},
-      "A frame has converged when residual / forces, cable length missed / cable length and the "
-      "forces' next change / largest force (1 N at least) are no larger");
+      "Convergence: largest of residual / forces, missed cable length / cable length, and next "
+      "change / largest force (1 N at least)");
     v("frame_budget_s", frame_budget_s, {.min = 0.0},
-      "Time for one frame with given contacts, once the first was found; 0: no limit");
+      "Time limit of one frame with given contacts, after the first fit; 0: no limit");
     v("solver", solver, fem::SolverNames(), "Sparse Cholesky of the model");
     v("threads", threads, {.min = 1.0, .max = 64.0},
-      "Threads that assemble, factorise and solve; the results do not depend on it");
+      "Threads of assembly, factorisation and solve; results do not depend on it");
   }
 };
 

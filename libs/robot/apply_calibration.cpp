@@ -159,7 +159,7 @@ Status CheckCalibration(const CalibrationFile& calibration, const RobotModel& mo
   const std::vector<std::string> cables = model.CableNames();
   for (const CalibratedDrive& drive : calibration.drives) {
     if (IndexOf(cables, drive.cable)) continue;
-    return Foreign("the calibration holds the drive of cable '" + drive.cable +
+    return Foreign("the calibration holds the actuator of cable '" + drive.cable +
                    "', which the robot file does not have" + DidYouMean(drive.cable, cables));
   }
   return Status::Ok();

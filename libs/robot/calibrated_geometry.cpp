@@ -96,7 +96,7 @@ Status CheckGeometry(const std::optional<CalibratedScale>& scale,
   for (const CalibratedRoute& route : routes) {
     if (route.point < 0 || !route.moved_m.allFinite() || !route.standard_error_m.allFinite() ||
         route.standard_error_m.minCoeff() < 0.0) {
-      return invalid("the route of cable '" + route.cable + "' has a number that is none");
+      return invalid("the route of cable '" + route.cable + "' has a value that is not a number");
     }
     if (route.moved_m.lpNorm<Eigen::Infinity>() <= kFarthestOff_m) continue;
     return invalid("point " + std::to_string(route.point) + " of cable '" + route.cable +

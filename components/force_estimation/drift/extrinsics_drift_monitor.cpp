@@ -160,7 +160,7 @@ void ExtrinsicsDriftMonitor::Say(const Motion& motion, const std::string& since)
   report_.advice = what_ + " seems shifted by " +
                    FormatNumber(std::round(100.0 * shift_mm) / 100.0) + " mm and turned by " +
                    FormatNumber(std::round(100.0 * turn_deg) / 100.0) + " degrees " + since +
-                   ": camera or base moved, calibrate anew";
+                   ": camera or base moved, calibrate again";
 }
 
 }  // namespace palpate::force_estimation

@@ -167,7 +167,7 @@ std::string ModelResidualMonitor::Advice() const {
 
 std::string ModelResidualMonitor::LikelyFamily() const {
   if (const Part* cable = PartThatGrew(&Second::cables)) {
-    return "cable " + cable->name + " or its drive";
+    return "cable " + cable->name + " or its actuator";
   }
   const Part* region = PartThatGrew(&Second::regions);
   if (region != nullptr && region->name != "body") {

@@ -99,7 +99,7 @@ Status ReadGravity(const idl::palpate_msgs::Calibration& message, robot::Calibra
   gravity.standard_error_m_s2 = dds::ToVector(message.gravity_standard_error_m_s2);
   if (!gravity.gravity_m_s2.allFinite() || !gravity.standard_error_m_s2.allFinite() ||
       gravity.standard_error_m_s2.minCoeff() < 0.0) {
-    return Invalid("gravity_m_s2 has a number that is none");
+    return Invalid("gravity_m_s2 has a value that is not a number");
   }
   return Status::Ok();
 }
@@ -125,7 +125,7 @@ Status ReadNumbers(const idl::palpate_msgs::Calibration& message, robot::Calibra
     const std::string cable(dds::Text(drive.cable));
     if (!std::isfinite(drive.offset_m) || !std::isfinite(drive.gain) ||
         !IsError(drive.offset_standard_error_m) || !IsError(drive.gain_standard_error)) {
-      return Invalid("the drive of cable '" + cable + "' has a number that is none");
+      return Invalid("the actuator of cable '" + cable + "' has a value that is not a number");
     }
     file->drives.push_back({cable,
                             {drive.offset_m, drive.gain},

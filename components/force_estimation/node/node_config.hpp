@@ -29,25 +29,24 @@ struct NodeConfig : Config {
     Config::Visit(v);
     v("shape", shape, "Forces from the robot's shape");
     v("source", source, {"auto", "markers", "shape"},
-      "What forces are estimated from; auto: the shape where camera_pose is given, else markers");
+      "Data for the estimation; auto: shape where camera_pose is given, else markers");
     v("camera_pose", camera_pose,
       "Depth camera in the robot's frame, \"{translation_m: [x, y, z], rotation_xyzw: [x, y, z, "
       "w]}\"; needed for the shape, unless /calibration is to say it");
     v("follow_calibration", follow_calibration,
-      "Takes what comes on /calibration: pose, drives and moduli, from the next frame on, which "
-      "begins a sequence; false: what is given at the start stays");
+      "Use camera pose, actuator offsets and moduli of /calibration from the next frame on, "
+      "which begins a sequence; false: keep those of the start");
     v("cable_input", cable_input, {"displacement", "tension"},
-      "Which input of a cable is imposed where both are known");
+      "Boundary condition of cables with both inputs: prescribed displacement or tension");
     v("max_age_s", max_age_s, {.min = 0.0},
-      "Frames older than this by the system clock are refused; 0: stamps are not compared with it "
-      "(recordings)");
+      "Largest age of a frame by the system clock; 0: no limit (recordings)");
     v("cable_wait_s", cable_wait_s, {.min = 0.0},
-      "How long a frame waits for the cable inputs of its time");
+      "Longest wait of a frame for the cable inputs of its time");
     v("max_cable_age_s", max_cable_age_s, {.min = 0.0},
-      "After that wait, cable inputs may be older than the frame by so much");
+      "Largest age of cable inputs after that wait");
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
-      "Without frames for so long the component reports itself stale; from the shape /forces says "
-      "so too, once a second");
+      "Time without frames after which the status is stale; with source shape, /forces says so "
+      "once a second");
     v("dds", dds, "DDS side");
   }
 };

@@ -118,7 +118,7 @@ struct HiddenSearch::Parts {
 HiddenProblem HiddenSearch::Parts::ProblemOf(const Unexplained& data,
                                              const Eigen::VectorXd& weight) {
   const Eigen::Index m = data.residual_m.size();
-  PALPATE_CHECK(normals.cols() == places.Count(), "no shape was looked at yet");
+  PALPATE_CHECK(normals.cols() == places.Count(), "no shape was set yet");
   PALPATE_CHECK(weight.size() == m, weight.size(), m);
   PALPATE_CHECK(data.responses != nullptr && std::ssize(data.row) == m, data.row.size(), m);
   PALPATE_CHECK(data.known.rows() == m || data.known.cols() == 0, data.known.rows(), m);

@@ -43,7 +43,8 @@ struct TautCables {
     linearisation.SolveSingle(motion);
     compliance.emplace(pull.transpose() * motion);
     if (!compliance->ok()) {
-      return {StatusCode::kUnobservable, "two taut cables act alike"};
+      return {StatusCode::kUnobservable,
+              "cable Jacobian is rank deficient: two taut cables are collinear"};
     }
     return Status::Ok();
   }

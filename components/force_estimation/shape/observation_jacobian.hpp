@@ -20,8 +20,9 @@ namespace palpate::force_estimation {
 class ObservationJacobian {
  public:
   /// `rows` after those that are there already, about the same shape `x_m` [3n], with the factor
-  /// that `model` has there. kUnobservable where two taut cables act alike, kInvalidInput where a
-  /// response comes out infinite: then none of `rows` is there.
+  /// that `model` has there. kUnobservable where cable Jacobian is rank deficient: two taut cables
+  /// are collinear, kInvalidInput where a response comes out infinite: then none of `rows` is
+  /// there.
   Status Add(robot::RobotModel& model, const std::vector<robot::ObservationRow>& rows,
              const Eigen::VectorXd& x_m, const std::vector<robot::CableCommand>& commands,
              const Eigen::VectorXd& lambda_a_N);

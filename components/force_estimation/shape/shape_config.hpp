@@ -35,51 +35,52 @@ struct ShapeConfig {
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("matching", matching, {"patch", "point"},
-      "Algorithm 3: point takes the cloud point nearest to a feature's normal line, as published; "
-      "patch averages all points on the feature's share of the surface");
+      "Algorithm 3: point takes the cloud point nearest to a surface point's normal line, as "
+      "published; patch averages all points on the surface point's share of the surface");
     v("hidden_distance_m", hidden_distance_m, {.min = 0.0},
-      "d_m: a feature with no point so near to its normal line is hidden; 0: from the cloud's "
-      "spacing");
+      "d_m: a surface point without a cloud point within this distance of its normal line is "
+      "hidden; 0: from the cloud's spacing");
     v("outlier_distance_m", outlier_distance_m, {.min = 0.0},
-      "d_l: a match farther away is an outlier; 0: 15 mm and three sigmas of the depth");
+      "d_l: a match farther away is an outlier; 0: 15 mm and three standard deviations of the "
+      "depth");
     v("matching_rounds", matching_rounds, {.min = 1.0, .max = 20.0},
-      "Times that a frame is matched and fitted");
+      "Rounds of matching and fitting per frame");
     v("untouched_frames", untouched_frames, {.min = 1.0, .max = 10000.0},
-      "Frames at the start, known to be without contact, that teach the depth bias");
+      "Contact-free frames at the start, from which the depth bias is estimated");
     v("pose_prior_m", pose_prior_m, {.min = 0.0, .min_open = true},
-      "Sigma of the camera's position before they are seen");
+      "Prior standard deviation of the camera position");
     v("pose_prior_rad", pose_prior_rad, {.min = 0.0, .min_open = true},
-      "Sigma of the camera's orientation before");
+      "Prior standard deviation of the camera orientation");
     v("depth_bias_prior", depth_bias_prior, {.min = 0.0, .min_open = true},
-      "Sigma of the depth bias before, as a share of z");
+      "Prior standard deviation of the depth bias, as a share of z");
     v("depth_bias_order", depth_bias_order, {.min = 0.0, .max = 4.0},
-      "Order of the depth bias over the image");
+      "Polynomial order of the depth bias over the image");
     v("feature_offset_prior_m", feature_offset_prior_m, {.min = 0.0, .min_open = true},
-      "Sigma of the constant offset of each feature before");
+      "Prior standard deviation of the constant offset of each surface point");
     v("model_relative_sigma", model_relative_sigma, {.min = 0.0, .max = 1.0},
-      "Error of the model's displacements as a share of them, one sigma");
+      "Standard deviation of the model error, as a share of the displacement");
     v("robust_threshold", robust_threshold, {.min = 1.0},
-      "Features off by more than so many sigmas lose weight (Huber)");
+      "Huber threshold, in standard deviations");
     v("contact_radius_m", contact_radius_m, {.min = 0.0},
-      "Smallest radius of the patch that a contact's force is spread over");
+      "Smallest radius of the patch over which a contact force is spread");
     v("largest_friction", largest_friction, {.min = 0.0},
-      "Tangential over normal force of a contact, at most");
+      "Largest ratio of tangential to normal force of a contact");
     v("force_relative_sigma", force_relative_sigma, {.min = 0.0, .max = 1.0},
-      "Error that all forces share, as the modulus', as a share of them, one sigma");
+      "Standard deviation of the error common to all forces, such as that of the modulus, as a "
+      "share of them");
     v("force_rate_N_s", force_rate_N_s, {.min = 0.0},
-      "How fast forces change, one sigma in a second: noise beyond is averaged over frames; 0: "
-      "each "
-      "frame stands for itself");
+      "Standard deviation of the change of a force in one second, for smoothing over frames; 0: "
+      "no smoothing");
     v("fit_tolerance", fit_tolerance, {.min = 1e-11, .max = 0.1},
-      "As frame_tolerance, of the fits of one frame");
+      "frame_tolerance of the fits of one frame");
     v("frame_work", frame_work, {.min = 0.0},
-      "Work on one frame, in substitutions (about 2 ms each; a factorisation counts 8): what can "
-      "wait then waits for the next frames, and a fit ends with budget_reached after four times as "
+      "Work per frame, in substitutions (about 2 ms each; a factorisation counts 8); what can "
+      "wait is left to later frames, and a fit ends with budget_reached after four times as "
       "much; 0: no limit");
     v("significance", significance, {.min = 0.0, .max = 0.5, .min_open = true},
-      "Chance that noise alone gives a contact that was seen a force, in one frame");
+      "False-alarm probability per frame of a force at a visible contact");
     v("hidden_significance", hidden_significance, {.min = 0.0, .max = 0.5, .min_open = true},
-      "Chance that noise alone gives a contact that nobody saw, in one frame");
+      "False-alarm probability per frame, hidden contacts");
   }
 };
 

@@ -152,7 +152,7 @@ Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
   if (Status status = fit_.Match(frame); !status.ok()) return status;
   bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
   fit_.LearntAt(fit_.state().x_m);
-  return {StatusCode::kNoCalibration, "the depth bias is being learnt: frame " +
+  return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
                                           std::to_string(bias_.frames()) + " without contact"};
 }
 
@@ -192,7 +192,7 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
       fit_.Stop();
       frames_on_budget_ = 0;
       return {goes_on ? StatusCode::kBudgetReached : StatusCode::kNotConverged,
-              "the model does not come to the shape that is seen: it is set up anew"};
+              "shape fit did not converge to the observed point cloud: the model is reset"};
     }
     status = StartFromFreeState(frame);
     if (status.ok()) status = FitFrame(frame);
@@ -200,7 +200,7 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
   if (!status.ok()) {
     fit_.Stop();
     if (!status.message().empty()) return status;
-    return {status.code(), "the model does not come to the shape that is seen"};
+    return {status.code(), "shape fit did not converge to the observed point cloud"};
   }
   frames_to_begin_ = 0;
   fitted_ = true;

@@ -61,9 +61,9 @@ void VirtualRobotNode::Run() {
   Send(mesh_, dds::ToMesh({bench_.robot_name, robot.mesh_hash(), robot.mesh().nodes_m,
                            robot.mesh().cells, robot.boundary().DrawnTriangles()},
                           dds::WallClockNs()));
-  log_.Write(Severity::kInfo, "hangs at rest; scenario '" + bench_.schedule.scenario().name +
-                                  "' of " + FormatNumber(bench_.schedule.Duration_s()) +
-                                  " s begins");
+  log_.Write(Severity::kInfo, "static equilibrium reached; scenario '" +
+                                  bench_.schedule.scenario().name + "' of " +
+                                  FormatNumber(bench_.schedule.Duration_s()) + " s begins");
   clock_.Start(Seconds(Clock::now()));
   while (!loop_.stopped()) {
     loop_.DispatchUntil([] { return false; }, TimePoint(clock_.Due_s()));
@@ -146,7 +146,7 @@ Status VirtualRobotNode::StatusNow() const {
   const double silent_s = NsToSeconds(MonotonicNow_ns() - last_command_ns_);
   if (config_.commands == "topic" && silent_s > config_.command_timeout_s) {
     return {StatusCode::kStale, "no command on /robot/command for " + FormatNumber(silent_s) +
-                                    " s: the last one holds"};
+                                    " s: the last command stays"};
   }
   return Status::Ok();
 }
