@@ -32,7 +32,7 @@ double Tolerance(const experiment::Experiment& experiment, const std::string& ke
   return given == experiment.tolerances.end() ? 0.0 : given->second;
 }
 
-/// What is told of each marker's coordinates is of the length of its offset, too.
+/// A tolerance per coordinate of a marker gives that of its offset's length.
 std::map<std::string, double> FaultTolerances(const experiment::Experiment& experiment) {
   std::map<std::string, double> tolerances = experiment.tolerances;
   const auto marker = tolerances.find("marker_bias_m");

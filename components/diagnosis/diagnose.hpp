@@ -21,33 +21,32 @@
 namespace palpate::diagnosis {
 
 struct DiagnosisSettings {
-  std::vector<std::string> excluded;  ///< ids of causes that are not assumed in
+  std::vector<std::string> excluded;  ///< fault ids excluded from the hypothesis set
   int most_causes = 4;
   int most_samples = 120;  ///< samples that are compared
   int threads = 2;
-  double longest_s = 0.0;  ///< after which no further cause is searched; 0: without an end
+  double longest_s = 0.0;  ///< time limit of the search; 0: none
   NoiseModel noise;
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};
-  /// What depth frames show of the robot, which outlives the diagnosis; nullptr: it is of markers
-  /// alone.
+  /// Segmented clouds of the depth frames; outlives the diagnosis. nullptr: markers alone.
   SurfaceSource* surface_source = nullptr;
 };
 
-/// What a diagnosis found, for people and for the other verbs.
+/// The result of a diagnosis, and the files that follow from it.
 struct Diagnosis {
   DiagnosisResult result;
-  /// The robot file with the causes that a robot file can say; as it was without a cause.
+  /// The robot file with the named causes that a robot file can hold.
   robot::RobotDescription extended;
-  /// What belongs to the actuators, for `calibration` of the other verbs; nothing: no cause does.
+  /// Actuator parameters of the named causes, for `calibration` of the other verbs.
   std::optional<robot::CalibrationFile> calibration;
-  std::vector<std::string> not_in_files;  ///< words of causes that neither file can say
-  std::vector<PlannedRecording> next;  ///< experiments, the best first; none: no question is open
+  std::vector<std::string> not_in_files;  ///< words of causes that neither file can hold
+  std::vector<PlannedRecording> next;     ///< the best first; empty: no hypotheses to separate
 };
 
-/// Says what the simulation of a robot gets wrong in an experiment
-/// (docs/theory/model_selection.md). Data that cannot tell have the verdict data_unfit with its
-/// reason; what is no robot or no experiment at all throws InputError.
+/// Identifies the model errors of a robot from an experiment (docs/theory/model_selection.md).
+/// Unusable data have the verdict data_unfit with a reason. An invalid robot or experiment throws
+/// InputError.
 Diagnosis Diagnose(const robot::RobotDescription& robot, const experiment::Experiment& experiment,
                    const DiagnosisSettings& settings, const ReportStep& report);
 

@@ -42,7 +42,7 @@ struct ObservedRecording {
   std::string name;
   std::string kind;
   Eigen::Isometry3d T_measurement_robot = Eigen::Isometry3d::Identity();
-  bool knows_pose = true;  ///< else the data have to tell T_measurement_robot
+  bool knows_pose = true;  ///< else T_measurement_robot is estimated
   bool camera_frame = false;
   /// A depth camera saw the markers: they are in its frame, all before it, and do not count from a
   /// held shape, as those of motion capture do.
@@ -67,7 +67,7 @@ struct ObservedRecording {
   }
 };
 
-/// An experiment as diagnosis looks at it.
+/// An experiment as samples and a command timeline.
 struct ObservedExperiment {
   std::vector<std::string> markers;  ///< of the robot
   std::vector<ObservedRecording> recordings;
@@ -103,7 +103,7 @@ bool HasDepthCamera(const ObservedExperiment& observed);
 
 /// Cuts the recordings where commands or loads turn, and averages the markers over parts of these
 /// pieces: of a motion up to four, of a hold over times that double. Of depth frames it takes a few
-/// of each part; what they show is not evaluated yet. Depth frames from where nobody knows are left
+/// of each part; what they show is not evaluated yet. Depth frames without a camera pose are left
 /// out. Throws InputError (file:line) where a marker or cable is not the robot's, or no recording
 /// has markers or such depth frames.
 ObservedExperiment Observe(const experiment::Experiment& experiment, const robot::RobotBody& body,

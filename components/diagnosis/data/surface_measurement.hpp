@@ -16,7 +16,7 @@ struct DepthFrame {
 };
 
 /// Where a depth camera has the surface about one feature point of the body, along the normal
-/// alone: of how it moves along the surface a cloud tells nothing. Point and normal are held where
+/// alone: a cloud does not show motion along the surface. Point and normal are held where
 /// the cloud was matched with a shape of the body; the measured coordinate is linear about there.
 struct SurfaceMeasurement {
   int count = 0;  ///< depth frames that show it; 0: none does, and all else says nothing

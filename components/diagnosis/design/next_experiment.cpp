@@ -46,7 +46,7 @@ Hypothesis Exchanged(const Fitter& fitter, const Selection& selection, int rival
   return best;
 }
 
-/// Numbers of the faults that the first named one is to be told from.
+/// Numbers of the rivals of the first named fault.
 std::vector<int> RivalsOf(const Selection& selection) {
   std::vector<int> rivals;
   const auto add = [&](int fault) {

@@ -19,7 +19,7 @@ struct Hypothesis {
   Posterior posterior;
 };
 
-/// What is to be told apart: the best explanation from each of the others.
+/// Hypotheses to separate: the best one from each of its rivals.
 struct Question {
   Hypothesis best;
   std::vector<Hypothesis> rivals;  ///< none: nothing is in question

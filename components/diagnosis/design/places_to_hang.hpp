@@ -13,7 +13,7 @@ namespace palpate::diagnosis {
 
 /// Two of the body's feature points: the one that is farthest from all that is held, where the body
 /// yields most, and the one that is farthest from that one and from what is held; to a millimetre,
-/// as nobody hangs a weight more finely.
+/// the accuracy of hanging a weight by hand.
 std::vector<Eigen::Vector3d> PlacesToHang(const robot::RobotBody& body);
 
 /// 30 g, or the next of 20, 10, 5, ... g that is no more than a tenth of what the body weighs: more

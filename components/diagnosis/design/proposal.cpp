@@ -24,7 +24,7 @@ constexpr double kHang_s = 4.0;
 constexpr double kTilt_deg = 15.0;
 constexpr int kMostPairs = 6;
 
-/// What the actuators of a robot can be told.
+/// The commands that a robot's actuators accept.
 struct Drives {
   std::vector<std::string> cables;
   std::vector<bool> by_tension;
@@ -175,7 +175,7 @@ void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
   if (driven.size() > 1) together(driven, "all cables");
 }
 
-/// Cables that are told a tension cannot be let out below none.
+/// Cables commanded by tension cannot be released below zero.
 void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
   std::vector<int> by_length;
   for (const int c : drives.driven) {
@@ -190,7 +190,7 @@ void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
                                    "all cables let out by " + drives.Text(by_length.front(), 1.0)));
 }
 
-/// As a person who does it calls it, and tells it to somebody who shall do it.
+/// As a title, and as an instruction to a person.
 struct ByHand {
   std::string title;
   std::string words;

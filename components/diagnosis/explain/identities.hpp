@@ -10,7 +10,7 @@
 
 namespace palpate::diagnosis {
 
-/// What data of this kind cannot tell, whatever they say, for people
+/// What is not identifiable from data of this kind, in words
 /// (docs/theory/model_selection.md).
 std::vector<std::string> Identities(const ObservedExperiment& observed);
 

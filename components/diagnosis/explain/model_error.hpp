@@ -20,7 +20,7 @@ void DescribeModelError(const ObservedExperiment& observed, const robot::RobotBo
 /// recordings that have any, that would come back without one of the named causes, the others and
 /// the tolerances fitted again: in what was fitted, or in recordings left out, where it is more. In
 /// what they are fitted to tolerances take up most of what a small cause does; a cause that one
-/// recording alone shows is told there.
+/// recording alone shows appears there.
 double ExplainedShare(const ObservedExperiment& observed, const HypothesisSet& hypotheses,
                       const Selection& selection, int cause);
 

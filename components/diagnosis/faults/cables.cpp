@@ -80,7 +80,7 @@ class CableElasticity final : public FaultModel {
     return robot::CableCompliance(index_);
   }
 
-  /// What the mesh yields by is in what was fitted, and nobody knows how much it is.
+  /// The fitted compliance contains the mesh's, which is unknown.
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,
                                       const Eigen::VectorXd& undeformed_m) const override {
     return FaultModel::Report(z, covariance.array() + kOfMesh_m_N * kOfMesh_m_N, undeformed_m);
@@ -102,7 +102,7 @@ void MakeCableElasticity(const CatalogueInputs& inputs, std::vector<FaultModelPt
 
 namespace {
 
-/// Nobody mounts a guide so far beside its place.
+/// Implausible error of a guide's place.
 constexpr double kFarthest_m = 0.02;
 
 /// The point that the cable is pulled from sits elsewhere; the actuator is zeroed with it there.

@@ -11,7 +11,7 @@
 
 namespace palpate::diagnosis {
 
-/// What the faults of a robot are made from.
+/// Inputs of the fault models of a robot.
 struct CatalogueInputs {
   const robot::RobotBody& body;
   const ObservedExperiment& observed;
@@ -31,7 +31,7 @@ std::vector<FaultModelPtr> MakeFaultModels(const CatalogueInputs& inputs,
 
 /// Ids of the catalogue that are searched.
 std::vector<std::string> SearchedFaults();
-/// All ids of the catalogue, those that nobody searches for yet, too.
+/// All ids of the catalogue, those without a fault model, too.
 std::vector<std::string> CatalogueIds();
 
 }  // namespace palpate::diagnosis

@@ -144,7 +144,7 @@ void MakeLensDistortion(const CatalogueInputs& inputs, std::vector<FaultModelPtr
 namespace {
 
 /// Depth drifts while the camera gets warm, with a time constant near one that it is searched at.
-/// Nobody knows when the camera was switched on: it counts from the first stamp.
+/// The time of switching on is unknown: drift counts from the first stamp.
 class WarmUpDrift final : public FaultModel {
  public:
   explicit WarmUpDrift(double tau_s)

@@ -13,7 +13,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// MullinsSoftening: z[0] how much a element softens that is so far below its largest energy
+/// MullinsSoftening: z[0] how much an element softens that is so far below its largest energy
 /// density as m is searched at, z[1] ln of how many times that m is. Data that tell little of where
 /// softening ends tell z[0] all the same; of 1 / r they would only tell what it is if m were known,
 /// and about every m another share of that. What it does at a sample is a force: that of the

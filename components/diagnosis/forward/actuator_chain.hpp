@@ -10,7 +10,7 @@
 
 namespace palpate::diagnosis {
 
-/// How actuators turn commands into cable. At first as told.
+/// How actuators turn commands into cable. By default exactly.
 struct ActuatorSettings {
   explicit ActuatorSettings(int cables);
 

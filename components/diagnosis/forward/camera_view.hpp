@@ -32,7 +32,7 @@ struct CameraErrors {
       {};  ///< [basis] or none; depth is 1 + its sum with the basis times as large
 };
 
-/// A point that a camera looks at, camera frame (x right, y down, z forward).
+/// A point in view of a camera, camera frame (x right, y down, z forward).
 struct SeenPoint {
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface there, unit, outward
@@ -45,7 +45,7 @@ struct SeenPoint {
 class CameraView {
  public:
   /// `drift_m` of depth, from CameraErrors::drifts. `focal_px`: fx, fy of the data sheet, which
-  /// centres are counted with; infinite where nobody knows them.
+  /// centres are counted with; infinite where unknown.
   CameraView(const CameraErrors& errors, const Eigen::Vector2d& focal_px, double drift_m);
 
   Eigen::Vector3d Measured(const SeenPoint& point) const;

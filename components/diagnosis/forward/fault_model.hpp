@@ -35,8 +35,8 @@ struct FaultParameter {
   };
   std::string name;  ///< of verdict.json (docs/diagnosis.md), with its unit
   double nominal = 0.0;
-  double tolerance = 0.0;  ///< sigma of z for a nominal robot; 0: a nominal robot has none of it
-  double fault = 0.0;      ///< sigma of z for a robot that has the fault, > tolerance,
+  double tolerance = 0.0;  ///< prior deviation of z in the null model; 0: none
+  double fault = 0.0;      ///< prior deviation of z as a fault, > tolerance,
   double fault_at = 0.0;   ///< about this
   double least = -std::numeric_limits<double>::infinity();  ///< of z: what can be
   double most = std::numeric_limits<double>::infinity();
@@ -46,8 +46,8 @@ struct FaultParameter {
   /// It is one of the vector that the fault's parameters so marked make up together: how large the
   /// fault is, and which tolerance it has, is said of the length of that.
   bool component = false;
-  /// Of |z|: beyond, something else looks like it (docs/theory/model_selection.md, Forward
-  /// selection).
+  /// Of |z|: a larger one is not plausible, another fault has its effect
+  /// (docs/theory/model_selection.md, Forward selection).
   double plausible = std::numeric_limits<double>::infinity();
 
   double ValueOf(double z) const {
@@ -97,7 +97,7 @@ struct Push {
       displacement_m;  ///< [parameters] as often as makes force' x (in N) grow by so much
 };
 
-/// Something that a simulation may get wrong, at one place of the robot (docs/diagnosis.md). What
+/// A model error of one kind, at one place of the robot (docs/diagnosis.md). What
 /// it does is said twice: Apply changes a hypothesis by any z; the other functions give what a
 /// small z does at a sample of a simulation, to first order, which a test holds against Apply.
 class FaultModel {
@@ -112,7 +112,7 @@ class FaultModel {
   const std::string& words() const { return words_; }  ///< "friction of cable north"
   const std::vector<FaultParameter>& parameters() const { return parameters_; }
 
-  /// What people are told of `z` [parameters] with its covariance; by default each parameter with
+  /// What is reported of `z` [parameters] with its covariance; by default each parameter with
   /// its 95 % interval. `undeformed_m` [3n]: the body that the fit has, which need not have the
   /// size that the robot file says.
   virtual std::vector<FittedParameter> Report(const Eigen::VectorXd& z,

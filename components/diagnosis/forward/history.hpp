@@ -15,11 +15,11 @@
 
 namespace palpate::diagnosis {
 
-/// What a body remembers of the experiment. A quantity that was computed at the samples, with every
-/// command at zero, and where motions begin and end, is followed through all times: linearly from
-/// one to the next, and to that of zero commands in the rests and where a piece begins or ends with
-/// them. Where nothing is moved it stays, until a motion begins. Where a load comes or goes it
-/// jumps, and where a body is let go that was held in its undeformed shape.
+/// Interpolation of history variables through an experiment. A quantity that was computed at the
+/// samples, with every command at zero, and where motions begin and end, is followed through all
+/// times: linearly from one to the next, and to that of zero commands in the rests and where a
+/// piece begins or ends with them. Where nothing is moved it stays, until a motion begins. Where a
+/// load comes or goes it jumps, and where a body is let go that was held in its undeformed shape.
 class HistoryOperator {
  public:
   explicit HistoryOperator(const ObservedExperiment& observed);
@@ -80,7 +80,7 @@ Eigen::MatrixXf BelowLargest_J_m3(const HistoryOperator& history, const Simulati
 void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
             const Simulation& simulation, std::vector<HistoryVariables>* history_variables);
 
-/// Whether a robot as a hypothesis has it remembers anything.
+/// Whether the hypothesis has history variables (creep or softening).
 bool HasHistory(const ModelHypothesis& hypothesis);
 
 /// Brings `past` [samples] to what `simulation`, which had another past, leaves of creep and of

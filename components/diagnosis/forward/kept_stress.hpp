@@ -17,9 +17,9 @@ namespace palpate::diagnosis {
 /// fem::PointStress has them; such as are kept of many samples.
 using PointStresses = Eigen::Matrix<float, 6, Eigen::Dynamic>;
 
-/// A stress that stays with the material while the body moves on: what a body remembers of its
-/// past. As a constraint its energy g(x) = x' L x / 2, J (fem::PointStress::SetMatrix), with a
-/// multiplier of 1 where there is such a stress.
+/// A stress that stays with the material while the body moves on: the history variable of creep. As
+/// a constraint its energy g(x) = x' L x / 2, J (fem::PointStress::SetMatrix), with a multiplier of
+/// 1 where there is such a stress.
 class KeptStress final : public fem::ScalarConstraint {
  public:
   /// `mesh` must outlive it.

@@ -39,7 +39,7 @@ std::vector<fem::InterpolationWeights> MarkerPoints(const ModelHypothesis& hypot
   return points;
 }
 
-/// What does not come to rest soon is a robot that nobody has.
+/// A base that does not converge soon has an unphysical compliance.
 fem::StaticSettings Settings() {
   return {.relative_tolerance = 1e-9,
           .max_newton_iterations = 20,

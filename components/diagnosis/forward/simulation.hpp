@@ -37,9 +37,9 @@ struct HistoryVariables {
   Eigen::VectorXd cell_factor;  ///< [elements] of the moduli, or empty: 1
 };
 
-/// What a body may remember of a sample.
+/// What the history variables are computed from, at one sample.
 struct HistoryInput {
-  PointStresses elastic_Pa;     ///< without what the body remembers itself
+  PointStresses elastic_Pa;     ///< without the kept stresses
   Eigen::VectorXf energy_J_m3;  ///< [elements] of the undamaged material
 };
 

@@ -19,8 +19,8 @@
 
 namespace palpate::diagnosis {
 
-/// Computes where the markers would be seen at every sample of an experiment, if the robot were as
-/// a hypothesis has it, and what a change of faults does to that. Recordings are shared by threads,
+/// Computes where the markers would be seen at every sample of an experiment, under a hypothesis,
+/// and the derivatives with respect to the parameters of faults. Recordings are shared by threads,
 /// each with a model of its own.
 class Simulator {
  public:

@@ -11,29 +11,26 @@
 
 namespace palpate::diagnosis {
 
-/// [faults] Recoveries with each fault of the catalogue withheld in turn: how much of what it does,
-/// beyond what the tolerances would do, so many others would explain, each the one that does most
-/// beside those before it, of those with another id; in [0, 1]. Expected over how large a fault may
-/// be, by the linear model. -1: the data would not show such a fault.
+/// [fault models] Each is withheld in turn: share of its expected effect, beyond tolerances, that
+/// `others` faults of other ids explain, chosen greedily, by the linear model; in [0, 1]. -1: the
+/// data would not show such a fault.
 std::vector<double> ExplainedByOthers(const HypothesisSet& hypotheses, const Information& data,
                                       std::size_t others);
 
-/// Which share of the catalogue's ids, withheld, so many others would explain to `explained` at
-/// least, as much as what is named explains of a model error. [0, 1]
+/// Share F of the catalogue's ids that, withheld, `others` faults would explain to the share
+/// `explained` or more. [0, 1]
 double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& data,
                          std::size_t others, double explained);
 
-/// How much of what is beyond tolerances and noise a fit explains, of what `nominal` leaves, in
-/// squares of noise; [0, 1]. What the noise's own scatter may hide counts as left.
+/// Share of the null model's misfit beyond the noise that a fit explains, [0, 1]. Two standard
+/// deviations of chi-squared count as unexplained.
 double ExplainedOfMisfit(const Fit& null_model, const Fit& fit);
 
-/// How likely it is that what is named stands in the place of a fault that the catalogue does not
-/// hold. In its place only if what is named explains so much of it, as is more or less usual among
-/// faults; before,
-/// - where the residual is not noise, something is there that has no name: it is as likely to be
-///   beside what is named as in its place;
-/// - where it looks like noise, a twentieth as likely as one fault of the catalogue, and each
-///   further fault is a third as likely as that there is none (docs/diagnosis.md says from where).
+/// Probability that an unmodelled cause takes the names of the named faults
+/// (docs/theory/model_selection.md, Probabilities). Prior odds:
+/// - 1, where the residual is not noise;
+/// - 1/20 for one named fault and three times as much for each further one, where it is noise
+///   (docs/diagnosis.md has the blind sets that these come from).
 /// [0, 1)
 double ProbabilityOfConfusion(const HypothesisSet& hypotheses, const Fit& null_model,
                               const Fit& fit, bool is_noise);

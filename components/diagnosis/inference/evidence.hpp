@@ -9,7 +9,7 @@
 
 namespace palpate::diagnosis {
 
-/// A Gaussian prior about each parameter before the data: sigma 0 holds it at its mean.
+/// Independent Gaussian prior of each parameter; sigma 0 fixes it at its mean.
 struct GaussianPrior {
   Eigen::VectorXd mean;
   Eigen::VectorXd sigma;
@@ -18,15 +18,16 @@ struct GaussianPrior {
       : mean(Eigen::VectorXd::Zero(parameters)), sigma(Eigen::VectorXd::Zero(parameters)) {}
 };
 
-/// What prior and data say together.
+/// Posterior of the linear-Gaussian model.
 struct Posterior {
   double ln_evidence = 0.0;  ///< ln p(data) up to a constant of the data
   double misfit = 0.0;       ///< chi-squared of data and prior at the mean
-  Eigen::VectorXd mean;      ///< [parameters] the most probable
+  Eigen::VectorXd mean;      ///< [parameters] posterior mean
   Eigen::MatrixXd covariance;
 };
 
-/// Normal priors, linear data: exact. With D = diag(sigma), A = I + D H D,
+/// Evidence and posterior, exact for linear data (docs/theory/model_selection.md). With D =
+/// diag(sigma), A = I + D H D,
 ///   ln p = -(c - g' A^-1 g + ln det A) / 2, g = D (b - H mean), all about the mean.
 Posterior Infer(const Information& data, const GaussianPrior& prior);
 

@@ -50,49 +50,47 @@ struct Fit {
 };
 
 /// Fits robots with faults to an experiment: simulates, linearises, infers, and again from there.
-/// Of a nominal robot what has one sign only (play, creep, delay) stays linear while it is small:
-/// its derivative has two sides.
+/// In the null model one-sided parameters (backlash, creep, delay)
+/// stay linear while they are small: their derivative has two sides.
 class Fitter {
  public:
-  /// All must outlive it. After `limit` a fit ends at the first place that it was simulated at, but
-  /// for that of a nominal robot.
+  /// All must outlive it. After `limit` a fit ends at its first simulation; that of the null model
+  /// goes on.
   Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
          const HypothesisSet& hypotheses, const NoiseModel& noise, int threads,
          TimeLimit limit = {}, const FitterTuning& tuning = {});
 
-  /// The robot as its file has it (where its simulation is known: `simulated`), its linear model,
-  /// and what a nominal robot makes of it.
+  /// The nominal robot (`simulated`: its simulation, if known), its linear model, and the posterior
+  /// of the null model.
   Fit AsBuilt(const Simulation* simulated = nullptr) const;
-  /// With these faults, from what `start` is fitted to. Ends where the linear model reaches, or
-  /// after so many rounds, or where the evidence with a further fault stays below that of `start`;
-  /// a step after which the data fit worse is damped. Only what the faults do is computed again on
-  /// the way: what others do, tolerances as well, is taken from `start`, which is good enough to
-  /// find the place, not to stand on it (Complete).
+  /// Damped Gauss-Newton fit of the hypothesis `faults` from `start`. Ends at convergence, after
+  /// `most_rounds`, or where the evidence with a further fault stays below that of `start`. Only
+  /// the Jacobian of `faults` is recomputed; all other columns are those of `start`. That is good
+  /// enough to find the optimum, not to compare hypotheses there (Complete).
   Fit Refine(const std::vector<int>& faults, const Fit& start, int most_rounds,
              Detail detail) const;
-  /// With as many rounds as such faults need, in all detail at the end.
+  /// With as many rounds as such faults need, all parts of samples at the end.
   Fit Refine(const std::vector<int>& faults, const Fit& start) const;
-  /// With these faults as large as they are likely to be, all else as `start` has it, in all
-  /// detail: where one that is there or not, and moves the body far, is fitted from.
+  /// The hypothesis `faults` at its prior mean, all else as in `start`, fully differentiated: the
+  /// start for faults that are present or absent, and move the body far (exchanged cables).
   Fit WithFaults(const std::vector<int>& faults, const Fit& start) const;
-  /// The same fit in all detail, with what every fault does computed where it is, and taken further
-  /// until the data fit where it leads as well as it promises. One that could not be simulated
-  /// stays as it is.
+  /// The same fit with all Jacobian columns recomputed, continued until the data agree with the
+  /// linear model's prediction. A fit that could not be simulated is returned as it is.
   Fit Complete(Fit fit) const;
-  /// A fit where it is, of measurements that have changed since (the surface matched again), in all
-  /// detail; it may lead elsewhere now.
+  /// The fit at its parameters with measurements that have changed since (the surface matched
+  /// again), fully differentiated; its optimum may be elsewhere now.
   Fit Remeasured(Fit fit) const;
-  /// The same without what faults do there.
+  /// The same with the old Jacobian.
   Fit Resimulated(Fit fit) const;
-  /// The robot as a fit has it.
+  /// The hypothesis at the fit's parameters.
   ModelHypothesis HypothesisAt(const Fit& fit) const {
     return HypothesisWith(nominal_, models_, fit.z);
   }
-  /// [samples] where it is while depth frames are taken.
+  /// [samples] shapes of the body while depth frames are taken.
   std::vector<ShapesInTime> Shapes(const Fit& fit) const {
     return simulator_.Shapes(HypothesisAt(fit), fit.simulation);
   }
-  /// What a linear model says of faults, without another simulation.
+  /// Posterior of the hypothesis `faults` by the linear model of `about`, without a simulation.
   Posterior LinearPosterior(const Fit& about, const std::vector<int>& faults) const;
 
   const HypothesisSet& hypotheses() const { return hypotheses_; }

@@ -35,7 +35,7 @@ struct SelectionTuning {
 };
 inline constexpr SelectionTuning kSelectionTuning;
 
-/// A fault that was evaluated as the next one, and what became of it.
+/// A candidate for the next fault, and the result of testing it.
 struct Candidate {
   int fault = -1;  ///< the best of those that have its name (places, relaxation times)
   double ln_bayes_factor = 0.0;  ///< against the faults named before; those of one name averaged
@@ -63,29 +63,27 @@ void SortByEvidence(std::vector<Candidate>* candidates);
 double CanonicalCorrelation(const HypothesisSet& hypotheses, const LinearModel& model, int a,
                             int b);
 
-/// Why a fault as large as a fit has it is no fault (docs/theory/model_selection.md, Forward
-/// selection): within three of the tolerances that a nominal robot has, as likely nothing at all,
-/// or so large that it is rather another fault in disguise. Empty: it may be one.
+/// Why a fitted fault is not accepted (docs/theory/model_selection.md, Forward selection): it is
+/// within tolerances, does not differ from zero, or is not plausible. Empty: it is accepted.
 std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posterior, int fault);
 
-/// ln BF within which a rival is not told apart from the fault that is named. Of faults whose
-/// effects are the same (canonical correlation above 0.95; docs/theory/model_selection.md,
-/// Identifiability) what is assumed a priori beforehand of their sizes decides, not the data: only
-/// clear evidence is enough. Not so of a special case: what speaks against it is what the data have
-/// of all else that the fault can do.
+/// ln BF within which a rival is not identifiable from the named fault. Where both have the same
+/// effect (docs/theory/model_selection.md, Identifiability) their priors decide, not the data:
+/// only clear evidence is enough. A special case is different: there the data decide against the
+/// further parameters of the named fault.
 double IndistinguishableWithin(const HypothesisSet& hypotheses, int named, const Candidate& rival);
 
 /// One fault that was named.
 struct Choice {
   int fault = -1;
   double ln_bayes_factor = 0.0;
-  double probability = 0.0;  ///< among all candidates and none, guesses as likely as each other
+  double probability = 0.0;  ///< among all candidates and none, with equal priors
   CrossValidationGain cross_validation = {};
   std::vector<double> ln_gain_of_recording = {};  ///< of what was predicted
 };
 
-/// Searches for one further fault: all are screened, those that promise most simulated, and the
-/// best of these taken that a robot can have and that predicts what it was not fitted to.
+/// Searches for one further fault: screens all by the linear model, simulates the most promising,
+/// and takes the best that passes acceptance and cross-validation.
 class ForwardSelectionStep {
  public:
   /// All must outlive it.
@@ -97,17 +95,16 @@ class ForwardSelectionStep {
   const Choice& choice() const { return choice_; }
   const Fit& fit() const { return fits_[found_]; }
   std::vector<Candidate>& candidates() { return candidates_; }
-  /// Those that fit as well as what was found, but for such as it is a special case of: these do
-  /// all that it does, and are only less likely for what else they could do.
+  /// Candidates that are not identifiable from the one found. Faults of which it is a special case
+  /// are left out: they have its effect, and lose evidence by their further parameters only.
   std::vector<Candidate> Indistinguishable() const;
 
  private:
   bool IsSpecialCaseOf(std::size_t special, std::size_t k) const;
-  /// Simulates the fault of this name: what that says of it takes the place of what the linear
-  /// model says.
+  /// Simulates the fault of this name; the result replaces the evidence of the linear model.
   void SimulateLikely(const CauseName& name);
-  /// Whether to simulate further ones: those that were are none that a robot can have, or explain
-  /// little, or less than the next one promises, and that promises much.
+  /// Whether to simulate a further round: no simulated candidate is acceptable, or the next one
+  /// promises more.
   bool AreOthersPromising() const;
   /// Whether one that was not simulated promises clearly more than this one explains.
   bool PromisesAnotherMoreThan(std::size_t k) const;
@@ -123,10 +120,10 @@ class ForwardSelectionStep {
   void Complete(std::size_t k);
   void SortRefined();
   bool IsClear(const CrossValidation& before, std::size_t k);
-  /// Half of what is assumed a priori before is that there is no further fault.
+  /// Half of the prior weight is on "no further fault".
   double Probability(std::size_t k) const;
-  /// Whether the robot without the fault fits only far off its tolerances, and with it near them:
-  /// it may then predict as well, but no nominal robot does.
+  /// Whether only the hypothesis with the fault keeps the other parameters within tolerances. The
+  /// one without it may then predict as well, but is improbable a priori.
   bool KeepsTolerances(std::size_t k) const;
   /// In how many recordings the fit is clearly better with the fault.
   int SeenIn(std::size_t k) const;

@@ -14,8 +14,8 @@
 
 namespace palpate::diagnosis {
 
-/// What of whitened residuals tells that something is left in them: sums of squares and products,
-/// all in units of the noise's chi-squared, so that they can be compared with a misfit.
+/// Test statistics of whitened residuals: quadratic forms in units of the noise's chi-squared, so
+/// that they compare with a misfit.
 /// - the misfit of all recordings;
 /// and of each recording
 /// - its misfit;
@@ -67,7 +67,7 @@ class ResidualStatistics {
   std::vector<Series> series_;
 };
 
-/// Whether what a fit leaves over is what noise and prior would leave.
+/// Posterior predictive check: whether the residual of a fit is noise.
 struct GoodnessOfFit {
   bool passed = false;
   double surprise = 0.0;  ///< the worst test, in standard deviations of what a right model leaves

@@ -12,13 +12,13 @@
 
 namespace palpate::diagnosis {
 
-/// All faults that a robot may have, where their parameters stand among all, and the prior of them.
-/// Faults are known by their number here.
+/// The fault models of a robot, nuisance models included: their columns among all parameters, and
+/// the prior of each hypothesis. A hypothesis is a list of fault models by number.
 class HypothesisSet {
  public:
   /// `tolerances` (experiment.yaml): fault id -> sigma of its first parameter for a nominal robot,
-  /// or of the length of the vector that this is a component of, the others in proportion. One of
-  /// something that is no fault here is of no effect.
+  /// or of the length of the vector that this is a component of, the others in proportion. Other
+  /// ids have no effect.
   HypothesisSet(std::vector<FaultModelPtr> models, std::map<std::string, double> tolerances);
 
   int size() const { return static_cast<int>(models_.size()); }
@@ -32,18 +32,17 @@ class HypothesisSet {
   bool IsSpecialCase(int special, int of) const {
     return model(of).SpecialCase() == model(special).name().id;
   }
-  /// Whether a robot may have it as a fault: beyond what a nominal one has of it.
+  /// Whether its prior as a fault is wider than its tolerance; false of nuisance models.
   bool CanBeFault(int k) const;
-  /// A robot within its manufacturing tolerances, but for the faults in `faults`.
+  /// Prior of the hypothesis `faults`: these with their fault range, all others with tolerances.
   GaussianPrior PriorWith(const std::vector<int>& faults) const;
-  /// Posterior with the parameters of `faults` where they can be; one that would go beyond ends at
-  /// its bound. The parameters `at_zero` are held there, the idle ones where the data are linear:
-  /// where a force acts times how large it is is not linear, so that elsewhere, without the force,
-  /// a part of it would seem to be left.
+  /// Posterior of the hypothesis `faults`; a parameter that would leave its range is fixed at the
+  /// bound. The parameters `at_zero` are fixed at zero, idle ones where the data are linear: place
+  /// times force is bilinear, so that a shift without its force would keep a spurious effect.
   Posterior InferWithin(const Information& data, const std::vector<int>& faults,
                         const std::vector<Eigen::Index>& at_zero = {}) const;
 
-  /// Parameters that only qualify what faults do that are not in `faults`.
+  /// Qualifying parameters (a place, a time constant) of faults that are not in `faults`.
   std::vector<Eigen::Index> Idle(const std::vector<int>& faults) const;
 
   FaultModelList All() const;

@@ -24,7 +24,7 @@ struct Information {
   void Add(const Information& other);
 };
 
-/// An experiment as it looks from near z, whitened: y - J z is noise of unit variance. Rows of one
+/// An experiment linearised about z, whitened: y - J z is noise of unit variance. Rows of one
 /// recording and coordinate share the mesh's error (NoiseModel) and, of markers, where the
 /// recording counts from a shape in which the body was held, that shape's.
 struct LinearModel {

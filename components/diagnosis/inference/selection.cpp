@@ -26,7 +26,7 @@ bool IsIndistinguishable(const Fitter& fitter, const Selection& selection, const
   });
 }
 
-/// How alike the most probable candidates are to each other.
+/// Canonical correlations of the most probable candidates.
 void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   constexpr std::size_t kMost = 8;
   for (const Candidate& candidate : selection->candidates) {

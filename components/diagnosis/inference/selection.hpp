@@ -14,7 +14,7 @@
 
 namespace palpate::diagnosis {
 
-/// Which faults explain an experiment.
+/// The result of forward selection with backward elimination.
 struct Selection {
   Fit null_model;                            ///< within the manufacturing tolerances
   Fit best;                                  ///< with the faults that were named
@@ -31,16 +31,13 @@ struct Selection {
 /// "3 of 12: screening"; parts are equally long as far as that is known.
 using ReportStep = std::function<void(int done, int of, const std::string& what)>;
 
-/// Brings what was measured up to date with a fit's shapes, as the surface that depth frames show
-/// is matched with the body about where it is thought to be.
+/// Matches the clouds again with the shapes of a fit, and updates the surface measurements.
 using Rematch = std::function<void(const Fit&)>;
 
-/// Names faults one after the other (docs/theory/model_selection.md): all are screened by the
-/// evidence of the linear model, the best simulated again; the best is named if the evidence for it
-/// is clear, it predicts recordings that it was not fitted to, and it is beyond the tolerances. At
-/// most `most`. `rematch` is called about the nominal robot and about each set of faults that is
-/// named; none: nothing that was measured depends on where the body is. `likely` is simulated
-/// whatever the linear model says of it; the robot without it is far off then, and is not fitted.
+/// Forward selection of at most `most` faults, with backward elimination after each further one
+/// (docs/theory/model_selection.md). `rematch` is called for the null model and for each set of
+/// named faults; nullptr: no measurement depends on the shape of the body. `likely` is simulated
+/// whatever the linear model says of it; the null model, far off without it, is then not fitted.
 Selection SelectFaults(const ObservedExperiment& observed, const Fitter& fitter,
                        const Fit& as_built, int most, const ReportStep& report,
                        const Rematch& rematch = nullptr,

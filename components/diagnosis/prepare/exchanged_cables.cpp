@@ -69,7 +69,7 @@ ObservedExperiment OfMostPulled(ObservedExperiment observed, bool in_frames) {
 /// not known.
 class Distance {
  public:
-  /// Both must outlive it. Looks at the depth frames from where `as_in_file` stands.
+  /// Both must outlive it. Reads the depth frames about the shapes of `as_in_file`.
   Distance(const robot::RobotBody& body, const ObservedExperiment& telling, int threads,
            SurfaceSource* source, const ModelHypothesis& as_in_file)
       : telling_(telling),

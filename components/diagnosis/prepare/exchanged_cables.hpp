@@ -18,7 +18,7 @@ struct NearestRobot {
 
 /// Which robot stands nearest to where it was seen: the robot file's, or one with two of its cables
 /// exchanged, if that is clearly nearer. Exchanged cables bend it so far to another side that a
-/// linear model about the file's tells nothing of them, and little of its surface would be matched.
+/// linear model about the file's does not show them, and little of its surface would be matched.
 /// All are tried, at one sample for each cable, of when that is pulled the most. `depth frames`:
 /// nullptr where there are none; what they show goes before markers.
 NearestRobot FindExchangedCables(const robot::RobotBody& body, const ObservedExperiment& observed,

@@ -9,7 +9,7 @@
 
 namespace palpate::diagnosis {
 
-/// The report for people (DIAGNOSIS, "The report a person gets"): one HTML page that needs no
+/// The report for people (components/diagnosis/README.md): one HTML page that needs no
 /// other file, no network and no script, the verdict first, figures as SVG; prints on A4. A figure
 /// without data is replaced by a sentence that says so.
 std::string FormatReport(const DiagnosisResult& result);

@@ -27,7 +27,7 @@ struct SegmentedCloud {
       0;  ///< of all that was measured: alike in two depth frames only if they are
 };
 
-/// The depth frames of an experiment. What tells the robot from all else in them is not known here.
+/// The depth frames of an experiment. Segmentation of the robot is up to the implementation.
 class SurfaceSource {
  public:
   SurfaceSource() = default;

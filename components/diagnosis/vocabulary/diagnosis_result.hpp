@@ -24,10 +24,10 @@ struct FittedParameter {
 enum class Verdict {
   kNoFault,            ///< what it gets wrong is within noise and manufacturing tolerances
   kCause,              ///< the causes named explain the model error
-  kIndistinguishable,  ///< there is a model error, and these data fit two causes or more alike
+  kIndistinguishable,  ///< there is a fault, and two causes or more are not identifiable
   kPartlyExplained,    ///< a cause is named, and a model error beyond the noise remains
   kUnexplained,        ///< there is a model error that no cause of the catalogue explains
-  kDataUnfit,          ///< the data cannot tell; `reason` says why
+  kDataUnfit,          ///< the data cannot be used; `reason` says why
 };
 
 /// As verdict.json spells them: no_fault, cause, indistinguishable, ...
@@ -96,7 +96,7 @@ struct ComparedSample {
   Eigen::Matrix3Xd after_m;   ///< the same of the extended model (or the nominal robot's fit)
 };
 
-/// What tells the causes apart that are left.
+/// A recording that would separate the hypotheses.
 struct ExperimentProposal {
   std::string title;        ///< "ramp of cable north to 8 mm"
   std::string by_hand;      ///< what a person does, empty: nothing: "hang 30 g on the tip"
@@ -105,7 +105,7 @@ struct ExperimentProposal {
 };
 
 /// Forces on the body, in one recording throughout, that would do what the simulation leaves there.
-/// Without columns where nobody searched forces.
+/// Without columns where none were computed.
 struct ResidualForces {
   std::string recording;
   Eigen::Matrix3Xd place_m;   ///< [3 x places] of the undeformed body, robot frame
@@ -136,7 +136,8 @@ struct DiagnosisResult {
   ErrorSummary model_error;
   std::vector<RecordingError> recordings;
   ResidualForces residual_forces;
-  std::vector<std::string> identities;  ///< what no data of this kind can tell, for people
+  std::vector<std::string>
+      identities;  ///< what is not identifiable from data of this kind, in words
   std::vector<ExperimentProposal> experiments;
 
   // What the figures are drawn from.

@@ -12,7 +12,7 @@
 namespace palpate::diagnosis {
 namespace {
 
-/// Why a gain of this size, tolerance 0.005, at most 0.2 of which is assumed a priori, is no fault.
+/// Why a gain of this size, tolerance 0.005, of which at most 0.2 is plausible, is no fault.
 std::string WhyNot(double gain) {
   std::vector<FaultModelPtr> causes;
   causes.push_back(std::make_unique<ToyFault>(

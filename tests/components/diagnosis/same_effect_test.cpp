@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHiddenGain = 0.1;
 
-/// A gain of the same cable of which much more is assumed a priori to be likely.
+/// A gain of the same cable with a wider prior.
 class Twin final : public FaultModel {
  public:
   explicit Twin(double fault)
