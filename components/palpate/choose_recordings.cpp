@@ -41,7 +41,7 @@ std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& exp
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
       throw InputError("--recording " + name + ": the experiment has no such recording" +
-                       DidYouMean(name, known));
+                       DidYouMean(name, known) + "; it has " + Listed(known));
     }
     chosen.push_back(&experiment.recordings[static_cast<std::size_t>(found - known.begin())]);
   }

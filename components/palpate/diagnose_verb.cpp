@@ -60,8 +60,10 @@ std::string CommandOf(const DiagnoseOptions& options) {
   return command;
 }
 
-void CheckCause(const std::string& id, const std::vector<std::string>& known) {
-  if (!IndexOf(id, known)) throw InputError(Unknown("cause", id, known));
+void CheckCause(const std::string& option, const std::string& id,
+                const std::vector<std::string>& known) {
+  if (IndexOf(id, known)) return;
+  throw InputError(option + ": " + Unknown("cause", id, known) + "; it is one of " + Listed(known));
 }
 
 std::string HashOf(const experiment::Experiment& experiment) {
@@ -182,8 +184,10 @@ void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& r
 }  // namespace
 
 int Diagnose(const DiagnoseOptions& options) {
-  for (const std::string& id : ExcludedCauses(options)) CheckCause(id, diagnosis::CatalogueIds());
-  if (!options.explain.empty()) CheckCause(options.explain, diagnosis::SearchedFaults());
+  for (const std::string& id : ExcludedCauses(options))
+    CheckCause("--exclude", id, diagnosis::CatalogueIds());
+  if (!options.explain.empty())
+    CheckCause("--explain", options.explain, diagnosis::SearchedFaults());
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =

@@ -42,6 +42,11 @@ TEST(Command, RefusesWhatItDoesNotKnowWithDidYouMean) {
   EXPECT_THAT(RefusalOf({"solve", "beam", "--uot", "x"}), testing::HasSubstr("--out"));
   EXPECT_THAT(RefusalOf({}), testing::HasSubstr("a verb is missing"));
   EXPECT_THAT(RefusalOf({"solve", "beam"}), testing::HasSubstr("--out"));
+  EXPECT_THAT(
+      RefusalOf({"diagnose", "beam", "--data", "D", "--out", "O", "--exclude", "cable_frictoin"}),
+      testing::AllOf(testing::HasSubstr("--exclude: unknown cause 'cable_frictoin'"),
+                     testing::HasSubstr("did you mean 'cable_friction'?"),
+                     testing::HasSubstr("it is one of ")));
 }
 
 TEST(Command, ARepeatedOptionLeavesTheRobotToThePositional) {
