@@ -11,7 +11,7 @@ namespace palpate::diagnosis {
 namespace {
 
 /// After that no body of these materials remembers anything.
-constexpr double kForgotten_s = 3e3;
+constexpr double kRelaxed_s = 3e3;
 /// After the experiment: beside it the length of all proposals is nothing.
 constexpr double kLongAfter_s = 1e7;
 
@@ -124,7 +124,7 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
     }
     for (experiment::KnownLoad& load : planned.loads) load.t_s += begin_s;
     planned.markers = Frames(observed, body, begin_s, proposal.duration_s, interval_s);
-    begin_s += proposal.duration_s + kForgotten_s;
+    begin_s += proposal.duration_s + kRelaxed_s;
   }
   ObservedExperiment planned =
       Observe(all, body, {.most_samples = kSamplesEach * static_cast<int>(proposals.size())});

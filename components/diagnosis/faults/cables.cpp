@@ -103,16 +103,17 @@ void MakeCableElasticity(const CatalogueInputs& inputs, std::vector<FaultModelPt
 namespace {
 
 /// Implausible error of a guide's place.
-constexpr double kFarthest_m = 0.02;
+constexpr double kFarthestEyelet_m = 0.02;
 
 /// The point that the cable is pulled from sits elsewhere; the actuator is zeroed with it there.
 class CableRouting final : public FaultModel {
  public:
   CableRouting(const std::string& cable, int index)
-      : FaultModel({"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
-                   {{.name = "dx_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
-                    {.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m},
-                    {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthest_m}}),
+      : FaultModel(
+            {"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
+            {{.name = "dx_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m},
+             {.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m},
+             {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m}}),
         index_(index) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {

@@ -20,7 +20,7 @@ namespace palpate::diagnosis {
 namespace {
 
 /// Points that lie farther off the surface are of something else, or on a leg that is elsewhere.
-constexpr double kFarthest_m = 0.03;
+constexpr double kFarthestMarker_m = 0.03;
 /// Points of a depth frame that are evaluated, about as many.
 constexpr Eigen::Index kPoints = 500;
 /// Another robot is taken for it where the mean square of what points are off by is so much less.
@@ -96,7 +96,7 @@ class Distance {
 
  private:
   void Add(double distance_m) {
-    sum_m2_ += std::pow(std::min(distance_m, kFarthest_m), 2);
+    sum_m2_ += std::pow(std::min(distance_m, kFarthestMarker_m), 2);
     ++count_;
   }
 

@@ -19,7 +19,7 @@ using plot::SvgText;
 constexpr double kProbabilityTop_px = 36.0, kProbabilityRow_px = 24.0, kProbabilityBar_px = 14.0,
                  kProbabilityBottom_px = 46.0;
 constexpr double kProbabilityRight_px = 74.0, kProbabilityWidestName_px = 290.0;
-constexpr std::size_t kMostRivals = 8;
+constexpr std::size_t kMostBars = 8;
 
 struct Bar {
   std::string name;
@@ -32,7 +32,7 @@ std::vector<Bar> MakeBars(const DiagnosisResult& result) {
   for (const NamedCause& cause : result.causes) {
     bars.push_back({WordsFor(cause.name, result), cause.probability, ink::kAfter});
   }
-  for (std::size_t i = 0; i < std::min(result.rivals.size(), kMostRivals); ++i) {
+  for (std::size_t i = 0; i < std::min(result.rivals.size(), kMostBars); ++i) {
     const Rival& rival = result.rivals[i];
     bars.push_back({WordsFor(rival.name, result), rival.probability, ink::kOther});
   }
