@@ -15,6 +15,7 @@ import check_decompositions
 import check_format
 import check_includes
 import check_layers
+import check_prose
 import check_readmes
 import check_references
 import check_sizes
@@ -292,6 +293,29 @@ class CheckSizes(TreeTest):
         self.plant("components/view/README.md",
                    "x\n" * 70 + "| parameter |\n|---|\n" + "| `a` |\n" * 20 + "x\n" * 8)
         self.assertNotIn("README.md", self.found())
+
+
+class CheckProse(TreeTest):
+    def found(self, text, pending=frozenset()):
+        self.plant("docs/page.md", text)
+        return self.rules(check_prose.check_tree(self.root, pending)[0])
+
+    def test_sentences_of_25_words_and_no_more(self):
+        self.assertEqual(self.found("# Page\n\n" + "w " * 24 + "end. Another one.\n"), "")
+        self.assertIn("docs/page.md:3: a sentence of 26 words",
+                      self.found("# Page\n\n" + "w " * 12 + "\n" + "w " * 13 + "end.\n"))
+
+    def test_tables_headings_and_code_do_not_count(self):
+        many = "told a " * 15
+        self.assertEqual(self.found(f"# {many}\n\n| {many} |\n\n```sh\n{many}\n```\n"), "")
+
+    def test_long_lines_and_replaced_words(self):
+        self.assertIn("docs/page.md:1: 121 columns", self.found("x" * 121 + "\n"))
+        self.assertIn('docs/page.md:1: "told"', self.found("The robot is told.\n"))
+
+    def test_a_pending_page_that_conforms_leaves_the_list(self):
+        self.assertEqual(self.found("The robot is told.\n", {"docs/page.md"}), "")
+        self.assertIn("take it out", self.found("The robot moves.\n", {"docs/page.md"}))
 
 
 class CheckYaml(TreeTest):
