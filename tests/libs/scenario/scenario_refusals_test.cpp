@@ -27,9 +27,9 @@ TEST(ScenarioRefusals, UnknownAndMissingKeysOfEverySection) {
   EXPECT_THAT(RefusalWith("    notes:", "    note:"), HasSubstr("did you mean 'notes'"));
   EXPECT_THAT(RefusalWith("    duration_s: 4\n", ""), HasSubstr("'duration_s' is missing"));
   EXPECT_THAT(RefusalWith("mass_kg: 0.05, patch", "mass_g: 50, patch"),
-              HasSubstr("'mass_kg' is missing"));
+              HasSubstr("the unit 'g' does not fit: write 'mass_kg'"));
   EXPECT_THAT(RefusalWith("position_m: [0, 0, 0.2]", "position: [0, 0, 0.2]"),
-              HasSubstr("'position_m' is missing"));
+              HasSubstr("the unit is missing: write 'position_m'"));
 }
 
 TEST(ScenarioRefusals, ValuesOfTheBodyThatCannotBe) {
