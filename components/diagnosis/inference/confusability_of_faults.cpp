@@ -21,7 +21,7 @@ struct ConfusabilityTuning {
   double least_effect = 20.0;      ///< chi-squared of a fault that the data would show
   double scatter_sigmas = 2.0;     ///< of chi-squared, that count as unexplained
   double unmodelled = 1.0 / 20.0;  ///< prior odds of an unmodelled cause, one fault named
-  double further = 1.0 / 3.0;      ///< prior odds of a further fault
+  double further = 1.0 / 3.0;      ///< prior odds of a further fault over none
 };
 constexpr ConfusabilityTuning kConfusabilityTuning;
 

@@ -179,8 +179,6 @@ Eigen::Index ResidualStatistics::MisfitBeside(Eigen::Index test) const {
   return test == 0 ? 0 : IndexOf(kMisfit, (test - 1) % std::ssize(recordings_));
 }
 
-namespace {}  // namespace
-
 GoodnessOfFit TestGoodnessOfFit(const ObservedExperiment& observed,
                                 const Eigen::Matrix3Xd& marker_rest_m,
                                 const HypothesisSet& hypotheses, const Fit& fit, int draws,
