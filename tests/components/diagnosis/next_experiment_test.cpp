@@ -64,7 +64,7 @@ class NextExperiment : public testing::Test {
     selection_.best = fitter_->Complete(fitter_->Refine({a}, selection_.null_model));
     EXPECT_TRUE(selection_.best.status.ok());
     selection_.named = {{.fault = a, .ln_bayes_factor = 20.0}};
-    selection_.alike = {{.fault = NumberOf(rival), .ln_bayes_factor = 18.0}};
+    selection_.indistinguishable = {{.fault = NumberOf(rival), .ln_bayes_factor = 18.0}};
     return RankAgain();
   }
 
@@ -77,7 +77,7 @@ class NextExperiment : public testing::Test {
   /// 4.6 and more are likelier than none.
   void NameNone(std::vector<Candidate> candidates) {
     selection_.named.clear();
-    selection_.alike.clear();
+    selection_.indistinguishable.clear();
     selection_.best = selection_.null_model;
     selection_.candidates = std::move(candidates);
     selection_.candidates.resize(100);
@@ -159,9 +159,9 @@ TEST_F(NextExperiment, IsWhatSeparatesTheWorstRivalBest) {
   };
   const auto bent = of_titles(Rank("payload", 2e-3, "plastic_set"));
   const Candidate force{.fault = NumberOf("permanent_force"), .ln_bayes_factor = 18.0};
-  selection_.alike.push_back(force);
+  selection_.indistinguishable.push_back(force);
   const std::vector<RankedProposal> both = RankAgain();
-  selection_.alike = {force};
+  selection_.indistinguishable = {force};
   const auto pulled = of_titles(RankAgain());
   ASSERT_EQ(both.size(), bent.size());
   for (std::size_t k = 0; k < both.size(); ++k) {
@@ -181,7 +181,7 @@ TEST_F(NextExperiment, IsWhatSeparatesTheWorstRivalBest) {
 
 TEST_F(NextExperiment, IsNoneWhereNothingIsInQuestion) {
   Rank("payload", 2e-3, "plastic_set");
-  selection_.alike.clear();
+  selection_.indistinguishable.clear();
   selection_.candidates = {{.fault = selection_.named.front().fault, .ln_bayes_factor = 20.0},
                            {.fault = NumberOf("density"), .ln_bayes_factor = 9.9}};
   EXPECT_TRUE(RankAgain().empty());

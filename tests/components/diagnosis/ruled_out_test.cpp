@@ -89,7 +89,7 @@ TEST_F(RuledOut, CausesMakeRoomForTheNextOnes) {
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
   EXPECT_EQ(IdOf(selection.named[0].fault), "cable_gain");
   EXPECT_GT(selection.named[0].probability, 0.9) << "what was ruled out is no rival";
-  EXPECT_TRUE(selection.alike.empty());
+  EXPECT_TRUE(selection.indistinguishable.empty());
 }
 
 /// These explain enough to be named, if none promised more.
@@ -103,9 +103,9 @@ TEST_F(RuledOut, OrSurpassedByWhatAnotherPromises) {
 TEST_F(RuledOut, AreNoneByAGuess) {
   const Selection selection = Select<Understater>(2, CatalogueIds());
   ASSERT_EQ(selection.named.size(), 1U) << "seed " << kSeed;
-  ASSERT_EQ(selection.alike.size(), 1U);
-  EXPECT_EQ(IdOf(selection.alike[0].fault), "understater");
-  EXPECT_TRUE(selection.alike[0].refined);
+  ASSERT_EQ(selection.indistinguishable.size(), 1U);
+  EXPECT_EQ(IdOf(selection.indistinguishable[0].fault), "understater");
+  EXPECT_TRUE(selection.indistinguishable[0].refined);
   const Candidate& first = selection.candidates.front();
   EXPECT_GT(first.ln_bayes_factor, first.ln_screened + 10.0) << "else the test shows nothing";
 }

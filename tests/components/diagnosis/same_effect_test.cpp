@@ -50,9 +50,9 @@ class SameEffect : public HiddenFaults {
     return Find("cable_gain", selection).ln_bayes_factor - Find("twin", selection).ln_bayes_factor;
   }
   bool IsIndistinguishable(const Selection& selection) const {
-    return std::any_of(selection.alike.begin(), selection.alike.end(), [&](const Candidate& one) {
-      return with_twin_->model(one.fault).name().id == "twin";
-    });
+    return std::any_of(
+        selection.indistinguishable.begin(), selection.indistinguishable.end(),
+        [&](const Candidate& one) { return with_twin_->model(one.fault).name().id == "twin"; });
   }
 
   std::unique_ptr<HypothesisSet> with_twin_;

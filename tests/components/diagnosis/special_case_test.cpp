@@ -29,7 +29,7 @@ class SpecialCase : public HiddenFaults {
     return 0.0;
   }
   bool IsIndistinguishable(const std::string& id, const Selection& selection) const {
-    return std::any_of(selection.alike.begin(), selection.alike.end(),
+    return std::any_of(selection.indistinguishable.begin(), selection.indistinguishable.end(),
                        [&](const Candidate& one) { return IdOf(one.fault) == id; });
   }
 };
