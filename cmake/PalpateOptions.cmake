@@ -14,9 +14,16 @@ if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
 endif()
 
+# Ten sources of a target at a time in one run of the compiler, some sixteen of a test program: most
+# of a source's time goes into the headers and templates that its neighbours use, too. On in the
+# presets of optimised builds, where tests/style/check_includes.py finds what a source forgets to
+# include; off in debug and tidy.
+option(PALPATE_UNITY "Compile many sources of a target at a time" OFF)
+
 # -Wno-restrict, -Wno-stringop-overflow: GCC 12 warns without cause inside std::string's operator+
 # (GCC bug 105651). What the optimiser guesses about bounds and initialisation depends on what it
-# inlines, so it warns but never stops a build.
+# inlines, so it warns but never stops a build. The same holds for a name that shadows one of another
+# source of its unit; in the debug preset a unit is one source.
 add_library(palpate_warnings INTERFACE)
 target_compile_options(palpate_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Woverloaded-virtual -Wdouble-promotion
@@ -25,7 +32,8 @@ target_compile_options(palpate_warnings INTERFACE
   $<$<BOOL:${PALPATE_WERROR}>:-Werror>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-error=array-bounds>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-error=stringop-overread>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-error=stringop-overread>
+  $<$<BOOL:${PALPATE_UNITY}>:-Wno-error=shadow>)
 
 set(PALPATE_SANITIZE "" CACHE STRING "Sanitizers, as the compiler names them (address,undefined)")
 if(PALPATE_SANITIZE)
@@ -45,12 +53,6 @@ endif()
 if(PALPATE_TIDY)
   find_program(PALPATE_CLANG_TIDY NAMES clang-tidy REQUIRED)
 endif()
-
-# Ten sources of a target at a time in one run of the compiler, some sixteen of a test program: most
-# of a source's time goes into the headers and templates that its neighbours use, too. On in the
-# presets of optimised builds, where tests/style/check_includes.py finds what a source forgets to
-# include; off in debug and tidy.
-option(PALPATE_UNITY "Compile many sources of a target at a time" OFF)
 
 # Sources of tests are compiled with less optimisation than what they test: a quarter of their time.
 set(PALPATE_TEST_OPTIONS "$<$<CONFIG:Release>:-O1>")

@@ -17,14 +17,14 @@ constexpr double kLongAfter_s = 1e7;
 
 /// Between two frames; what is quicker than this is not counted, as frames hang together.
 double FrameInterval_s(const ObservedExperiment& observed) {
-  constexpr double kShortest_s = 0.2;
+  constexpr double kShortestInterval_s = 0.2;
   double least_s = 2.0;
   for (const Sample& sample : observed.samples) {
     for (std::size_t k = 1; k < sample.frame_t_s.size(); ++k) {
       least_s = std::min(least_s, sample.frame_t_s[k] - sample.frame_t_s[k - 1]);
     }
   }
-  return std::max(kShortest_s, least_s);
+  return std::max(kShortestInterval_s, least_s);
 }
 
 /// [markers] whether these data see them.
