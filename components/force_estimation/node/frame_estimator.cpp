@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/force_estimation/drift/marker_motion.hpp"
+#include "components/force_estimation/monitor/marker_motion.hpp"
 #include "components/force_estimation/node/convert.hpp"
 #include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/force_estimation/shape/shape_force_estimator.hpp"

@@ -10,10 +10,10 @@
 #include <variant>
 #include <vector>
 
-#include "components/force_estimation/drift/extrinsics_drift_monitor.hpp"
-#include "components/force_estimation/drift/model_gap.hpp"
-#include "components/force_estimation/drift/model_residual_monitor.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/force_estimation/monitor/extrinsics_drift_monitor.hpp"
+#include "components/force_estimation/monitor/model_gap.hpp"
+#include "components/force_estimation/monitor/model_residual_monitor.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 
 namespace palpate::force_estimation {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/force_estimation/drift/held_motion.hpp"
+#include "components/force_estimation/monitor/held_motion.hpp"
 
 namespace palpate::force_estimation {
 

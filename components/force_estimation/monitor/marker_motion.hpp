@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "components/force_estimation/drift/held_motion.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/force_estimation/monitor/held_motion.hpp"
 
 namespace palpate::force_estimation {
 

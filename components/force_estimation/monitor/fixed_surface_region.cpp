@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/drift/fixed_surface_region.hpp"
+#include "components/force_estimation/monitor/fixed_surface_region.hpp"
 
 namespace palpate::force_estimation {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/drift/marker_motion.hpp"
+#include "components/force_estimation/monitor/marker_motion.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/force_estimation/drift/model_gap.hpp"
+#include "components/force_estimation/monitor/model_gap.hpp"
 
 namespace palpate::force_estimation {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "components/force_estimation/drift/fixed_surface_region.hpp"
+#include "components/force_estimation/monitor/fixed_surface_region.hpp"
 #include "libs/rgbd/sensed_cloud.hpp"
 
 namespace palpate::force_estimation {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/drift/held_motion.hpp"
+#include "components/force_estimation/monitor/held_motion.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

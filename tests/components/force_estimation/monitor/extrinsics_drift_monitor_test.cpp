@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/drift/extrinsics_drift_monitor.hpp"
+#include "components/force_estimation/monitor/extrinsics_drift_monitor.hpp"
 
 #include <gmock/gmock.h>
 

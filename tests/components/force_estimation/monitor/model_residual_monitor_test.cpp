@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/force_estimation/drift/model_residual_monitor.hpp"
+#include "components/force_estimation/monitor/model_residual_monitor.hpp"
 
 #include <gmock/gmock.h>
 
