@@ -14,26 +14,6 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-constexpr int kMostLooks = 3;
-constexpr int kTrials = 120;
-/// A plane that is not known yet, or was lost, is searched this often.
-constexpr int kFramesBetweenSearches = 15;
-/// Of the frame's points that no other plane holds.
-constexpr double kLeastShare = 0.12;
-constexpr std::size_t kLeastPoints = 50;
-/// Standing where the robot's size is not known, m.
-constexpr float kLeastExtent_m = 0.25f;
-/// So many times as large as the robot, in both directions.
-constexpr float kLargerThanRobot = 1.0f;
-/// Of the robot's points that may lie behind the plane: its feet stand on it.
-constexpr double kMostBehind = 0.02;
-constexpr float kBehind_m = 0.015f;
-/// What the robot stands on may be smaller than the robot: a base, a pedestal. Tools are smaller
-/// still.
-constexpr float kOfBase = 0.4f;
-constexpr float kFoot_m = 0.010f;
-constexpr double kLeastFeet = 0.01;
-
 Plane Facing(const Eigen::Vector3f& normal, const Eigen::Vector3f& point_m) {
   const float offset_m = normal.dot(point_m);
   if (offset_m > 0.0f) return {-normal, -offset_m};  // the camera is at the origin
@@ -81,44 +61,46 @@ class Draw {
   std::uint64_t state_ = 1;
 };
 
-bool IsBehindRobot(const Plane& plane, const Points& robot_m) {
+bool IsBehindRobot(const Plane& plane, const Points& robot_m,
+                   const BackgroundPlanesTuning& tuning) {
   std::size_t behind = 0;
   for (const Eigen::Vector3f& point_m : robot_m) {
-    behind += plane.Height_m(point_m) < -kBehind_m ? 1 : 0;
+    behind += plane.Height_m(point_m) < -tuning.behind_m ? 1 : 0;
   }
-  return static_cast<double>(behind) <= kMostBehind * static_cast<double>(robot_m.size());
+  return static_cast<double>(behind) <= tuning.most_behind * static_cast<double>(robot_m.size());
 }
 
-bool CarriesRobot(const Plane& plane, const Points& robot_m) {
+bool CarriesRobot(const Plane& plane, const Points& robot_m, const BackgroundPlanesTuning& tuning) {
   const auto is_foot = [&](const Eigen::Vector3f& point_m) {
-    return std::abs(plane.Height_m(point_m)) < kFoot_m;
+    return std::abs(plane.Height_m(point_m)) < tuning.foot_m;
   };
   const auto feet = std::count_if(robot_m.begin(), robot_m.end(), is_foot);
   return !robot_m.empty() &&
-         static_cast<double>(feet) >= kLeastFeet * static_cast<double>(robot_m.size()) &&
-         IsBehindRobot(plane, robot_m);
+         static_cast<double>(feet) >= tuning.least_feet * static_cast<double>(robot_m.size()) &&
+         IsBehindRobot(plane, robot_m, tuning);
 }
 
-float SizeOf(const Points& robot_m) {
-  if (robot_m.empty()) return kLeastExtent_m;
+float SizeOf(const Points& robot_m, const BackgroundPlanesTuning& tuning) {
+  if (robot_m.empty()) return tuning.least_extent_m;
   Moments moments;
   for (const Eigen::Vector3f& point_m : robot_m) moments.Add(point_m);
-  return kLargerThanRobot * ExtentOf(moments.Covariance()).y();
+  return tuning.least_robot_sizes * ExtentOf(moments.Covariance()).y();
 }
 
 }  // namespace
 
 void BackgroundPlanes::Update(const Points& points_m, const Points& robot_m,
                               const Tolerance& tolerance) {
-  const float least_extent_m = SizeOf(robot_m);
+  const float least_extent_m = SizeOf(robot_m, tuning_);
   const std::vector<Plane> known = planes_;
   planes_.clear();
   const bool search = --until_search_ < 0;
-  if (search) until_search_ = kFramesBetweenSearches;
+  if (search) until_search_ = tuning_.frames_between_searches;
   Points left_m = points_m;
-  for (int look = 0; look < kMostLooks && left_m.size() > kLeastPoints; ++look) {
+  for (int k = 0; k < tuning_.most_planes && left_m.size() > tuning_.least_points; ++k) {
     const std::size_t least = std::max(
-        kLeastPoints, static_cast<std::size_t>(kLeastShare * static_cast<double>(left_m.size())));
+        tuning_.least_points,
+        static_cast<std::size_t>(tuning_.least_share * static_cast<double>(left_m.size())));
     Plane plane;
     Moments held;
     const auto holds_enough = [&] {
@@ -128,15 +110,15 @@ void BackgroundPlanes::Update(const Points& points_m, const Points& robot_m,
       }
       if (held.count < least) return false;
       const float extent_m = ExtentOf(held.Covariance()).x();
-      return extent_m >= least_extent_m ||
-             (extent_m >= kOfBase * least_extent_m && CarriesRobot(plane, robot_m));
+      return extent_m >= least_extent_m || (extent_m >= tuning_.base_share * least_extent_m &&
+                                            CarriesRobot(plane, robot_m, tuning_));
     };
     const bool is_known = planes_.size() < known.size();
     if (is_known) plane = known[planes_.size()];
     bool found = is_known && Refit(left_m, tolerance, &plane) && holds_enough();
     if (!found && (search || is_known)) found = Find(left_m, tolerance, &plane) && holds_enough();
     if (!found) break;
-    if (IsBehindRobot(plane, robot_m)) planes_.push_back(plane);
+    if (IsBehindRobot(plane, robot_m, tuning_)) planes_.push_back(plane);
     std::erase_if(
         left_m, [&](const Eigen::Vector3f& p) { return plane.Height_m(p) < tolerance.At(p.z()); });
   }
@@ -148,7 +130,7 @@ bool BackgroundPlanes::Refit(const Points& points_m, const Tolerance& tolerance,
   for (const Eigen::Vector3f& point_m : points_m) {
     if (IsOn(*plane, point_m, tolerance)) moments.Add(point_m);
   }
-  if (moments.count < kLeastPoints) return false;
+  if (moments.count < tuning_.least_points) return false;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(moments.Covariance());
   *plane = Facing(axes.eigenvectors().col(0), moments.Mean());
   return true;
@@ -159,7 +141,7 @@ bool BackgroundPlanes::Find(const Points& points_m, const Tolerance& tolerance,
                             Plane* plane) const {
   Draw draw;
   std::size_t most = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  for (int trial = 0; trial < tuning_.trials; ++trial) {
     const Eigen::Vector3f& a = points_m[draw.Below(points_m.size())];
     const Eigen::Vector3f& b = points_m[draw.Below(points_m.size())];
     const Eigen::Vector3f& c = points_m[draw.Below(points_m.size())];
@@ -172,7 +154,7 @@ bool BackgroundPlanes::Find(const Points& points_m, const Tolerance& tolerance,
     most = count;
     *plane = candidate;
   }
-  return most >= kLeastPoints && Refit(points_m, tolerance, plane);
+  return most >= tuning_.least_points && Refit(points_m, tolerance, plane);
 }
 
 }  // namespace palpate::perception

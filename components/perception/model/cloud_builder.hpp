@@ -14,8 +14,8 @@
 
 namespace palpate::perception {
 
-/// Makes clouds of the pixels of one label: blocks of neighbouring pixels without a depth edge are
-/// averaged, as large as the cloud's limit asks for, so that nothing measured is thrown away.
+/// Builds clouds of the pixels of one label: averages blocks of neighbouring pixels without a depth
+/// edge, as large as the cloud's limit requires, so that all measurements are used.
 class CloudBuilder {
  public:
   CloudBuilder(const rgbd::DepthNoise& noise, int max_points)

@@ -12,12 +12,6 @@ namespace palpate::perception {
 namespace {
 
 constexpr int kLevels = 32;  // of a channel in the table
-constexpr int kDarkest = 12;
-constexpr int kBrightest = 250;
-/// Probability of a bin that was never seen, equal in both histograms: what is in neither says
-/// nothing.
-constexpr float kNeverSeen = 3e-4f;
-constexpr double kAssumedChromaSigma = 0.05;
 
 constexpr int kChroma = ColorModel::kChromaBins;
 constexpr int kBrightness = ColorModel::kBrightnessBins;
@@ -26,10 +20,10 @@ int BinAt(int red, int green, int brightness) {
   return (brightness * kChroma + green) * kChroma + red;
 }
 
-std::uint16_t BinOfLevels(int red, int green, int blue) {
+std::uint16_t BinOfLevels(int red, int green, int blue, const ColorModelTuning& tuning) {
   const int strongest = std::max({red, green, blue});
   const int weakest = std::min({red, green, blue});
-  if (strongest < kDarkest || weakest >= kBrightest) return ColorModel::kNoColor;
+  if (strongest < tuning.darkest || weakest >= tuning.brightest) return ColorModel::kNoColor;
   const double sum = red + green + blue;
   const auto bin = [sum](int channel) {
     return std::min(kChroma - 1, static_cast<int>(kChroma * channel / sum));
@@ -39,14 +33,14 @@ std::uint16_t BinOfLevels(int red, int green, int blue) {
       BinAt(bin(red), bin(green), std::clamp(octave_halves, 0, kBrightness - 1)));
 }
 
-std::vector<std::uint16_t> MakeTable() {
+std::vector<std::uint16_t> MakeTable(const ColorModelTuning& tuning) {
   std::vector<std::uint16_t> table;
   table.reserve(kLevels * kLevels * kLevels);
   const auto value = [](int level) { return level * 8 + 4; };
   for (int red = 0; red < kLevels; ++red) {
     for (int green = 0; green < kLevels; ++green) {
       for (int blue = 0; blue < kLevels; ++blue) {
-        table.push_back(BinOfLevels(value(red), value(green), value(blue)));
+        table.push_back(BinOfLevels(value(red), value(green), value(blue), tuning));
       }
     }
   }
@@ -67,7 +61,7 @@ void SpreadAlong(int stride, int length, ColorModel::Histogram* counts) {
   }
 }
 
-/// Counts to probabilities, smoothed over neighbouring bins. False: nothing was counted.
+/// Counts to probabilities, smoothed over neighbouring bins. False: all counts are zero.
 bool Normalise(ColorModel::Histogram* counts) {
   (*counts)[ColorModel::kNoColor] = 0.0f;
   SpreadAlong(1, kChroma, counts);
@@ -82,9 +76,8 @@ bool Normalise(ColorModel::Histogram* counts) {
 
 }  // namespace
 
-ColorModel::ColorModel() {
-  static const std::vector<std::uint16_t> table = MakeTable();
-  table_ = table.data();
+ColorModel::ColorModel(const ColorModelTuning& tuning)
+    : tuning_(tuning), table_(MakeTable(tuning)) {
   Forget();
 }
 
@@ -98,8 +91,8 @@ void ColorModel::Forget() {
 void ColorModel::Assume(const std::array<double, 3>& rgb) {
   Forget();
   const double sum = std::max(1e-3, rgb[0] + rgb[1] + rgb[2]);
-  const auto far = [](int bin, double chroma) {
-    const double off = ((bin + 0.5) / kChroma - chroma) / kAssumedChromaSigma;
+  const auto far = [this](int bin, double chroma) {
+    const double off = ((bin + 0.5) / kChroma - chroma) / tuning_.assumed_chroma_sigma;
     return off * off;
   };
   for (int brightness = 0; brightness < kBrightness; ++brightness) {
@@ -142,8 +135,9 @@ double ColorModel::Similarity(Histogram robot) const {
 
 void ColorModel::UpdateRatios() {
   for (std::size_t i = 0; i + 1 < log_ratio_.size(); ++i) {
-    const float ratio = std::log((robot_[i] + kNeverSeen) / (other_[i] + kNeverSeen));
-    log_ratio_[i] = std::clamp(ratio, -kMostSaid, kMostSaid);
+    const float ratio = std::log((robot_[i] + tuning_.unseen_probability) /
+                                 (other_[i] + tuning_.unseen_probability));
+    log_ratio_[i] = std::clamp(ratio, -tuning_.largest_log_ratio, tuning_.largest_log_ratio);
   }
   log_ratio_[kNoColor] = 0.0f;
 }

@@ -9,8 +9,21 @@
 
 namespace palpate::perception {
 
-/// What colours the robot has and what colours everything else, as histograms of chromaticity and
-/// brightness. Starts uninitialised.
+struct ColorModelTuning {
+  /// Strongest channel below which, and weakest from which, a pixel has no colour, of 255. Wider
+  /// bounds: more pixels count, with noisier chromaticity.
+  int darkest = 12;
+  int brightest = 250;
+  /// Probability of an unseen bin, in both histograms: a bin that is in neither has no evidence.
+  /// Larger: rare colours have less evidence.
+  float unseen_probability = 3e-4f;
+  double assumed_chroma_sigma = 0.05;  ///< of a given robot colour; larger: more tolerant
+  /// Bound of |LogRatio|: no colour alone has more evidence. Larger: colour overrules depth.
+  float largest_log_ratio = 2.5f;
+};
+
+/// Colours of the robot and of everything else, as histograms of chromaticity and brightness.
+/// Starts uninitialised.
 class ColorModel {
  public:
   static constexpr int kChromaBins = 20;      ///< of R / (R + G + B), and of G / (R + G + B)
@@ -18,8 +31,6 @@ class ColorModel {
   static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins + 1;
   /// Too dark or too bright to have a colour.
   static constexpr std::uint16_t kNoColor = kBins - 1;
-  /// No colour alone says more than this.
-  static constexpr float kMostSaid = 2.5f;
 
   using Histogram = std::vector<float>;  ///< [kBins]
 
@@ -30,24 +41,25 @@ class ColorModel {
     return table_[index];
   }
 
-  ColorModel();
+  explicit ColorModel(const ColorModelTuning& tuning = {});
 
   bool initialised() const { return initialised_; }
   void Forget();
-  /// The robot is of the colour `rgb` [0, 1], more or less; everything else of any.
+  /// Initialises: the robot has about the colour `rgb` [0, 1], everything else any.
   void Assume(const std::array<double, 3>& rgb);
-  /// Counts of one frame; `share` of it comes in, all of it while uninitialised.
+  /// Counts of one frame, with the weight `share`; 1 while uninitialised.
   void Update(Histogram robot, Histogram other, double share);
   /// Similarity of the robot's colours to the model: 1 equal, 0 disjoint.
   double Similarity(Histogram robot) const;
 
-  /// log(p(colour | robot) / p(colour | other)) in [-kMostSaid, kMostSaid]; 0: says nothing.
+  /// log(p(colour | robot) / p(colour | other)) within largest_log_ratio; 0: no evidence.
   float LogRatio(std::uint16_t bin) const { return log_ratio_[bin]; }
 
  private:
   void UpdateRatios();
 
-  const std::uint16_t* table_;  ///< bins of all colours, 32 levels of each channel
+  ColorModelTuning tuning_;
+  std::vector<std::uint16_t> table_;  ///< bins of all colours, 32 levels of each channel
   bool initialised_ = false;
   Histogram robot_;
   Histogram other_;

@@ -20,38 +20,10 @@
 
 namespace palpate::perception {
 
-namespace {
-
-/// So steep a surface is still one: m of z for each m across.
-constexpr float kSteepest = 3.7f;
-/// Neighbours on one surface differ by no more of their sigmas (3 of a difference).
-constexpr float kSigmasOfStep = 4.2f;
-/// Evidence between this and what makes a robot is none.
-constexpr float kAmbiguous = -0.5f;
-constexpr int kLeastSupport = 2;
-constexpr std::int64_t kLeastPatch_px = 25;
-constexpr int kSparse_px = 8;
-constexpr Eigen::Index kRobotPoints = 400;
-/// Without a prediction: evidence of a colour from which on it is the robot's, and the share of the
-/// largest patch that another patch must have.
-constexpr float kColorAlone = 1.0f;
-constexpr double kPatchShare = 0.03;
-constexpr int kStepOfColorSites_px = 4;
-constexpr int kStepOfColors_px = 4;
-/// With less of the fitted surface where it is measured (where a sequence begins, and from then on)
-/// another fit is tried,
-constexpr double kSeenThroughFirst = 0.98;
-constexpr double kSeenThrough = 0.8;
-/// from so many times the usual largest error,
-constexpr double kFarther = 3.0;
-/// unless so little of it is there that it is not the robot, which is held somewhere.
-constexpr double kSomewhere = 0.25;
-
-}  // namespace
-
-/// Everything that belongs to one camera.
+/// State of one camera.
 struct ModelSegmenter::Parts {
-  Parts(const Config& settings, const rgbd::RgbdCamera& camera, const NoiseLaw& noise_law);
+  Parts(const Config& settings, const rgbd::RgbdCamera& camera, const NoiseLaw& noise_law,
+        const ModelSegmenterTuning& segmenter_tuning);
 
   void TakeRange();
   void ReadRegion(const rgbd::RgbdFrame& raw);
@@ -68,6 +40,7 @@ struct ModelSegmenter::Parts {
   void BuildClouds();
 
   Config config;
+  ModelSegmenterTuning tuning;
   NoiseLaw noise;
   Registration registration;
   RegisteredFrame frame;
@@ -89,8 +62,10 @@ struct ModelSegmenter::Parts {
 };
 
 ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& camera,
-                             const NoiseLaw& noise_law)
+                             const NoiseLaw& noise_law,
+                             const ModelSegmenterTuning& segmenter_tuning)
     : config{settings},
+      tuning{segmenter_tuning},
       noise{noise_law},
       registration{camera},
       prediction{camera, settings.model},
@@ -98,7 +73,7 @@ ModelSegmenter::Parts::Parts(const Config& settings, const rgbd::RgbdCamera& cam
       classifier{settings, noise_law},
       builder{NoiseOf(settings), settings.max_cloud_points} {}
 
-/// The paper's PassThrough: 0 for what is not measured or out of range.
+/// The paper's PassThrough: 0 for invalid pixels and those out of range.
 void ModelSegmenter::Parts::TakeRange() {
   std::int64_t measured = 0;
   std::int64_t kept = 0;
@@ -122,13 +97,14 @@ void ModelSegmenter::Parts::ReadRegion(const rgbd::RgbdFrame& raw) {
                               .v_end = region.v_begin + region.height},
                              &frame);
   const rgbd::CameraModel& camera = registration.camera().depth;
-  const float slope = kSteepest / static_cast<float>(std::min(camera.fx_px, camera.fy_px));
+  const float slope =
+      tuning.steepest_slope / static_cast<float>(std::min(camera.fx_px, camera.fy_px));
   for (int row = 0; row < region.height; ++row) {
     const float* z_m = frame.z_m.Pixel(region.u_begin, region.v_begin + row);
     const std::size_t first = region.At(0, row);
     for (std::size_t u = 0; u < static_cast<std::size_t>(region.width); ++u) {
       region.z_m[first + u] = z_m[u];
-      region.step_m[first + u] = kSigmasOfStep * noise.At(z_m[u]) + slope * z_m[u];
+      region.step_m[first + u] = tuning.step_sigmas * noise.At(z_m[u]) + slope * z_m[u];
     }
   }
 }
@@ -136,8 +112,10 @@ void ModelSegmenter::Parts::ReadRegion(const rgbd::RgbdFrame& raw) {
 void ModelSegmenter::Parts::UpdateBackground(bool predicted) {
   sparse_m.clear();
   robot_m.clear();
-  for (int v = kSparse_px / 2; v < frame.z_m.height_px; v += kSparse_px) {
-    for (int u = kSparse_px / 2; u < frame.z_m.width_px; u += kSparse_px) {
+  for (int v = tuning.background_step_px / 2; v < frame.z_m.height_px;
+       v += tuning.background_step_px) {
+    for (int u = tuning.background_step_px / 2; u < frame.z_m.width_px;
+         u += tuning.background_step_px) {
       const float z_m = *frame.z_m.Pixel(u, v);
       if (z_m <= 0.0f || (predicted && prediction.Covers(u, v))) continue;
       sparse_m.push_back(z_m * registration.Ray(u, v));
@@ -145,7 +123,7 @@ void ModelSegmenter::Parts::UpdateBackground(bool predicted) {
   }
   if (predicted) {
     const Eigen::Matrix3Xd& vertices_m = prediction.surface().vertices_m;
-    const Eigen::Index step = std::max<Eigen::Index>(1, vertices_m.cols() / kRobotPoints);
+    const Eigen::Index step = std::max<Eigen::Index>(1, vertices_m.cols() / tuning.robot_points);
     for (Eigen::Index i = 0; i < vertices_m.cols(); i += step) {
       robot_m.push_back(vertices_m.col(i).cast<float>());
     }
@@ -155,7 +133,7 @@ void ModelSegmenter::Parts::UpdateBackground(bool predicted) {
 
 Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
                                                   const PredictedSurface& predicted) {
-  Status status = prediction.Look(predicted);
+  Status status = prediction.Render(predicted);
   if (!status.ok()) return status;
   prediction.Place(&region);
   ReadRegion(raw);
@@ -179,26 +157,26 @@ Status ModelSegmenter::Parts::SegmentByPrediction(const rgbd::RgbdFrame& raw,
   if (classify_colors) classifier.ClassifyByColor(frame, &region);
   filter.Smooth(&region);
   SetLabels(0.0f);
-  DropSpecks(kLeastPatch_px);
+  DropSpecks(tuning.least_patch_px);
   if (classify_colors) classifier.UpdateColors(frame, region);
   return status;
 }
 
-/// Where a sequence begins, or the surface that was predicted is seen through, the robot is
-/// searched for farther away as well, and from where it was first predicted: whatever bent it in
-/// the frame before may be gone.
+/// At the start of a sequence, or where points behind the predicted surface contradict it, the
+/// robot is searched farther away as well, and from the first prediction: a contact that bent it in
+/// the frame before may have ended.
 void ModelSegmenter::Parts::FitPrediction(const PredictedSurface& predicted,
                                           PredictionView::Fitting fitting) {
   prediction.FitTo(registration, region, fitting);
   if (!first_predicted) first_predicted = predicted;
   PredictionView::Agreement best = prediction.Agree(registration, region, fitting);
-  const double enough = std::exchange(begins, false) ? kSeenThroughFirst : kSeenThrough;
-  if (best.Share() > enough || best.Share() < kSomewhere) return;
+  const double enough = std::exchange(begins, false) ? tuning.first_agreement : tuning.agreement;
+  if (best.Share() > enough || best.Share() < tuning.least_agreement) return;
   PredictedSurface found = prediction.WholeSurface();
   const double usual_m = fitting.largest_error_m;
   for (const PredictedSurface& start : {predicted, *first_predicted}) {
-    fitting.largest_error_m = kFarther * usual_m;
-    if (!prediction.Look(start).ok()) continue;
+    fitting.largest_error_m = tuning.farther * usual_m;
+    if (!prediction.Render(start).ok()) continue;
     prediction.FitTo(registration, region, fitting);
     fitting.largest_error_m = usual_m;
     prediction.FitTo(registration, region, fitting);
@@ -207,7 +185,7 @@ void ModelSegmenter::Parts::FitPrediction(const PredictedSurface& predicted,
     best = agreement;
     found = prediction.WholeSurface();
   }
-  if (prediction.Look(found).ok()) prediction.FitTo(registration, region, fitting);
+  if (prediction.Render(found).ok()) prediction.FitTo(registration, region, fitting);
 }
 
 bool ModelSegmenter::Parts::ColorKnown(int u, int v) const {
@@ -216,12 +194,12 @@ bool ModelSegmenter::Parts::ColorKnown(int u, int v) const {
                            static_cast<std::size_t>(u)] != 0;
 }
 
-/// Pixels of each colour where what is seen is near the predicted surface.
+/// Pixels of each colour whose point is near the predicted surface.
 ColorModel::Histogram ModelSegmenter::Parts::ColorsNearPrediction() const {
   ColorModel::Histogram counts(ColorModel::kBins, 0.0f);
   const auto near_m = static_cast<float>(config.model.largest_error_m);
-  for (int row = 0; row < region.height; row += kStepOfColors_px) {
-    for (int column = 0; column < region.width; column += kStepOfColors_px) {
+  for (int row = 0; row < region.height; row += tuning.color_step_px) {
+    for (int column = 0; column < region.width; column += tuning.color_step_px) {
       const int u = region.u_begin + column, v = region.v_begin + row;
       const float z_m = region.z_m[region.At(column, row)];
       const bool is_near = prediction.Covers(u, v) && std::abs(z_m - prediction.Z_m(u, v)) < near_m;
@@ -231,8 +209,8 @@ ColorModel::Histogram ModelSegmenter::Parts::ColorsNearPrediction() const {
   return counts;
 }
 
-/// Whether most of what is seen near the predicted surface still has colours of the robot: not when
-/// the light has just changed. Where none are known yet, they are guessed.
+/// Whether most points near the predicted surface still have colours of the robot: not when the
+/// light has just changed. Where none are known yet, they are guessed.
 bool ModelSegmenter::Parts::ColorsHold() {
   const ColorModel::Histogram counts = ColorsNearPrediction();
   if (!classifier.knows_colors()) classifier.GuessForeign(counts);
@@ -256,13 +234,13 @@ Status ModelSegmenter::Parts::SegmentByColor(const rgbd::RgbdFrame& raw) {
   classifier.ClassifyBackground(registration, background, &region);
   classifier.ClassifyByColor(frame, &region);
   filter.Smooth(&region);
-  SetLabels(kColorAlone);
+  SetLabels(tuning.color_evidence);
   patches.Find(region);
   const std::int64_t largest = patches.Largest(Label::kRobot);
   if (largest < config.model.min_robot_pixels) {
     return Status(StatusCode::kNoRobotSeen, "no surface of the robot's colour is seen");
   }
-  DropSpecks(static_cast<std::int64_t>(kPatchShare * static_cast<double>(largest)));
+  DropSpecks(static_cast<std::int64_t>(tuning.patch_share * static_cast<double>(largest)));
   DropFarObjects();
   result.notes.emplace_back("no predicted surface: the robot is segmented by its colour alone");
   return Status::Ok();
@@ -275,14 +253,14 @@ void ModelSegmenter::Parts::SetLabels(float robot_from) {
     if (region.z_m[at] <= 0.0f) continue;
     const float evidence = region.evidence[at];
     Label& label = region.label[at];
-    if (filter.Support(at) < kLeastSupport) {
+    if (filter.Support(at) < tuning.least_support_px) {
       label = Label::kMixed;
       ++rejected.at_depth_edge;
     } else if (evidence > robot_from) {
       label = Label::kRobot;
     } else if (region.on_background[at] != 0 || std::abs(region.distance_m[at]) > near_m) {
       label = Label::kBackground;
-    } else if (evidence > robot_from + kAmbiguous) {
+    } else if (evidence > robot_from + tuning.ambiguous_evidence) {
       label = Label::kAmbiguous;
       ++rejected.ambiguous;
     } else {
@@ -294,14 +272,14 @@ void ModelSegmenter::Parts::SetLabels(float robot_from) {
 void ModelSegmenter::Parts::DropSpecks(std::int64_t least_robot_px) {
   patches.Find(region);
   result.rejected.isolated +=
-      patches.DropSmall(Label::kRobot, std::max(kLeastPatch_px, least_robot_px), &region) +
-      patches.DropSmall(Label::kObject, kLeastPatch_px, &region);
+      patches.DropSmall(Label::kRobot, std::max(tuning.least_patch_px, least_robot_px), &region) +
+      patches.DropSmall(Label::kObject, tuning.least_patch_px, &region);
 }
 
-/// Where no surface was predicted: objects that are not near a pixel of the robot are background.
+/// Without a predicted surface: objects that are not near a pixel of the robot are background.
 void ModelSegmenter::Parts::DropFarObjects() {
   SampleGrid& grid = color_sites;
-  const int step = kStepOfColorSites_px;
+  const int step = tuning.site_step_px;
   grid.Lay(region.width, region.height, step);
   const auto point_at = [this](int column, int row) -> Eigen::Vector3f {
     return region.z_m[region.At(column, row)] *
@@ -339,8 +317,9 @@ void ModelSegmenter::Parts::BuildClouds() {
   result.object = {};
 }
 
-ModelSegmenter::ModelSegmenter(const Config& config) : config_(config) {
-  RobotColor(config);  // refuses what is none
+ModelSegmenter::ModelSegmenter(const Config& config, const ModelSegmenterTuning& tuning)
+    : config_(config), tuning_(tuning) {
+  RobotColor(config);  // throws for an invalid colour
 }
 
 ModelSegmenter::~ModelSegmenter() = default;
@@ -350,7 +329,7 @@ void ModelSegmenter::SetCamera(const rgbd::RgbdCamera& camera) {
     parts_->begins = true;
     return;
   }
-  parts_ = std::make_unique<Parts>(config_, camera, NoiseLaw(camera, NoiseOf(config_)));
+  parts_ = std::make_unique<Parts>(config_, camera, NoiseLaw(camera, NoiseOf(config_)), tuning_);
 }
 
 const PixelRegion& ModelSegmenter::region() const {

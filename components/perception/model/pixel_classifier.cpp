@@ -11,29 +11,7 @@ namespace palpate::perception {
 
 namespace {
 
-/// What is not the robot may stand anywhere within such a distance, m.
-constexpr float kElsewhere_m = 0.1f;
 constexpr float kRootTwoPi = 2.5066283f;
-constexpr float kMostAgainst = -8.0f;
-/// Inside of the predicted surface nothing but the robot can be, pushed in more than predicted.
-constexpr float kInsideSigma = 2.0f;
-constexpr float kOnBackground = -2.5f;
-/// Significant distance, in standard deviations.
-constexpr float kSureSigmas = 1.5f;
-/// Below this similarity the light has changed.
-constexpr double kLeastSimilarity = 0.85;
-constexpr double kMostWithoutColor = 0.5;
-/// The colour model is updated from every other pixel of every other row.
-constexpr int kSampleStep_px = 2;
-/// Share of the largest error of the prediction: what is so far from it once it is fitted is not
-/// the robot.
-constexpr float kFar = 0.5f;
-/// Of objects in the colours of everything but the robot, beside the background's 1.
-constexpr float kObjectShare = 0.4f;
-/// So few pixels of objects may be anything.
-constexpr float kFewObjects = 50.0f;
-/// Of the pixels of the fitted surface that nothing hides, so many must agree with it.
-constexpr double kLeastAgreement = 0.25;
 
 std::size_t FirstPixel(const RegisteredFrame& frame, const PixelRegion& region, int row) {
   return static_cast<std::size_t>(region.v_begin + row) *
@@ -43,10 +21,13 @@ std::size_t FirstPixel(const RegisteredFrame& frame, const PixelRegion& region, 
 
 }  // namespace
 
-PixelClassifier::PixelClassifier(const Config& config, const NoiseLaw& noise)
+PixelClassifier::PixelClassifier(const Config& config, const NoiseLaw& noise,
+                                 const PixelClassifierTuning& tuning)
     : config_(config.model),
+      tuning_(tuning),
       noise_(noise),
-      tolerance_{.noise = noise, .bias = static_cast<float>(config.model.background_bias)} {
+      tolerance_{.noise = noise, .bias = static_cast<float>(config.model.background_bias)},
+      colors_(tuning.colors) {
   if (const auto rgb = RobotColor(config)) colors_.Assume({rgb->x(), rgb->y(), rgb->z()});
 }
 
@@ -65,12 +46,12 @@ void PixelClassifier::ClassifyByDistance(const Registration& registration,
     if (z_m <= 0.0f) continue;
     const float distance_m = region->distance_m[at];
     const float sigma_m = Sigma_m(z_m);
-    const float off = distance_m / (distance_m < 0.0f ? kInsideSigma * sigma_m : sigma_m);
+    const float off = distance_m / (distance_m < 0.0f ? tuning_.inside_sigmas * sigma_m : sigma_m);
     const float against = 0.5f * off * off;
-    const float evidence = against > -kMostAgainst + 5.0f
-                               ? kMostAgainst
-                               : std::log(kElsewhere_m / (kRootTwoPi * sigma_m)) - against;
-    region->evidence[at] += std::max(kMostAgainst, evidence);
+    const float evidence = against > -tuning_.least_evidence + 5.0f
+                               ? tuning_.least_evidence
+                               : std::log(tuning_.elsewhere_m / (kRootTwoPi * sigma_m)) - against;
+    region->evidence[at] += std::max(tuning_.least_evidence, evidence);
   }
 }
 
@@ -84,7 +65,7 @@ void PixelClassifier::ClassifyBackground(const Registration& registration,
       const Eigen::Vector3f ray = registration.Ray(region->u_begin + column, region->v_begin + row);
       const bool held = z_m > 0.0f && background.Holds(z_m * ray, tolerance_);
       region->on_background[at] = held ? 1 : 0;
-      region->evidence[at] = held ? kOnBackground : 0.0f;
+      region->evidence[at] = held ? tuning_.background_evidence : 0.0f;
     }
   }
 }
@@ -105,8 +86,9 @@ Status PixelClassifier::CheckAgreement(const PredictionView& prediction,
       agree += region.evidence[at] > 0.0f ? 1 : 0;
     }
   }
-  const bool enough = agree >= config_.min_robot_pixels &&
-                      static_cast<double>(agree) >= kLeastAgreement * static_cast<double>(seen);
+  const bool enough =
+      agree >= config_.min_robot_pixels &&
+      static_cast<double>(agree) >= tuning_.least_agreement * static_cast<double>(seen);
   if (enough) return Status::Ok();
   return Status(StatusCode::kNoRobotSeen,
                 "the depth image does not agree with the predicted robot: " +
@@ -119,10 +101,10 @@ void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion
   sample_.background.assign(ColorModel::kBins, 0.0f);
   sample_.object.assign(ColorModel::kBins, 0.0f);
   sample_.robot_count = 0.0;
-  const float far_m = kFar * static_cast<float>(config_.largest_error_m);
-  for (int row = 0; row < region.height; row += kSampleStep_px) {
+  const float far_m = tuning_.far_share * static_cast<float>(config_.largest_error_m);
+  for (int row = 0; row < region.height; row += tuning_.sample_step_px) {
     const std::size_t first = FirstPixel(frame, region, row);
-    for (int column = 0; column < region.width; column += kSampleStep_px) {
+    for (int column = 0; column < region.width; column += tuning_.sample_step_px) {
       const std::size_t at = region.At(column, row);
       const std::size_t pixel = first + static_cast<std::size_t>(column);
       if (region.z_m[at] <= 0.0f || frame.color_known[pixel] == 0) continue;
@@ -134,7 +116,7 @@ void PixelClassifier::TakeSample(const RegisteredFrame& frame, const PixelRegion
       } else if (distance_m > far_m || label == Label::kObject) {
         sample_.object[bin] += 1.0f;
       } else if ((!by_label || label == Label::kRobot) &&
-                 distance_m < kSureSigmas * Sigma_m(region.z_m[at])) {
+                 distance_m < tuning_.sure_sigmas * Sigma_m(region.z_m[at])) {
         sample_.robot[bin] += 1.0f;
         sample_.robot_count += 1.0;
       }
@@ -147,11 +129,11 @@ bool PixelClassifier::PrepareColors(const RegisteredFrame& frame, const PixelReg
   TakeSample(frame, region, false);
   if (sample_.robot_count < LeastCount()) return colors_.initialised();
   const auto without_color = static_cast<double>(sample_.robot[ColorModel::kNoColor]);
-  if (without_color > kMostWithoutColor * sample_.robot_count) {
+  if (without_color > tuning_.most_without_color * sample_.robot_count) {
     notes->emplace_back("the robot's colour is saturated or dark: the shape alone is used");
     return false;
   }
-  if (colors_.initialised() && colors_.Similarity(sample_.robot) < kLeastSimilarity) {
+  if (colors_.initialised() && colors_.Similarity(sample_.robot) < tuning_.least_similarity) {
     notes->emplace_back("the light has changed: colour model re-initialised");
     colors_.Forget();
   }
@@ -166,7 +148,7 @@ void PixelClassifier::UpdateColors(const RegisteredFrame& frame, const PixelRegi
   }
 }
 
-/// Objects count however few pixels they have: what is not on the background is one or the other,
+/// Normalised, so that objects count whatever their number of pixels: a pixel off the background is
 /// robot or object.
 ColorModel::Histogram PixelClassifier::Others() const {
   const auto sum = [](const ColorModel::Histogram& counts) {
@@ -177,13 +159,14 @@ ColorModel::Histogram PixelClassifier::Others() const {
   ColorModel::Histogram others(ColorModel::kBins, 0.0f);
   for (std::size_t i = 0; i < others.size(); ++i) {
     others[i] = sample_.background[i] / std::max(1.0f, background) +
-                kObjectShare * sample_.object[i] / (object + kFewObjects);
+                tuning_.object_share * sample_.object[i] / (object + tuning_.few_objects_px);
   }
   return others;
 }
 
 double PixelClassifier::LeastCount() const {
-  return static_cast<double>(config_.min_robot_pixels) / (kSampleStep_px * kSampleStep_px);
+  return static_cast<double>(config_.min_robot_pixels) /
+         (tuning_.sample_step_px * tuning_.sample_step_px);
 }
 
 void PixelClassifier::ClassifyByColor(const RegisteredFrame& frame, PixelRegion* region) const {

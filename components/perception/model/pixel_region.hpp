@@ -8,15 +8,15 @@
 
 namespace palpate::perception {
 
-/// What a pixel shows.
+/// Class of a pixel.
 enum class Label : std::uint8_t {
   kNothing,     ///< no depth, or out of range
-  kBackground,  ///< what the robot stands on or before, or far from it
+  kBackground,  ///< on a background plane, or far from the robot
   kRobot,
   kObject,
   kMixed,      ///< at a depth edge, neither the nearer nor the farther surface
-  kAmbiguous,  ///< robot or object, who knows
-  kSpeck,      ///< of a patch that is too small
+  kAmbiguous,  ///< robot or object, with too little evidence
+  kSpeck,      ///< in a patch that is too small
 };
 
 /// A part of the depth image, row by row.
@@ -25,7 +25,7 @@ struct PixelRegion {
   int v_begin = 0;
   int width = 0;
   int height = 0;
-  std::vector<float> z_m;           ///< 0: nothing measured
+  std::vector<float> z_m;           ///< 0: no measurement
   std::vector<float> step_m;        ///< largest step of z to a neighbour on the same surface
   std::vector<float> distance_m;    ///< from the predicted surface; positive: before it
   std::vector<float> evidence;      ///< log of odds; positive: robot

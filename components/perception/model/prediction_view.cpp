@@ -13,14 +13,6 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr double kSampleSpacing_m = 3e-3;
-constexpr int kLeastStep_px = 2;
-constexpr int kMostStep_px = 8;
-/// So near the surface that no other part of it is searched.
-constexpr float kOnSurface_m2 = 1e-6f;
-/// Samples stand so far apart that the nearest may lie aside.
-constexpr float kAgreeSigmas = 4.0f;
-
 bool IsSurface(const PredictedSurface& predicted) {
   const Eigen::Matrix3Xi& triangles = predicted.triangles;
   return triangles.cols() > 0 && predicted.vertices_m.allFinite() && triangles.minCoeff() >= 0 &&
@@ -29,12 +21,15 @@ bool IsSurface(const PredictedSurface& predicted) {
 
 }  // namespace
 
-PredictionView::PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config)
+PredictionView::PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config,
+                               const PredictionViewTuning& tuning)
     : config_(config),
+      tuning_(tuning),
       focal_px_(std::max(camera.depth.fx_px, camera.depth.fy_px)),
-      view_(camera.depth) {}
+      view_(camera.depth),
+      fit_(tuning.fit) {}
 
-Status PredictionView::Look(const PredictedSurface& predicted) {
+Status PredictionView::Render(const PredictedSurface& predicted) {
   if (!IsSurface(predicted)) {
     return Status(StatusCode::kInvalidInput, "the predicted surface is empty or has no numbers");
   }
@@ -87,8 +82,9 @@ void PredictionView::Place(PixelRegion* region) const {
 }
 
 void PredictionView::LayGrid(const Registration& registration, const PixelRegion& region) {
-  const double step_px = kSampleSpacing_m * focal_px_ / static_cast<double>(nearest_z_m_);
-  const int step = std::clamp(static_cast<int>(step_px), kLeastStep_px, kMostStep_px);
+  const double step_px = tuning_.sample_spacing_m * focal_px_ / static_cast<double>(nearest_z_m_);
+  const int step =
+      std::clamp(static_cast<int>(step_px), tuning_.least_step_px, tuning_.most_step_px);
   grid_.Lay(region.width, region.height, step);
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
@@ -131,7 +127,7 @@ void PredictionView::FitTo(const Registration& registration, const PixelRegion& 
 PredictionView::Agreement PredictionView::Agree(const Registration& registration,
                                                 const PixelRegion& region,
                                                 const Fitting& fitting) const {
-  const float near_m = kAgreeSigmas * fitting.point_sigma_m;
+  const float near_m = tuning_.agree_sigmas * fitting.point_sigma_m;
   Agreement agreement;
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
@@ -168,7 +164,8 @@ PredictionView::Distance PredictionView::From(const Eigen::Vector3f& site_m,
 
 void PredictionView::Measure(const Registration& registration, PixelRegion* region) const {
   const int step = grid_.step_px;
-  // Sites stand so far apart; on a slope the nearest one is still nearer than that.
+  // Distance of sites; on a slope the nearest one is still nearer than that.
+  const float on_surface_m2 = tuning_.on_surface_m2;
   const float slack_share = 1.5f * static_cast<float>(step / focal_px_);
   for (int row = 0; row < region->height; ++row) {
     for (int column = 0; column < region->width; ++column) {
@@ -185,7 +182,7 @@ void PredictionView::Measure(const Registration& registration, PixelRegion* regi
         distance = From(view_.Z_m(u, v) * ray, normals_.col(triangle), point_m, slack_m);
       }
       const int site = grid_.nearest[grid_.At(column / step, row / step)];
-      if (site != SampleGrid::kNone && distance.squared_m2 > kOnSurface_m2) {
+      if (site != SampleGrid::kNone && distance.squared_m2 > on_surface_m2) {
         const auto k = static_cast<std::size_t>(site);
         const Distance there = From(grid_.site_m[k], grid_.normal[k], point_m, slack_m);
         if (there.squared_m2 < distance.squared_m2) distance = there;

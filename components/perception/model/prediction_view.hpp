@@ -17,39 +17,55 @@
 
 namespace palpate::perception {
 
-/// The predicted surface as the camera sees it, brought onto what it measured.
+struct PredictionViewTuning {
+  SurfaceFitTuning fit = {};
+  /// Distance of samples on the nearest part of the robot, within bounds of their distance in the
+  /// image. Larger: faster, details are lost.
+  double sample_spacing_m = 3e-3;
+  int least_step_px = 2;
+  int most_step_px = 8;
+  /// Squared distance from the surface in the pixel's line of sight below which no other part is
+  /// searched. Larger: faster, distances near edges err.
+  float on_surface_m2 = 1e-6f;
+  /// Distance of a sample from the surface that agrees, in sigmas of a point; the nearest sample of
+  /// the surface may lie aside. Larger: a wrong fit agrees; smaller: a right one contradicts.
+  float agree_sigmas = 4.0f;
+};
+
+/// The predicted surface in the camera's view, registered to the measurement.
 class PredictionView {
  public:
-  PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config);
+  PredictionView(const rgbd::RgbdCamera& camera, const ModelConfig& config,
+                 const PredictionViewTuning& tuning = {});
 
-  /// Draws the prediction. kInvalidInput for a surface that is none, kNoRobotSeen where nothing of
-  /// it is in the image.
-  Status Look(const PredictedSurface& predicted);
-  /// The part of the image round the prediction.
+  /// Renders the prediction. kInvalidInput for an invalid surface, kNoRobotSeen where it is out of
+  /// the image.
+  Status Render(const PredictedSurface& predicted);
+  /// The region of interest around the prediction.
   void Place(PixelRegion* region) const;
-  /// Whether what is measured at a pixel cannot be the robot.
+  /// Whether a measured point cannot be the robot.
   using IsForeign = std::function<bool(int u_px, int v_px, const Eigen::Vector3f& point_m)>;
-  /// How a surface is brought onto what was measured.
+  /// Parameters of the registration.
   struct Fitting {
     IsForeign is_foreign;
     float point_sigma_m = 1.5e-3f;
     double largest_error_m = 0.015;  ///< of the prediction
   };
-  /// Fits the surface to what the region measured, but for what is foreign, and draws it again.
+  /// Fits the surface to the region's points that are not foreign, and renders it again.
   void FitTo(const Registration& registration, const PixelRegion& region, const Fitting& fitting);
-  /// What a fit has come to.
+  /// Quality of a fit.
   struct Agreement {
-    int agree = 0;       ///< samples of the surface that are measured where it is
-    int contradict = 0;  ///< through which is seen what lies behind it
-    int strange = 0;     ///< measured off the surface, and not foreign
+    int agree = 0;       ///< samples whose measured point is on the surface
+    int contradict = 0;  ///< samples whose measured point is behind the surface
+    int strange = 0;     ///< points off the surface that are not foreign
     double Share() const { return static_cast<double>(agree) / std::max(1, agree + contradict); }
     /// The larger, the better is the fit.
     double Score() const { return agree - contradict - 0.5 * strange; }
   };
   Agreement Agree(const Registration& registration, const PixelRegion& region,
                   const Fitting& fitting) const;
-  /// Fills the region's distance_m: from the fitted surface, positive outside of it. Where the
-  /// surface is far away, roughly.
+  /// Fills the region's distance_m: from the fitted surface, positive outside of it; approximate
+  /// far from the surface.
   void Measure(const Registration& registration, PixelRegion* region) const;
 
   bool Covers(int u_px, int v_px) const {
@@ -74,6 +90,7 @@ class PredictionView {
                        const Eigen::Vector3f& point_m, float slack_m);
 
   ModelConfig config_;
+  PredictionViewTuning tuning_;
   double focal_px_;
   rgbd::SurfaceView view_;
   PredictedSurface surface_;

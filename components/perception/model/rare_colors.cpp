@@ -12,15 +12,9 @@ namespace palpate::perception {
 
 namespace {
 
-/// Share of all pixels that a chromaticity of a group has: between two groups lie those of pixels
-/// on the border of their surfaces.
-constexpr float kLeastSurfaceShare = 0.005f;
-/// A group of a smaller share of the largest is rare.
-constexpr float kRareShare = 0.25f;
-
 constexpr int kBins = ColorModel::kChromaBins;
 
-/// Adds up the group that `seed` is of, and gives it the number.
+/// Sum of the group that contains `seed`; marks its bins with the number.
 float NumberGroup(const std::vector<float>& counts, float least, int seed, int number,
                   std::vector<int>* group) {
   float sum = 0.0f;
@@ -46,13 +40,13 @@ float NumberGroup(const std::vector<float>& counts, float least, int seed, int n
 
 }  // namespace
 
-RareColors::RareColors(const ColorModel::Histogram& counts) {
+RareColors::RareColors(const ColorModel::Histogram& counts, const RareColorsTuning& tuning) {
   std::vector<float> of_chromaticity(kChromaticities, 0.0f);
   for (std::size_t bin = 0; bin < ColorModel::kNoColor; ++bin) {
     of_chromaticity[bin % kChromaticities] += counts[bin];
   }
   const float least =
-      std::max(1.0f, kLeastSurfaceShare *
+      std::max(1.0f, tuning.least_share *
                          std::accumulate(of_chromaticity.begin(), of_chromaticity.end(), 0.0f));
   std::vector<int> group(kChromaticities, -1);
   std::vector<float> sizes;
@@ -63,7 +57,7 @@ RareColors::RareColors(const ColorModel::Histogram& counts) {
     sizes.push_back(NumberGroup(of_chromaticity, least, seed, number, &group));
   }
   if (sizes.empty()) return;
-  const float fewest = kRareShare * *std::max_element(sizes.begin(), sizes.end());
+  const float fewest = tuning.rare_share * *std::max_element(sizes.begin(), sizes.end());
   rare_.resize(kChromaticities);
   for (std::size_t at = 0; at < rare_.size(); ++at) {
     const bool common = group[at] >= 0 && sizes[At(group[at])] >= fewest;

@@ -25,14 +25,14 @@ class Search {
   void Forward() {
     for (int row = 0; row < grid_.rows; ++row) {
       for (int column = 0; column < grid_.columns; ++column) {
-        Ask(column, row, {{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}});
+        Compare(column, row, {{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}});
       }
     }
   }
   void Backward() {
     for (int row = grid_.rows - 1; row >= 0; --row) {
       for (int column = grid_.columns - 1; column >= 0; --column) {
-        Ask(column, row, {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}});
+        Compare(column, row, {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}}});
       }
     }
   }
@@ -40,7 +40,7 @@ class Search {
  private:
   using Offsets = std::array<std::array<int, 2>, 4>;
 
-  void Ask(int column, int row, const Offsets& neighbours) {
+  void Compare(int column, int row, const Offsets& neighbours) {
     const std::size_t here = grid_.At(column, row);
     for (const auto& [right, down] : neighbours) {
       const int c = column + right, r = row + down;

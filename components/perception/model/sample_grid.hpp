@@ -30,10 +30,9 @@ struct SampleGrid {
   std::size_t size() const { return measured_m.size(); }
 };
 
-/// Finds the site nearest to each measured point in space, by handing candidates on from sample to
-/// sample over the image (after two rounds to about one step; kNone only where there is no site at
-/// all), from those that were the nearest before. Where nothing was measured a neighbour's is
-/// taken.
+/// Finds the site nearest to each measured point in space, by propagating candidates from sample to
+/// sample over the image, from the nearest ones before. Exact to about one step after two rounds;
+/// kNone only where there is no site at all. Samples without a measurement have a neighbour's.
 void FindNearestSites(SampleGrid* grid, int rounds = 2);
 
 }  // namespace palpate::perception

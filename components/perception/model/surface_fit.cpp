@@ -4,31 +4,12 @@
 #include "components/perception/model/surface_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::perception {
-
-namespace {
-
-/// First the surface as a whole, from wherever it may be; then how it is bent. Objects stand before
-/// the surface, never inside of it: in the end what is before it counts less, and what stands out
-/// of it does not count.
-constexpr std::array<SurfaceFit::Round, 5> kRounds = {
-    {{.cut = 1.0f, .trust_before = 1.0f, .difference = 0.02f},
-     {.cut = 1.0f, .trust_before = 1.0f, .difference = 0.02f},
-     {.cut = 0.7f, .trust_before = 0.5f, .difference = 0.02f},
-     {.cut = 0.6f, .trust_before = 0.25f, .difference = 0.25f},
-     {.cut = 0.4f, .trust_before = 0.25f, .difference = 0.25f}}};
-/// How far any node may move, before anything is measured: share of the largest error (one sigma).
-constexpr float kMoveSigma = 0.7f;
-/// Of the nodes round a point so much must have been near a site.
-constexpr float kLeastKnown = 0.05f;
-
-}  // namespace
 
 void SurfaceFit::Lay(const SampleGrid& grid, const Settings& settings) {
   settings_ = settings;
@@ -96,12 +77,13 @@ Eigen::Vector3f SurfaceFit::At(const Eigen::Vector3f& point_m) const {
     }
   }
   const float known = shares.share.sum();
-  return known > kLeastKnown ? Eigen::Vector3f(sum_m / known) : Eigen::Vector3f::Zero();
+  return known > tuning_.least_known_share ? Eigen::Vector3f(sum_m / known)
+                                           : Eigen::Vector3f::Zero();
 }
 
 void SurfaceFit::Fit(SampleGrid* grid) {
   if (unknowns_ == 0) return;
-  for (const Round& round : kRounds) {
+  for (const SurfaceFitRound& round : tuning_.rounds) {
     FindNearestSites(grid, 1);
     Improve(*grid, round);
     for (std::size_t i = 0; i < grid->size(); ++i) {
@@ -116,7 +98,7 @@ void SurfaceFit::Fit(SampleGrid* grid) {
 }
 
 /// One step of Gauss and Newton on the distances along the normals, with Tukey's weights.
-void SurfaceFit::Improve(const SampleGrid& grid, const Round& round) {
+void SurfaceFit::Improve(const SampleGrid& grid, const SurfaceFitRound& round) {
   const float cut_m = round.cut * static_cast<float>(settings_.largest_error_m);
   normal_matrix_ = Eigen::MatrixXf::Zero(3 * unknowns_, 3 * unknowns_);
   right_side_ = Eigen::VectorXf::Zero(3 * unknowns_);
@@ -153,7 +135,7 @@ void SurfaceFit::Improve(const SampleGrid& grid, const Round& round) {
 
 void SurfaceFit::AddSmoothness(float difference) {
   const auto largest_m = static_cast<float>(settings_.largest_error_m);
-  const float keep = 1.0f / (kMoveSigma * largest_m * kMoveSigma * largest_m);
+  const float keep = 1.0f / (tuning_.move_sigma * largest_m * tuning_.move_sigma * largest_m);
   const float coupling = 1.0f / (difference * largest_m * difference * largest_m);
   normal_matrix_.diagonal().setConstant(keep);
   const auto number = [this](int x, int y, int z) {

@@ -59,6 +59,12 @@ TEST(BackgroundPlanes, AreLargerThanTheRobot) {
   EXPECT_TRUE(planes.planes().empty()) << "a plate that pushes from behind is an object";
 }
 
+TEST(BackgroundPlanes, ASmallerLeastSizeTakesAPlateForBackground) {
+  BackgroundPlanes planes({.least_robot_sizes = 0.5f});
+  planes.Update(Sheet(0.9f, 0.0f, 0.15f), Body({0.0f, 0.0f, 0.5f}), kTolerance);
+  EXPECT_EQ(planes.planes().size(), 1u);
+}
+
 TEST(BackgroundPlanes, MayBeSmallerWhereTheRobotStandsOnThem) {
   const Points body = Body({0.0f, 0.0f, 0.5f});  // its feet are at z = 0.55
   for (const auto& [z_m, size_m, is_base] :
