@@ -14,10 +14,6 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr Eigen::Index kFewestPoints = 12;
-constexpr int kRounds = 5;
-constexpr double kLargestRadius_m = 0.1;
-
 /// |p|^2 = 2 c p + k, linear in c and k; unknowns (c, R).
 std::optional<Eigen::Vector4d> FitAlgebraically(const Eigen::Matrix3Xd& points_m) {
   Eigen::MatrixXd rows(points_m.cols(), 4);
@@ -31,16 +27,17 @@ std::optional<Eigen::Vector4d> FitAlgebraically(const Eigen::Matrix3Xd& points_m
 
 }  // namespace
 
-std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m) {
+std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m,
+                            const BallFitTuning& tuning) {
   const Eigen::Index count = points_m.cols();
-  if (count < kFewestPoints) return std::nullopt;
+  if (count < tuning.fewest_points) return std::nullopt;
   const Eigen::Vector3d middle_m = points_m.rowwise().mean();
   const Eigen::Matrix3Xd off_m = points_m.colwise() - middle_m;
   auto fit = FitAlgebraically(off_m);
   if (!fit) return std::nullopt;
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   double sum_squares_m2 = 0.0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < tuning.rounds; ++round) {
     const Eigen::Matrix3Xd from_center_m = off_m.colwise() - fit->head<3>();
     const Eigen::RowVectorXd distance_m = from_center_m.colwise().norm().cwiseMax(1e-9);
     Eigen::Matrix4Xd gradient(4, count);
@@ -50,7 +47,7 @@ std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m) {
     sum_squares_m2 = residual_m.squaredNorm();
     information = gradient * gradient.transpose();
     *fit += Eigen::LDLT<Eigen::Matrix4d>(information).solve(gradient * residual_m.transpose());
-    if (!fit->allFinite() || !((*fit)[3] > 0.0) || (*fit)[3] > kLargestRadius_m) {
+    if (!fit->allFinite() || !((*fit)[3] > 0.0) || (*fit)[3] > tuning.largest_radius_m) {
       return std::nullopt;
     }
   }

@@ -19,9 +19,16 @@ struct Ball {
   Eigen::Matrix3d CenterCovariance_m2() const { return covariance_m2.topLeftCorner<3, 3>(); }
 };
 
+struct BallFitTuning {
+  Eigen::Index fewest_points = 12;  ///< fewer: balls through noise
+  int rounds = 5;                   ///< Gauss-Newton; more: slower, a more exact optimum
+  double largest_radius_m = 0.1;    ///< larger: flat objects count as balls
+};
+
 /// Least squares of the distances from the ball's surface (Gauss-Newton from the algebraic fit).
-/// Nothing where the points [3 x n] are too few, do not bend, or bend the wrong way: the camera,
-/// in the origin, sees a ball from outside.
-std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m);
+/// Empty where the points [3 x n] are too few, flat, or concave: the camera, in the origin, is
+/// outside of a ball. `sigma_m`: of a point.
+std::optional<Ball> FitBall(const Eigen::Matrix3Xd& points_m, double sigma_m,
+                            const BallFitTuning& tuning = {});
 
 }  // namespace palpate::perception

@@ -10,7 +10,6 @@
 #include <tuple>
 #include <utility>
 
-#include "components/perception/contacts/hidden_surface.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
@@ -19,17 +18,8 @@ namespace palpate::perception {
 
 namespace {
 
-/// Points of both clouds stand on one lattice in the image, so where they meet, an object's point
-/// has the robot's next row at one spacing; a second row may be missing between them.
-constexpr double kRows = 2.0;
-constexpr double kSigmas = 3.0;
-constexpr double kShareOfHalfDisc = 0.1;
-constexpr double kFewestNeighbours = 2.0;
 /// Of trace(S) I - S: (2 / pi)^2 over the half that a semicircle's points spread along the chord.
 constexpr double kHiddenRim = 8.0 / (std::numbers::pi * std::numbers::pi);
-
-/// Of the gap between a rim and the robot, as the variance of the contact's place across it.
-constexpr double kOfGap = 1.0 / 3.0;
 
 double MedianSigma_m(const Eigen::VectorXf& sigma_m, std::vector<float>* buffer) {
   buffer->assign(sigma_m.begin(), sigma_m.end());
@@ -73,7 +63,7 @@ void ContactLocator::Derive(const rgbd::SensedCloud& robot, const rgbd::SensedCl
   const double noise_m =
       std::hypot(MedianSigma_m(robot.sigma_m, &sigma_m_), MedianSigma_m(object.sigma_m, &sigma_m_));
   thresholds_.noise_m = noise_m;
-  const double rows_m = kRows * std::max(robot_m, object_m) + kSigmas * noise_m;
+  const double rows_m = tuning_.rows * std::max(robot_m, object_m) + tuning_.sigmas * noise_m;
   thresholds_.resolution_m = 2.0 * (std::max(robot_m, object_m) + noise_m);
   thresholds_.r_search_m =
       config_.r_search_m > 0.0 ? config_.r_search_m : config_.hidden_depth_m + rows_m;
@@ -81,7 +71,8 @@ void ContactLocator::Derive(const rgbd::SensedCloud& robot, const rgbd::SensedCl
       config_.cluster_distance_m > 0.0 ? config_.cluster_distance_m : 2.0 * rows_m;
   const double across = thresholds_.r_search_m / std::max(robot_m, 1e-6);
   const double half_disc = 0.5 * std::numbers::pi * across * across;
-  const double derived = std::clamp(kShareOfHalfDisc * half_disc, kFewestNeighbours, 1000.0);
+  const double derived =
+      std::clamp(tuning_.half_disc_share * half_disc, tuning_.fewest_neighbours, 1000.0);
   thresholds_.n_neigh = config_.n_neigh > 0 ? config_.n_neigh : static_cast<int>(derived);
 }
 
@@ -154,20 +145,20 @@ void ContactLocator::Cluster(const Eigen::Matrix3Xf& points_m, double link_m) {
   }
 }
 
-/// Objects of which too little is near what is seen of the robot.
+/// Objects with too few points near the visible part of the robot.
 void ContactLocator::LocateLarge(const rgbd::SensedCloud& object, const PredictedSurface& surface) {
   Cluster(object.points_m, 0.5 * thresholds_.cluster_distance_m);
   for (const std::vector<int>& members : clusters_) {
     const auto is_located = [this](int k) { return in_contact_[At(k)] != 0; };
     if (std::any_of(members.begin(), members.end(), is_located)) continue;
     const Eigen::Matrix3Xd points_m = object.points_m(Eigen::all, members).cast<double>();
-    const auto hidden = FindContactUnder(points_m, surface, thresholds_.noise_m);
+    const auto hidden = FindContactUnder(points_m, surface, thresholds_.noise_m, tuning_.hidden);
     if (!hidden) continue;
     DetectedContact& contact = contacts_.emplace_back();
     contact.point_count = static_cast<int>(members.size());
     contact.position_m = hidden->position_m;
     contact.covariance_m2 = hidden->covariance_m2;
-    // As far as the rim of a ball of this size reaches that is seen from the side.
+    // Extent of the rim of a ball of this size, seen from the side.
     contact.extent_m.setConstant(hidden->radius_m);
   }
 }
@@ -199,7 +190,8 @@ DetectedContact ContactLocator::Summarise(const rgbd::SensedCloud& robot,
   const Eigen::Vector3d gap_m = contact.position_m - rim_m;
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   contact.covariance_m2 = noise_m2 + kHiddenRim * (scatter_m2.trace() * identity - scatter_m2) +
-                          kOfGap * gap_m * gap_m.transpose() + Known().Variance_m2() * identity;
+                          tuning_.gap_variance * gap_m * gap_m.transpose() +
+                          Known().Variance_m2() * identity;
   return contact;
 }
 
@@ -214,7 +206,8 @@ Resolution ContactLocator::Known() const {
 bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::SensedCloud& object,
                                 const std::vector<int>& members, const PredictedSurface* surface,
                                 DetectedContact* contact) const {
-  const auto hidden = FindHiddenContact(robot, object, RimOf(members), surface, Known());
+  const auto hidden =
+      FindHiddenContact(robot, object, RimOf(members), surface, Known(), tuning_.hidden);
   if (!hidden) {
     if (surface != nullptr) PlaceOnHiddenSurface(robot, members, *surface, contact);
     return true;
@@ -222,12 +215,12 @@ bool ContactLocator::LookBehind(const rgbd::SensedCloud& robot, const rgbd::Sens
   contact->position_m = hidden->position_m;
   const double air_m = std::max(0.0, hidden->gap_m);
   contact->covariance_m2 =
-      hidden->covariance_m2 + kOfGap * air_m * air_m * Eigen::Matrix3d::Identity();
+      hidden->covariance_m2 + tuning_.gap_variance * air_m * air_m * Eigen::Matrix3d::Identity();
   return hidden->touches;
 }
 
-/// The hidden part of the object is taken to reach as far as its rim is wide, and as far as the air
-/// between rim and robot.
+/// Assumes that the hidden part of the object extends over the width of its rim and the gap between
+/// rim and robot.
 void ContactLocator::PlaceOnHiddenSurface(const rgbd::SensedCloud& robot,
                                           const std::vector<int>& members,
                                           const PredictedSurface& surface,
@@ -239,11 +232,12 @@ void ContactLocator::PlaceOnHiddenSurface(const rgbd::SensedCloud& robot,
   const double known_m2 = thresholds_.resolution_m * thresholds_.resolution_m;
   const auto unseen =
       FindHiddenSurface(surface, robot, rim_m, std::sqrt(width_m2 + air_m2 + known_m2),
-                        0.5 * thresholds_.resolution_m);
+                        0.5 * thresholds_.resolution_m, tuning_.surface);
   if (!unseen) return;
   contact->position_m = unseen->middle_m;
-  contact->covariance_m2 = unseen->covariance_m2 +
-                           (Known().Variance_m2() + kOfGap * air_m2) * Eigen::Matrix3d::Identity();
+  contact->covariance_m2 =
+      unseen->covariance_m2 +
+      (Known().Variance_m2() + tuning_.gap_variance * air_m2) * Eigen::Matrix3d::Identity();
 }
 
 }  // namespace palpate::perception

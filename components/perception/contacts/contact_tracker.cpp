@@ -59,7 +59,7 @@ void ContactTracker::Associate(const std::vector<DetectedContact>& detected) {
     for (Eigen::Index d = 0; d < detections; ++d) {
       const double distance_m2 =
           (detected[At(d)].position_m - track.contact.position_m).squaredNorm();
-      // Where contacts merge, the one that was seen last takes what there is, and a new one waits.
+      // Where contacts merge, the one that was detected last takes the detection.
       const bool behind = track.frames_missing > 0 || track.number == 0;
       cost_(t, d) = distance_m2 > gate_m2 ? never : distance_m2 + (behind ? 0.5 * gate_m2 : 0.0);
     }
@@ -76,7 +76,7 @@ void ContactTracker::See(const DetectedContact& detected, Track* track) const {
   const Eigen::Vector3d moved_m = detected.position_m - last.position_m;
   DetectedContact& contact = track->contact;
   contact.position_m -= kept * moved_m;
-  // Of the mixture of both places: what lags behind is uncertain by so much.
+  // Covariance of the mixture of both locations, which includes the lag.
   contact.covariance_m2 += kept * (last.covariance_m2 - detected.covariance_m2) +
                            kept * (1.0 - kept) * moved_m * moved_m.transpose();
   contact.extent_m += kept * (last.extent_m - detected.extent_m);

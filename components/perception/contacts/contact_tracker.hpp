@@ -11,27 +11,27 @@
 
 namespace palpate::perception {
 
-/// Gives the contacts of each frame the names that they had before. Contacts and tracks are brought
-/// together so that the sum of the squared distances is least, each within the gate. Of two
-/// contacts that merge the one that was seen last keeps the name; when they part within
-/// vanish_frames the other gets its name back, later a new one.
+/// Gives the contacts of each frame the names of their tracks. Contacts and tracks are assigned
+/// with the least sum of squared distances, each within the gate. Of two contacts that merge the
+/// one that was detected last keeps the name; when they separate within vanish_frames the other
+/// regains its name, later a new one.
 class ContactTracker {
  public:
   explicit ContactTracker(const TrackingConfig& config) : config_(config) {}
 
-  /// `detected`: contacts of one frame, names not used. Gives those that are there by now, by
-  /// rising number; a contact that is missing in this frame stays where it was, with frames_seen 0,
-  /// until it has vanished. Holds until the next call.
+  /// `detected`: contacts of one frame, names not used. Returns the confirmed contacts by rising
+  /// number; one that is missing in this frame keeps its position, with frames_seen 0, until it has
+  /// vanished. Holds until the next call.
   const std::vector<DetectedContact>& Update(const std::vector<DetectedContact>& detected);
 
-  /// All contacts are gone. Their names are not given again. What the next frame shows may have
-  /// been there for long: it is there at once.
+  /// Removes all contacts. Their names are not used again. Contacts of the next frame may be old:
+  /// they are confirmed at once.
   void Forget();
 
  private:
   struct Track {
     DetectedContact contact;
-    int number = 0;  ///< 0: not there yet
+    int number = 0;  ///< 0: not confirmed yet
     int frames_missing = 0;
   };
 

@@ -6,23 +6,18 @@
 #include <cmath>
 
 #include "components/perception/contacts/point_grid.hpp"
-#include "components/perception/contacts/surface_around.hpp"
 
 namespace palpate::perception {
-
-namespace {
-
-constexpr double kReaches = 2.5;  ///< beyond so many times the reach nothing counts
-
-}  // namespace
 
 std::optional<HiddenSurface> FindHiddenSurface(const PredictedSurface& surface,
                                                const rgbd::SensedCloud& robot,
                                                const Eigen::Matrix3Xd& rim_m, double reach_m,
-                                               double resolution_m) {
+                                               double resolution_m,
+                                               const HiddenSurfaceTuning& tuning) {
   const Eigen::Vector3d middle_m = rim_m.rowwise().mean();
   const double rim_reach_m = (rim_m.colwise() - middle_m).colwise().norm().maxCoeff();
-  const SurfaceAround around(surface, middle_m, rim_reach_m + kReaches * reach_m);
+  const SurfaceAround around(surface, middle_m, rim_reach_m + tuning.most_reaches * reach_m,
+                             tuning.around);
   PointGrid seen;
   seen.Build(robot.points_m, static_cast<float>(resolution_m));
   double sum = 0.0;
@@ -30,7 +25,7 @@ std::optional<HiddenSurface> FindHiddenSurface(const PredictedSurface& surface,
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   around.ForEachPart([&](const Eigen::Vector3d& place_m, double area_m2) {
     const double from_rim_m2 = (rim_m.colwise() - place_m).colwise().squaredNorm().minCoeff();
-    if (from_rim_m2 > kReaches * kReaches * reach_m * reach_m) return;
+    if (from_rim_m2 > tuning.most_reaches * tuning.most_reaches * reach_m * reach_m) return;
     bool is_seen = false;
     seen.ForEachNear(place_m.cast<float>(), static_cast<float>(resolution_m), [&](int, float) {
       is_seen = true;

@@ -56,8 +56,8 @@ float MedianSpacing_m(const Eigen::Matrix3Xf& points_m, PointGrid* grid) {
   const float largest_m = std::max(size_m.norm(), 1e-6f);
   std::vector<float> nearest_m2(static_cast<std::size_t>(count));
   const auto median = nearest_m2.begin() + count / 2;
-  // A surface of that size with as many points; distances beyond the radius stay unknown, which the
-  // median bears as long as it is not among them.
+  // Spacing of a surface of that size with as many points. Distances beyond the radius stay
+  // unknown, without effect on the median as long as it is below.
   for (float radius_m = 0.5f * largest_m / std::sqrt(static_cast<float>(count));;
        radius_m *= 2.0f) {
     grid->Build(points_m, radius_m);

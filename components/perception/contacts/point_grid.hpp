@@ -10,11 +10,11 @@
 
 namespace palpate::perception {
 
-/// Points sorted into the cells of a regular grid, to find those near a place. Rebuilt for each
-/// frame in linear time; buffers are used again.
+/// Points sorted into the cells of a regular grid, for neighbour search. Rebuilt for each frame in
+/// linear time; buffers are used again.
 class PointGrid {
  public:
-  /// `points_m` [3 x n] finite; `radius_m` > 0: about what ForEachNear will be asked for.
+  /// `points_m` [3 x n] finite; `radius_m` > 0: about the radius of ForEachNear.
   void Build(const Eigen::Matrix3Xf& points_m, float radius_m);
 
   /// Calls visit(index, squared distance in m^2) for each point within `radius_m` of `place_m`,

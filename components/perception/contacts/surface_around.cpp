@@ -15,13 +15,14 @@ namespace palpate::perception {
 
 namespace {
 
-/// Triangles with a common edge are equally near to what lies over it.
+/// Triangles with a common edge are equally near to a place above it.
 constexpr double kSameDistance_m = 1e-9;
 
 }  // namespace
 
 SurfaceAround::SurfaceAround(const PredictedSurface& surface, const Eigen::Vector3d& place_m,
-                             double radius_m) {
+                             double radius_m, const SurfaceAroundTuning& tuning)
+    : tuning_(tuning) {
   std::vector<int> near;
   for (const auto& corners : surface.triangles.colwise()) {
     const Eigen::Matrix3d triangle_m = surface.vertices_m(Eigen::all, corners);
@@ -34,8 +35,8 @@ SurfaceAround::SurfaceAround(const PredictedSurface& surface, const Eigen::Vecto
   corners_m_ = surface.vertices_m(Eigen::all, near);
 }
 
-/// On an edge the triangle counts that the place stands over most squarely: whether a place is
-/// inside is not decided by one that is seen edge-on from there.
+/// On an edge the triangle counts whose normal points most to the place: one that is edge-on from
+/// there does not decide whether the place is inside.
 NearestSurface SurfaceAround::Nearest(const Eigen::Vector3d& place_m) const {
   PALPATE_CHECK(!empty());
   NearestSurface nearest;
