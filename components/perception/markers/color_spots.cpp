@@ -15,8 +15,6 @@ namespace palpate::perception {
 namespace {
 
 constexpr int kMostColors = 100;
-/// A colour comes near to a marker's within so many times the tolerance.
-constexpr float kNear = 1.6f;
 
 Eigen::Matrix3Xf Directions(const std::vector<double>& rgb) {
   if (rgb.empty() || rgb.size() % 3 != 0 || rgb.size() > 3 * kMostColors) {
@@ -42,8 +40,9 @@ Eigen::Vector3f ColorDirection(const std::uint8_t* rgb) {
   return length > 0.0f ? Eigen::Vector3f(color / length) : Eigen::Vector3f::Zero();
 }
 
-ColorSpots::ColorSpots(const FiducialConfig& config)
-    : directions_{Directions(config.color_rgb)},
+ColorSpots::ColorSpots(const FiducialConfig& config, const ColorSpotsTuning& tuning)
+    : tuning_{tuning},
+      directions_{Directions(config.color_rgb)},
       tolerance_{static_cast<float>(config.color_tolerance)},
       min_level_{static_cast<int>(std::lround(255.0 * config.min_brightness))} {}
 
@@ -56,7 +55,7 @@ void ColorSpots::Classify(const std::uint8_t* rgb, std::size_t pixel) {
   const float distance = std::sqrt(distance_squared);
   if (distance <= tolerance_) {
     color_[pixel] = static_cast<std::int8_t>(nearest);
-  } else if (distance <= kNear * tolerance_) {
+  } else if (distance <= tuning_.near_tolerances * tolerance_) {
     near_[pixel] = static_cast<std::int8_t>(nearest);
   }
 }

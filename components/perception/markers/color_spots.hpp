@@ -17,8 +17,8 @@ struct SpotPixel {
   int v_px = 0;
 };
 
-/// Neighbouring pixels of one of the markers' colours, and those next to them that come near to it:
-/// of a small marker the image's blur leaves few that are of its colour.
+/// Neighbouring pixels of one of the markers' colours, and those next to them of a similar colour:
+/// blur leaves few pixels of a small marker's own colour.
 struct ColorSpot {
   int color = 0;
   std::vector<SpotPixel> pixels;
@@ -29,10 +29,17 @@ struct ColorSpot {
 /// Colour as a direction; zero where it is black.
 Eigen::Vector3f ColorDirection(const std::uint8_t* rgb);
 
+struct ColorSpotsTuning {
+  /// Distance of a similar colour from a marker's, in tolerances. Larger: more pixels of small
+  /// markers, and of their surroundings.
+  float near_tolerances = 1.6f;
+};
+
+/// Finds spots of the markers' colours in an image.
 class ColorSpots {
  public:
-  /// Throws InputError where color_rgb is no list of colours.
-  explicit ColorSpots(const FiducialConfig& config);
+  /// Throws InputError where color_rgb is not a list of colours.
+  explicit ColorSpots(const FiducialConfig& config, const ColorSpotsTuning& tuning = {});
 
   /// From the top of the image to its bottom. Holds until the next call.
   const std::vector<ColorSpot>& Find(const RegisteredFrame& frame);
@@ -49,13 +56,14 @@ class ColorSpots {
            static_cast<std::size_t>(u_px);
   }
 
+  ColorSpotsTuning tuning_;
   Eigen::Matrix3Xf directions_;  ///< [3 x colours]
   float tolerance_;
   int min_level_;
   int width_px_ = 0;
   int height_px_ = 0;
   std::vector<std::int8_t> color_;  ///< [pixels] kNone once gathered
-  std::vector<std::int8_t> near_;   ///< [pixels] likewise, of pixels that come near to a colour
+  std::vector<std::int8_t> near_;   ///< [pixels] likewise, of pixels of a similar colour
   std::vector<SpotPixel> open_;
   std::vector<ColorSpot> spots_;
 };

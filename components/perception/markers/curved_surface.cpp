@@ -11,13 +11,7 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr int kLeastSamples = 6;
-constexpr int kBendRounds = 5;
-/// A sample so many sigma off is of another surface; a little more for what a parabola cannot be.
-constexpr double kGateSigmas = 4.0;
-constexpr double kGateBend = 0.1;
-/// Sigma of dz/dx before anything is known: surfaces are rarely seen more edge-on.
-constexpr double kSlope = 2.0;
+constexpr int kLeastSamples = 6;  // of six coefficients
 
 }  // namespace
 
@@ -28,27 +22,28 @@ CurvedSurface::Coefficients CurvedSurface::Terms(const Eigen::Vector2d& ray) con
   return terms;
 }
 
-/// Of a slanted surface z bends more than the surface does.
-CurvedSurface::Coefficients CurvedSurface::PriorInformation(const SkinPrior& prior) const {
+/// z of a slanted surface has a larger curvature than the surface.
+CurvedSurface::Coefficients CurvedSurface::PriorInformation(const SurfacePrior& prior) const {
   const double slope_squared = coefficients_.segment<2>(1).squaredNorm() / (reach_m_ * reach_m_);
   const double bend = std::pow(1.0 + slope_squared, 1.5) / prior.bend_radius_m;
   Coefficients sigma;
-  sigma << 1.0, kSlope * reach_m_, kSlope * reach_m_, 0.5 * bend * reach_m_ * reach_m_,
-      bend * reach_m_ * reach_m_, 0.5 * bend * reach_m_ * reach_m_;
+  sigma << 1.0, tuning_.slope_sigma * reach_m_, tuning_.slope_sigma * reach_m_,
+      0.5 * bend * reach_m_ * reach_m_, bend * reach_m_ * reach_m_,
+      0.5 * bend * reach_m_ * reach_m_;
   return sigma.array().square().inverse();
 }
 
-bool CurvedSurface::Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior) {
+bool CurvedSurface::Fit(const std::vector<DepthSample>& samples, const SurfacePrior& prior) {
   const double information = 1.0 / (prior.sigma_m * prior.sigma_m * prior.correlated);
-  gate_m_ = kGateSigmas * prior.sigma_m + kGateBend * reach_m_;
+  gate_m_ = tuning_.gate_sigmas * prior.sigma_m + tuning_.gate_bend * reach_m_;
   coefficients_.setZero();
   coefficients_[0] = z_m_;
-  for (int round = 0; round < kBendRounds; ++round) {
+  for (int round = 0; round < tuning_.rounds; ++round) {
     Eigen::Matrix<double, 6, 6> A = PriorInformation(prior).asDiagonal();
     Coefficients b = Coefficients::Zero();
     b[0] = A(0, 0) * z_m_;
     int used = 0;
-    for (const SkinSample& sample : samples) {
+    for (const DepthSample& sample : samples) {
       const Coefficients terms = Terms(sample.ray);
       const double off_m = sample.z_m - terms.dot(coefficients_);
       const bool fits = round == 0 ? sample.inner : std::abs(off_m) < gate_m_;
@@ -79,11 +74,10 @@ CurvedSurface::Point CurvedSurface::At(const Eigen::Vector2d& ray, const Coeffic
 
 CurvedSurface::Point CurvedSurface::Foot(const Eigen::Vector3d& point_m,
                                          const Coefficients& c) const {
-  constexpr int kSteps = 4;
   Point foot = At(point_m.head<2>() / point_m.z(), c);
   const Eigen::Vector3d normal = foot.AreaVector().normalized();
   Eigen::Vector3d place_m = point_m;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < tuning_.foot_rounds; ++step) {
     place_m += normal.dot(foot.position_m - place_m) * normal;
     foot = At(place_m.head<2>() / place_m.z(), c);
   }

@@ -8,18 +8,30 @@
 
 namespace palpate::perception {
 
-/// A measured depth: it lies at z_m * (ray.x, ray.y, 1) in the camera's frame.
-struct SkinSample {
+/// A measured point z_m * (ray.x, ray.y, 1), camera frame.
+struct DepthSample {
   Eigen::Vector2d ray = Eigen::Vector2d::Zero();
   double z_m = 0.0;
-  bool inner = false;  ///< surely on the surface
+  bool inner = false;  ///< within the marker
 };
 
-/// What is known of the samples before they are fitted.
-struct SkinPrior {
+/// Prior and noise of the samples.
+struct SurfacePrior {
   double sigma_m = 1e-3;        ///< of each z
-  double correlated = 1.0;      ///< how many neighbours count for one, >= 1
+  double correlated = 1.0;      ///< neighbours with the information of one, >= 1
   double bend_radius_m = 0.01;  ///< one sigma of the curvature is its inverse
+};
+
+struct CurvedSurfaceTuning {
+  int rounds = 5;  ///< of fit and selection; more: slower, a more exact optimum
+  /// Distance of a sample that belongs to another surface, in sigmas and, as a surface is no
+  /// parabola, as a share of the patch's size. Larger: edges and other objects bend the fit.
+  double gate_sigmas = 4.0;
+  double gate_bend = 0.1;
+  /// Prior sigma of dz/dx: surfaces are rarely seen at a more grazing angle. Larger: noise tilts
+  /// patches of few samples.
+  double slope_sigma = 2.0;
+  int foot_rounds = 4;  ///< of Foot; more: slower, a more exact projection
 };
 
 /// A small patch of a surface: z is a polynomial of second degree in x and y.
@@ -28,12 +40,13 @@ class CurvedSurface {
   using Coefficients = Eigen::Matrix<double, 6, 1>;
 
   /// About the ray `center` at about `z_m`; `reach_m` is about the size of the patch.
-  CurvedSurface(const Eigen::Vector2d& center, double z_m, double reach_m)
-      : center_{center}, z_m_{z_m}, reach_m_{reach_m} {}
+  CurvedSurface(const Eigen::Vector2d& center, double z_m, double reach_m,
+                const CurvedSurfaceTuning& tuning = {})
+      : tuning_{tuning}, center_{center}, z_m_{z_m}, reach_m_{reach_m} {}
 
   /// Fits z to the inner samples, then to all that lie no farther than gate_m() from it. False
   /// where there are fewer than six inner ones.
-  bool Fit(const std::vector<SkinSample>& samples, const SkinPrior& prior);
+  bool Fit(const std::vector<DepthSample>& samples, const SurfacePrior& prior);
 
   double gate_m() const { return gate_m_; }
   const Coefficients& coefficients() const { return coefficients_; }
@@ -48,15 +61,16 @@ class CurvedSurface {
   Point At(const Eigen::Vector2d& ray, const Coefficients& coefficients) const;
   Point At(const Eigen::Vector2d& ray) const { return At(ray, coefficients_); }
   double Z_m(const Eigen::Vector2d& ray) const { return Terms(ray).dot(coefficients_); }
-  /// The place on it below or above `point_m` along its normal there.
+  /// Projection of `point_m` onto the patch along its normal.
   Point Foot(const Eigen::Vector3d& point_m, const Coefficients& coefficients) const;
   /// Sigma of its slope dz/dx, one number for both directions.
   double SlopeSigma() const;
 
  private:
   Coefficients Terms(const Eigen::Vector2d& ray) const;
-  Coefficients PriorInformation(const SkinPrior& prior) const;
+  Coefficients PriorInformation(const SurfacePrior& prior) const;
 
+  CurvedSurfaceTuning tuning_;
   Eigen::Vector2d center_;
   double z_m_;
   double reach_m_;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "libs/core/statistics.hpp"
 
@@ -14,32 +15,20 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-/// Of a spot's pixels so many must have a depth.
-constexpr double kLeastDepth = 0.5;
-/// The surface is fitted up to so many radii of the spot beyond its rim.
-constexpr double kSurfaceReach = 0.8;
-/// Of the angle between the surface's normal and the ray; beyond it a disc is seen too much
-/// edge-on.
-constexpr double kSmallestCosine = 0.3;
-/// What lens and colour mosaic add to the second moments, px^2: a 1-2-1 blur.
-constexpr double kBlur_px2 = 0.5;  // of the colour image
-/// Where a share of the rim is open, the centre is off by about so much of it times the radius.
-constexpr double kOpenShift = 0.5;
-
-bool InSpot(const SpotWindow::Pixel& pixel) { return pixel.distance_px <= kSpotReach_px; }
+constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
 FiducialClassifier::FiducialClassifier(const FiducialConfig& config,
-                                       const Registration& registration)
-    : config_{config}, registration_{registration}, noise_{config.noise} {
+                                       const Registration& registration,
+                                       const FiducialClassifierTuning& tuning)
+    : config_{config}, tuning_{tuning}, registration_{registration}, noise_{config.noise} {
   const rgbd::RgbdCamera& camera = registration.camera();
   step_ = {1.0 / camera.depth.fx_px, 1.0 / camera.depth.fy_px};
   const double scale = camera.color_registered || camera.color.fx_px <= 0.0
                            ? 1.0
                            : camera.depth.fx_px / camera.color.fx_px;
-  blur_px2_ = kBlur_px2 * scale * scale;
+  blur_px2_ = tuning_.blur_px2 * scale * scale;
 }
 
 void FiducialClassifier::Classify(const ColorSpot& spot, const RegisteredFrame& frame,
@@ -58,17 +47,19 @@ FiducialClassifier::Reason FiducialClassifier::Measure(const ColorSpot& spot,
                                                        Fiducial* fiducial) {
   if (const Reason reason = CheckDepth(spot, frame)) return reason;
   const int reach_px =
-      std::max(kRimEnd_px, static_cast<int>(std::ceil(kSurfaceReach * rough_radius_px_)));
+      std::max(tuning_.window.rim_end_px,
+               static_cast<int>(std::ceil(tuning_.surface_reach_radii * rough_radius_px_)));
   if (!window_.Lay(spot, reach_px, frame, registration_)) return &FiducialRejections::at_edge;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const SpotPixel& pixel : spot.pixels) middle += Eigen::Vector2d(pixel.u_px, pixel.v_px);
   middle /= static_cast<double>(spot.pixels.size());
   const Eigen::Vector3d ray = rgbd::Unproject(registration_.camera().depth, middle);
   if (!ray.allFinite()) return &FiducialRejections::at_edge;
-  CurvedSurface surface(ray.head<2>(), z_m_, 2.0 * rough_radius_px_ * step_.mean() * z_m_);
+  CurvedSurface surface(ray.head<2>(), z_m_, 2.0 * rough_radius_px_ * step_.mean() * z_m_,
+                        tuning_.surface);
   if (!FitSurface(&surface)) return &FiducialRejections::no_depth;
   SpotColors colors;
-  if (!Unmix(on_skin_, &window_, &colors)) return &FiducialRejections::at_edge;
+  if (!Unmix(on_surface_, &window_, &colors, tuning_.window)) return &FiducialRejections::at_edge;
   if (colors.contrast < config_.min_contrast) return &FiducialRejections::wrong_color;
   fiducial->color = spot.color;
   fiducial->contrast = colors.contrast;
@@ -85,7 +76,7 @@ FiducialClassifier::Reason FiducialClassifier::Measure(const ColorSpot& spot,
   return nullptr;
 }
 
-/// How far away and how large the spot is, roughly.
+/// Coarse depth and size of the spot.
 FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
                                                           const RegisteredFrame& frame) {
   const auto pixels = static_cast<double>(spot.pixels.size());
@@ -95,7 +86,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
     const auto z_m = static_cast<double>(*frame.z_m.Pixel(pixel.u_px, pixel.v_px));
     if (std::isfinite(z_m)) depths_m_.push_back(z_m);
   }
-  if (static_cast<double>(depths_m_.size()) < kLeastDepth * pixels) {
+  if (static_cast<double>(depths_m_.size()) < tuning_.least_depth_share * pixels) {
     return &FiducialRejections::no_depth;
   }
   z_m_ = UpperMedian(depths_m_);
@@ -110,7 +101,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckDepth(const ColorSpot& spot,
   return larger ? &FiducialRejections::too_large : nullptr;
 }
 
-/// Also marks the pixels of the window that lie on that surface.
+/// Also marks the pixels of the window on that surface.
 bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
   samples_.clear();
   const double near_m = 5.0 * sigma_m_ + 3.0 * rough_radius_px_ * step_.mean() * z_m_;
@@ -120,35 +111,37 @@ bool FiducialClassifier::FitSurface(CurvedSurface* surface) {
     samples_.push_back({pixel.ray, pixel.z_m, inner});
   }
   const auto count = static_cast<double>(samples_.size());
-  const SkinPrior prior{.sigma_m = sigma_m_,
-                        .correlated = count / rgbd::IndependentPixels(noise_, count),
-                        .bend_radius_m = config_.bend_radius_m};
+  const SurfacePrior prior{.sigma_m = sigma_m_,
+                           .correlated = count / rgbd::IndependentPixels(noise_, count),
+                           .bend_radius_m = config_.bend_radius_m};
   if (!surface->Fit(samples_, prior)) return false;
-  on_skin_.clear();
+  on_surface_.clear();
   for (const SpotWindow::Pixel& pixel : window_.pixels) {
     const bool on = std::isfinite(pixel.z_m) && pixel.ray.allFinite() &&
                     std::abs(pixel.z_m - surface->Z_m(pixel.ray)) < surface->gate_m();
-    on_skin_.push_back(on ? 1 : 0);
+    on_surface_.push_back(on ? 1 : 0);
   }
   return true;
 }
 
-/// Share of the rim that is something else: off the surface, without depth, of another colour.
+/// Share of the rim off the surface, without depth, or of another colour.
 double FiducialClassifier::OpenRim(const SpotColors& colors) const {
   const Eigen::Vector3d around = colors.around.normalized();
   double rim = 0.0, open = 0.0;
   for (std::size_t i = 0; i < window_.pixels.size(); ++i) {
     const SpotWindow::Pixel& pixel = window_.pixels[i];
-    if (pixel.distance_px <= kSpotReach_px || pixel.distance_px > kRimEnd_px) continue;
+    if (pixel.distance_px <= tuning_.window.spot_reach_px ||
+        pixel.distance_px > tuning_.window.rim_end_px)
+      continue;
     const bool other = pixel.color_known &&
                        (pixel.rgb.stableNormalized() - around).norm() > config_.color_tolerance;
     rim += 1.0;
-    open += on_skin_[i] == 0 || other ? 1.0 : 0.0;
+    open += on_surface_[i] == 0 || other ? 1.0 : 0.0;
   }
   return open / std::max(1.0, rim);
 }
 
-/// The disc's centre: the mean of its area, lifted onto the bent surface that carries it.
+/// The disc's centre: the mean of its area, projected onto the curved surface.
 CurvedSurface::Point FiducialClassifier::CenterOn(const CurvedSurface& surface,
                                                   const CurvedSurface::Coefficients& coefficients,
                                                   double* area_m2) const {
@@ -196,7 +189,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckShape(const CurvedSurface& s
   if (!(area_m2 > 0.0)) return &FiducialRejections::too_small;
   const Eigen::Vector3d normal = center.AreaVector().normalized();
   const double cosine = std::abs(normal.dot(center.position_m.normalized()));
-  if (cosine < kSmallestCosine) return &FiducialRejections::at_edge;
+  if (cosine < tuning_.least_cosine) return &FiducialRejections::at_edge;
   const double radius_m = std::sqrt(area_m2 / kPi);
   const double slack = config_.size_tolerance;
   if (radius_m < (1.0 - slack) * config_.min_radius_m) return &FiducialRejections::too_small;
@@ -205,7 +198,7 @@ FiducialClassifier::Reason FiducialClassifier::CheckShape(const CurvedSurface& s
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(Moments(surface, center, area_m2))
           .eigenvalues();
   if (moments[0] <= 0.0) return &FiducialRejections::not_round;
-  // What the surface's unknown slant does to a disc: cos a is off by so large a share.
+  // Uncertainty of the slant: relative error of cos a.
   const double tangent = std::sqrt(1.0 / (cosine * cosine) - 1.0);
   const double slant = 2.0 * surface.SlopeSigma() * tangent * cosine * cosine;
   const double roundness = std::sqrt(moments[0] / moments[1]);
@@ -224,7 +217,7 @@ double FiducialClassifier::PlaceSigma_px(const SpotColors& colors, const Fiducia
     shares += pixel.share;
   }
   const double noise_px = colors.share_sigma * std::sqrt(arms) / std::max(1.0, shares);
-  const double open_px = kOpenShift * fiducial.open_rim * fiducial.radius_px;
+  const double open_px = tuning_.open_shift * fiducial.open_rim * fiducial.radius_px;
   double parallax_px = 0.0;
   const rgbd::RgbdCamera& camera = registration_.camera();
   if (!camera.color_registered) {

@@ -12,15 +12,15 @@
 
 namespace palpate::perception {
 
-/// Finds coloured discs on the robot's surface: pixels whose colour direction is a marker's make
-/// spots; of each pixel the share that is marker is unmixed from the spot's colour and that of its
-/// surroundings, which gives the place to a fraction of a pixel; a bent surface fitted to the depth
-/// round it gives the place in space, the size and the shape on the surface. Each frame stands for
-/// itself; the same frame gives the same bits.
+/// Finds coloured discs on the robot's surface: pixels with the colour direction of a marker form
+/// spots. Unmixing each pixel's colour into those of spot and surroundings gives its share of the
+/// marker, and the image position to a fraction of a pixel. A curved surface, fitted to the depth
+/// around it, gives the position in space, and size and shape on the surface. Frames are
+/// independent; the same frame gives the same bits.
 class FiducialDetector {
  public:
-  /// Throws InputError for colours that are none, ranges without anything in them, and names that
-  /// are not one for each colour.
+  /// Throws InputError for invalid colours, empty ranges, and names that are not one for each
+  /// colour.
   explicit FiducialDetector(const FiducialConfig& config);
   ~FiducialDetector();
 

@@ -12,13 +12,6 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr std::size_t kLeastRim = 4;  ///< pixels
-/// Surroundings darker than this share of the marker have no colour.
-constexpr double kDark = 0.12;
-/// A pixel is said to be no less than -this, and no more than 1 + this, marker.
-constexpr double kShareSlack = 0.3;
-constexpr double kPure = 0.85;  ///< of the largest shares: the marker's own colour
-
 Eigen::Vector3d Direction(const Eigen::Vector3d& color) { return color.stableNormalized(); }
 
 /// How many steps each pixel of a box is from those that are 0 now; none is farther than `most`.
@@ -38,26 +31,27 @@ void Spread(int width, int height, int most, std::vector<int>* distance) {
   }
 }
 
-/// Median of the colours round the spot.
-bool LookAround(const std::vector<char>& on_skin, const SpotWindow& window,
-                Eigen::Vector3d* around) {
+/// Median of the colours around the spot.
+bool SurroundingColor(const std::vector<char>& on_surface, const SpotWindow& window,
+                      const SpotWindowTuning& tuning, Eigen::Vector3d* around) {
   std::vector<double> channel[3];
   for (std::size_t i = 0; i < window.pixels.size(); ++i) {
     const SpotWindow::Pixel& pixel = window.pixels[i];
-    const bool rim = pixel.distance_px > kSpotReach_px && pixel.distance_px <= kRimEnd_px;
-    if (!rim || !pixel.color_known || on_skin[i] == 0) continue;
+    const bool rim =
+        pixel.distance_px > tuning.spot_reach_px && pixel.distance_px <= tuning.rim_end_px;
+    if (!rim || !pixel.color_known || on_surface[i] == 0) continue;
     for (int k = 0; k < 3; ++k) channel[k].push_back(pixel.rgb[k]);
   }
-  if (channel[0].size() < kLeastRim) return false;
+  if (channel[0].size() < tuning.least_rim_px) return false;
   for (int k = 0; k < 3; ++k) (*around)[k] = UpperMedian(channel[k]);
   return true;
 }
 
 /// Pixels = amounts * (marker, around), by least squares.
-void SetShares(const SpotColors& colors, SpotWindow* window) {
+void SetShares(const SpotColors& colors, const SpotWindowTuning& tuning, SpotWindow* window) {
   Eigen::Matrix<double, 3, 2> mix;
   mix << colors.marker, colors.around;
-  const bool dark = colors.around.norm() < kDark * colors.marker.norm();
+  const bool dark = colors.around.norm() < tuning.dark_share * colors.marker.norm();
   const Eigen::Matrix2d gram = mix.transpose() * mix;
   const Eigen::Matrix2d inverse =
       Eigen::Matrix2d{{gram(1, 1), -gram(0, 1)}, {-gram(1, 0), gram(0, 0)}} /
@@ -66,12 +60,12 @@ void SetShares(const SpotColors& colors, SpotWindow* window) {
     const Eigen::Vector2d amounts = inverse * (mix.transpose() * pixel.rgb);
     const double alone = colors.marker.dot(pixel.rgb) / colors.marker.squaredNorm();
     const double share = dark ? alone : amounts[0] / std::max(amounts.sum(), 0.2);
-    pixel.share = std::clamp(share, -kShareSlack, 1.0 + kShareSlack);
+    pixel.share = std::clamp(share, -tuning.share_slack, 1.0 + tuning.share_slack);
   }
 }
 
-/// Mean colour of the pixels that are marker and nothing else, as far as the shares say.
-Eigen::Vector3d PureColor(const SpotWindow& window) {
+/// Mean colour of the pixels with the largest shares.
+Eigen::Vector3d PureColor(const SpotWindow& window, double pure_share) {
   double most = 0.0;
   const auto counts = [](const SpotWindow::Pixel& pixel) {
     return pixel.distance_px == 0 && pixel.color_known;
@@ -82,19 +76,21 @@ Eigen::Vector3d PureColor(const SpotWindow& window) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;
   for (const SpotWindow::Pixel& pixel : window.pixels) {
-    if (!counts(pixel) || pixel.share < kPure * most) continue;
+    if (!counts(pixel) || pixel.share < pure_share * most) continue;
     sum += pixel.rgb;
     count += 1.0;
   }
   return sum / std::max(1.0, count);
 }
 
-double RimNoise(const std::vector<char>& on_skin, const SpotWindow& window) {
+double RimNoise(const std::vector<char>& on_surface, const SpotWindow& window,
+                const SpotWindowTuning& tuning) {
   double squares = 0.0, count = 0.0;
   for (std::size_t i = 0; i < window.pixels.size(); ++i) {
     const SpotWindow::Pixel& pixel = window.pixels[i];
-    if (pixel.distance_px <= kSpotReach_px || pixel.distance_px > kRimEnd_px) continue;
-    if (!pixel.color_known || on_skin[i] == 0) continue;
+    if (pixel.distance_px <= tuning.spot_reach_px || pixel.distance_px > tuning.rim_end_px)
+      continue;
+    if (!pixel.color_known || on_surface[i] == 0) continue;
     squares += pixel.share * pixel.share;
     count += 1.0;
   }
@@ -149,16 +145,16 @@ bool SpotWindow::Lay(const ColorSpot& spot, int reach_px, const RegisteredFrame&
   return true;
 }
 
-bool Unmix(const std::vector<char>& on_skin, SpotWindow* window, SpotColors* colors) {
-  if (!LookAround(on_skin, *window, &colors->around)) return false;
+bool Unmix(const std::vector<char>& on_surface, SpotWindow* window, SpotColors* colors,
+           const SpotWindowTuning& tuning) {
+  if (!SurroundingColor(on_surface, *window, tuning, &colors->around)) return false;
   for (SpotWindow::Pixel& pixel : window->pixels) pixel.share = pixel.distance_px == 0 ? 1.0 : 0.0;
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    colors->marker = PureColor(*window);
-    SetShares(*colors, window);
+  for (int round = 0; round < tuning.rounds; ++round) {
+    colors->marker = PureColor(*window, tuning.pure_share);
+    SetShares(*colors, tuning, window);
   }
   colors->contrast = (Direction(colors->marker) - Direction(colors->around)).norm();
-  colors->share_sigma = RimNoise(on_skin, *window);
+  colors->share_sigma = RimNoise(on_surface, *window, tuning);
   FillUnknown(window);
   return true;
 }

@@ -10,7 +10,7 @@
 
 namespace palpate::perception {
 
-/// A spot and the pixels round it.
+/// A spot and the pixels around it.
 struct SpotWindow {
   struct Pixel {
     Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
@@ -29,7 +29,7 @@ struct SpotWindow {
            const Registration& registration);
 };
 
-/// The colours that a window's pixels are mixed of.
+/// The colours whose mixtures are a window's pixels.
 struct SpotColors {
   Eigen::Vector3d marker = Eigen::Vector3d::Zero();
   Eigen::Vector3d around = Eigen::Vector3d::Zero();
@@ -37,13 +37,26 @@ struct SpotColors {
   double share_sigma = 0.0;  ///< noise of a pixel's share
 };
 
-/// Pixels farther from a spot than this show nothing of it; those up to kRimEnd_px are its rim.
-inline constexpr int kSpotReach_px = 2;
-inline constexpr int kRimEnd_px = 4;
+struct SpotWindowTuning {
+  /// Reach of the blur: pixels farther from a spot have no share of it; those up to rim_end_px are
+  /// its rim. Larger: other surfaces enter the colour of the surroundings.
+  int spot_reach_px = 2;
+  int rim_end_px = 4;
+  std::size_t least_rim_px = 4;  ///< pixels on the surface; fewer: a random colour
+  /// Brightness over that of the marker below which surroundings have no colour. Larger: brightness
+  /// instead of colour gives the shares.
+  double dark_share = 0.12;
+  double share_slack = 0.3;  ///< shares are within [-slack, 1 + slack]; larger: noise moves centres
+  /// Share of the largest share from which a pixel gives the marker's own colour. Smaller: blurred
+  /// pixels do, too.
+  double pure_share = 0.85;
+  int rounds = 3;  ///< of colour and shares; more: slower, a more exact colour
+};
 
-/// Sets the pixels' shares: of the two amounts of light that make up a pixel's colour, so that it
-/// does not matter how brightly it is lit. The colour round the spot is that of the pixels of its
-/// rim for which `on_skin` is set. False where there are too few of them.
-bool Unmix(const std::vector<char>& on_skin, SpotWindow* window, SpotColors* colors);
+/// Sets the pixels' shares: of the two amounts of light in a pixel's colour, which makes them
+/// independent of its brightness. The surrounding colour is that of the pixels of the spot's rim
+/// for which `on_surface` is set. False where there are too few of them.
+bool Unmix(const std::vector<char>& on_surface, SpotWindow* window, SpotColors* colors,
+           const SpotWindowTuning& tuning = {});
 
 }  // namespace palpate::perception
