@@ -59,10 +59,10 @@ struct Config {
   }
 };
 
-/// Noise of the depth image, where the camera does not say its own.
+/// Noise of the depth image, where the camera does not report it.
 rgbd::DepthNoise NoiseOf(const Config& config);
 
-/// Settings of the markers with what they share with the others.
+/// Settings of the markers with those that all parts share.
 FiducialConfig FiducialsOf(const Config& config);
 
 /// robot_color_rgb, or nothing where it is empty. Throws InputError where it is no colour.

@@ -7,8 +7,8 @@
 
 namespace palpate::perception {
 
-/// rgbd::DepthSigma_m, quick to look up for each pixel: a little more than it, where a part that
-/// does not depend on z and one that grows with its square are equal.
+/// rgbd::DepthSigma_m as a fast bound for each pixel: slightly larger where the constant part and
+/// the one that grows with z squared are equal.
 struct NoiseLaw {
   float constant_m = 0.0f;
   float at_1m_m = 0.0f;

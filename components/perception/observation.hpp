@@ -15,13 +15,13 @@
 
 namespace palpate::perception {
 
-/// Where the model says that the robot's surface is: the last /robot/mesh_state.
+/// The robot's surface as the model predicts it: the last /robot/mesh_state.
 struct PredictedSurface {
   Eigen::Matrix3Xd vertices_m;  ///< [3 x v] camera frame
   Eigen::Matrix3Xi triangles;   ///< [3 x t] anticlockwise from outside
 };
 
-/// What a pixel, or a point, was left out for.
+/// Numbers of pixels or points that were left out, by reason.
 struct Rejections {
   std::int64_t invalid_depth = 0;  ///< no depth value
   std::int64_t out_of_range = 0;   ///< PassThrough
@@ -37,7 +37,7 @@ struct SegmentedFrame {
   rgbd::SensedCloud robot;   ///< camera frame; at most Config::max_cloud_points, each the mean of
   rgbd::SensedCloud object;  ///< neighbours, with the sigma of that mean; objects near the robot
   Rejections rejected;
-  std::vector<std::string> notes;  ///< what a person should know, e.g. "the light has changed"
+  std::vector<std::string> notes;  ///< for the user, e.g. "the light has changed"
 };
 
 /// One contact between the robot and an object (Algorithm 2), camera frame.
@@ -50,7 +50,7 @@ struct DetectedContact {
   int frames_seen = 0;  ///< in a row
 };
 
-/// What perception makes of one frame.
+/// Result of perception for one frame.
 struct Observation {
   std::int64_t stamp_ns = 0;  ///< of the frame
   SegmentedFrame frame;

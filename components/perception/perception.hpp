@@ -12,22 +12,21 @@
 
 namespace palpate::perception {
 
-/// From a frame of the camera to the points of the robot and where it is touched (section V.A of
-/// the paper), and to the markers on it where their colour is set. Frames are taken one after the
-/// other; colour model and contacts go on from one to the next. The same frames and predictions
-/// give the same bits.
+/// From a frame of the camera to the points and contacts of the robot (section V.A of the paper),
+/// and to the markers on it where their colour is set. Frames come in order; colour model and
+/// contacts go on from one to the next. The same frames and predictions give the same bits.
 class Perception {
  public:
-  /// Throws InputError for settings that do not go together.
+  /// Throws InputError for settings that contradict each other.
   explicit Perception(const Config& config);
-  /// With a segmenter of the caller's.
+  /// With a given segmenter.
   Perception(const Config& config, std::unique_ptr<Segmenter> segmenter);
   ~Perception();
 
-  /// A camera, or the same one reopened: all contacts are gone. Before the first Update.
+  /// A camera, or the same one reopened: removes all contacts. Before the first Update.
   void SetCamera(const rgbd::RgbdCamera& camera);
 
-  /// `predicted`: nullptr where the model's state is not known. The observation holds until the
+  /// `predicted`: nullptr where the model's state is unknown. The observation holds until the
   /// next call.
   const Observation& Update(const rgbd::RgbdFrame& frame, const PredictedSurface* predicted);
 

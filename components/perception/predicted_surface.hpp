@@ -10,7 +10,7 @@
 
 namespace palpate::perception {
 
-/// The surface that the model predicts, as the camera's frame has it. `nodes_m` [3 x n]: nodes in
+/// The surface that the model predicts, in the camera frame. `nodes_m` [3 x n]: nodes in
 /// the robot frame, in single precision as /robot/mesh_state carries them, so that every process
 /// that computes without that message gets the same bits. `triangles` [3 x t]: node numbers,
 /// anticlockwise from outside.

@@ -17,11 +17,6 @@ namespace {
 constexpr int kNowhere = -1;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kFar_m = std::numeric_limits<float>::max();
-/// A cell of the z-buffer is so many times the distance of neighbouring depth pixels in the colour
-/// image, so that a surface that is not seen edge-on leaves no cell open.
-constexpr double kCellSteps = 1.5;
-/// A surface hides another where they stand so many colour pixels apart in it.
-constexpr float kHiddenParallax_px = 1.0f;
 
 std::string SizeText(int width_px, int height_px) {
   return std::to_string(width_px) + "x" + std::to_string(height_px);
@@ -58,7 +53,8 @@ struct Lens {
 
 }  // namespace
 
-Registration::Registration(const rgbd::RgbdCamera& camera) : camera_(camera) {
+Registration::Registration(const rgbd::RgbdCamera& camera, const RegistrationTuning& tuning)
+    : camera_(camera), tuning_(tuning) {
   const rgbd::CameraModel& depth = camera.depth;
   rays_.resize(3, ToIndex(PixelCount(depth)));
   for (int v = 0; v < depth.height_px; ++v) {
@@ -78,7 +74,7 @@ void Registration::LayColorRays() {
   color_rays_ = (T_color_depth_.linear().cast<float>() * rays_).transpose().array();
   const double step_px = std::max(camera_.color.fx_px / camera_.depth.fx_px,
                                   camera_.color.fy_px / camera_.depth.fy_px);
-  cell_px_ = std::max(1, static_cast<int>(std::ceil(kCellSteps * step_px)));
+  cell_px_ = std::max(1, static_cast<int>(std::ceil(tuning_.cell_steps * step_px)));
   cell_columns_ = (camera_.color.width_px + cell_px_ - 1) / cell_px_;
   const int cell_rows = (camera_.color.height_px + cell_px_ - 1) / cell_px_;
   nearest_z_m_.resize(static_cast<std::size_t>(cell_columns_) *
@@ -149,10 +145,10 @@ void Registration::RegisterColor(const rgbd::RgbdFrame& frame, const Window& win
 void Registration::MapColor(const rgbd::ColorImage& color, const Window& window,
                             RegisteredFrame* registered) {
   std::fill(nearest_z_m_.begin(), nearest_z_m_.end(), kFar_m);
-  const Window wide{.u_begin = std::max(0, window.u_begin - kReach_px),
-                    .v_begin = std::max(0, window.v_begin - kReach_px),
-                    .u_end = std::min(camera_.depth.width_px, window.u_end + kReach_px),
-                    .v_end = std::min(camera_.depth.height_px, window.v_end + kReach_px)};
+  const Window wide{.u_begin = std::max(0, window.u_begin - tuning_.reach_px),
+                    .v_begin = std::max(0, window.v_begin - tuning_.reach_px),
+                    .u_end = std::min(camera_.depth.width_px, window.u_end + tuning_.reach_px),
+                    .v_end = std::min(camera_.depth.height_px, window.v_end + tuning_.reach_px)};
   for (int v = wide.v_begin; v < wide.v_end; ++v) {
     const float* z_m = registered->z_m.Pixel(0, v);
     if (camera_.color.distorted()) {
@@ -165,7 +161,7 @@ void Registration::MapColor(const rgbd::ColorImage& color, const Window& window,
   for (int v = window.v_begin; v < window.v_end; ++v) TakeColors(color, v, window, registered);
 }
 
-/// Where each pixel of a row is in the colour image.
+/// Position of each pixel of a row in the colour image.
 template <bool kDistorted>
 void Registration::ProjectRow(int v, const Window& window, const float* z_m) {
   const rgbd::CameraModel& color = camera_.color;
@@ -195,8 +191,8 @@ void Registration::ProjectRow(int v, const Window& window, const float* z_m) {
     if constexpr (kDistorted) lens.Bend(&x, &y);
     const float u_color = fx * x + cx;
     const float v_color = fy * y + cy;
-    // By how much it is outside the image; NaN where there is no depth. Without branches, so that
-    // the loop works on several pixels at once.
+    // Distance outside the image; NaN without depth. Without branches, so that the compiler
+    // vectorises the loop.
     const float u_inside = std::min(std::max(0.0f, u_color), u_last);
     const float v_inside = std::min(std::max(0.0f, v_color), v_last);
     const float missed =
@@ -224,14 +220,14 @@ void Registration::TakeColors(const rgbd::ColorImage& color, int v, const Window
   const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.depth.width_px);
   const auto parallax_m_px =
       static_cast<float>(camera_.color.fx_px * camera_.T_depth_color.translation().norm());
+  const float occluded_px = tuning_.occluded_parallax_px;
   for (auto i = first + static_cast<std::size_t>(window.u_begin);
        i < first + static_cast<std::size_t>(window.u_end); ++i) {
     std::uint8_t* rgb = registered->color.values.data() + 3 * i;
     const int pixel = color_pixel_[i];
     const float z_m = color_z_m_[i];
     const float in_front_m = z_m - nearest_z_m_[At(cell_[i])];
-    const bool known =
-        pixel != kNowhere && in_front_m * parallax_m_px <= kHiddenParallax_px * z_m * z_m;
+    const bool known = pixel != kNowhere && in_front_m * parallax_m_px <= occluded_px * z_m * z_m;
     const std::uint8_t* from =
         color.values.data() + 3 * static_cast<std::size_t>(known ? pixel : 0);
     for (int k = 0; k < 3; ++k) rgb[k] = known ? from[k] : std::uint8_t{0};

@@ -9,8 +9,8 @@
 
 namespace palpate::perception {
 
-/// Colour-based region growing (Zhan, Liang and Xiao 2009), by PCL: the points of each region. What
-/// is in none was too small.
+/// Colour-based region growing (Zhan, Liang and Xiao 2009), by PCL: the points of each region.
+/// Points in none were in too small a region.
 std::vector<std::vector<int>> GrowRegions(const VoxelCloud& cloud, const ColorConfig& config);
 
 }  // namespace palpate::perception

@@ -18,10 +18,6 @@ namespace palpate::perception {
 
 namespace {
 
-/// Of a region that belongs to something.
-constexpr double kMostOf = 0.5;
-constexpr int kFewestToLearnFrom = 30;
-
 /// The colour without its brightness; black counts as grey.
 Eigen::Vector3d Direction(const Eigen::Vector3d& rgb) {
   return (rgb + Eigen::Vector3d::Ones()).normalized();
@@ -35,7 +31,8 @@ double ShareOf(const std::vector<int>& region, const std::vector<char>& marked) 
 
 }  // namespace
 
-ColorSegmenter::ColorSegmenter(const Config& config) : config_(config) {
+ColorSegmenter::ColorSegmenter(const Config& config, const ColorSegmenterTuning& tuning)
+    : config_(config), tuning_(tuning) {
   if (const auto rgb = RobotColor(config)) robot_color_ = Direction(255.0 * *rgb);
 }
 
@@ -60,7 +57,7 @@ const SegmentedFrame& ColorSegmenter::Segment(const rgbd::RgbdFrame& frame,
   if (cloud.Count() == 0)
     return fail({StatusCode::kNoRobotSeen, "no coloured depth within the limits"});
   MarkOnSurface(cloud, predicted);
-  LearnColor(cloud);
+  EstimateColor(cloud);
   if (!robot_color_) {
     return fail({StatusCode::kNoRobotSeen,
                  "the robot's colour is neither set nor was it seen on the predicted surface"});
@@ -109,9 +106,9 @@ void ColorSegmenter::MarkOnSurface(const VoxelCloud& cloud, const PredictedSurfa
   }
 }
 
-/// Median of what lies on the predicted surface: a tool before it, or a marker on it, does not
-/// count. Kept for frames without a prediction.
-void ColorSegmenter::LearnColor(const VoxelCloud& cloud) {
+/// Median over the predicted surface, robust against a tool before it or a marker on it. Kept for
+/// frames without a prediction.
+void ColorSegmenter::EstimateColor(const VoxelCloud& cloud) {
   if (!config_.robot_color_rgb.empty()) return;
   std::vector<double> channels[3];
   for (int i = 0; i < cloud.Count(); ++i) {
@@ -119,14 +116,14 @@ void ColorSegmenter::LearnColor(const VoxelCloud& cloud) {
     const Eigen::Vector3d direction = Direction(cloud.Color(i));
     for (int k = 0; k < 3; ++k) channels[k].push_back(direction[k]);
   }
-  if (channels[0].size() < kFewestToLearnFrom) return;
+  if (channels[0].size() < tuning_.fewest_color_voxels) return;
   Eigen::Vector3d median;
   for (int k = 0; k < 3; ++k) median[k] = UpperMedian(channels[k]);
   robot_color_ = median.normalized();
 }
 
 bool ColorSegmenter::IsRobot(const VoxelCloud& cloud, const std::vector<int>& region) const {
-  if (ShareOf(region, on_surface_) > kMostOf) return true;
+  if (ShareOf(region, on_surface_) > tuning_.region_share) return true;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int point : region) sum += cloud.Color(point);
   const Eigen::Vector3d color = Direction(sum / static_cast<double>(region.size()));

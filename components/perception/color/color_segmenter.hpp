@@ -16,13 +16,20 @@
 
 namespace palpate::perception {
 
-/// The paper's way (section V.A): filters, then region growing by colour, which takes the robot to
-/// be of one colour that nothing else has. The reference that the model-aware way is compared with;
-/// all filters and segmentations are PCL's.
+struct ColorSegmenterTuning {
+  /// Share of a region's voxels on the predicted surface above which it is the robot's. Smaller:
+  /// objects that touch the robot join it.
+  double region_share = 0.5;
+  std::size_t fewest_color_voxels = 30;  ///< that give the robot's colour; fewer: a random colour
+};
+
+/// The paper's method (section V.A): filters, then region growing by colour, which assumes that the
+/// robot has one colour of its own. The reference for the model-aware method; all filters and
+/// segmentations are PCL's.
 class ColorSegmenter : public Segmenter {
  public:
-  /// Throws InputError for a robot colour that is none.
-  explicit ColorSegmenter(const Config& config);
+  /// Throws InputError for an invalid robot colour.
+  explicit ColorSegmenter(const Config& config, const ColorSegmenterTuning& tuning = {});
 
   void SetCamera(const rgbd::RgbdCamera& camera) override;
   const SegmentedFrame& Segment(const rgbd::RgbdFrame& frame,
@@ -33,13 +40,14 @@ class ColorSegmenter : public Segmenter {
 
   geometry::Box Bounds(const PredictedSurface* predicted) const;
   void MarkOnSurface(const VoxelCloud& cloud, const PredictedSurface* predicted);
-  void LearnColor(const VoxelCloud& cloud);
+  void EstimateColor(const VoxelCloud& cloud);
   bool IsRobot(const VoxelCloud& cloud, const std::vector<int>& region) const;
   void LabelRobot(const VoxelCloud& cloud, const std::vector<std::vector<int>>& regions);
   void LabelObjects(const VoxelCloud& cloud, const std::vector<std::vector<int>>& regions);
   rgbd::SensedCloud Take(const VoxelCloud& cloud, Label label) const;
 
   Config config_;
+  ColorSegmenterTuning tuning_;
   std::optional<Eigen::Vector3d> robot_color_;  ///< unit
   std::unique_ptr<Registration> registration_;
   std::unique_ptr<rgbd::SurfaceView> view_;

@@ -16,13 +16,6 @@ namespace palpate::perception {
 
 namespace {
 
-constexpr std::size_t kMostPlanes = 3;
-constexpr int kMostTries = 6;
-constexpr int kRansacRounds = 200;
-constexpr double kLeastShare = 0.2;
-/// RMS distance of a plane's points, in thicknesses: 0.58 where the plane cuts through something.
-constexpr double kFlat = 0.5;
-
 float Extent_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen) {
   const Eigen::Matrix3Xf of_plane_m = points_m(Eigen::all, chosen);
   return (of_plane_m.rowwise().maxCoeff() - of_plane_m.rowwise().minCoeff()).norm();
@@ -36,15 +29,18 @@ double RmsDistance_m(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chose
 }
 
 bool IsLargeAndFlat(const Eigen::Matrix3Xf& points_m, const pcl::Indices& chosen,
-                    const Eigen::Vector4f& plane, const ColorConfig& config) {
+                    const Eigen::Vector4f& plane, const ColorConfig& config,
+                    const LargePlanesTuning& tuning) {
   return static_cast<double>(Extent_m(points_m, chosen)) >= config.background_extent_m &&
-         RmsDistance_m(points_m, chosen, plane) <= kFlat * config.background_thickness_m;
+         RmsDistance_m(points_m, chosen, plane) <=
+             tuning.flat_thicknesses * config.background_thickness_m;
 }
 
 }  // namespace
 
 std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
-                                             const ColorConfig& config) {
+                                             const ColorConfig& config,
+                                             const LargePlanesTuning& tuning) {
   using Cloud = pcl::PointCloud<pcl::PointXYZ>;
   const Cloud::Ptr cloud(new Cloud);
   for (const auto point_m : points_m.colwise()) {
@@ -53,15 +49,15 @@ std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
   pcl::SACSegmentation<pcl::PointXYZ> ransac;  // begins with the same random numbers each time
   ransac.setModelType(pcl::SACMODEL_PLANE);
   ransac.setMethodType(pcl::SAC_RANSAC);
-  ransac.setMaxIterations(kRansacRounds);
+  ransac.setMaxIterations(tuning.ransac_iterations);
   ransac.setDistanceThreshold(config.background_thickness_m);
   ransac.setOptimizeCoefficients(true);
   ransac.setInputCloud(cloud);
   const pcl::IndicesPtr left(new pcl::Indices(cloud->size()));
   std::iota(left->begin(), left->end(), 0);
-  const double fewest = std::max(3.0, kLeastShare * static_cast<double>(cloud->size()));
+  const double fewest = std::max(3.0, tuning.least_share * static_cast<double>(cloud->size()));
   std::vector<Eigen::Vector4f> planes;
-  for (int tries = 0; tries < kMostTries && planes.size() < kMostPlanes &&
+  for (int tries = 0; tries < tuning.most_tries && planes.size() < tuning.most_planes &&
                       static_cast<double>(left->size()) >= fewest;
        ++tries) {
     pcl::PointIndices on_plane;
@@ -69,9 +65,9 @@ std::vector<Eigen::Vector4f> FindLargePlanes(const Eigen::Matrix3Xf& points_m,
     ransac.setIndices(left);
     ransac.segment(on_plane, plane);
     if (static_cast<double>(on_plane.indices.size()) < fewest) break;
-    // One that cuts through several things stands for none, but may come before those that do.
+    // A plane through several objects is none of them, but may be found before their own.
     const Eigen::Vector4f found(plane.values.data());
-    if (IsLargeAndFlat(points_m, on_plane.indices, found, config)) planes.push_back(found);
+    if (IsLargeAndFlat(points_m, on_plane.indices, found, config, tuning)) planes.push_back(found);
     pcl::Indices rest;
     std::set_difference(left->begin(), left->end(), on_plane.indices.begin(),
                         on_plane.indices.end(), std::back_inserter(rest));

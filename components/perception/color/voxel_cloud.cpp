@@ -14,7 +14,6 @@
 #include <limits>
 #include <numeric>
 
-#include "components/perception/color/large_planes.hpp"
 #include "components/perception/noise_law.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
@@ -23,9 +22,6 @@
 namespace palpate::perception {
 
 namespace {
-
-/// Nearly all of a surface lies within so many sigmas of the depth.
-constexpr float kNoiseSigmas = 4.0f;
 
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
@@ -64,7 +60,7 @@ Cloud::Ptr Unproject(const RegisteredFrame& frame, const Registration& registrat
 }
 
 Cloud::Ptr PassThrough(Cloud::Ptr cloud, const geometry::Box& box) {
-  // z first: it leaves out most.
+  // z first: it removes most points.
   for (const auto& [name, axis] : {std::pair("z", 2), std::pair("x", 0), std::pair("y", 1)}) {
     pcl::PassThrough<Point> filter;
     filter.setInputCloud(cloud);
@@ -133,22 +129,24 @@ Cloud::Ptr Downsample(const Cloud::Ptr& cloud, int most_points, double* voxel_m)
   }
 }
 
-/// Without table and walls, which are searched in a coarser cloud. Far away the noise is thicker
-/// than they are.
-Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const Config& config, const NoiseLaw& noise) {
+/// Without table and walls, which are searched in a coarser cloud. Far away the noise exceeds their
+/// thickness.
+Cloud::Ptr WithoutPlanes(const Cloud::Ptr& cloud, const Config& config, const NoiseLaw& noise,
+                         const VoxelCloudTuning& tuning) {
   double voxel_m = std::max(config.color.background_thickness_m, SmallestVoxel_m(*cloud));
   const Cloud::Ptr coarse = Downsample(cloud, config.max_cloud_points, &voxel_m);
   Eigen::Matrix3Xf points_m(3, ToIndex(coarse->size()));
   for (std::size_t i = 0; i < coarse->size(); ++i) {
     points_m.col(ToIndex(i)) = (*coarse)[i].getVector3fMap();
   }
-  const std::vector<Eigen::Vector4f> planes = FindLargePlanes(points_m, config.color);
+  const std::vector<Eigen::Vector4f> planes =
+      FindLargePlanes(points_m, config.color, tuning.planes);
   const auto thickness_m = static_cast<float>(config.color.background_thickness_m);
   const Cloud::Ptr rest(new Cloud);
   std::copy_if(cloud->begin(), cloud->end(), std::back_inserter(*rest), [&](const Point& point) {
     return std::none_of(planes.begin(), planes.end(), [&](const Eigen::Vector4f& plane) {
       const float off_m = plane.head<3>().dot(point.getVector3fMap()) + plane[3];
-      return std::abs(off_m) <= std::max(thickness_m, kNoiseSigmas * noise.At(point.z));
+      return std::abs(off_m) <= std::max(thickness_m, tuning.noise_sigmas * noise.At(point.z));
     });
   });
   return rest;
@@ -181,7 +179,8 @@ VoxelCloud Take(const Cloud& voxels, const std::vector<int>& pixels, const pcl::
 }  // namespace
 
 VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registration,
-                       const geometry::Box& box, const Config& config, Rejections* rejected) {
+                       const geometry::Box& box, const Config& config, Rejections* rejected,
+                       const VoxelCloudTuning& tuning) {
   const std::int64_t before = rejected->invalid_depth + rejected->ambiguous;
   const Cloud::Ptr whole = Unproject(frame, registration, rejected);
   const std::int64_t valid = static_cast<std::int64_t>(whole->size()) + before -
@@ -189,7 +188,7 @@ VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registr
   Cloud::Ptr passed = PassThrough(whole, box);
   rejected->out_of_range += valid - static_cast<std::int64_t>(passed->size());
   if (passed->empty()) return {};
-  passed = WithoutPlanes(passed, config, NoiseLaw(registration.camera(), NoiseOf(config)));
+  passed = WithoutPlanes(passed, config, NoiseLaw(registration.camera(), NoiseOf(config)), tuning);
   if (passed->empty()) return {};
   double voxel_m = config.color.voxel_m > 0.0
                        ? config.color.voxel_m

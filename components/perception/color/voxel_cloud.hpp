@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/perception/color/large_planes.hpp"
 #include "components/perception/config.hpp"
 #include "components/perception/observation.hpp"
 #include "components/perception/registered_frame.hpp"
@@ -28,11 +29,19 @@ struct VoxelCloud {
   }
 };
 
+struct VoxelCloudTuning {
+  LargePlanesTuning planes = {};
+  /// Distance of a plane's points, in sigmas of the depth. Larger: objects on a table lose their
+  /// lower rim; smaller: far planes leave points.
+  float noise_sigmas = 4.0f;
+};
+
 /// The paper's filters, by PCL: unprojection of the whole image, PassThrough in z, x and y to
-/// `box`, table and walls taken out, VoxelGrid, RadiusOutlierRemoval. At most `max_cloud_points`
+/// `box`, removal of table and walls, VoxelGrid, RadiusOutlierRemoval. At most `max_cloud_points`
 /// remain: the voxels grow until then. Pixels of unknown colour are left out. Counts pixels in
 /// `rejected`.
 VoxelCloud FilterFrame(const RegisteredFrame& frame, const Registration& registration,
-                       const geometry::Box& box, const Config& config, Rejections* rejected);
+                       const geometry::Box& box, const Config& config, Rejections* rejected,
+                       const VoxelCloudTuning& tuning = {});
 
 }  // namespace palpate::perception

@@ -13,8 +13,7 @@
 
 namespace palpate::perception {
 
-/// Where the depth camera stands in the robot's frame: as the settings say, until a calibration
-/// says so.
+/// Pose of the depth camera in the robot frame: that of the settings until a calibration comes.
 class CameraPose {
  public:
   explicit CameraPose(std::optional<Eigen::Isometry3d> T_robot_camera)

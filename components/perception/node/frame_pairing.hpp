@@ -14,7 +14,7 @@
 
 namespace palpate::perception {
 
-/// What /camera/frame_info says that matters here.
+/// Fields of /camera/frame_info that pairing needs.
 struct FrameFacts {
   std::uint64_t counter = 0;
   std::uint32_t epoch = 0;

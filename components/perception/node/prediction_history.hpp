@@ -21,13 +21,13 @@ struct Prediction {
   PredictedSurface surface;
 };
 
-/// The last states of the model, to find the one from before a frame.
+/// The last states of the model, from which a frame takes the newest one before it.
 class PredictionHistory {
  public:
-  /// kInvalidInput for a mesh that is none; the one before stays.
+  /// kInvalidInput for an invalid mesh; the one before stays.
   Status SetMesh(const idl::palpate_msgs::Mesh& message);
-  /// A state that comes without positions only says that its frame was answered; one that comes
-  /// before its mesh waits for it. kInvalidInput for one of another mesh, or one that is none.
+  /// A state without positions marks its frame as answered; one before its mesh waits for it.
+  /// kInvalidInput for a state of another mesh, and an invalid one.
   Status Add(const idl::palpate_msgs::MeshState& message);
   void Clear();
 

@@ -14,7 +14,7 @@
 
 namespace palpate::perception {
 
-/// A frame on its way to perception.
+/// A frame to be processed.
 struct PerceptionJob {
   FrameOutcome outcome;  ///< all but the observation
   rgbd::RgbdFrame images;
@@ -24,7 +24,7 @@ struct PerceptionJob {
   FrameSet::Time taken;
 };
 
-/// What came of it.
+/// The result of a job.
 struct PerceptionResult {
   FrameOutcome outcome;
   FrameSet::Time taken;
