@@ -16,28 +16,15 @@ namespace {
 
 using State = DriftReport::State;
 
-constexpr double kSecond_s = 1.0;
-constexpr int kLeastFrames = 3;
-constexpr std::size_t kReferenceSeconds = 5;
-constexpr std::size_t kTogether = 3;  ///< seconds that are judged together, too
-constexpr int kInARow = 2;
-constexpr double kFar = 5.0;  ///< standard deviations
-/// What may pass for rest.
-constexpr double kRestTurn_rad = 7e-4;
-constexpr double kRestShift_m = 2.5e-4;
-/// How far a calibration that holds may be off.
-constexpr double kOffTurn_rad = 8e-3;
-constexpr double kOffShift_m = 8e-4;
-
 Eigen::Matrix<double, 6, 6> Allowance(double turn_rad, double shift_m) {
   Motion sigma;
   sigma << Eigen::Vector3d::Constant(turn_rad), Eigen::Vector3d::Constant(shift_m);
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-bool IsFar(const Motion& motion, const Eigen::Matrix<double, 6, 6>& covariance) {
+bool IsFar(const Motion& motion, const Eigen::Matrix<double, 6, 6>& covariance, double sigmas) {
   return motion.dot(Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(covariance).solve(motion)) >
-         kFar * kFar;
+         sigmas * sigmas;
 }
 
 }  // namespace
@@ -66,30 +53,29 @@ void AppendDrift(const DriftReport& report,
 }
 
 void ExtrinsicsDriftMonitor::Add(double t_s, const MotionSighting& seen) {
-  if (t_s < last_s_) *this = ExtrinsicsDriftMonitor(what_);
+  if (t_s < last_s_) *this = ExtrinsicsDriftMonitor(what_, tuning_);
   last_s_ = t_s;
-  if (second_.frames == 0) second_.begin_s = t_s;
-  if (t_s - second_.begin_s >= kSecond_s) {
+  if (window_.frames == 0) window_.begin_s = t_s;
+  if (t_s - window_.begin_s >= tuning_.window_s) {
     Close();
-    second_ = {.begin_s = t_s};
+    window_ = {.begin_s = t_s};
   }
-  ++second_.frames;
+  ++window_.frames;
   if (seen.information.isZero()) return;
-  ++second_.seen;
+  ++window_.seen;
   const Motion pull = seen.information * seen.motion;
-  second_.information += seen.information;
-  second_.pull += pull;
-  second_.squares += seen.motion.dot(pull);
+  window_.information += seen.information;
+  window_.pull += pull;
+  window_.squares += seen.motion.dot(pull);
 }
 
-/// The weighted mean; where frames scatter by more than their information says, it is known the
-/// worse.
-ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::MeanOf(const Second& second) {
+/// The weighted mean; its covariance grows where frames scatter by more than their information.
+ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::MeanOf(const Window& window) {
   Mean mean;
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(second.information);
-  mean.motion = factor.solve(second.pull);
-  const double scatter = second.squares - mean.motion.dot(second.pull);
-  const double excess = std::max(1.0, scatter / (6.0 * (second.seen - 1)));
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(window.information);
+  mean.motion = factor.solve(window.pull);
+  const double scatter = window.squares - mean.motion.dot(window.pull);
+  const double excess = std::max(1.0, scatter / (6.0 * (window.seen - 1)));
   mean.covariance = excess * factor.solve(Matrix::Identity());
   return mean;
 }
@@ -108,44 +94,49 @@ ExtrinsicsDriftMonitor::Mean ExtrinsicsDriftMonitor::Together(const std::deque<M
 }
 
 void ExtrinsicsDriftMonitor::Close() {
-  if (second_.seen < kLeastFrames) {
+  if (window_.seen < tuning_.least_frames) {
     if (report_.state == State::kHolds) report_.state = State::kNotSeen;
     return;
   }
-  const Mean mean = MeanOf(second_);
+  const Mean mean = MeanOf(window_);
   report_.motion = mean.motion;
   report_.standard_error = mean.covariance.diagonal().cwiseSqrt();
-  seconds_.push_back(mean);
+  windows_.push_back(mean);
   if (has_reference_) {
     Judge(mean);
-  } else if (seconds_.size() == kReferenceSeconds) {
-    Learn();
+  } else if (windows_.size() == tuning_.reference_windows) {
+    SetReference();
   }
 }
 
-void ExtrinsicsDriftMonitor::Learn() {
+void ExtrinsicsDriftMonitor::SetReference() {
   has_reference_ = true;
-  reference_ = Together(seconds_);
-  seconds_.clear();
-  reference_is_off_ =
-      IsFar(reference_.motion, reference_.covariance + Allowance(kOffTurn_rad, kOffShift_m));
+  reference_ = Together(windows_);
+  windows_.clear();
+  reference_is_off_ = IsFar(
+      reference_.motion,
+      reference_.covariance + Allowance(tuning_.calibration_turn_rad, tuning_.calibration_shift_m),
+      tuning_.far_sigmas);
   report_.state = reference_is_off_ ? State::kMoved : State::kHolds;
   if (reference_is_off_) Say(reference_.motion, "from where the calibration has it");
 }
 
 bool ExtrinsicsDriftMonitor::IsOff(const Mean& mean) const {
   return IsFar(mean.motion - reference_.motion,
-               mean.covariance + reference_.covariance + Allowance(kRestTurn_rad, kRestShift_m));
+               mean.covariance + reference_.covariance +
+                   Allowance(tuning_.rest_turn_rad, tuning_.rest_shift_m),
+               tuning_.far_sigmas);
 }
 
 void ExtrinsicsDriftMonitor::Judge(const Mean& mean) {
-  if (seconds_.size() > kTogether) seconds_.pop_front();
-  const bool far = IsOff(mean) || (seconds_.size() == kTogether && IsOff(Together(seconds_)));
+  if (windows_.size() > tuning_.windows_together) windows_.pop_front();
+  const bool far =
+      IsOff(mean) || (windows_.size() == tuning_.windows_together && IsOff(Together(windows_)));
   if (report_.state == State::kNotSeen) report_.state = State::kHolds;
   if (reference_is_off_ && !far) return;
-  const bool says_moved = report_.state == State::kMoved;
-  in_a_row_ = far != says_moved ? in_a_row_ + 1 : 0;
-  if (in_a_row_ == kInARow) {
+  const bool is_moved = report_.state == State::kMoved;
+  in_a_row_ = far != is_moved ? in_a_row_ + 1 : 0;
+  if (in_a_row_ == tuning_.windows_in_a_row) {
     in_a_row_ = 0;
     report_.state = far ? State::kMoved : State::kHolds;
     report_.advice.clear();

@@ -7,46 +7,44 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// How far from held nodes, as a share of the body's diagonal. A beam held at one end bends there
-/// by less than 0.3 % of what its tip does.
-constexpr double kNear = 0.04;
-
-geometry::TriangleSurface SkinOf(const robot::RobotBody& body) {
+geometry::TriangleSurface DrawnSurfaceOf(const robot::RobotBody& body) {
   return {body.mesh.nodes_m, body.boundary.DrawnTriangles()};
 }
 
-/// Nodes of the skin that are held in all directions, m.
-std::vector<Eigen::Vector3d> HeldNodes(const robot::RobotBody& body,
-                                       const geometry::TriangleSurface& skin) {
-  std::vector<bool> taken(static_cast<std::size_t>(skin.vertices_m.cols()), false);
-  std::vector<Eigen::Vector3d> held_m;
-  for (const int node : skin.triangles.reshaped()) {
+/// Nodes of the surface that are fixed in all directions, m.
+std::vector<Eigen::Vector3d> FixedNodes(const robot::RobotBody& body,
+                                        const geometry::TriangleSurface& surface) {
+  std::vector<bool> taken(static_cast<std::size_t>(surface.vertices_m.cols()), false);
+  std::vector<Eigen::Vector3d> fixed_m;
+  for (const int node : surface.triangles.reshaped()) {
     if (taken[static_cast<std::size_t>(node)] || !body.fixed.col(node).all()) continue;
     taken[static_cast<std::size_t>(node)] = true;
-    held_m.emplace_back(skin.vertices_m.col(node));
+    fixed_m.emplace_back(surface.vertices_m.col(node));
   }
-  return held_m;
+  return fixed_m;
 }
 
 }  // namespace
 
-FixedSurfaceRegion::FixedSurfaceRegion(const robot::RobotBody& body) : index_(SkinOf(body)) {
-  const geometry::TriangleSurface& skin = index_.surface();
-  const std::vector<Eigen::Vector3d> held_m = HeldNodes(body, skin);
-  const double near_m = kNear * geometry::BoundingBox(skin.vertices_m).Diagonal_m();
+FixedSurfaceRegion::FixedSurfaceRegion(const robot::RobotBody& body,
+                                       const FixedSurfaceRegionTuning& tuning)
+    : index_(DrawnSurfaceOf(body)) {
+  const geometry::TriangleSurface& surface = index_.surface();
+  const std::vector<Eigen::Vector3d> fixed_m = FixedNodes(body, surface);
+  const double near_m = tuning.near_share * geometry::BoundingBox(surface.vertices_m).Diagonal_m();
   const auto is_near = [&](const Eigen::Vector3d& vertex_m) {
-    for (const Eigen::Vector3d& node_m : held_m) {
+    for (const Eigen::Vector3d& node_m : fixed_m) {
       if ((node_m - vertex_m).norm() <= near_m) return true;
     }
     return false;
   };
   bool first = true;
-  for (int t = 0; t < skin.TriangleCount(); ++t) {
+  for (int t = 0; t < surface.TriangleCount(); ++t) {
     Eigen::Matrix3d corners_m;
-    for (int k = 0; k < 3; ++k) corners_m.col(k) = skin.Corner(t, k);
-    is_held_.push_back(is_near(corners_m.col(0)) && is_near(corners_m.col(1)) &&
-                       is_near(corners_m.col(2)));
-    if (!is_held_.back()) continue;
+    for (int k = 0; k < 3; ++k) corners_m.col(k) = surface.Corner(t, k);
+    is_fixed_.push_back(is_near(corners_m.col(0)) && is_near(corners_m.col(1)) &&
+                        is_near(corners_m.col(2)));
+    if (!is_fixed_.back()) continue;
     const geometry::Box box = geometry::BoundingBox(corners_m);
     box_.lower_m = first ? box.lower_m : Eigen::Vector3d(box_.lower_m.cwiseMin(box.lower_m));
     box_.upper_m = first ? box.upper_m : Eigen::Vector3d(box_.upper_m.cwiseMax(box.upper_m));
@@ -54,20 +52,21 @@ FixedSurfaceRegion::FixedSurfaceRegion(const robot::RobotBody& body) : index_(Sk
   }
 }
 
-std::optional<HeldPlace> FixedSurfaceRegion::PlaceOf(const Eigen::Vector3d& point_m, double reach_m,
-                                                     const Eigen::VectorXd& x_m) const {
+std::optional<FixedSurfacePoint> FixedSurfaceRegion::PlaceOf(const Eigen::Vector3d& point_m,
+                                                             double reach_m,
+                                                             const Eigen::VectorXd& x_m) const {
   if (!MayHold(point_m, reach_m)) return std::nullopt;
   const geometry::SurfacePoint nearest = index_.Closest(point_m);
-  if (nearest.distance_m > reach_m || !is_held_[static_cast<std::size_t>(nearest.triangle)]) {
+  if (nearest.distance_m > reach_m || !is_fixed_[static_cast<std::size_t>(nearest.triangle)]) {
     return std::nullopt;
   }
-  const geometry::TriangleSurface& skin = index_.surface();
-  HeldPlace place{nearest.position_m, geometry::TriangleNormal(skin, nearest.triangle)};
+  const geometry::TriangleSurface& surface = index_.surface();
+  FixedSurfacePoint place{nearest.position_m, geometry::TriangleNormal(surface, nearest.triangle)};
   if (x_m.size() == 0) return place;
   for (int k = 0; k < 3; ++k) {
-    const int node = skin.triangles(k, nearest.triangle);
+    const int node = surface.triangles(k, nearest.triangle);
     place.position_m +=
-        nearest.barycentric[k] * (x_m.segment<3>(3 * node) - skin.vertices_m.col(node));
+        nearest.barycentric[k] * (x_m.segment<3>(3 * node) - surface.vertices_m.col(node));
   }
   return place;
 }

@@ -13,23 +13,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// A point farther off than this is of something else.
-constexpr double kReach_m = 6e-3;
-/// Skin at a more grazing angle is not matched: cosine to the line of sight.
-constexpr double kGrazing = 0.25;
-constexpr double kSkin_m = 3e-4;
-constexpr double kHuber = 2.0;
-constexpr int kRounds = 3;
-constexpr int kMatches = 3;
-constexpr int kLeastPoints = 30;
-constexpr std::size_t kMostPoints = 500;
-constexpr double kUnknownTurn_rad = 0.1;
-constexpr double kUnknownShift_m = 0.05;
-
-/// A motion that changes by less is not matched anew: the facets are longer by far.
-constexpr double kSameTurn_rad = 4e-3;
-constexpr double kSameShift_m = 5e-4;
-
 struct Row {
   Motion direction;  ///< of the distance along the normal, over its sigma
   double distance;   ///< over its sigma
@@ -40,41 +23,41 @@ struct Point {
   double sigma_m;              ///< of z in the camera's frame
 };
 
-/// Points that may lie on the held skin; every so many-th, so that no more than kMostPoints are
-/// left.
-std::vector<Point> Candidates(const FixedSurfaceRegion& skin, const rgbd::SensedCloud& cloud,
-                              const Eigen::Isometry3d& T_robot_camera) {
+/// Points that may lie on the fixed surface, thinned to at most most_points.
+std::vector<Point> Candidates(const FixedSurfaceRegion& region, const rgbd::SensedCloud& cloud,
+                              const Eigen::Isometry3d& T_robot_camera,
+                              const HeldMotionTuning& tuning) {
   std::vector<Point> candidates;
   for (Eigen::Index k = 0; k < cloud.Count(); ++k) {
     const Eigen::Vector3d point_m = T_robot_camera * cloud.points_m.col(k).cast<double>();
-    if (!skin.MayHold(point_m, kReach_m)) continue;
+    if (!region.MayHold(point_m, tuning.reach_m)) continue;
     candidates.push_back({point_m, static_cast<double>(cloud.sigma_m[k])});
   }
-  const std::size_t stride = (candidates.size() + kMostPoints - 1) / kMostPoints;
+  const std::size_t stride = (candidates.size() + tuning.most_points - 1) / tuning.most_points;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < candidates.size(); k += stride) candidates[kept++] = candidates[k];
   candidates.resize(kept);
   return candidates;
 }
 
-/// The body that moved by `motion`, matched to the points: distances are those left.
-std::vector<Row> Match(const FixedSurfaceRegion& skin, const std::vector<Point>& points,
+/// Matches the body, moved by `motion`, to the points: distances are those that remain.
+std::vector<Row> Match(const FixedSurfaceRegion& region, const std::vector<Point>& points,
                        const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-                       const Motion& motion) {
+                       const Motion& motion, const HeldMotionTuning& tuning) {
   const Eigen::Vector3d optical_axis = T_robot_camera.linear().col(2);
-  const Eigen::Vector3d middle_m = skin.Middle_m();
+  const Eigen::Vector3d middle_m = region.Middle_m();
   std::vector<Row> rows;
   for (const Point& point : points) {
     const Eigen::Vector3d from_middle_m = point.position_m - middle_m;
     const Eigen::Vector3d back_m =
         point.position_m - motion.head<3>().cross(from_middle_m) - motion.tail<3>();
-    const auto place = skin.PlaceOf(back_m, kReach_m, x_m);
+    const auto place = region.PlaceOf(back_m, tuning.reach_m, x_m);
     if (!place) continue;
     const Eigen::Vector3d sight = (T_robot_camera.translation() - point.position_m).normalized();
-    if (place->normal.dot(sight) < kGrazing) continue;
+    if (place->normal.dot(sight) < tuning.least_cosine) continue;
     // An error of z moves the point along its line of sight, by 1 / cosine to the optical axis.
     const double along = place->normal.dot(sight) / sight.dot(-optical_axis);
-    const double sigma_m = std::hypot(along * point.sigma_m, kSkin_m);
+    const double sigma_m = std::hypot(along * point.sigma_m, tuning.surface_sigma_m);
     Row row;
     row.direction << from_middle_m.cross(place->normal), place->normal;
     row.direction /= sigma_m;
@@ -84,15 +67,15 @@ std::vector<Row> Match(const FixedSurfaceRegion& skin, const std::vector<Point>&
   return rows;
 }
 
-/// Adds to the motion what the distances ask for.
-void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
+/// Adds the motion that minimises the distances.
+void Refine(const std::vector<Row>& rows, const HeldMotionTuning& tuning, MotionSighting* seen) {
   Motion change = Motion::Zero();
-  for (int round = 0; round < kRounds; ++round) {
-    seen->information = UnknownMotion();
+  for (int round = 0; round < tuning.rounds; ++round) {
+    seen->information = UnknownMotion(tuning);
     Motion pull = -seen->information * seen->motion;
     for (const Row& row : rows) {
       const double left = std::abs(row.distance - row.direction.dot(change));
-      const double weight = HuberWeight(left, kHuber);
+      const double weight = HuberWeight(left, tuning.huber_sigmas);
       seen->information += weight * row.direction * row.direction.transpose();
       pull += weight * row.distance * row.direction;
     }
@@ -103,25 +86,29 @@ void Refine(const std::vector<Row>& rows, MotionSighting* seen) {
 
 }  // namespace
 
-Eigen::Matrix<double, 6, 6> UnknownMotion() {
+Eigen::Matrix<double, 6, 6> UnknownMotion(const HeldMotionTuning& tuning) {
   Motion sigma;
-  sigma << Eigen::Vector3d::Constant(kUnknownTurn_rad), Eigen::Vector3d::Constant(kUnknownShift_m);
+  sigma << Eigen::Vector3d::Constant(tuning.prior_turn_rad),
+      Eigen::Vector3d::Constant(tuning.prior_shift_m);
   return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-MotionSighting SeeMotion(const FixedSurfaceRegion& skin, const rgbd::SensedCloud& cloud,
-                         const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m) {
+MotionSighting SeeMotion(const FixedSurfaceRegion& region, const rgbd::SensedCloud& cloud,
+                         const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
+                         const HeldMotionTuning& tuning) {
   MotionSighting seen;
-  if (skin.IsEmpty()) return seen;
-  const std::vector<Point> points = Candidates(skin, cloud, T_robot_camera);
-  for (int match = 0; match < kMatches; ++match) {
-    const std::vector<Row> rows = Match(skin, points, T_robot_camera, x_m, seen.motion);
+  if (region.IsEmpty()) return seen;
+  const std::vector<Point> points = Candidates(region, cloud, T_robot_camera, tuning);
+  for (int match = 0; match < tuning.matchings; ++match) {
+    const std::vector<Row> rows = Match(region, points, T_robot_camera, x_m, seen.motion, tuning);
     seen.points = static_cast<int>(rows.size());
-    if (seen.points < kLeastPoints) return {.points = seen.points};
+    if (seen.points < tuning.least_points) return {.points = seen.points};
     const Motion before = seen.motion;
-    Refine(rows, &seen);
+    Refine(rows, tuning, &seen);
     const Motion change = seen.motion - before;
-    if (change.head<3>().norm() < kSameTurn_rad && change.tail<3>().norm() < kSameShift_m) break;
+    if (change.head<3>().norm() < tuning.same_turn_rad &&
+        change.tail<3>().norm() < tuning.same_shift_m)
+      break;
   }
   return seen;
 }

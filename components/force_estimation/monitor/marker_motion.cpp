@@ -13,8 +13,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-constexpr int kLeastMarkers = 3;
-constexpr double kFarChi = 5.0;  ///< standard deviations of chi-squared
+constexpr int kLeastMarkers = 3;  // of a rigid motion
 
 /// [3m x 6] how markers move with turn and shift.
 Eigen::Matrix<double, Eigen::Dynamic, 6> MotionOf(const Eigen::Matrix3Xd& model_m,
@@ -27,13 +26,13 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> MotionOf(const Eigen::Matrix3Xd& model_
   return motion;
 }
 
-/// The weights without what the contacts' forces explain: W - W A (A' W A)^-1 A' W.
+/// The weights projected off the response to contact forces: W - W A (A' W A)^-1 A' W.
 Eigen::MatrixXd Unexplained(const MarkerMisfit& misfit) {
   Eigen::MatrixXd weight = misfit.weight.asDiagonal();
   if (misfit.response_m.cols() == 0) return weight;
   const Eigen::MatrixXd weighted = weight * misfit.response_m;
   Eigen::MatrixXd information = misfit.response_m.transpose() * weighted;
-  // Forces that no marker answers to explain nothing.
+  // Regularised: forces without a response of any marker.
   information.diagonal().array() += 1e-12 * information.trace();
   weight -= weighted * linalg::SolveSymmetric(information, Eigen::MatrixXd(weighted.transpose()));
   return weight;
@@ -42,7 +41,7 @@ Eigen::MatrixXd Unexplained(const MarkerMisfit& misfit) {
 }  // namespace
 
 MotionSighting SeeMotion(const MarkerMisfit& misfit, const Eigen::Matrix3Xd& model_m,
-                         const Eigen::Vector3d& middle_m) {
+                         const Eigen::Vector3d& middle_m, const MarkerMotionTuning& tuning) {
   MotionSighting seen;
   const auto rows = static_cast<int>((misfit.weight.array() > 0.0).count());
   seen.points = rows / 3;
@@ -56,7 +55,8 @@ MotionSighting SeeMotion(const MarkerMisfit& misfit, const Eigen::Matrix3Xd& mod
   seen.motion = Eigen::LDLT<Eigen::Matrix<double, 6, 6>>(information).solve(pull);
   const double left = misfit.residual_m.dot(weight * misfit.residual_m) - pull.dot(seen.motion);
   const double freedom = rows - unknowns;
-  if (left <= freedom + kFarChi * std::sqrt(2.0 * freedom)) seen.information = information;
+  if (left <= freedom + tuning.far_sigmas * std::sqrt(2.0 * freedom))
+    seen.information = information;
   return seen;
 }
 

@@ -10,12 +10,17 @@
 
 namespace palpate::force_estimation {
 
-/// The motion about `middle_m` that all markers seem to have made together, from where the model
-/// has them onto where they were seen. Whatever the forces at the frame's contacts could have made
-/// of it is not counted as motion. A frame says nothing (information 0) where fewer than three
-/// markers were used, and where such a motion leaves more than five standard deviations of
-/// chi-squared beyond the markers' noise: something else acts on the robot, or the model is wrong.
+struct MarkerMotionTuning {
+  /// Residual chi-squared beyond its expectation, in its standard deviations, up to which a frame
+  /// is used. Larger: frames with unknown contacts or a model error enter; smaller: fewer frames.
+  double far_sigmas = 5.0;
+};
+
+/// The common rigid motion of all markers about `middle_m`, from the model to the measurement, as
+/// far as forces at the frame's contacts do not explain it. A frame has no information (0) with
+/// fewer than three markers, and where the residual after such a motion is beyond the markers'
+/// noise: something else acts on the robot, or the model is wrong.
 MotionSighting SeeMotion(const MarkerMisfit& misfit, const Eigen::Matrix3Xd& model_m,
-                         const Eigen::Vector3d& middle_m);
+                         const Eigen::Vector3d& middle_m, const MarkerMotionTuning& tuning = {});
 
 }  // namespace palpate::force_estimation

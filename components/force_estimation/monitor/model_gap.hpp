@@ -13,12 +13,12 @@
 
 namespace palpate::force_estimation {
 
-/// What the model leaves unexplained of some markers or feature points.
+/// Residual of some markers or surface points.
 struct ModelGapPart {
   std::string name;
   double residual_rms_m = 0.0;  ///< per coordinate
   double noise_rms_m = 0.0;     ///< per coordinate, expected from the noise alone
-  int sample_count = 0;         ///< 0: nothing is known
+  int sample_count = 0;         ///< 0: no data
 };
 
 struct ModelGapReport {
@@ -27,7 +27,7 @@ struct ModelGapReport {
   std::vector<ModelGapPart> cables;   ///< points nearer to this cable's attachment than to others
 };
 
-/// Shares the residuals of points out among the parts of the robot that they stand on.
+/// Sums the residuals of points over the parts of the robot on which they are.
 class ModelGapParts {
  public:
   ModelGapParts(const robot::RobotBody& body, const std::vector<fem::BodyPoint>& points);
@@ -36,7 +36,7 @@ class ModelGapParts {
   ModelGapReport Begin() const;
   /// Adds a point: the sum of its residual's squares and that of their variances.
   void Add(std::size_t point, double squares_m2, double variances_m2, ModelGapReport* report) const;
-  /// Makes root mean squares of the sums, over points of so many coordinates.
+  /// Converts the sums to root mean squares, for points of so many coordinates.
   static void Finish(int coordinates, ModelGapReport* report);
 
  private:
@@ -49,7 +49,7 @@ class ModelGapParts {
 /// Splits the residual of an estimate from markers over the parts of the robot.
 class ModelGapMeter {
  public:
-  /// Noise where a marker does not say its own: `default_sigma_m`; `bias_m` comes on top of both.
+  /// `default_sigma_m`: of markers without their own sigma; `bias_m` is added to both.
   ModelGapMeter(const robot::RobotBody& body, double default_sigma_m, double bias_m);
 
   ModelGapReport Measure(const MarkerFrame& frame, const ForceEstimate& estimate) const;
@@ -60,7 +60,7 @@ class ModelGapMeter {
   ModelGapParts parts_;
 };
 
-/// The same of an estimate from the robot's shape: residuals of its feature points, one coordinate
+/// The same for an estimate from the robot's shape: residuals of its surface points, one coordinate
 /// each, along the normal.
 class FeatureGapMeter {
  public:

@@ -15,24 +15,10 @@ namespace {
 
 using GapState = GapReport::State;
 
-constexpr double kGapSecond_s = 1.0;
-constexpr int kLeastGapFrames = 3;
-constexpr std::size_t kGapReferenceSeconds = 10;
-constexpr std::size_t kGapsTogether = 3;
-constexpr int kGapsInARow = 2;
-constexpr int kDraws = 2000;
-constexpr double kFalseAlarms = 1e-3;
-/// What a robot that moves may have of it more than at the start: its mesh errs elsewhere.
-constexpr double kLeastGrowth = 1.5;
-/// Of the noise's squares: so far beyond it, the model is wrong from the start.
-constexpr double kWrong = 9.0;
-/// Share of the growth that points at one part.
-constexpr double kMost = 0.7;
-constexpr double kSlow_s = 10.0;
-
-/// Largest mean of some seconds that a reference leaves to chance: bootstrap, smoothed by its own
-/// scatter, as so few seconds do not hold the rare ones.
-double BootstrapThreshold(const std::vector<double>& ratios) {
+/// Quantile of the mean of some windows by the reference: bootstrap, smoothed by its own scatter,
+/// as few windows do not contain the rare ones.
+double BootstrapThreshold(const std::vector<double>& ratios,
+                          const ModelResidualMonitorTuning& tuning) {
   double mean = 0.0;
   double square = 0.0;
   for (const double ratio : ratios) mean += ratio / static_cast<double>(ratios.size());
@@ -42,13 +28,15 @@ double BootstrapThreshold(const std::vector<double>& ratios) {
   std::uniform_int_distribution<std::size_t> pick(0, ratios.size() - 1);
   std::normal_distribution<double> normal(0.0, scatter);
   std::vector<double> means;
-  for (int d = 0; d < kDraws; ++d) {
+  for (int d = 0; d < tuning.draws; ++d) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < kGapsTogether; ++k) sum += ratios[pick(random)] + normal(random);
-    means.push_back(sum / kGapsTogether);
+    for (std::size_t k = 0; k < tuning.windows_together; ++k) {
+      sum += ratios[pick(random)] + normal(random);
+    }
+    means.push_back(sum / static_cast<double>(tuning.windows_together));
   }
   std::sort(means.begin(), means.end());
-  return means[static_cast<std::size_t>((1.0 - kFalseAlarms) * (kDraws - 1))];
+  return means[static_cast<std::size_t>((1.0 - tuning.false_alarms) * (tuning.draws - 1))];
 }
 
 std::string InMillimetres(double length_m) {
@@ -90,55 +78,56 @@ void ModelResidualMonitor::AddParts(const std::vector<ModelGapPart>& some,
 }
 
 void ModelResidualMonitor::Add(double t_s, const ModelGapReport& gap) {
-  if (t_s < last_s_) *this = ModelResidualMonitor();
+  if (t_s < last_s_) *this = ModelResidualMonitor(tuning_);
   last_s_ = t_s;
-  if (second_.frames == 0) second_.begin_s = t_s;
-  if (t_s - second_.begin_s >= kGapSecond_s) {
+  if (window_.frames == 0) window_.begin_s = t_s;
+  if (t_s - window_.begin_s >= tuning_.window_s) {
     Close();
-    second_ = {};
-    second_.begin_s = t_s;
+    window_ = {};
+    window_.begin_s = t_s;
   }
-  ++second_.frames;
+  ++window_.frames;
   const bool known = gap.whole.sample_count > 0 && std::isfinite(gap.whole.residual_rms_m) &&
                      gap.whole.noise_rms_m > 0.0;
   if (!known) return;
-  ++second_.seen;
-  AddPart(gap.whole, &second_.whole);
-  AddParts(gap.regions, &second_.regions);
-  AddParts(gap.cables, &second_.cables);
+  ++window_.seen;
+  AddPart(gap.whole, &window_.whole);
+  AddParts(gap.regions, &window_.regions);
+  AddParts(gap.cables, &window_.cables);
 }
 
-double ModelResidualMonitor::MeanRatio(const std::deque<Second>& seconds) {
+double ModelResidualMonitor::MeanRatio(const std::deque<Window>& windows) {
   double sum = 0.0;
-  for (const Second& one : seconds) sum += one.whole.Ratio();
-  return sum / static_cast<double>(seconds.size());
+  for (const Window& one : windows) sum += one.whole.Ratio();
+  return sum / static_cast<double>(windows.size());
 }
 
 void ModelResidualMonitor::Close() {
-  if (second_.seen < kLeastGapFrames) {
+  if (window_.seen < tuning_.least_frames) {
     if (report_.state == GapState::kHolds) report_.state = GapState::kNotSeen;
     return;
   }
-  report_.residual_rms_m = std::sqrt(second_.whole.squares_m2 / second_.whole.points);
-  report_.noise_rms_m = std::sqrt(second_.whole.variances_m2 / second_.whole.points);
-  if (reference_.size() < kGapReferenceSeconds) {
-    reference_.push_back(second_);
-    if (reference_.size() == kGapReferenceSeconds) Learn();
+  report_.residual_rms_m = std::sqrt(window_.whole.squares_m2 / window_.whole.points);
+  report_.noise_rms_m = std::sqrt(window_.whole.variances_m2 / window_.whole.points);
+  if (reference_.size() < tuning_.reference_windows) {
+    reference_.push_back(window_);
+    if (reference_.size() == tuning_.reference_windows) SetReference();
     return;
   }
-  ratios_.push_back(second_.whole.Ratio());
-  latest_.push_back(second_);
-  if (latest_.size() > kGapsTogether) latest_.pop_front();
-  if (latest_.size() == kGapsTogether) Judge();
+  ratios_.push_back(window_.whole.Ratio());
+  latest_.push_back(window_);
+  if (latest_.size() > tuning_.windows_together) latest_.pop_front();
+  if (latest_.size() == tuning_.windows_together) Judge();
 }
 
-void ModelResidualMonitor::Learn() {
+void ModelResidualMonitor::SetReference() {
   std::vector<double> ratios;
-  for (const Second& one : reference_) ratios.push_back(one.whole.Ratio());
+  for (const Window& one : reference_) ratios.push_back(one.whole.Ratio());
   usual_ = MeanRatio(reference_);
-  threshold_ = std::max(BootstrapThreshold(ratios), kLeastGrowth * std::max(1.0, usual_));
+  threshold_ =
+      std::max(BootstrapThreshold(ratios, tuning_), tuning_.least_growth * std::max(1.0, usual_));
   report_.state = GapState::kHolds;
-  if (usual_ < kWrong) return;
+  if (usual_ < tuning_.wrong_ratio) return;
   report_.state = GapState::kGrown;
   report_.advice = "what the model leaves unexplained is " + InMillimetres(report_.residual_rms_m) +
                    " from the start (noise " + InMillimetres(report_.noise_rms_m) +
@@ -146,12 +135,13 @@ void ModelResidualMonitor::Learn() {
 }
 
 void ModelResidualMonitor::Judge() {
-  const bool grown = MeanRatio(latest_) > threshold_ || usual_ >= kWrong;
+  const bool grown = MeanRatio(latest_) > threshold_ || usual_ >= tuning_.wrong_ratio;
   if (report_.state == GapState::kNotSeen) report_.state = GapState::kHolds;
   const bool said = report_.state == GapState::kGrown;
   in_a_row_ = grown == said ? 0 : in_a_row_ + 1;
-  if (grown && usual_ < kWrong && (said || in_a_row_ >= kGapsInARow)) report_.advice = Advice();
-  if (in_a_row_ < kGapsInARow) return;
+  if (grown && usual_ < tuning_.wrong_ratio && (said || in_a_row_ >= tuning_.windows_in_a_row))
+    report_.advice = Advice();
+  if (in_a_row_ < tuning_.windows_in_a_row) return;
   in_a_row_ = 0;
   report_.state = grown ? GapState::kGrown : GapState::kHolds;
   if (!grown) report_.advice.clear();
@@ -166,10 +156,10 @@ std::string ModelResidualMonitor::Advice() const {
 }
 
 std::string ModelResidualMonitor::LikelyFamily() const {
-  if (const Part* cable = PartThatGrew(&Second::cables)) {
+  if (const Part* cable = PartThatGrew(&Window::cables)) {
     return "cable " + cable->name + " or its actuator";
   }
-  const Part* region = PartThatGrew(&Second::regions);
+  const Part* region = PartThatGrew(&Window::regions);
   if (region != nullptr && region->name != "body") {
     return "the material of " + region->name + ", or what touches it";
   }
@@ -177,20 +167,21 @@ std::string ModelResidualMonitor::LikelyFamily() const {
                       : "something sudden (the camera, the base, a load)";
 }
 
-/// The one that holds most of the growth, where not all points are its own; nullptr: none does.
+/// The one with most of the growth, unless all points are its own; nullptr: none.
 const ModelResidualMonitor::Part* ModelResidualMonitor::PartThatGrew(
-    std::vector<Part> Second::*parts) const {
+    std::vector<Part> Window::*parts) const {
   const std::vector<Part>& now = latest_.back().*parts;
   const double growth_m2 =
       latest_.back().whole.squares_m2 - usual_ * latest_.back().whole.variances_m2;
   for (const Part& one : now) {
     const bool alone = one.points == latest_.back().whole.points;
-    if (!alone && one.squares_m2 - usual_ * one.variances_m2 > kMost * growth_m2) return &one;
+    if (!alone && one.squares_m2 - usual_ * one.variances_m2 > tuning_.most_of_growth * growth_m2)
+      return &one;
   }
   return nullptr;
 }
 
-/// Whether it took long from a quarter to three quarters of what it is now.
+/// Whether the growth from a quarter to three quarters of its present value took long.
 bool ModelResidualMonitor::CameSlowly() const {
   const double growth = MeanRatio(latest_) - usual_;
   const auto last_below = [&](double share) {
@@ -199,7 +190,7 @@ bool ModelResidualMonitor::CameSlowly() const {
     }
     return -1.0;
   };
-  return last_below(0.75) - last_below(0.25) > kSlow_s / kGapSecond_s;
+  return last_below(0.75) - last_below(0.25) > tuning_.slow_s / tuning_.window_s;
 }
 
 }  // namespace palpate::force_estimation
