@@ -17,14 +17,8 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Candidates stand this many patch radii apart, unless that makes too many or too few of them.
-constexpr double kCandidateSpacing = 2.0;
-constexpr int kFewestCandidates = 60;
-constexpr int kMostCandidates = 240;
-constexpr int kPlacesPerCandidate = 16;
-
-/// The part of the surface that is held in any direction: nodes (as triangles without area) and
-/// the faces between them. Empty where nothing is.
+/// The part of the surface that is fixed in any direction: nodes (as triangles without area) and
+/// the faces between them. May be empty.
 geometry::TriangleSurface HeldSurface(const robot::RobotBody& body) {
   geometry::TriangleSurface surface = fem::RestSurface(body.mesh, body.boundary);
   std::vector<Eigen::Vector3i> held;
@@ -46,23 +40,24 @@ geometry::TriangleSurface HeldSurface(const robot::RobotBody& body) {
 
 }  // namespace
 
-CandidateLocations::CandidateLocations(const robot::RobotModel& model, double patch_radius_m) {
+CandidateLocations::CandidateLocations(const robot::RobotModel& model, double patch_radius_m,
+                                       const CandidateLocationsTuning& tuning) {
   PALPATE_CHECK(patch_radius_m > 0.0, patch_radius_m);
   const robot::RobotBody& body = model.body();
   const double area_m2 = geometry::SurfaceArea_m2(fem::RestSurface(body.mesh, body.boundary));
-  const double apart_m = kCandidateSpacing * patch_radius_m;
-  const int wanted = static_cast<int>(
-      std::clamp(area_m2 / (apart_m * apart_m), 1.0 * kFewestCandidates, 1.0 * kMostCandidates));
-  SpreadOver(model, 2.0 * patch_radius_m, kPlacesPerCandidate * wanted);
+  const double apart_m = tuning.spacing_patch_radii * patch_radius_m;
+  const int wanted = static_cast<int>(std::clamp(
+      area_m2 / (apart_m * apart_m), 1.0 * tuning.fewest_candidates, 1.0 * tuning.most_candidates));
+  SpreadOver(model, 2.0 * patch_radius_m, tuning.places_per_candidate * wanted);
   place_of_candidate_ = geometry::FarthestPoints(positions_m_, std::min(wanted, Count()));
   for (const auto& position_m : positions_m_.colwise()) {
     nearest_candidates_.push_back(CandidatesNear(position_m));
     patches_.push_back(model.Patch(position_m, patch_radius_m).weights);
   }
-  spacing_m_ = std::sqrt(area_m2 / (kPlacesPerCandidate * wanted));
+  spacing_m_ = std::sqrt(area_m2 / (tuning.places_per_candidate * wanted));
 }
 
-/// Takes `count` places of equal area and drops those within `clearance_m` of a held node.
+/// Takes `count` places of equal area and drops those within `clearance_m` of a fixed node.
 void CandidateLocations::SpreadOver(const robot::RobotModel& model, double clearance_m, int count) {
   const robot::RobotBody& body = model.body();
   const geometry::TriangleSurface surface = fem::RestSurface(body.mesh, body.boundary);

@@ -12,16 +12,27 @@
 
 namespace palpate::force_estimation {
 
-/// Where on the free surface of a robot a hidden contact is looked for: places, evenly spread, a
-/// few millimetres apart, and among them the candidates, which are looked at first. Nothing is
-/// within two patch radii of a node that is held.
+struct CandidateLocationsTuning {
+  /// Distance of candidates, as far as their bounds allow. Larger: a faster search that may miss a
+  /// narrow optimum between candidates.
+  double spacing_patch_radii = 2.0;
+  int fewest_candidates = 60;  ///< more: small robots are searched more finely than needed
+  int most_candidates = 240;   ///< more: memory and time of each search grow in proportion
+  /// More: finer locations; time and memory of the posterior grow in proportion.
+  int places_per_candidate = 16;
+};
+
+/// Where on the free surface of a robot a hidden contact is searched: places, evenly spread, a few
+/// millimetres apart, and among them the candidates, which are evaluated first. None is within two
+/// patch radii of a fixed node.
 class CandidateLocations {
  public:
-  static constexpr int kNearest = 4;
+  static constexpr int kNearest = 4;  ///< candidates that are kept for each place
 
-  /// Makes all patches, in about 0.1 ms each. `patch_radius_m` > 0. Throws InputError where the
-  /// whole surface is held.
-  CandidateLocations(const robot::RobotModel& model, double patch_radius_m);
+  /// Computes all patches, in about 0.1 ms each. `patch_radius_m` > 0. Throws InputError where the
+  /// whole surface is fixed.
+  CandidateLocations(const robot::RobotModel& model, double patch_radius_m,
+                     const CandidateLocationsTuning& tuning = {});
 
   int CandidateCount() const { return static_cast<int>(place_of_candidate_.size()); }
   int Count() const { return static_cast<int>(positions_m_.cols()); }

@@ -13,36 +13,62 @@ namespace palpate::force_estimation {
 
 /// Where a contact is, as a distribution over the places of the surface.
 struct ContactLocationPosterior {
-  int place = -1;  ///< the best; -1: no place where a push would help
+  int place = -1;  ///< the most probable; -1: a push improves the fit nowhere
   PlaceFit fit;    ///< there
-  /// Over the places around the best one, as far as a contact there would be taken for the same.
+  /// Over the places around the best one, as far as a contact there counts as the same.
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< about the mean, of all places
   double ci95_m = 0.0;  ///< radius around the mean that holds 95 %
-  /// Mean square distance from the force at the mean place, because the place is not known: each
-  /// has its own. Along that force: of the size.
+  /// Mean square distance from the force at the mean place, as the place is uncertain and each has
+  /// a force of its own. Along that force: of the magnitude.
   Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();
 };
 
-/// What was known of a place before, as a normal distribution in space.
+/// Gaussian prior of a contact location.
 struct PlacePrior {
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information_m2 = Eigen::Matrix3d::Zero();  ///< 1/m^2; zero: nothing
+  Eigen::Matrix3d information_m2 = Eigen::Matrix3d::Zero();  ///< 1/m^2; zero: no prior
 };
 
-/// What Locate goes by.
+/// How the posterior over the surface is computed.
+struct ContactLocationTuning {
+  /// Candidates within this evidence of the best, or this share of it, have plausible places around
+  /// them: between candidates the evidence may be higher. Larger: more places are evaluated, fewer
+  /// optima are missed.
+  double plausible_fall = 20.0;
+  double plausible_share = 0.3;
+  /// Places of the first evaluation. More: slower, and a narrow optimum is missed less often.
+  size_t most_first_places = 250;
+  /// Radius around the best place that is then evaluated in full. Larger: slower, a finer
+  /// posterior.
+  double second_reach_strides = 2.0;
+  /// Bound of minus twice the log prior of a place. Smaller: a contact may move farther in a frame;
+  /// larger: an outdated prior holds it longer.
+  double most_unlikely = 12.0;
+  /// Model error and depth bias correlate over neighbouring rows: so many carry the information of
+  /// one. Larger: wider posteriors.
+  double correlated_rows = 6.0;
+  /// Prior sigma of the force. Smaller: places that need a large force lose probability.
+  double usual_force_N = 1.0;
+  /// Distance from the best place within which places are averaged. Larger: the mean of two
+  /// separate optima lies between them.
+  double same_location_m = 0.03;
+};
+
+/// Input of Locate.
 struct LocateSettings {
   double friction = 0.0;  ///< sigma of the tangential over the normal force
-  int unknowns = 3;       ///< fitted of the residual: left over from m are its degrees of freedom
+  int unknowns = 3;       ///< fitted parameters; m less these are the degrees of freedom
   PlacePrior prior = {};
 };
 
 /// The probability of each place is proportional to its area and to exp(evidence / 2), all over the
-/// residual's own scale where that is beyond the noise, as of a model that is not exact. First the
-/// plausible part of the surface is covered at a stride, then the surroundings of its best place in
-/// full. `usable` [places]: where a contact may be.
+/// residual's own scale where that is beyond the noise (model error). First the plausible part of
+/// the surface is evaluated at a stride, then the surroundings of its best place in full. `usable`
+/// [places]: where a contact may be.
 ContactLocationPosterior Locate(const HiddenProblem& problem, const CandidateLocations& places,
                                 const Eigen::Matrix3Xd& normals, const std::vector<bool>& usable,
-                                const LocateSettings& settings);
+                                const LocateSettings& settings,
+                                const ContactLocationTuning& tuning = {});
 
 }  // namespace palpate::force_estimation

@@ -14,18 +14,13 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// A quiet site has a force below this share of what makes it significant.
-constexpr double kQuietShare = 0.5;
-/// A force so many times what counts as significant needs half of the frames to be believed.
-constexpr double kBeyondDoubt = 2.0;
-/// Of the prior's variance: with more left the tangential force counts as not observed.
-constexpr double kToldShare = 0.5;
+/// At the contact's location.
 Eigen::Matrix3d CovarianceOf(const ShapeFitter& fit, std::size_t site) {
   const auto row = static_cast<Eigen::Index>(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
-/// With the place, where that is not known.
+/// With the uncertainty of the location.
 Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
   const ShapeSite& followed = fit.sites()[site];
   if (followed.hidden) return CovarianceOf(fit, site) + followed.place_force_covariance_N2;
@@ -44,8 +39,9 @@ Eigen::Matrix3d RandomCovariance(const ShapeFitter& fit, std::size_t site) {
          estimator.transpose();
 }
 
-/// Of a mean over n correlated frames the filter, which takes the variance of a single frame for
-/// the larger one, has kTemporalCorrelation / n of it: right for many frames, too much for few.
+/// The random part after filtering. The filter is given the variance of a single frame times
+/// kTemporalCorrelation. Of a mean over n frames it computes kTemporalCorrelation / n of the
+/// variance, which is right for many frames and too much for few.
 Eigen::Matrix3d RandomLeft(const Eigen::Matrix3d& single_N2, const Eigen::Matrix3d& filtered_N2) {
   const double averaged = filtered_N2.trace() / (kTemporalCorrelation * single_N2.trace());
   return filtered_N2 / (1.0 + (kTemporalCorrelation - 1.0) * std::min(1.0, averaged));
@@ -66,13 +62,14 @@ double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covarianc
 }
 
 ContactReport::ContactReport(const ShapeConfig& config, double force_relative_sigma,
-                             int candidate_locations)
+                             int candidate_locations, const ContactReportTuning& tuning)
     : config_(config),
+      tuning_(tuning),
       force_relative_sigma_(force_relative_sigma),
       search_places_(candidate_locations) {}
 
-/// Asked at its place: without a force there would be no place to be unsure of. That of a contact
-/// that nobody sees is the best of many.
+/// At its location: the test is against no force, where a location has no meaning. A hidden contact
+/// is the best of many candidates, so that the chance is divided by their number.
 double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
   const bool hidden = fit.sites()[site].hidden;
   const double chance =
@@ -83,12 +80,12 @@ double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const
 void ContactReport::Judge(double t_s, bool begins, ShapeFitter* fit) const {
   for (std::size_t s = 0; s < fit->sites().size(); ++s) {
     const double strength = StrengthOf(*fit, s);
-    const auto evidence = strength > kBeyondDoubt ? ContactTracks::Evidence::kBeyondDoubt
-                          : strength > 1.0        ? ContactTracks::Evidence::kSignificant
-                                                  : ContactTracks::Evidence::kNone;
-    fit->book().Judge(s, evidence, strength < kQuietShare, begins);
-    fit->book().filter(s).Update(t_s, fit->ForceAt(s),
-                                 kTemporalCorrelation * RandomCovariance(*fit, s));
+    const auto evidence = strength > tuning_.clear_strength ? ContactTracks::Evidence::kBeyondDoubt
+                          : strength > 1.0                  ? ContactTracks::Evidence::kSignificant
+                                                            : ContactTracks::Evidence::kNone;
+    fit->tracks().Judge(s, evidence, strength < tuning_.quiet_strength, begins);
+    fit->tracks().filter(s).Update(t_s, fit->ForceAt(s),
+                                   kTemporalCorrelation * RandomCovariance(*fit, s));
   }
 }
 
@@ -109,13 +106,13 @@ Status ContactReport::StatusOf(const ShapeFitter& fit, std::size_t site) const {
   const Eigen::Matrix<double, 3, 2> tangents = Tangents(fit.NormalAt(site));
   const Eigen::Matrix2d left = tangents.transpose() * CovarianceOf(fit, site) * tangents;
   const double prior_sigma_N = fit.TangentialSigma_N(site);
-  // Where the deformation says no more of the tangential force than friction does.
-  const bool told = left.trace() < 2.0 * kToldShare * prior_sigma_N * prior_sigma_N;
-  return told ? Status::Ok() : Status(StatusCode::kTangentialUnobservable, {});
+  const bool observed =
+      left.trace() < 2.0 * tuning_.observed_variance * prior_sigma_N * prior_sigma_N;
+  return observed ? Status::Ok() : Status(StatusCode::kTangentialUnobservable, {});
 }
 
-/// The force averaged over frames; of its covariance the random part falls with that, what is
-/// constant (bias, model, place) stays.
+/// The filtered force. Filtering reduces the random part of its covariance; the constant part
+/// (bias, model, location) stays.
 ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
                                       double inflation) const {
   const ShapeSite& followed = fit.sites()[site];

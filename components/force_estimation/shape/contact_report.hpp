@@ -11,24 +11,36 @@
 
 namespace palpate::force_estimation {
 
-/// How surely something pushes with this force, over what noise alone exceeds with a chance of
-/// `chance`: significant above 1. One-sided: a pull along `normal` (outward, unit) gives no more
-/// than 0. Of a contact that nobody sees, which way the surface faces that it pushes on is not
-/// known, so that all of the force counts where it pushes at all.
+/// A force over the one that noise alone exceeds with the probability `chance`: significant above
+/// 1. One-sided: a pull along `normal` (outward, unit) gives at most 0. Of a hidden contact the
+/// normal is uncertain, so that all components count where it pushes.
 double Strength(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2,
                 const Eigen::Vector3d& normal, bool hidden, double chance);
 
-/// What a fit says about its contacts: which act, with what force, how surely.
+struct ContactReportTuning {
+  /// A site below this strength is quiet. Larger: contacts vanish while they still push; smaller:
+  /// noise keeps them.
+  double quiet_strength = 0.5;
+  /// A site above this strength counts twice: it is reported after half of the frames. Smaller:
+  /// faster reports, more false ones.
+  double clear_strength = 2.0;
+  /// Posterior over prior variance of the tangential force above which it counts as not observed.
+  /// Larger: forces that friction's prior dominates have status ok.
+  double observed_variance = 0.5;
+};
+
+/// The contacts of a fit: which act, their forces and uncertainties.
 class ContactReport {
  public:
-  /// `force_relative_sigma`: error that all forces share. `candidate_locations`: that a hidden
-  /// contact may have been found at.
-  ContactReport(const ShapeConfig& config, double force_relative_sigma, int candidate_locations);
+  /// `force_relative_sigma`: error common to all forces. `candidate_locations`: their number in the
+  /// search for hidden contacts.
+  ContactReport(const ShapeConfig& config, double force_relative_sigma, int candidate_locations,
+                const ContactReportTuning& tuning = {});
 
-  /// Counts the frames in which each contact's force shows, and averages the forces. `begins`:
-  /// there was no frame before in which a contact could have come.
+  /// Counts the frames in which each contact's force is significant, and filters the forces.
+  /// `begins`: first frame of a sequence, in which contacts may be there already.
   void Judge(double t_s, bool begins, ShapeFitter* fit) const;
-  /// The contacts that act, and are not quiet just now.
+  /// The contacts that act and are not quiet in this frame.
   std::vector<ContactForce> Contacts(const ShapeFitter& fit) const;
 
  private:
@@ -37,6 +49,7 @@ class ContactReport {
   ContactForce ContactAt(const ShapeFitter& fit, std::size_t site, double inflation) const;
 
   ShapeConfig config_;
+  ContactReportTuning tuning_;
   double force_relative_sigma_;
   double search_places_;
 };

@@ -15,32 +15,8 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr std::size_t kMostSites = fem::kMaxQpVariables / 3;
-constexpr double kSmallestSeenSigma_m = 1e-3;
-constexpr double kHiddenSigma_m = 0.05;
-/// Of a contact that went out of sight: it may slide.
-constexpr double kSmallestLostSigma_m = 4e-3;
-/// Radius that holds 95 % in two directions.
+/// Radius that contains 95 % of a normal distribution in two directions.
 constexpr double kSigmas95InPlane = 2.448;
-/// Share of a contact's seen extent that is its patch: the rest is the rim of the object.
-constexpr double kPatchShareOfExtent = 0.3;
-constexpr double kLargestRadius_m = 0.015;
-/// A contact that comes into view so near to a hidden one is the same.
-constexpr double kSameContact_m = 0.035;
-constexpr double kOneContact_m = 0.01;
-constexpr double kOneInSigmas = 2.0;
-/// What is seen on one side of so thin a limb may be mapped to the other where the model is not yet
-/// where the robot is.
-constexpr double kThinLimb_m = 0.012;
-constexpr double kFarFromSeen_m = 0.008;
-constexpr double kFarInSigmas = 3.0;
-constexpr int kFramesToAppear = 2;
-/// Nobody has seen it: it must last.
-constexpr int kFramesToAppearHidden = 4;
-constexpr int kQuietFramesToVanish = 3;
-
-bool IsSame(const ShapeSite& site, const Eigen::Vector3d& rest_m) {
-  return (site.centre.rest_m - rest_m).norm() < kSameContact_m;
-}
 
 /// Largest sigma along the surface with this normal.
 double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vector3d& normal) {
@@ -51,7 +27,7 @@ double TangentialSigma_m(const Eigen::Matrix3d& covariance_m2, const Eigen::Vect
   return std::sqrt(std::max(0.0, mean + spread));
 }
 
-/// What the search knows of it.
+/// Location and uncertainty of the search.
 void TakePlace(const HiddenContact& found, ShapeSite* site) {
   site->seen_rest_m = site->centre.rest_m;
   site->place_covariance_m2 = found.location_covariance_m2;
@@ -61,8 +37,13 @@ void TakePlace(const HiddenContact& found, ShapeSite* site) {
 
 }  // namespace
 
-ContactTracks::ContactTracks(const robot::RobotModel& model, const ShapeConfig& config)
-    : model_(model), config_(config), map_(model) {}
+ContactTracks::ContactTracks(const robot::RobotModel& model, const ShapeConfig& config,
+                             const ContactTracksTuning& tuning)
+    : model_(model), config_(config), tuning_(tuning), map_(model, tuning.map) {}
+
+bool ContactTracks::IsSame(const ShapeSite& site, const Eigen::Vector3d& rest_m) const {
+  return (site.centre.rest_m - rest_m).norm() < tuning_.same_contact_m;
+}
 
 bool ContactTracks::See(const std::vector<SeenContact>& contacts, const Eigen::VectorXd& x_m) {
   if (!contacts.empty()) map_.Deform(x_m);
@@ -75,15 +56,16 @@ bool ContactTracks::See(const std::vector<SeenContact>& contacts, const Eigen::V
       changed = PlaceAgainIfFar(site) || changed;
       continue;
     }
-    const SkinPoint centre = map_.NearestNow(contact.position_m);
-    if (centre.distance_m > kFarthest_m || IsTaken(centre, SigmaOf_m(contact, centre))) continue;
+    const MaterialPoint centre = map_.NearestNow(contact.position_m);
+    if (centre.distance_m > tuning_.farthest_m || IsTaken(centre, SigmaOf_m(contact, centre)))
+      continue;
     ShapeSite site = NewSiteAt(centre.rest_m);
     changed = DropHiddenNear(centre.rest_m) || changed;
     if (full()) continue;
     site.name = contact.name;
-    site.radius_m =
-        std::clamp(kPatchShareOfExtent * contact.extent_m.maxCoeff(), config_.contact_radius_m,
-                   std::max(config_.contact_radius_m, kLargestRadius_m));
+    site.radius_m = std::clamp(tuning_.patch_share_of_extent * contact.extent_m.maxCoeff(),
+                               config_.contact_radius_m,
+                               std::max(config_.contact_radius_m, tuning_.largest_radius_m));
     Place(centre, &site);
     Refresh(contact, &site);
     sites_.push_back(std::move(site));
@@ -92,8 +74,8 @@ bool ContactTracks::See(const std::vector<SeenContact>& contacts, const Eigen::V
   return changed;
 }
 
-/// Of those that nobody sees any more, what pushes goes on as hidden, the rest is gone. True where
-/// there were any.
+/// Contacts that are no longer visible: those that push go on as hidden, the others are removed.
+/// True where there were any.
 bool ContactTracks::LoseSight(const std::vector<SeenContact>& contacts) {
   bool changed = false;
   for (ShapeSite& site : sites_) {
@@ -102,19 +84,19 @@ bool ContactTracks::LoseSight(const std::vector<SeenContact>& contacts) {
     if (site.hidden || seen) continue;
     changed = site.hidden = true;
     site.name = site.acts && site.quiet_frames == 0 ? HiddenName() : std::string();
-    const double known_m = std::max(kSmallestLostSigma_m, site.seen_sigma_m);
+    const double known_m = std::max(tuning_.least_lost_sigma_m, site.seen_sigma_m);
     site.place_covariance_m2 = known_m * known_m * Eigen::Matrix3d::Identity();
     site.place_ci95_m = kSigmas95InPlane * known_m;
-    site.seen_sigma_m = kHiddenSigma_m;
+    site.seen_sigma_m = tuning_.hidden_sigma_m;
   }
   std::erase_if(sites_, [](const ShapeSite& site) { return site.name.empty(); });
   return changed;
 }
 
-/// With the history of a hidden contact so near: what pushed before goes on.
+/// With the history of a hidden contact at that location: its force goes on.
 ShapeSite ContactTracks::NewSiteAt(const Eigen::Vector3d& rest_m) const {
   ShapeSite site;
-  site.filter = ForceFilter(config_.force_rate_N_s);
+  site.filter = ForceFilter(config_.force_rate_N_s, tuning_.filter);
   for (const ShapeSite& other : sites_) {
     if (!other.hidden || !other.acts || !IsSame(other, rest_m)) continue;
     site.filter = other.filter;
@@ -125,7 +107,7 @@ ShapeSite ContactTracks::NewSiteAt(const Eigen::Vector3d& rest_m) const {
   return site;
 }
 
-/// What was hidden so near to a contact that is seen is the same.
+/// A hidden contact close to a visible one is the same.
 bool ContactTracks::DropHiddenNear(const Eigen::Vector3d& rest_m) {
   return std::erase_if(sites_, [&](const ShapeSite& site) {
            return site.hidden && IsSame(site, rest_m);
@@ -133,29 +115,30 @@ bool ContactTracks::DropHiddenNear(const Eigen::Vector3d& rest_m) {
 }
 
 void ContactTracks::Refresh(const SeenContact& contact, ShapeSite* site) {
-  const SkinPoint seen = map_.NearestNow(contact.position_m + site->turned_m);
+  const MaterialPoint seen = map_.NearestNow(contact.position_m + site->turned_m);
   site->seen_rest_m = seen.rest_m;
   site->seen_sigma_m = SigmaOf_m(contact, seen);
 }
 
-/// What is seen so near to another contact, for all that is known of their places, is a part of it:
-/// their forces could not be told apart.
-bool ContactTracks::IsTaken(const SkinPoint& place, double sigma_m) const {
+/// A visible contact that may lie at the location of another, by both uncertainties, is a part of
+/// it: their forces are not identifiable.
+bool ContactTracks::IsTaken(const MaterialPoint& place, double sigma_m) const {
   return std::any_of(sites_.begin(), sites_.end(), [&](const ShapeSite& site) {
-    const double near_m =
-        std::max(kOneContact_m, kOneInSigmas * std::hypot(sigma_m, site.seen_sigma_m));
+    const double near_m = std::max(
+        tuning_.one_contact_m, tuning_.one_contact_sigmas * std::hypot(sigma_m, site.seen_sigma_m));
     return !site.hidden && (site.centre.rest_m - place.rest_m).norm() < near_m;
   });
 }
 
-double ContactTracks::SigmaOf_m(const SeenContact& contact, const SkinPoint& place) const {
-  return std::max(kSmallestSeenSigma_m,
+double ContactTracks::SigmaOf_m(const SeenContact& contact, const MaterialPoint& place) const {
+  return std::max(tuning_.least_visible_sigma_m,
                   TangentialSigma_m(contact.covariance_m2, map_.NormalNow(place)));
 }
 
-/// Before the first fit of a large push the nearest skin may be that of the body's other side.
+/// Before the first fit of a large push the nearest surface may be that of the body's other side.
 bool ContactTracks::PlaceAgainIfFar(ShapeSite* site) const {
-  const double limit_m = std::max(kFarFromSeen_m, kFarInSigmas * site->seen_sigma_m);
+  const double limit_m =
+      std::max(tuning_.far_from_visible_m, tuning_.far_sigmas * site->seen_sigma_m);
   if ((site->seen_rest_m - site->centre.rest_m).norm() <= limit_m) return false;
   Place(map_.NearestAtRest(site->seen_rest_m), site);
   return true;
@@ -164,10 +147,10 @@ bool ContactTracks::PlaceAgainIfFar(ShapeSite* site) const {
 bool ContactTracks::TurnOver(std::size_t index, const Eigen::Vector3d& force_N) {
   ShapeSite& site = sites_[index];
   if (site.hidden || !site.turned_m.isZero(0.0)) return false;
-  const bool is_sure = site.seen_sigma_m <= kSmallestSeenSigma_m;
-  const std::optional<SkinPoint> other =
-      map_.OtherSideNow(site.centre, -force_N.normalized(),
-                        is_sure ? 0.0 : std::max(kThinLimb_m, kFarInSigmas * site.seen_sigma_m));
+  const bool is_sure = site.seen_sigma_m <= tuning_.least_visible_sigma_m;
+  const std::optional<MaterialPoint> other = map_.OtherSideNow(
+      site.centre, -force_N.normalized(),
+      is_sure ? 0.0 : std::max(tuning_.thin_limb_m, tuning_.far_sigmas * site.seen_sigma_m));
   if (!other) return false;
   site.turned_m = map_.PositionNow_m(*other) - map_.PositionNow_m(site.centre);
   site.seen_rest_m = other->rest_m;
@@ -197,18 +180,18 @@ void ContactTracks::AddHidden(const HiddenContact& found) {
   ShapeSite site;
   site.name = HiddenName();
   site.hidden = true;
-  site.filter = ForceFilter(config_.force_rate_N_s);
+  site.filter = ForceFilter(config_.force_rate_N_s, tuning_.filter);
   site.radius_m = config_.contact_radius_m;
   Place(map_.NearestAtRest(found.rest_position_m), &site);
-  site.seen_sigma_m = kHiddenSigma_m;
+  site.seen_sigma_m = tuning_.hidden_sigma_m;
   TakePlace(found, &site);
   sites_.push_back(std::move(site));
 }
 
 bool ContactTracks::Follow(std::size_t index, const HiddenContact& found) {
   ShapeSite& site = sites_[index];
-  const SkinPoint moved = map_.NearestAtRest(found.rest_position_m);
-  const bool far = (moved.rest_m - site.centre.rest_m).norm() >= kSmallestMove_m;
+  const MaterialPoint moved = map_.NearestAtRest(found.rest_position_m);
+  const bool far = (moved.rest_m - site.centre.rest_m).norm() >= tuning_.least_move_m;
   if (far) Place(moved, &site);
   TakePlace(found, &site);
   return far;
@@ -216,13 +199,13 @@ bool ContactTracks::Follow(std::size_t index, const HiddenContact& found) {
 
 bool ContactTracks::Move(std::size_t index, const Eigen::Vector3d& step_rest_m) {
   ShapeSite& site = sites_[index];
-  const SkinPoint moved = map_.NearestAtRest(site.centre.rest_m + step_rest_m);
-  if ((moved.rest_m - site.centre.rest_m).norm() < kSmallestMove_m) return false;
+  const MaterialPoint moved = map_.NearestAtRest(site.centre.rest_m + step_rest_m);
+  if ((moved.rest_m - site.centre.rest_m).norm() < tuning_.least_move_m) return false;
   Place(moved, &site);
   return true;
 }
 
-void ContactTracks::Place(const SkinPoint& centre, ShapeSite* site) const {
+void ContactTracks::Place(const MaterialPoint& centre, ShapeSite* site) const {
   site->centre = centre;
   site->patch = model_.Patch(centre.rest_m, site->radius_m);
   site->triangles = map_.TrianglesAround(centre, site->radius_m);
@@ -234,10 +217,10 @@ void ContactTracks::Judge(std::size_t index, Evidence evidence, bool quiet, bool
   site.significant_frames += evidence == Evidence::kBeyondDoubt ? 2 : 1;
   if (evidence == Evidence::kNone) site.significant_frames = 0;
   site.quiet_frames = quiet ? site.quiet_frames + 1 : 0;
-  const int wanted = site.hidden ? kFramesToAppearHidden : kFramesToAppear;
+  const int wanted = site.hidden ? tuning_.frames_to_appear_hidden : tuning_.frames_to_appear;
   const bool at_once = begins && evidence != Evidence::kNone;
   if (at_once || site.significant_frames >= wanted) site.acts = true;
-  if (site.quiet_frames >= kQuietFramesToVanish) site.acts = false;
+  if (site.quiet_frames >= tuning_.quiet_frames_to_vanish) site.acts = false;
 }
 
 void ContactTracks::ForgetHidden() {
@@ -245,8 +228,8 @@ void ContactTracks::ForgetHidden() {
 }
 
 bool ContactTracks::ForgetQuiet() {
-  return std::erase_if(sites_, [](const ShapeSite& site) {
-           return site.hidden && site.quiet_frames >= kQuietFramesToVanish;
+  return std::erase_if(sites_, [this](const ShapeSite& site) {
+           return site.hidden && site.quiet_frames >= tuning_.quiet_frames_to_vanish;
          }) > 0;
 }
 

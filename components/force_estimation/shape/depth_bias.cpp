@@ -16,11 +16,6 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr int kPoseParameters = 6;
-constexpr int kFewestFeatures = 3;
-/// What is held for true of noise and its correlation before anything is seen, and how many
-/// residuals that is worth.
-constexpr double kExpectedCorrelation = 0.3;
-constexpr double kPriorResiduals = 10.0;
 
 /// L with L L' = `covariance`, which may be singular.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
@@ -46,16 +41,17 @@ double MeanInflation(int count, double correlation) {
 
 }  // namespace
 
-DepthBias::DepthBias(int feature_count, const ShapeConfig& config)
+DepthBias::DepthBias(int feature_count, const ShapeConfig& config, const DepthBiasTuning& tuning)
     : feature_count_(feature_count),
       config_(config),
-      correlation_(kExpectedCorrelation),
+      tuning_(tuning),
+      correlation_(tuning.prior_correlation),
       series_(static_cast<size_t>(feature_count)) {
   basis_.order = config.depth_bias_order;
   SetPrior();
 }
 
-/// What the settings say.
+/// The prior of the settings.
 void DepthBias::SetPrior() {
   shared_count_ = kPoseParameters + geometry::CountOf(basis_);
   prior_mean_.setZero(shared_count_);
@@ -64,10 +60,10 @@ void DepthBias::SetPrior() {
   sigma.segment<3>(3).setConstant(config_.pose_prior_rad);
   sigma.tail(shared_count_ - kPoseParameters).setConstant(config_.depth_bias_prior);
   prior_root_ = sigma.asDiagonal();
-  BeginAnew();
+  Reset();
 }
 
-void DepthBias::BeginAnew() {
+void DepthBias::Reset() {
   const Eigen::Index parameters = shared_count_ + feature_count_;
   information_.setZero(parameters, parameters);
   right_side_.setZero(parameters);
@@ -75,8 +71,8 @@ void DepthBias::BeginAnew() {
   covariance_.setIdentity(parameters, parameters);
 }
 
-/// The errors of calibration are found - true. The camera is where it was found, so that those of
-/// the pose are what shifts the targets; of the map the truth is what was found without its error.
+/// Errors of the calibration are estimate - truth. Targets are computed with the estimated pose, so
+/// that its error shifts them; the true map is the estimated one less its error.
 void DepthBias::StartFrom(const geometry::DepthBiasMap& map,
                           const Eigen::Isometry3d& T_robot_camera) {
   PALPATE_CHECK(frames_ == 0, frames_);
@@ -93,7 +89,7 @@ void DepthBias::StartFrom(const geometry::DepthBiasMap& map,
   prior_mean_.setZero(shared_count_);
   prior_mean_.tail(count) = map.coefficients;
   prior_root_ = RootOf(per_error * map.covariance * per_error.transpose());
-  BeginAnew();
+  Reset();
   known_ = true;
 }
 
@@ -105,7 +101,7 @@ Eigen::VectorXd DepthBias::SharedBasis(const correspondence::FeatureMatch& match
   if (!(position_m.z() > 0.0)) return basis;
   basis.head<3>() = normal;
   basis.segment<3>(3) = position_m.cross(normal);
-  // What is measured lies short of the truth by b p.
+  // The measured point is short of the true one by b p.
   basis.tail(shared_count_ - kPoseParameters) =
       -normal.dot(position_m) * geometry::ValuesAt(basis_, position_m);
   return basis;
@@ -157,7 +153,7 @@ void DepthBias::AddToSeries(int feature, double residual_over_sigma) {
   series.last = residual_over_sigma;
 }
 
-/// Scatter and correlation about each feature's own mean, whatever that is.
+/// Scatter and correlation about each surface point's own mean.
 void DepthBias::LearnNoise() {
   double squares = 0.0;
   double products = 0.0;
@@ -172,20 +168,22 @@ void DepthBias::LearnNoise() {
     values += series.count;
   }
   if (values > 0) pairs_per_value /= values;
-  correlation_ = std::clamp((products + kPriorResiduals * kExpectedCorrelation) /
-                                (std::max(pairs_per_value, 1e-3) * squares + kPriorResiduals),
-                            0.0, 0.9);
+  correlation_ =
+      std::clamp((products + tuning_.prior_residuals * tuning_.prior_correlation) /
+                     (std::max(pairs_per_value, 1e-3) * squares + tuning_.prior_residuals),
+                 0.0, 0.9);
   double freedom = 0.0;
   for (const Series& series : series_) {
     if (series.count >= 2) freedom += series.count - MeanInflation(series.count, correlation_);
   }
-  noise_scale_ = std::sqrt((squares + kPriorResiduals) / (freedom + kPriorResiduals));
+  noise_scale_ =
+      std::sqrt((squares + tuning_.prior_residuals) / (freedom + tuning_.prior_residuals));
 }
 
 Status DepthBias::Finish() {
   const auto seen = std::count_if(series_.begin(), series_.end(),
                                   [](const Series& series) { return series.count > 0; });
-  if (seen < kFewestFeatures && !known_) {
+  if (seen < tuning_.fewest_features && !known_) {
     return {StatusCode::kNoCalibration, "depth bias: only " + std::to_string(seen) +
                                             " features seen in " + std::to_string(frames_) +
                                             " frames without contact"};

@@ -9,50 +9,61 @@
 
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "components/force_estimation/shape/temporal_correlation.hpp"
 #include "libs/core/status.hpp"
 #include "libs/geometry/depth_bias_map.hpp"
 
 namespace palpate::force_estimation {
 
-/// The constant part of what lies between the cloud and the model when nobody touches the robot: a
-/// depth bias of low order over the image (a share of z), a small error of the camera's pose, and
-/// an offset of each feature (the mesh's facets, the skin). One linear least-squares problem with
-/// priors, so that what the frames do not tell stays at zero with the prior's uncertainty. A shift
-/// of the camera looks much like a depth bias: their sum is known better than either.
+struct DepthBiasTuning {
+  /// Surface points seen in the contact-free frames. Fewer: a bias that is mostly prior.
+  int fewest_features = 3;
+  /// Prior of the correlation of successive frames.
+  double prior_correlation = kFrameCorrelation;
+  /// Weight of the prior of noise and correlation, in residuals. Larger: the noise model is trusted
+  /// for longer; smaller: few frames give a random noise scale.
+  double prior_residuals = 10.0;
+};
+
+/// Constant difference of cloud and model without contact: a depth bias of low order over the image
+/// (a share of z), a small error of the camera pose, and an offset of each surface point (facets of
+/// the mesh, texture). One linear least-squares problem with priors: what the frames do not
+/// determine stays at zero with the prior's uncertainty. A shift of the camera resembles a depth
+/// bias: their sum is known better than either.
 ///
-/// Where a calibration has found the map, and the camera's pose with it, learning starts from
-/// there: both and their joint covariance are the prior.
+/// Where a calibration has estimated the map together with the camera pose, both and their joint
+/// covariance are the prior.
 ///
-/// Scatter and correlation over time of the frames about each feature's own mean say what a frame
-/// is worth. Correlation is taken as that of a first-order process.
+/// Scatter and correlation over time of the frames about each surface point's own mean give the
+/// information of a frame. Correlation is that of a first-order process.
 class DepthBias {
  public:
-  DepthBias(int feature_count, const ShapeConfig& config);
+  DepthBias(int feature_count, const ShapeConfig& config, const DepthBiasTuning& tuning = {});
 
   /// From a calibration, for frames whose T_robot_camera is its. Before the first frame. The map is
   /// known then, with its covariance.
   void StartFrom(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
 
-  /// Matches of one untouched frame, found about an equilibrium `x_m` [3n] of the model. Frames in
-  /// the order of time; those without a match do not count.
+  /// Matches of one contact-free frame, found about an equilibrium `x_m` [3n] of the model. Frames
+  /// in the order of time; those without a match do not count.
   void Learn(const std::vector<correspondence::FeatureMatch>& matches, const Eigen::VectorXd& x_m,
              const Eigen::Isometry3d& T_robot_camera);
-  /// Solves for what was learnt; more frames and another call make it better. kNoCalibration where
-  /// no frame or too few features (three) were seen, and no calibration told of it.
+  /// Solves for the parameters; more frames and another call improve them. kNoCalibration where too
+  /// few surface points were seen and no calibration gave the map.
   Status Finish();
 
   int frames() const { return frames_; }
   bool known() const { return known_; }
 
-  /// What is to be taken off target_m of a match, m. Of what is not matched, only the feature's own
+  /// To be subtracted from target_m of a match, m. Of a point that is not matched, only its own
   /// offset.
   double Correction_m(int feature, const correspondence::FeatureMatch& match,
                       const Eigen::Isometry3d& T_robot_camera) const;
-  /// Sigma of that correction, m; also before anything was learnt (the priors).
+  /// Sigma of that correction, m; before Finish that of the priors.
   double CorrectionSigma_m(int feature, const correspondence::FeatureMatch& match,
                            const Eigen::Isometry3d& T_robot_camera) const;
-  /// Scatter of single frames about the correction, over what their sigma_m says: 1 where the
-  /// noise model is right. 1 before anything was learnt.
+  /// Scatter of single frames about the correction, over their sigma_m: 1 where the noise model is
+  /// right, and before Finish.
   double NoiseScale() const { return noise_scale_; }
 
  private:
@@ -67,7 +78,7 @@ class DepthBias {
     double last = 0.0;
   };
 
-  /// What the residual of a match changes by with each parameter that the features share: camera
+  /// Derivative of a match's residual to each parameter that the points share: camera
   /// shift (3, m) and turn (3, rad), camera frame, about its centre; then the coefficients of the
   /// map.
   Eigen::VectorXd SharedBasis(const correspondence::FeatureMatch& match,
@@ -76,12 +87,13 @@ class DepthBias {
   Eigen::VectorXd ScaledBasis(const correspondence::FeatureMatch& match,
                               const Eigen::Isometry3d& T_robot_camera) const;
   void SetPrior();
-  void BeginAnew();
+  void Reset();
   void AddToSeries(int feature, double residual_over_sigma);
   void LearnNoise();
 
   int feature_count_;
   ShapeConfig config_;
+  DepthBiasTuning tuning_;
   geometry::DepthBiasBasis basis_;
   int shared_count_;
   Eigen::VectorXd prior_mean_;  ///< [shared]

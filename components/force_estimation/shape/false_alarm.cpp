@@ -15,9 +15,8 @@ namespace palpate::force_estimation {
 
 namespace {
 
-constexpr Eigen::Index kDraws = 256;
 constexpr std::uint32_t kSeed = 20261121;
-/// NormalQuantile does not go nearer to 0.
+/// Smallest argument of NormalQuantile.
 constexpr double kSmallestTail = 1e-280;
 
 double TailQuantile(double chance) { return -NormalQuantile(std::max(chance, kSmallestTail)); }
@@ -34,7 +33,7 @@ double NormalTail(double t) { return 0.5 * std::erfc(t / std::numbers::sqrt2); }
 
 /// Box and Muller's transform, so that the draws are the same with every standard library.
 void FalseAlarm::Draw(Eigen::Index rows) {
-  noise_.resize(rows, kDraws);
+  noise_.resize(rows, tuning_.draws);
   std::mt19937 engine(kSeed);
   const auto uniform = [&engine] { return (static_cast<double>(engine()) + 0.5) / 4294967296.0; };
   for (float& value : noise_.reshaped()) {
@@ -50,8 +49,8 @@ double FalseAlarm::Chance(const Eigen::MatrixXd& directions, double t) {
   const Eigen::MatrixXf unit = directions.cast<float>();
   const double tail = NormalTail(t);
   Eigen::MatrixXf drawn = noise_;
-  for (Eigen::Index k = 0; k < kDraws; ++k) {
-    const auto chosen = unit.col(k * tests / kDraws);
+  for (Eigen::Index k = 0; k < tuning_.draws; ++k) {
+    const auto chosen = unit.col(k * tests / tuning_.draws);
     const double value = std::max(t, TailQuantile(tail * EvenlySpread(k)));
     drawn.col(k) += (static_cast<float>(value) - chosen.dot(drawn.col(k))) * chosen;
   }
@@ -64,8 +63,7 @@ double FalseAlarm::Chance(const Eigen::MatrixXd& directions, double t) {
 
 double FalseAlarm::Threshold(const Eigen::MatrixXd& directions, double significance) {
   double t = TailQuantile(significance);
-  constexpr int kRounds = 4;  // the number of independent tests hardly depends on t
-  for (int round = 0; round < kRounds && directions.cols() > 1; ++round) {
+  for (int round = 0; round < tuning_.threshold_rounds && directions.cols() > 1; ++round) {
     const double tests = std::max(1.0, Chance(directions, t) / NormalTail(t));
     t = TailQuantile(significance / tests);
   }

@@ -9,19 +9,6 @@
 
 namespace palpate::force_estimation {
 
-namespace {
-
-/// Squared distance, in its covariance, at which a change counts as real: 1e-3 of chi-squared with
-/// three degrees of freedom.
-constexpr double kRealChange = 16.27;
-/// How fast a held force creeps, as a share of how fast forces change.
-constexpr double kHeldShare = 0.15;
-/// Chance that from one frame to the next a held force begins to change, or a changing one stops.
-constexpr double kTurn = 0.05;
-constexpr double kLeastChance = 1e-12;
-
-}  // namespace
-
 /// The mean of the walks by their chances, with their own spread and that between them.
 ForceFilter::Walk ForceFilter::Together(const Walks& walks) {
   Walk all;
@@ -35,14 +22,13 @@ ForceFilter::Walk ForceFilter::Together(const Walks& walks) {
   return all;
 }
 
-/// What each walk starts from where forces may have begun to change or stopped since the last
-/// frame.
+/// The start of each walk: forces may have begun or stopped to change since the last frame.
 ForceFilter::Walks ForceFilter::Mixed() const {
   Walks mixed;
   for (std::size_t to = 0; to < mixed.size(); ++to) {
     Walks from = walks_;
     for (std::size_t k = 0; k < from.size(); ++k) {
-      from[k].chance *= k == to ? 1.0 - kTurn : kTurn;
+      from[k].chance *= k == to ? 1.0 - tuning_.switch_probability : tuning_.switch_probability;
     }
     mixed[to] = Together(from);
   }
@@ -67,14 +53,14 @@ void ForceFilter::Update(double t_s, const Eigen::Vector3d& force_N,
   double sum = 0.0;
   for (std::size_t k = 0; k < walks.size(); ++k) {
     Walk& walk = walks[k];
-    const double walk_N = (k == 0 ? kHeldShare : 1.0) * rate_N_s_ * passed_s;
+    const double walk_N = (k == 0 ? tuning_.constant_share : 1.0) * rate_N_s_ * passed_s;
     const Eigen::Matrix3d predicted =
         walk.covariance_N2 + walk_N * walk_N * Eigen::Matrix3d::Identity();
     const Eigen::LLT<Eigen::Matrix3d> spread(predicted + covariance_N2);
     const Eigen::Vector3d change_N = force_N - walk.force_N;
     const double distance = change_N.dot(spread.solve(change_N));
     const bool fast = k == 1;
-    if (spread.info() != Eigen::Success || !(distance <= kRealChange || !fast)) {
+    if (spread.info() != Eigen::Success || !(distance <= tuning_.changed_chi_squared || !fast)) {
       BeginAt(force_N, covariance_N2);
       return;
     }
@@ -86,7 +72,7 @@ void ForceFilter::Update(double t_s, const Eigen::Vector3d& force_N,
     sum += walk.chance;
   }
   for (Walk& walk : walks)
-    walk.chance = std::max(kLeastChance, sum > 0.0 ? walk.chance / sum : 1.0);
+    walk.chance = std::max(tuning_.least_probability, sum > 0.0 ? walk.chance / sum : 1.0);
   walks_ = walks;
   together_ = Together(walks_);
 }

@@ -10,42 +10,17 @@ namespace palpate::force_estimation {
 
 namespace {
 
-constexpr int kMostAtOnce = 2;
-/// Around a contact that is seen nothing is searched: what is left over there is its own doing.
-constexpr double kTakenRadius_m = 0.03;
-constexpr int kFollowRounds = 2;
-/// Frames of its life in which a hidden contact is placed each time, and then each few frames.
-constexpr int kYoungFrames = 5;
-constexpr int kFramesBetweenPlaces = 5;
-constexpr int kFramesBetweenSearches = 3;
-/// After attempts that came to nothing, which cost many solves, the pauses double up to this.
-constexpr int kLongestPause = 24;
-/// Residual over noise, mean square, that calls for a search at once.
-constexpr double kMuchLeft = 1.5;
-constexpr double kSamePlace_m = 6e-3;
-/// Another place must fit by so much better.
-constexpr double kBetter = 0.95;
-/// Where the first order misleads, other places are tried, if there is time for it.
-constexpr int kMostTried = 4;
-constexpr double kSearchWork = 1.0;
-/// Of a substitution, for each row that responses are solved for.
-constexpr double kRowWork = 0.1;
-/// What was known of a place before counts for less with each time that it is passed on, and a
-/// contact may slide meanwhile.
-constexpr double kFading = 4.0;
-constexpr double kSlide_m = 1e-3;
-/// Of the model's motion, one sigma.
-constexpr double kModelError = 0.015;
-
-PlacePrior PriorOf(const ShapeSite& site) {
-  const Eigen::Matrix3d slide_m2 = kSlide_m * kSlide_m * Eigen::Matrix3d::Identity();
+/// Of a track that goes on from an earlier shape.
+PlacePrior PriorOf(const ShapeSite& site, const HiddenContactsTuning& tuning) {
+  const Eigen::Matrix3d slide_m2 = tuning.slide_m * tuning.slide_m * Eigen::Matrix3d::Identity();
   return {.mean_m = site.centre.rest_m,
-          .information_m2 = (kFading * site.place_covariance_m2 + slide_m2).inverse()};
+          .information_m2 = (tuning.prior_fading * site.place_covariance_m2 + slide_m2).inverse()};
 }
 
-/// The model errs by a share of the motion that changes little from a feature to the next: one
-/// column for each axis along which it may change.
-Eigen::MatrixXd ModelErrors_m(const ShapeFitter& fit, const Eigen::VectorXd& motion_m) {
+/// The model error is a share of the displacement that varies smoothly over the body: one column
+/// for each axis.
+Eigen::MatrixXd ModelErrors_m(const ShapeFitter& fit, const Eigen::VectorXd& motion_m,
+                              double model_error) {
   const auto& features = fit.targets().features();
   Eigen::MatrixXd along(motion_m.size(), 3);
   for (Eigen::Index r = 0; r < along.rows(); ++r) {
@@ -56,19 +31,20 @@ Eigen::MatrixXd ModelErrors_m(const ShapeFitter& fit, const Eigen::VectorXd& mot
   }
   along.rowwise() -= along.colwise().mean().eval();
   const double size_m = std::sqrt(along.rowwise().squaredNorm().mean());
-  return kModelError / size_m * motion_m.asDiagonal() * along;
+  return model_error / size_m * motion_m.asDiagonal() * along;
 }
 
 }  // namespace
 
 HiddenContacts::HiddenContacts(robot::RobotModel& model, const ShapeConfig& config,
-                               ShapeFitter& fit)
+                               ShapeFitter& fit, const HiddenContactsTuning& tuning)
     : config_(config),
+      tuning_(tuning),
       model_(model),
       fit_(fit),
-      search_(model, config),
-      pause_(kFramesBetweenSearches),
-      average_(static_cast<int>(model.body().feature_points.size())),
+      search_(model, config, tuning.search),
+      pause_(tuning.frames_between_searches),
+      average_(static_cast<int>(model.body().feature_points.size()), tuning.average),
       row_of_feature_(model.body().feature_points.size(), -1) {}
 
 Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
@@ -76,14 +52,15 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
   Status status = Status::Ok();
   if (!bias.known()) return status;
   if (HiddenSites().empty()) {
-    if (fit_.IsWorkUsedUp() || fit_.book().full() || !IsTimeToSearch()) return status;
-    if (!IsMuchLeft() && LeavesToNextFrame()) {
+    if (fit_.IsWorkUsedUp() || fit_.tracks().full() || !IsTimeToSearch()) return status;
+    if (!IsMisfitLarge() && LeavesToNextFrame()) {
       frames_since_search_ = pause_;
       return status;
     }
     status = Search(frame, bias);
   }
-  for (int round = 0; round < kFollowRounds && status.ok() && !HiddenSites().empty(); ++round) {
+  for (int round = 0; round < tuning_.follow_rounds && status.ok() && !HiddenSites().empty();
+       ++round) {
     if (before_ || (round > 0 && fit_.IsWorkUsedUp())) break;
     const int linearisations = fit_.linearisations();
     status = Follow(frame, bias);
@@ -93,64 +70,66 @@ Status HiddenContacts::Find(const ShapeFrame& frame, const DepthBias& bias) {
 }
 
 Status HiddenContacts::Search(const ShapeFrame& frame, const DepthBias& bias) {
-  fit_.AddWork(kSearchWork);
+  fit_.AddWork(tuning_.search_work);
   if (!Respond(frame.cables).ok()) return Status::Ok();
   const Unexplained data = LeftOver();
   std::vector<Eigen::Vector3d> taken_m = SeenPlaces();
   Status status = Status::Ok();
-  const int most = fit_.IsWorkLimited() ? 1 : kMostTried;
+  const int most = fit_.IsWorkLimited() ? 1 : tuning_.most_tried;
   int tried = 0;
   for (; tried < most && status.ok(); ++tried) {
-    const std::vector<HiddenContact> found =
-        search_.Find(data, kMostAtOnce, config_.hidden_significance, taken_m, kTakenRadius_m);
+    const std::vector<HiddenContact> found = search_.Find(
+        data, tuning_.most_at_once, config_.hidden_significance, taken_m, tuning_.taken_radius_m);
     if (found.empty()) break;
     if (Try(found, frame, bias, &status)) {
-      pause_ = kFramesBetweenSearches;
+      pause_ = tuning_.frames_between_searches;
       return status;
     }
     for (const HiddenContact& contact : found) taken_m.push_back(contact.rest_position_m);
   }
-  if (tried > 0) pause_ = std::min(2 * pause_, kLongestPause);
+  if (tried > 0) pause_ = std::min(2 * pause_, tuning_.longest_pause_frames);
   return status;
 }
 
-bool HiddenContacts::IsMuchLeft() const {
-  return fit_.fitter().fit().chi_squared >= kMuchLeft * fit_.targets().Count();
+bool HiddenContacts::IsMisfitLarge() const {
+  return fit_.fitter().fit().chi_squared >= tuning_.large_misfit * fit_.targets().Count();
 }
 
-/// Each few frames, and at once where much is left over of which nothing was tried yet.
+/// Every few frames, and at once where the misfit is large and no attempt has failed yet.
 bool HiddenContacts::IsTimeToSearch() {
-  const bool much_left = IsMuchLeft();
-  if (!much_left) pause_ = kFramesBetweenSearches;
-  const bool tried_in_vain = pause_ > kFramesBetweenSearches;
-  if (++frames_since_search_ < pause_ && (!much_left || tried_in_vain)) return false;
+  const bool is_large = IsMisfitLarge();
+  if (!is_large) pause_ = tuning_.frames_between_searches;
+  const bool has_failed = pause_ > tuning_.frames_between_searches;
+  if (++frames_since_search_ < pause_ && (!is_large || has_failed)) return false;
   frames_since_search_ = 0;
   return true;
 }
 
 Status HiddenContacts::Follow(const ShapeFrame& frame, const DepthBias& bias) {
-  Remember();
+  AddToAverage();
   if (!(left_over_ || IsTimeToFollow()) || LeavesToNextFrame()) return Status::Ok();
-  fit_.AddWork(kSearchWork);
+  fit_.AddWork(tuning_.search_work);
   if (!Respond(frame.cables).ok()) return Status::Ok();
   const Unexplained data = OfHidden();
   const std::vector<HiddenContact> found =
-      search_.Follow(data, priors_, SeenPlaces(), kTakenRadius_m);
+      search_.Follow(data, priors_, SeenPlaces(), tuning_.taken_radius_m);
   if (found.empty()) return Status::Ok();
   const Status status = MoveTo(found, frame, bias);
-  if (!status.ok() || !IsMuchLeft() || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
+  if (!status.ok() || !IsMisfitLarge() || fit_.IsWorkUsedUp() || !IsTimeToSearch()) return status;
   return FindOthers(data, frame, bias);
 }
 
-/// What is left over may be another contact, or all of them are elsewhere.
+/// The remaining residual may come from another contact, or from wrong locations of all.
 Status HiddenContacts::FindOthers(const Unexplained& data, const ShapeFrame& frame,
                                   const DepthBias& bias) {
   const std::vector<HiddenContact> found =
-      search_.Find(data, kMostAtOnce, config_.hidden_significance, SeenPlaces(), kTakenRadius_m);
+      search_.Find(data, tuning_.most_at_once, config_.hidden_significance, SeenPlaces(),
+                   tuning_.taken_radius_m);
   Status status = Status::Ok();
   if (found.empty() || AreWhereTheyWere(found)) return status;
   const bool better = Try(found, frame, bias, &status);
-  pause_ = better ? kFramesBetweenSearches : std::min(2 * pause_, kLongestPause);
+  pause_ =
+      better ? tuning_.frames_between_searches : std::min(2 * pause_, tuning_.longest_pause_frames);
   return status;
 }
 
@@ -163,11 +142,11 @@ Status HiddenContacts::MoveTo(const std::vector<HiddenContact>& found, const Sha
   fit_.KeepIn(&before);
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     const Eigen::Vector3d was_m = fit_.sites()[hidden[k]].centre.rest_m;
-    far = far || (found[k].rest_position_m - was_m).norm() > kSamePlace_m;
-    moved = fit_.book().Follow(hidden[k], found[k]) || moved;
+    far = far || (found[k].rest_position_m - was_m).norm() > tuning_.same_location_m;
+    moved = fit_.tracks().Follow(hidden[k], found[k]) || moved;
   }
   if (!moved) return Status::Ok();
-  const Status status = fit_.FitAtNewPlaces(frame, bias);
+  const Status status = fit_.FitAtNewLocations(frame, bias);
   const bool worse = !status.ok() || fit_.fitter().fit().chi_squared > before.chi_squared;
   if (!far || !worse) return status;
   fit_.GoBack(before);
@@ -178,12 +157,12 @@ bool HiddenContacts::IsTimeToFollow() const {
   const std::vector<std::size_t> hidden = HiddenSites();
   return average_.frames() == 1 || std::any_of(hidden.begin(), hidden.end(), [&](std::size_t s) {
            const int frames = fit_.sites()[s].frames;
-           return frames < kYoungFrames || frames % kFramesBetweenPlaces == 0;
+           return frames < tuning_.young_frames || frames % tuning_.frames_between_locations == 0;
          });
 }
 
-/// What the hidden contacts do, by the fit's own responses, joins the average.
-void HiddenContacts::Remember() {
+/// Adds the displacement due to hidden contacts, by the fit's own responses, to the average.
+void HiddenContacts::AddToAverage() {
   const std::vector<std::size_t> hidden = HiddenSites();
   Eigen::VectorXd motion_m = fit_.fitter().fit().residual_m;
   for (const std::size_t s : hidden) {
@@ -199,13 +178,13 @@ void HiddenContacts::Remember() {
   priors_.clear();
   for (const std::size_t s : hidden) {
     const ShapeSite& site = fit_.sites()[s];
-    priors_.push_back(are_new_ ? PlacePrior{.mean_m = site.centre.rest_m} : PriorOf(site));
+    priors_.push_back(are_new_ ? PlacePrior{.mean_m = site.centre.rest_m} : PriorOf(site, tuning_));
   }
   are_new_ = false;
 }
 
-/// New responses make a frame late: they are solved for once its forces are out, and used by the
-/// next one, which waits no more.
+/// New responses would delay a frame: they are solved for once its forces are published, and used
+/// by the next one, which is not postponed again.
 bool HiddenContacts::LeavesToNextFrame() {
   if (!fit_.IsWorkLimited()) return false;
   left_over_ = linearisations_ != fit_.linearisations() && !left_over_;
@@ -216,7 +195,7 @@ void HiddenContacts::PrepareNext(const std::vector<robot::CableCommand>& cables)
   if (left_over_ && !Respond(cables).ok()) left_over_ = false;
 }
 
-/// Responses of the features of this frame about the present shape.
+/// Responses of this frame's surface points about the present shape.
 Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
   if (linearisations_ != fit_.linearisations()) {
     responses_.Clear();
@@ -231,9 +210,9 @@ Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
     rows.push_back(fit_.targets().rows()[r]);
     features.push_back(feature);
   }
-  search_.LookAt(fit_.state().x_m);
+  search_.SetShape(fit_.state().x_m);
   if (rows.empty()) return Status::Ok();
-  fit_.AddWork(kRowWork * static_cast<double>(rows.size()));
+  fit_.AddWork(tuning_.row_work * static_cast<double>(rows.size()));
   const ModelState& state = fit_.state();
   int row = responses_.Count();
   Status status = responses_.Add(model_, rows, state.x_m, cables, state.lambda_a_N);
@@ -259,7 +238,7 @@ Unexplained HiddenContacts::LeftOver() const {
           .row = RowsOfTargets()};
 }
 
-/// What the hidden contacts do, on average, to be explained by places about the present shape.
+/// The mean displacement due to hidden contacts, for a search about the present shape.
 Unexplained HiddenContacts::OfHidden() const {
   Unexplained data{.residual_m = average_.motion_m(),
                    .weight = average_.weight(),
@@ -267,7 +246,7 @@ Unexplained HiddenContacts::OfHidden() const {
                    .left_m = fit_.fitter().fit().residual_m,
                    .responses = &responses_,
                    .row = RowsOfTargets()};
-  data.errors_m = ModelErrors_m(fit_, data.residual_m);
+  data.errors_m = ModelErrors_m(fit_, data.residual_m, tuning_.model_error);
   for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
     if (fit_.sites()[s].hidden) continue;
     data.known.conservativeResize(Eigen::NoChange, data.known.cols() + 3);
@@ -277,7 +256,7 @@ Unexplained HiddenContacts::OfHidden() const {
   return data;
 }
 
-/// The fit with these hidden contacts, where it is better than the one before.
+/// Keeps the fit with these hidden contacts where it is better than the one before.
 bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const ShapeFrame& frame,
                          const DepthBias& bias, Status* status) {
   ShapeFitter::Attempt before;
@@ -292,24 +271,26 @@ bool HiddenContacts::Try(const std::vector<HiddenContact>& contacts, const Shape
     *status = tried;
     return false;
   }
-  if (tried.ok() && fit_.fitter().fit().chi_squared < kBetter * before.chi_squared) return true;
+  if (tried.ok() && fit_.fitter().fit().chi_squared < tuning_.better_misfit * before.chi_squared)
+    return true;
   fit_.GoBack(before);
   *status = fit_.MatchAndFit(frame, bias);
   return false;
 }
 
-/// In a frame in which those that are tried have been fitted.
+/// In the frame in which the attempt has been fitted.
 Status HiddenContacts::Decide(const ShapeFrame& frame, const DepthBias& bias) {
   const ShapeFitter::Attempt before = std::move(*before_);
   before_.reset();
-  if (fit_.fitter().fit().chi_squared < kBetter * before.chi_squared) return Status::Ok();
+  if (fit_.fitter().fit().chi_squared < tuning_.better_misfit * before.chi_squared)
+    return Status::Ok();
   fit_.GoBack(before);
   return fit_.MatchAndFit(frame, bias);
 }
 
 void HiddenContacts::Begin() {
   Forget();
-  frames_since_search_ = pause_ = kFramesBetweenSearches;
+  frames_since_search_ = pause_ = tuning_.frames_between_searches;
   left_over_ = false;
 }
 
@@ -317,7 +298,7 @@ void HiddenContacts::Forget() {
   before_.reset();
   average_.Forget();
   priors_.clear();
-  fit_.book().ForgetHidden();
+  fit_.tracks().ForgetHidden();
 }
 
 bool HiddenContacts::AreWhereTheyWere(const std::vector<HiddenContact>& found) const {
@@ -325,7 +306,8 @@ bool HiddenContacts::AreWhereTheyWere(const std::vector<HiddenContact>& found) c
   return hidden.size() == found.size() &&
          std::all_of(found.begin(), found.end(), [&](const HiddenContact& contact) {
            return std::any_of(hidden.begin(), hidden.end(), [&](std::size_t s) {
-             return (fit_.sites()[s].centre.rest_m - contact.rest_position_m).norm() < kSamePlace_m;
+             return (fit_.sites()[s].centre.rest_m - contact.rest_position_m).norm() <
+                    tuning_.same_location_m;
            });
          });
 }

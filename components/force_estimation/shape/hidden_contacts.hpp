@@ -12,27 +12,66 @@
 
 namespace palpate::force_estimation {
 
-/// Contacts that nobody sees, found where the fit leaves more than noise over. Whatever does not
-/// lead to a better fit is taken back. Those that were found are followed: their places come from
-/// responses about the present shape, from all frames in which they hold still, and from what was
-/// known before.
+struct HiddenContactsTuning {
+  HiddenSearchTuning search = {};
+  ShapeAverageTuning average = {};
+  int most_at_once = 2;  ///< contacts of one search, 1 or 2; 2: slower, finds pairs
+  /// Radius around a visible contact that is not searched: its own model error causes the residual
+  /// there. Smaller: false hidden contacts beside visible ones.
+  double taken_radius_m = 0.03;
+  /// Relocations in one frame, each about a new shape. More: slower, closer to the optimum.
+  int follow_rounds = 2;
+  /// First frames of a hidden contact, each with a relocation; then one in so many. More, or a
+  /// shorter interval: more work per frame, a location that follows faster.
+  int young_frames = 5;
+  int frames_between_locations = 5;
+  /// Without a large misfit. Fewer: more work per frame, earlier detection of weak contacts.
+  int frames_between_searches = 3;
+  /// Failed attempts, which need many substitutions, double the interval up to this. Longer: less
+  /// work on a misfit that no contact explains, later detection.
+  int longest_pause_frames = 24;
+  /// Mean square residual over noise from which a search begins at once. Smaller: more searches.
+  double large_misfit = 1.5;
+  /// Displacement of a hidden contact that counts as another location. Larger: wrong moves are kept
+  /// although they fit worse.
+  double same_location_m = 6e-3;
+  /// Share of chi-squared that new hidden contacts must reach. Smaller: fewer false contacts.
+  double better_misfit = 0.95;
+  /// Attempts of one search, where the linearisation misleads and the frame's work is not limited.
+  /// More: slower, fewer missed contacts.
+  int most_tried = 4;
+  double search_work = 1.0;  ///< of a search, in substitutions; larger: fewer searches in a frame
+  double row_work = 0.1;     ///< of the response of a row, in substitutions; likewise
+  /// Growth of a location's covariance when it becomes the prior of a new shape, with the slide of
+  /// a contact meanwhile. Larger: the prior fades faster, with noisier locations.
+  double prior_fading = 4.0;
+  double slide_m = 1e-3;
+  /// Model error as a share of the displacement, one sigma. Larger: less certain locations.
+  double model_error = 0.015;
+};
+
+/// Hidden contacts, found where the fit leaves more residual than noise. Changes that do not
+/// improve the fit are undone. Found contacts are tracked: their locations are estimated from
+/// responses about the present shape, all frames in which they are at rest, and a prior from
+/// earlier shapes.
 class HiddenContacts {
  public:
   /// All must outlive this.
-  HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFitter& fit);
+  HiddenContacts(robot::RobotModel& model, const ShapeConfig& config, ShapeFitter& fit,
+                 const HiddenContactsTuning& tuning = {});
 
-  /// Patches that the search tries.
+  /// Patches of the search.
   int CandidateCount() const { return search_.CandidateCount(); }
 
-  /// After a fit of the contacts that are known; later where the frame's work is used up.
-  /// kBudgetReached: that was while hidden contacts were tried, on which the next frame decides;
-  /// else not ok: the way back failed, too.
+  /// After a fit of the known contacts; postponed where the frame's work is used up.
+  /// kBudgetReached: an attempt is unfinished, and the next frame decides on it. Any other error:
+  /// undoing an attempt failed, too.
   Status Find(const ShapeFrame& frame, const DepthBias& bias);
-  /// Solves for what the last Find left to the next one, if anything.
+  /// Solves for the responses that the last Find postponed, if any.
   void PrepareNext(const std::vector<robot::CableCommand>& cables);
-  /// No site is hidden any more.
+  /// Removes all hidden sites.
   void Forget();
-  /// The same at the begin of a sequence, in which nothing was tried yet.
+  /// The same at the begin of a sequence, without failed attempts.
   void Begin();
 
  private:
@@ -41,11 +80,11 @@ class HiddenContacts {
   Status FindOthers(const Unexplained& data, const ShapeFrame& frame, const DepthBias& bias);
   Status MoveTo(const std::vector<HiddenContact>& found, const ShapeFrame& frame,
                 const DepthBias& bias);
-  bool IsMuchLeft() const;
+  bool IsMisfitLarge() const;
   bool IsTimeToSearch();
   bool IsTimeToFollow() const;
   bool LeavesToNextFrame();
-  void Remember();
+  void AddToAverage();
   Unexplained LeftOver() const;
   Unexplained OfHidden() const;
   Status Respond(const std::vector<robot::CableCommand>& cables);
@@ -59,20 +98,21 @@ class HiddenContacts {
   std::vector<int> RowsOfTargets() const;
 
   ShapeConfig config_;
+  HiddenContactsTuning tuning_;
   robot::RobotModel& model_;
   ShapeFitter& fit_;
   HiddenSearch search_;
   int frames_since_search_ = 0;
   int pause_;  ///< between searches, frames
   ShapeAverage average_;
-  int averaged_about_ = -1;         ///< linearisation
-  std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average began
-  bool are_new_ = false;            ///< the hidden sites: nothing was known before
-  bool left_over_ = false;          ///< by the last frame: what needs new responses
+  int averaged_about_ = -1;         ///< number of the linearisation
+  std::vector<PlacePrior> priors_;  ///< of the hidden sites, from before the average
+  bool are_new_ = false;            ///< the hidden sites: without a prior
+  bool left_over_ = false;          ///< the last frame postponed new responses
   int linearisations_ = -1;         ///< that the responses belong to
   ObservationJacobian responses_;
   std::vector<int> row_of_feature_;  ///< [features] of responses_; -1: none
-  /// What there was before the hidden contacts that are still being tried.
+  /// State before the unfinished attempt.
   std::optional<ShapeFitter::Attempt> before_;
 };
 

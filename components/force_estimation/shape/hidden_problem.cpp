@@ -14,10 +14,8 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Size of a column that is ignored, in sigmas: beyond any force, and above rounding.
+/// Prior sigma of an ignored column: beyond any force, and above rounding.
 constexpr double kUnlimited = 1e8;
-/// The size of the push sets the sigma of the friction, which sets the push.
-constexpr int kFrictionRounds = 2;
 
 }  // namespace
 
@@ -74,7 +72,8 @@ std::vector<PlaceEquations> HiddenProblem::EquationsAt(const std::vector<int>& p
   return equations;
 }
 
-PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction) {
+PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction,
+                 const FitPushTuning& tuning) {
   const auto& [gram, pull] = equations;
   const Eigen::Vector3d push = -gram * normal;
   const double push_push = -normal.dot(push);
@@ -91,7 +90,7 @@ PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal,
   const Eigen::Matrix2d slide_slide = tangents.transpose() * gram * tangents;
   const Eigen::Vector2d slide_push = tangents.transpose() * push;
   const Eigen::Vector2d slide_rest = tangents.transpose() * pull;
-  for (int round = 0; round < kFrictionRounds; ++round) {
+  for (int round = 0; round < tuning.friction_rounds; ++round) {
     const double variance_N2 = std::pow(friction * fit.force_N, 2);
     const Eigen::Matrix2d noise = Eigen::Matrix2d::Identity() + variance_N2 * slide_slide;
     const Eigen::Matrix2d inverse = variance_N2 * noise.inverse();

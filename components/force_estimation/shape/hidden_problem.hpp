@@ -11,27 +11,35 @@
 
 namespace palpate::force_estimation {
 
-/// What a contact at one place says about the residual.
+/// The fit of a contact at one place to the residual.
 struct PlaceFit {
-  double force_N = 0.0;  ///< along the inward normal; 0: only a pull would help
+  double force_N = 0.0;  ///< along the inward normal; 0: a push does not improve the fit
   Eigen::Vector3d tangential_N = Eigen::Vector3d::Zero();  ///< most likely friction
-  double gain = 0.0;                                       ///< by which chi^2 falls
+  double gain = 0.0;                                       ///< decrease of chi^2
   double evidence = 0.0;  ///< twice the log of the likelihood over that without the contact
 };
 
-/// All that the fit of a push at one place goes by.
+/// Normal equations of a force at one place.
 struct PlaceEquations {
-  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();  ///< C' C, C: what unit forces along x, y, z do
+  Eigen::Matrix3d gram =
+      Eigen::Matrix3d::Zero();  ///< C' C, C: response to unit forces along x, y, z
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();  ///< C' residual
 };
 
-/// Fits a push along the inward normal with friction beside it: tangential components of normal
-/// distribution about 0 with a sigma of `friction` times the push.
-PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction);
+struct FitPushTuning {
+  /// Iterations: the push sets the sigma of the friction, which sets the push. More: slower, and a
+  /// push that fits its own friction better.
+  int friction_rounds = 2;
+};
 
-/// The residual in units of its noise and what unit forces on the candidates do to it. Whatever
-/// else may have caused it (forces refitted along, each with its prior) is absorbed into the noise,
-/// so that all that follows is least squares with unit weights.
+/// Fits a push along the inward normal with friction: tangential components of normal distribution
+/// about 0 with a sigma of `friction` times the push.
+PlaceFit FitPush(const PlaceEquations& equations, const Eigen::Vector3d& normal, double friction,
+                 const FitPushTuning& tuning = {});
+
+/// The residual in units of its noise, and its response to unit forces on the candidates. Other
+/// causes (forces that are refitted, each with its prior) are absorbed into the noise, which leaves
+/// a least-squares problem with unit weights.
 class HiddenProblem {
  public:
   /// `residual_m` [m] of the rows `row` of `responses`, and 1 / sigma of each. Places and responses
@@ -42,15 +50,15 @@ class HiddenProblem {
 
   const Eigen::VectorXd& residual() const { return residual_; }
 
-  /// Causes known up to their size, one column [m] for each, in the units that Place gives now.
-  /// Known to a standard normal factor:
+  /// Causes of unknown size, one column [m] for each, in the units that Place returns now. With a
+  /// standard normal prior of their factors:
   void Absorb(const Eigen::MatrixXd& columns);
-  /// and not known at all: the residual along them counts for nothing. Zero columns are fine.
+  /// and without a prior: the residual along them has no weight. Columns may be zero.
   void Ignore(Eigen::MatrixXd columns);
 
-  /// What a unit force does: at a place along x, y, z [m x 3],
+  /// Response to unit forces at a place along x, y, z [m x 3].
   Eigen::MatrixX3d Place(int place) const;
-  /// and, of what it does to all rows of the responses [r x k], m, what this problem sees [m x k].
+  /// Motions of all rows of the responses [r x k], m, in the units of this problem [m x k].
   Eigen::MatrixXd Whitened(const Eigen::MatrixXd& motion_m) const;
 
   /// For FitPush at each of these places. Many together cost little more than the responses.

@@ -8,9 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "components/force_estimation/shape/candidate_locations.hpp"
-#include "components/force_estimation/shape/contact_location_posterior.hpp"
-#include "components/force_estimation/shape/false_alarm.hpp"
 #include "components/force_estimation/shape/hidden_problem.hpp"
 #include "libs/core/check.hpp"
 
@@ -18,22 +15,8 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// A force on a point would have a response that no mesh resolves.
-constexpr double kSmallestPatch_m = 1e-3;
-/// Sigma of the tangential over the normal force of a contact that nobody saw.
-constexpr double kFriction = 0.3;
-/// Error of the first order as a part of the motion that it has to explain, one sigma: of this row
-/// and of all rows, half and half. Forces of 0.3 to 1.5 N bend our robot by up to 20 mm.
-constexpr double kFirstOrderError = 0.15;
-/// Unknowns of a contact: place on the surface and force.
+/// Unknowns of a contact: location on the surface and force.
 constexpr int kUnknowns = 5;
-/// Of two contacts each is placed while the other may be off: by about this many places, sigma.
-constexpr double kOffPlaces = 2.0;
-constexpr int kNeighbours = 6;
-constexpr int kPairRounds = 3;
-constexpr int kSearchRounds = 2;
-/// A candidate that moves the rows less than this part of the most moving one is not seen at all.
-constexpr double kUnseen = 1e-6;
 
 /// Unit sensitivities of the candidates that may be a contact.
 struct Tests {
@@ -42,13 +25,14 @@ struct Tests {
   Eigen::VectorXd statistic;    ///< [tests] standard normal without a contact
 };
 
-/// `pushes_m`: what unit forces along the candidates' inward normals do to all rows.
+/// `pushes_m`: response of all rows to unit forces along the candidates' inward normals.
 Tests MakeTests(const HiddenProblem& problem, const CandidateLocations& places,
-                const Eigen::MatrixXd& pushes_m, const std::vector<bool>& usable) {
+                const Eigen::MatrixXd& pushes_m, const std::vector<bool>& usable,
+                double unobserved_response) {
   const Eigen::MatrixXd along = problem.Whitened(pushes_m);
   const Eigen::RowVectorXd size = along.colwise().norm();
   Tests tests;
-  const double least = kUnseen * size.maxCoeff();
+  const double least = unobserved_response * size.maxCoeff();
   for (int c = 0; c < places.CandidateCount(); ++c) {
     const auto place = static_cast<size_t>(places.PlaceOfCandidate(c));
     if (usable[place] && size[c] > least) tests.candidates.push_back(c);
@@ -59,16 +43,16 @@ Tests MakeTests(const HiddenProblem& problem, const CandidateLocations& places,
   return tests;
 }
 
-/// Weights that allow for what the first order leaves out.
-Eigen::VectorXd FirstOrderWeights(const Unexplained& data) {
+/// Weights that include the error of the linearisation.
+Eigen::VectorXd FirstOrderWeights(const Unexplained& data, double first_order_error) {
   const Eigen::VectorXd& left_m = data.left_m.size() > 0 ? data.left_m : data.residual_m;
   const Eigen::ArrayXd squared_m2 = left_m.array().square();
   const Eigen::ArrayXd error_m2 =
-      0.5 * kFirstOrderError * kFirstOrderError * (squared_m2 + squared_m2.mean());
+      0.5 * first_order_error * first_order_error * (squared_m2 + squared_m2.mean());
   return data.weight.array() / (1.0 + data.weight.array() * error_m2);
 }
 
-/// The two candidates that together explain most, both pushing.
+/// The two candidates that together reduce chi-squared most, both pushing.
 std::pair<int, int> BestPair(const Tests& tests) {
   const Eigen::MatrixXd alike = tests.directions.transpose() * tests.directions;
   const Eigen::VectorXd& t = tests.statistic;
@@ -92,8 +76,12 @@ std::pair<int, int> BestPair(const Tests& tests) {
 }  // namespace
 
 struct HiddenSearch::Parts {
-  Parts(const robot::RobotModel& robot_model, const ShapeConfig& config)
-      : places(robot_model, std::max(config.contact_radius_m, kSmallestPatch_m)) {}
+  Parts(const robot::RobotModel& robot_model, const ShapeConfig& config,
+        const HiddenSearchTuning& search_tuning)
+      : tuning(search_tuning),
+        places(robot_model, std::max(config.contact_radius_m, tuning.least_patch_radius_m),
+               tuning.places),
+        false_alarm(tuning.false_alarm) {}
 
   HiddenProblem ProblemOf(const Unexplained& data, const Eigen::VectorXd& weight);
   void PushAt(const ObservationJacobian& responses);
@@ -106,9 +94,10 @@ struct HiddenSearch::Parts {
   PlaceFit FitAt(const HiddenProblem& problem, int place) const;
   void Report(const Unexplained& data, const std::vector<ContactLocationPosterior>& contacts);
 
+  HiddenSearchTuning tuning;
   CandidateLocations places;
   FalseAlarm false_alarm;
-  Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape that was last looked at
+  Eigen::Matrix3Xd normals;  ///< [3 x places] in the shape of the last SetShape
   Eigen::MatrixXd pushes_m;  ///< [rows x candidates] of unit forces along the inward normals
   const ObservationJacobian* pushed = nullptr;  ///< whose rows these are,
   int pushed_version = 0;                       ///< and as they were then
@@ -155,16 +144,15 @@ std::vector<bool> HiddenSearch::Parts::Usable(const std::vector<Eigen::Vector3d>
   return usable;
 }
 
-/// Whether the best candidate explains more than noise would.
+/// Whether the best candidate is significant.
 bool HiddenSearch::Parts::Stands(const HiddenProblem& problem, const std::vector<bool>& usable,
                                  double significance) {
-  const Tests tests = MakeTests(problem, places, pushes_m, usable);
+  const Tests tests = MakeTests(problem, places, pushes_m, usable, tuning.unobserved_response);
   return !tests.candidates.empty() &&
          false_alarm.Significant(tests.directions, tests.statistic.maxCoeff(), significance);
 }
 
-/// The problem when there is `contact` too, of any size, with friction, and perhaps a little
-/// beside.
+/// The problem with `contact` absorbed: of any size, with friction, and an uncertain location.
 HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
                                            const ContactLocationPosterior& contact) const {
   const Eigen::Vector3d normal = normals.col(contact.place);
@@ -172,18 +160,19 @@ HiddenProblem HiddenSearch::Parts::Without(const HiddenProblem& problem,
     return -any.Place(place) * normals.col(place);
   };
   const Eigen::VectorXd push = push_at(problem, contact.place);
-  Eigen::MatrixXd prior(push.size(), 3 + kNeighbours);
-  prior.leftCols<3>() = kFriction * (problem.Place(contact.place) + push * normal.transpose());
+  Eigen::MatrixXd prior(push.size(), 3 + tuning.neighbours);
+  prior.leftCols<3>() =
+      tuning.friction * (problem.Place(contact.place) + push * normal.transpose());
   Eigen::VectorXd distance_m2 =
       (places.positions_m().colwise() - places.positions_m().col(contact.place))
           .colwise()
           .squaredNorm()
           .transpose();
   int beside = contact.place;
-  for (int k = 0; k < kNeighbours; ++k) {
+  for (int k = 0; k < tuning.neighbours; ++k) {
     distance_m2[beside] = std::numeric_limits<double>::infinity();
     distance_m2.minCoeff(&beside);
-    prior.col(3 + k) = kOffPlaces * (push_at(problem, beside) - push);
+    prior.col(3 + k) = tuning.off_places * (push_at(problem, beside) - push);
   }
   HiddenProblem without = problem;
   without.Absorb(contact.fit.force_N * prior);
@@ -196,27 +185,29 @@ PlaceFit HiddenSearch::Parts::FitAt(const HiddenProblem& problem, int place) con
   return FitPush(problem.EquationsAt(place), normals.col(place), 0.0);
 }
 
-/// Starts from the best pair of candidates, and places each in turn while the other is free.
+/// Starts from the best pair of candidates, and locates each in turn while the other is absorbed.
 std::vector<ContactLocationPosterior> HiddenSearch::Parts::FindPair(const HiddenProblem& problem,
                                                                     const std::vector<bool>& usable,
                                                                     int known) const {
-  const auto [first, second] = BestPair(MakeTests(problem, places, pushes_m, usable));
+  const auto [first, second] =
+      BestPair(MakeTests(problem, places, pushes_m, usable, tuning.unobserved_response));
   if (first < 0) return {};
   std::vector<ContactLocationPosterior> pair(2);
   pair[0].place = places.PlaceOfCandidate(first);
   pair[1].place = places.PlaceOfCandidate(second);
   for (ContactLocationPosterior& contact : pair) contact.fit = FitAt(problem, contact.place);
-  for (int round = 0; round < kPairRounds; ++round) {
+  for (int round = 0; round < tuning.pair_rounds; ++round) {
     for (size_t k = 0; k < 2; ++k) {
-      pair[k] = Locate(Without(problem, pair[1 - k]), places, normals, usable,
-                       {.friction = kFriction, .unknowns = known + 2 * kUnknowns});
+      pair[k] =
+          Locate(Without(problem, pair[1 - k]), places, normals, usable,
+                 {.friction = tuning.friction, .unknowns = known + 2 * kUnknowns}, tuning.location);
       if (pair[k].place < 0) return {};
     }
   }
   return pair;
 }
 
-/// Gains count with the weights that were given, the other contacts' forces refitted.
+/// Gains are those of the given weights, with the other contacts' forces refitted.
 void HiddenSearch::Parts::Report(const Unexplained& data,
                                  const std::vector<ContactLocationPosterior>& contacts) {
   const HiddenProblem given = ProblemOf(data, data.weight);
@@ -228,7 +219,7 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
       if (j != k) rest.Ignore(rest.Place(other) * normals.col(other));
     }
     const PlaceFit fit =
-        FitPush(rest.EquationsAt(contact.place), normals.col(contact.place), kFriction);
+        FitPush(rest.EquationsAt(contact.place), normals.col(contact.place), tuning.friction);
     found.push_back({.rest_position_m = contact.mean_m,
                      .normal = normals.col(contact.place),
                      .force_N = contact.fit.force_N,
@@ -240,12 +231,13 @@ void HiddenSearch::Parts::Report(const Unexplained& data,
   }
 }
 
-HiddenSearch::HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config)
-    : parts_(std::make_unique<Parts>(model, config)) {}
+HiddenSearch::HiddenSearch(const robot::RobotModel& model, const ShapeConfig& config,
+                           const HiddenSearchTuning& tuning)
+    : parts_(std::make_unique<Parts>(model, config, tuning)) {}
 
 HiddenSearch::~HiddenSearch() = default;
 
-void HiddenSearch::LookAt(const Eigen::VectorXd& x_m) {
+void HiddenSearch::SetShape(const Eigen::VectorXd& x_m) {
   parts_->normals = parts_->places.Normals(x_m);
   parts_->pushed = nullptr;
 }
@@ -264,8 +256,8 @@ double HiddenSearch::SigmaOfForce_N(const Unexplained& data,
 double HiddenSearch::Threshold_sigmas(const Unexplained& data, double significance) const {
   Parts& parts = *parts_;
   const std::vector<bool> usable(static_cast<size_t>(parts.places.Count()), true);
-  const Tests tests =
-      MakeTests(parts.ProblemOf(data, data.weight), parts.places, parts.pushes_m, usable);
+  const Tests tests = MakeTests(parts.ProblemOf(data, data.weight), parts.places, parts.pushes_m,
+                                usable, parts.tuning.unobserved_response);
   return parts_->false_alarm.Threshold(tests.directions, significance);
 }
 
@@ -279,10 +271,11 @@ const std::vector<HiddenContact>& HiddenSearch::Find(const Unexplained& data, in
   const std::vector<bool> usable = parts.Usable(taken, taken_radius_m);
   if (!parts.Stands(parts.ProblemOf(data, data.weight), usable, significance)) return parts.found;
   const auto known = static_cast<int>(data.known.cols());
-  const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
-  const ContactLocationPosterior single =
-      Locate(problem, parts.places, parts.normals, usable,
-             {.friction = kFriction, .unknowns = known + kUnknowns});
+  const HiddenProblem problem =
+      parts.ProblemOf(data, FirstOrderWeights(data, parts.tuning.first_order_error));
+  const ContactLocationPosterior single = Locate(
+      problem, parts.places, parts.normals, usable,
+      {.friction = parts.tuning.friction, .unknowns = known + kUnknowns}, parts.tuning.location);
   if (single.place < 0) return parts.found;
   std::vector<ContactLocationPosterior> contacts = {single};
   if (most == 2 && parts.Stands(parts.Without(problem, single), usable, significance)) {
@@ -301,7 +294,8 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
   Parts& parts = *parts_;
   parts.found.clear();
   const std::vector<bool> usable = parts.Usable(taken, taken_radius_m);
-  const HiddenProblem problem = parts.ProblemOf(data, FirstOrderWeights(data));
+  const HiddenProblem problem =
+      parts.ProblemOf(data, FirstOrderWeights(data, parts.tuning.first_order_error));
   const auto known = static_cast<int>(data.known.cols());
   const int unknowns = known + static_cast<int>(before.size()) * kUnknowns;
   std::vector<ContactLocationPosterior> contacts(before.size());
@@ -309,15 +303,17 @@ const std::vector<HiddenContact>& HiddenSearch::Follow(const Unexplained& data,
     contacts[k].place = parts.places.Nearest(before[k].mean_m);
     contacts[k].fit = parts.FitAt(problem, contacts[k].place);
   }
-  const int rounds = contacts.size() == 1 ? 1 : kSearchRounds;
+  const int rounds = contacts.size() == 1 ? 1 : parts.tuning.follow_rounds;
   for (int round = 0; round < rounds; ++round) {
     for (size_t k = 0; k < contacts.size(); ++k) {
       HiddenProblem rest = problem;
       for (size_t other = 0; other < contacts.size(); ++other) {
         if (other != k) rest = parts.Without(rest, contacts[other]);
       }
-      contacts[k] = Locate(rest, parts.places, parts.normals, usable,
-                           {.friction = kFriction, .unknowns = unknowns, .prior = before[k]});
+      contacts[k] =
+          Locate(rest, parts.places, parts.normals, usable,
+                 {.friction = parts.tuning.friction, .unknowns = unknowns, .prior = before[k]},
+                 parts.tuning.location);
       if (contacts[k].place < 0) return parts.found;
     }
   }

@@ -12,11 +12,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-// A place that somebody has measured on the body.
-constexpr double kPlaceSigma_m = 5e-4;
-// What perception sees so near to a known contact, or within its own extent, is that contact.
-constexpr double kKnownPlace_m = 0.015;
-
 std::vector<Eigen::Vector3d> DistinctPlaces(const std::vector<experiment::KnownLoad>& loads) {
   std::vector<Eigen::Vector3d> places_m;
   for (const experiment::KnownLoad& load : loads) {
@@ -29,8 +24,10 @@ std::vector<Eigen::Vector3d> DistinctPlaces(const std::vector<experiment::KnownL
 
 }  // namespace
 
-KnownContacts::KnownContacts(const robot::RobotBody& body)
-    : body_(body), rest_surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {}
+KnownContacts::KnownContacts(const robot::RobotBody& body, const KnownContactsTuning& tuning)
+    : body_(body),
+      tuning_(tuning),
+      rest_surface_({body.mesh.nodes_m, body.boundary.DrawnTriangles()}) {}
 
 std::vector<SeenContact> KnownContacts::At(const std::vector<ContactSite>& sites,
                                            const Eigen::VectorXd& nodes_m) const {
@@ -46,7 +43,8 @@ std::vector<SeenContact> KnownContacts::At(const std::vector<ContactSite>& sites
       contact.position_m +=
           rest.barycentric[corner] * (nodes_m.segment<3>(3 * node) - body_.mesh.nodes_m.col(node));
     }
-    contact.covariance_m2 = kPlaceSigma_m * kPlaceSigma_m * Eigen::Matrix3d::Identity();
+    contact.covariance_m2 =
+        tuning_.location_sigma_m * tuning_.location_sigma_m * Eigen::Matrix3d::Identity();
     contact.extent_m.setConstant(2.0 * site.patch_radius_m);
     contacts.push_back(contact);
   }
@@ -69,13 +67,14 @@ std::vector<ContactSite> SitesOfLoads(const std::vector<experiment::KnownLoad>& 
 }
 
 std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
-                                         const std::vector<SeenContact>& seen) {
+                                         const std::vector<SeenContact>& seen,
+                                         const KnownContactsTuning& tuning) {
   const std::size_t known_count = known.size();
   for (const SeenContact& contact : seen) {
     const bool is_known = std::any_of(
         known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known_count),
         [&](const SeenContact& other) {
-          const double reach_m = std::max(kKnownPlace_m, 0.5 * contact.extent_m.maxCoeff());
+          const double reach_m = std::max(tuning.same_contact_m, 0.5 * contact.extent_m.maxCoeff());
           return (other.position_m - contact.position_m).norm() <= reach_m;
         });
     if (!is_known) known.push_back(contact);

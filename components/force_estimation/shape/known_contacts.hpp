@@ -15,12 +15,21 @@
 
 namespace palpate::force_estimation {
 
-/// Places on the undeformed body where a force is known to act, as contacts that were seen: on the
-/// surface in its present shape.
+struct KnownContactsTuning {
+  /// Of a location that was measured on the body. Larger: the fit may move the contact along the
+  /// surface.
+  double location_sigma_m = 5e-4;
+  /// A visible contact within this distance of a known one, or within its own extent, is the same.
+  /// Larger: a second contact nearby is lost; smaller: one contact is fitted twice.
+  double same_contact_m = 0.015;
+};
+
+/// Known contact locations on the undeformed body, in the form of visible contacts: on the surface
+/// in its present shape.
 class KnownContacts {
  public:
   /// `body` must outlive it.
-  explicit KnownContacts(const robot::RobotBody& body);
+  explicit KnownContacts(const robot::RobotBody& body, const KnownContactsTuning& tuning = {});
 
   /// The nearest surface point of each site, moved along with the surface. `nodes_m` [3n]: the
   /// model's nodes, robot frame; empty: the undeformed ones.
@@ -29,15 +38,17 @@ class KnownContacts {
 
  private:
   const robot::RobotBody& body_;
+  KnownContactsTuning tuning_;
   geometry::SurfaceIndex rest_surface_;
 };
 
-/// The places where loads act at `t_s`: load_1, load_2, ... by their order in loads.csv. Loads of
-/// no force are left out.
+/// Where loads act at `t_s`: load_1, load_2, ... by their order in loads.csv. Loads of zero force
+/// are left out.
 std::vector<ContactSite> SitesOfLoads(const std::vector<experiment::KnownLoad>& loads, double t_s);
 
-/// `known`, and those of `seen` that are none of them, but farther from each than they reach.
+/// `known`, and those of `seen` that are farther from each than `tuning` allows.
 std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
-                                         const std::vector<SeenContact>& seen);
+                                         const std::vector<SeenContact>& seen,
+                                         const KnownContactsTuning& tuning = {});
 
 }  // namespace palpate::force_estimation

@@ -9,11 +9,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Half the distance over which a patch is moved to see what that does.
-constexpr double kProbe_m = 1.5e-3;
-/// Contacts that nobody sees stay where the search has them, which knows all places.
-constexpr double kHeld_m = 1e-5;
-
 void AddForce(const fem::InterpolationWeights& weights, const Eigen::Vector3d& force_N,
               Eigen::Ref<Eigen::VectorXd> nodal_force_N) {
   for (size_t k = 0; k < weights.nodes.size(); ++k) {
@@ -30,8 +25,12 @@ Eigen::Matrix<double, 3, 2> Tangents(const Eigen::Vector3d& normal) {
   return tangents;
 }
 
-LocationStep::LocationStep(robot::RobotModel& model, ForceFitter& fitter)
-    : model_(model), fitter_(fitter), nodal_forces_N_(3 * model.elastic_body().NodeCount(), 0) {}
+LocationStep::LocationStep(robot::RobotModel& model, ForceFitter& fitter,
+                           const LocationStepTuning& tuning)
+    : model_(model),
+      fitter_(fitter),
+      tuning_(tuning),
+      nodal_forces_N_(3 * model.elastic_body().NodeCount(), 0) {}
 
 Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTargets& targets,
                              const ModelState& state, std::vector<LocatedForce>* located) {
@@ -48,7 +47,7 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
   for (Eigen::Index s = 0; s < k; ++s) {
     const ShapeSite& site = sites[static_cast<size_t>(s)];
     AddForces(site, state.lambda_f_N.segment<3>(3 * s), 2 * s);
-    const double sigma_m = site.hidden ? kHeld_m : site.seen_sigma_m;
+    const double sigma_m = site.hidden ? tuning_.hidden_sigma_m : site.seen_sigma_m;
     const double weight = 1.0 / (sigma_m * sigma_m);
     const Eigen::Vector2d offset =
         Tangents(site.patch.normal).transpose() * (site.seen_rest_m - site.centre.rest_m);
@@ -78,10 +77,10 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
 void LocationStep::AddForces(const ShapeSite& site, const Eigen::Vector3d& force_N,
                              Eigen::Index column) {
   const Eigen::Matrix<double, 3, 2> tangents = Tangents(site.patch.normal);
-  const Eigen::Vector3d probe_N = force_N / (2.0 * kProbe_m);
+  const Eigen::Vector3d probe_N = force_N / (2.0 * tuning_.probe_m);
   for (Eigen::Index i = 0; i < 2; ++i) {
     for (const double side : {1.0, -1.0}) {
-      const Eigen::Vector3d moved_m = site.centre.rest_m + side * kProbe_m * tangents.col(i);
+      const Eigen::Vector3d moved_m = site.centre.rest_m + side * tuning_.probe_m * tangents.col(i);
       AddForce(model_.Patch(moved_m, site.radius_m).weights, side * probe_N,
                nodal_forces_N_.col(column + i));
     }

@@ -12,20 +12,30 @@
 
 namespace palpate::force_estimation {
 
-/// What the deformation says about one contact's place and force together.
+/// One contact's location and force, estimated together from the deformation.
 struct LocatedForce {
   Eigen::Vector3d step_rest_m = Eigen::Vector3d::Zero();  ///< along the undeformed surface
   Eigen::Matrix2d location_covariance_m2 = Eigen::Matrix2d::Zero();  ///< along the two tangents
-  Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();     ///< place and force unknown
+  Eigen::Matrix3d force_covariance_N2 = Eigen::Matrix3d::Zero();     ///< location and force unknown
 };
 
-/// One Gauss-Newton step of forces and places together, about a fit of the forces alone: the
-/// columns of the places are the response to moving each force along the two tangents of the
-/// surface, the prior is where the contact was seen.
+struct LocationStepTuning {
+  /// Half the distance of the finite difference by which a patch is moved. Larger: the derivative
+  /// averages over more of the surface; smaller: it shows the facets of the mesh.
+  double probe_m = 1.5e-3;
+  /// Prior of a hidden contact's location: it stays where the search has it, which compares all
+  /// places. Larger: the local step may move it to a worse optimum.
+  double hidden_sigma_m = 1e-5;
+};
+
+/// One Gauss-Newton step of forces and locations together, about a fit of the forces alone. Columns
+/// of the locations are the response to moving each force along the two tangents of the surface;
+/// their prior is the location in the camera image.
 class LocationStep {
  public:
   /// `model` and `fitter` must outlive this.
-  LocationStep(robot::RobotModel& model, ForceFitter& fitter);
+  LocationStep(robot::RobotModel& model, ForceFitter& fitter,
+               const LocationStepTuning& tuning = {});
 
   /// About the last fit of `fitter`, whose sites are `sites` in the same order. `residual_m`,
   /// `targets`: of its rows. kUnobservable where the problem has no unique solution.
@@ -38,7 +48,8 @@ class LocationStep {
 
   robot::RobotModel& model_;
   ForceFitter& fitter_;
-  Eigen::MatrixXd jacobian_;        ///< [rows x 5k] forces, then places
+  LocationStepTuning tuning_;
+  Eigen::MatrixXd jacobian_;        ///< [rows x 5k] forces, then locations
   Eigen::MatrixXd nodal_forces_N_;  ///< [3n x 2k]
   Eigen::MatrixXd motions_m_;       ///< [rows x 2k]
 };

@@ -15,7 +15,8 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// The taut cables: their gradients, what they do to the body, and how to hold their length.
+/// The taut cables: their gradients, the response to their tension, and the constraint of their
+/// length.
 struct TautCables {
   Eigen::MatrixXd pull;    ///< [reduced x taut] rows of H_a
   Eigen::MatrixXd motion;  ///< K^-1 pull
@@ -57,8 +58,8 @@ struct TautCables {
   }
 };
 
-/// Rows that are eliminated close to one another are solved for together: there is much of the
-/// factor that they do not touch.
+/// Rows that are eliminated close to one another are solved for together: they skip most of the
+/// factor.
 std::vector<size_t> OrderOfElimination(const std::vector<robot::ObservationRow>& rows,
                                        const fem::StiffnessMatrix& matrix) {
   std::vector<int> first(rows.size(), std::numeric_limits<int>::max());

@@ -13,16 +13,16 @@
 
 namespace palpate::force_estimation {
 
-/// How rows move, to first order, when forces act anywhere on the body, about one shape. As the
-/// stiffness K is symmetric, a substitution for each row serves all places. Cables at imposed
+/// Derivative of rows to forces anywhere on the body, about one shape. As the stiffness K is
+/// symmetric, a substitution for each row serves all places. Cables at imposed
 /// displacement hold their length, slack ones stay slack (eq. (14) solved for the cables, as
 /// ActuatorCondensation does).
 class ObservationJacobian {
  public:
-  /// `rows` after those that are there already, about the same shape `x_m` [3n], with the factor
-  /// that `model` has there. kUnobservable where cable Jacobian is rank deficient: two taut cables
-  /// are collinear, kInvalidInput where a response comes out infinite: then none of `rows` is
-  /// there.
+  /// Appends `rows`, about the same shape `x_m` [3n], with the factor
+  /// that `model` has there. kUnobservable where the cable Jacobian is rank deficient (two taut
+  /// cables are collinear), kInvalidInput where a response is not finite: then none of `rows` is
+  /// appended.
   Status Add(robot::RobotModel& model, const std::vector<robot::ObservationRow>& rows,
              const Eigen::VectorXd& x_m, const std::vector<robot::CableCommand>& commands,
              const Eigen::VectorXd& lambda_a_N);
@@ -32,14 +32,14 @@ class ObservationJacobian {
   /// Another number after each change.
   int version() const { return version_; }
 
-  /// [rows x 3] what unit forces along x, y and z on these nodes do, m/N.
+  /// [rows x 3] response to unit forces along x, y and z on these nodes, m/N.
   Eigen::MatrixX3d To(const fem::InterpolationWeights& place) const;
 
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   RowMajor columns_;             ///< [reduced x rows] K^-1 of each row
-  std::vector<int> free_index_;  ///< [nodes]; -1: held
+  std::vector<int> free_index_;  ///< [nodes]; -1: fixed
   int version_ = 0;
 };
 

@@ -10,9 +10,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// What lies so little before a feature point is its own surface, m.
-constexpr double kSameSurface_m = 3e-3;
-
 /// Of one feature. Camera frame, but for `match`.
 struct NormalLine {
   Eigen::Vector3d point_m;
@@ -64,7 +61,8 @@ void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::Se
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
                  const correspondence::PredictedView& view,
                  const correspondence::MatchDistances& distances,
-                 std::vector<correspondence::FeatureMatch>* matches) {
+                 std::vector<correspondence::FeatureMatch>* matches,
+                 const SurfaceMatchingTuning& tuning) {
   const Eigen::Isometry3d T_camera_robot = T_robot_camera.inverse();
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
@@ -73,7 +71,7 @@ void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::Se
     const NormalLine line{T_camera_robot * position_m,
                           T_camera_robot.linear() * normals.col(feature)};
     const bool turned_away = line.normal.dot(line.point_m) >= 0.0;
-    if (turned_away || view.Hides(line.point_m, kSameSurface_m)) continue;
+    if (turned_away || view.Hides(line.point_m, tuning.same_surface_m)) continue;
     MatchAlong(line, cloud, distances, &match);
     if (match.state != correspondence::MatchState::kMatched) continue;
     match.normal = normals.col(feature);

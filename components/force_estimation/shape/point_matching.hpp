@@ -15,12 +15,13 @@
 
 namespace palpate::force_estimation {
 
-/// The way `point` of SurfaceMatching: Algorithm 3 as published, and hidden, too, what `view` does
-/// not show. `x_m` [3n] robot frame.
+/// Method `point` of SurfaceMatching: Algorithm 3 as published; what `view` does not show is
+/// hidden, too. `x_m` [3n] robot frame.
 void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::SensedCloud& cloud,
                  const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
                  const correspondence::PredictedView& view,
                  const correspondence::MatchDistances& distances,
-                 std::vector<correspondence::FeatureMatch>* matches);
+                 std::vector<correspondence::FeatureMatch>* matches,
+                 const SurfaceMatchingTuning& tuning);
 
 }  // namespace palpate::force_estimation

@@ -9,9 +9,9 @@ bool PredictsShape(const ForceEstimate& estimate) {
   switch (estimate.status.code()) {
     case StatusCode::kOk:
     case StatusCode::kNoContact:
-    case StatusCode::kNoCalibration:  // while it learns
-    case StatusCode::kBudgetReached:  // on the way
-    case StatusCode::kNoRobotSeen:    // where the robot would be
+    case StatusCode::kNoCalibration:  // during the calibration frames
+    case StatusCode::kBudgetReached:  // before convergence
+    case StatusCode::kNoRobotSeen:    // the predicted shape
       return estimate.x_m.size() > 0 && estimate.x_m.allFinite();
     default: return false;
   }

@@ -12,18 +12,14 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Frames that count at most: what is older is faded out.
-constexpr int kMostFrames = 20;
-/// Mean square of a frame over its noise from which on something has moved.
-constexpr double kMoved = 2.5;
-
 /// Of a single frame's variance in the mean.
 double ShareLeft(int frames) { return std::min(1.0, kTemporalCorrelation / frames); }
 
 }  // namespace
 
-ShapeAverage::ShapeAverage(int feature_count)
-    : mean_m_(Eigen::VectorXd::Zero(feature_count)),
+ShapeAverage::ShapeAverage(int feature_count, const ShapeAverageTuning& tuning)
+    : tuning_(tuning),
+      mean_m_(Eigen::VectorXd::Zero(feature_count)),
       count_(static_cast<std::size_t>(feature_count), 0) {}
 
 void ShapeAverage::Forget() {
@@ -43,7 +39,7 @@ bool ShapeAverage::Fits(const ShapeTargets& targets, const Eigen::VectorXd& moti
     sum += std::pow((motion_m[row] - mean_m_[feature]) / sigma_m, 2);
     ++known;
   }
-  return sum <= kMoved * known;
+  return sum <= tuning_.moved_chi_squared * known;
 }
 
 void ShapeAverage::Add(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) {
@@ -55,7 +51,7 @@ void ShapeAverage::Add(const ShapeTargets& targets, const Eigen::VectorXd& motio
     const auto row = static_cast<Eigen::Index>(r);
     const int feature = targets.features()[r];
     int& count = count_[static_cast<std::size_t>(feature)];
-    count = std::min(count + 1, kMostFrames);
+    count = std::min(count + 1, tuning_.most_frames);
     mean_m_[feature] += (motion_m[row] - mean_m_[feature]) / count;
     motion_m_[row] = mean_m_[feature];
     const double whole_m2 = std::pow(targets.sigma_m()[row], 2);

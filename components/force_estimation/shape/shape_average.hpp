@@ -10,26 +10,36 @@
 
 namespace palpate::force_estimation {
 
-/// What contacts do to the features, averaged over the frames in which they hold still: where a
-/// contact is that nobody sees is told by all of these frames together, not by the last one.
+struct ShapeAverageTuning {
+  /// Largest number of frames in the mean; older ones fade out. More: less noise, a slower response
+  /// to creep.
+  int most_frames = 20;
+  /// Mean square of a frame's difference from the mean, over the noise, that restarts the average.
+  /// Smaller: noise restarts it; larger: a moving contact is averaged over its path.
+  double moved_chi_squared = 2.5;
+};
+
+/// Displacement of the surface points due to contacts, averaged over the frames in which it is
+/// constant: a hidden contact is located from all of these frames.
 class ShapeAverage {
  public:
-  explicit ShapeAverage(int feature_count);
+  explicit ShapeAverage(int feature_count, const ShapeAverageTuning& tuning = {});
 
   void Forget();
-  /// A frame: `motion_m` of the rows of `targets`. One that is off the mean by more than the noise
-  /// begins anew.
+  /// A frame: `motion_m` of the rows of `targets`. One that differs from the mean by more than the
+  /// noise restarts the average.
   void Add(const ShapeTargets& targets, const Eigen::VectorXd& motion_m);
 
-  int frames() const { return frames_; }  ///< since it began
+  int frames() const { return frames_; }  ///< since the last restart
   /// Means of the rows of the frame that was added last, m, and their weights: 1 / variance of
-  /// what averaging leaves of the noise and of what is constant.
+  /// the averaged noise and the constant error.
   const Eigen::VectorXd& motion_m() const { return motion_m_; }
   const Eigen::VectorXd& weight() const { return weight_; }
 
  private:
   bool Fits(const ShapeTargets& targets, const Eigen::VectorXd& motion_m) const;
 
+  ShapeAverageTuning tuning_;
   int frames_ = 0;
   Eigen::VectorXd mean_m_;  ///< [features]
   std::vector<int> count_;  ///< [features]

@@ -21,90 +21,144 @@
 
 namespace palpate::force_estimation {
 
-/// Moves the model to the robot's shape in a frame: features matched, forces fitted, contacts moved
-/// along the surface. The state goes on from frame to frame.
+struct ShapeFitterTuning {
+  SurfaceMatchingTuning matching = {};
+  ShapeTargetsTuning targets = {};
+  ContactTracksTuning tracks = {};
+  LocationStepTuning location = {};
+  /// Matched surface points, below which no robot is seen. Fewer: shapes that the prior determines.
+  int fewest_features = 6;
+  /// Displacement of a surface point by the fit from which the frame is matched again. Smaller:
+  /// more rounds.
+  double match_again_m = 5e-4;
+  /// Tolerance of a fit that may be matched again, in ShapeConfig::fit_tolerance. Larger: cheaper
+  /// rounds, about a coarser shape.
+  double rough_tolerances = 10.0;
+  /// Step of a location after which the locations are estimated again in the same frame. Smaller:
+  /// more rounds.
+  double locate_again_m = 1e-3;
+  double longest_step_m = 6e-3;  ///< of a location; longer: faster, may leave the linear range
+  int location_rounds = 2;       ///< in a frame; more: slower, closer to the optimum
+  /// Frames of a contact until its location is averaged: until then it moves by whole steps, then
+  /// in one of so many frames by a share of the step. Larger share: faster, noisier locations.
+  int frames_to_settle = 4;
+  int frames_between_locations = 5;
+  double settled_share = 0.3;
+  int reweightings = 1;  ///< of outliers in a frame; more: slower, closer to the robust optimum
+  /// Further fits where one has used up its iterations and the frame's work is not limited. More: a
+  /// longer first frame, fewer failures far from the shape.
+  int more_fits = 3;
+  int most_continuation_steps = 3;    ///< the same; each takes seconds
+  double longest_force_step_N = 0.5;  ///< of a Newton step; longer: faster, less robust
+  double most_push_N = 0.15;          ///< compression that cables tolerate while a fit converges
+  double match_work = 1.0;            ///< of a matching, in substitutions; larger: fewer rounds
+  /// Chord steps in a frame after which the factor is renewed. Fewer: more factorisations; more:
+  /// slower convergence of the next frame.
+  int aged_chord_steps = 4;
+  /// A fit that was begun may exceed the frame's work by this factor, as a shape between two frames
+  /// misleads all that follows. Larger: later frames; smaller: more unfinished ones.
+  double fit_work_share = 4.0;
+  /// Prior sigma of the tangential force, as a share of the largest friction. Larger: noise becomes
+  /// tangential force.
+  double friction_sigma = 0.5;
+  /// Significance of a pull from which a contact is moved to the body's other side. Smaller: noise
+  /// moves contacts.
+  double adhesion_sigmas = 5.0;
+  /// Lower bound of the normal force in the friction prior. Larger: noisier tangential forces of
+  /// weak contacts.
+  double least_prior_force_N = 0.2;
+  /// Friction coefficient in the prior of hidden contacts, as in the search. Larger: a tangential
+  /// force replaces a move to another location.
+  double hidden_friction = 0.3;
+  double least_hidden_force_N = 0.05;   ///< as least_prior_force_N
+  double normal_prior_sigma_N = 100.0;  ///< of the normal force: practically uninformative
+};
+
+/// Fits the model to the robot's shape in a frame: matches surface points, fits forces, and moves
+/// contacts along the surface. The state goes on from frame to frame.
 class ShapeFitter {
  public:
   /// All three must outlive this.
-  ShapeFitter(robot::RobotModel& model, const Config& config, const ShapeConfig& shape);
+  ShapeFitter(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
+              const ShapeFitterTuning& tuning = {});
 
-  /// A shape without contact forces to go on from.
+  /// The initial shape, without contact forces.
   void StartAt(const fem::StaticState& state);
   bool started() const { return state_.valid; }
   void Stop() { state_.valid = false; }
 
-  /// A new frame's work begins, `whole`: whatever it takes.
+  /// Begins a frame; `whole`: without a limit of work.
   void BeginFrame(bool whole);
-  /// Whether nothing more should be begun in this frame.
+  /// Whether this frame's work is used up.
   bool IsWorkUsedUp() const { return budget_.Over(); }
-  /// Whether anything may be left to the next frame.
+  /// Whether work may be postponed to the next frame.
   bool IsWorkLimited() const { return limited_; }
   void AddWork(double work) { fitter_.AddWork(work); }
 
-  /// Takes the contacts that perception has located.
+  /// Updates the tracks by the contacts that perception has located.
   void See(const ShapeFrame& frame);
-  /// The same about the shape that a fit has found; true where a contact has another place.
+  /// The same about the fitted shape; true where a contact has another location.
   bool SeeAgain(const ShapeFrame& frame);
-  /// Matches the features about the present state. kNoRobotSeen where too few match.
+  /// Matches the surface points about the present state. kNoRobotSeen where too few match.
   Status Match(const ShapeFrame& frame);
-  /// Matches and fits forces, in rounds, until the features stay where they are. kBudgetReached:
-  /// the state is sound, and nearer, but the frame's work is used up.
+  /// Matches and fits forces, in rounds, until the surface points are at rest. kBudgetReached: the
+  /// state is valid and nearer, but the frame's work is used up.
   Status MatchAndFit(const ShapeFrame& frame, const DepthBias& bias);
-  /// The same where the shape may be far away, as with contacts that are new: in a frame that has
-  /// the time it goes on where steps are used up, or lead nowhere.
+  /// The same where the shape may be far away, as with new contacts: in a frame without a limit of
+  /// work it continues where iterations are used up or do not converge.
   Status MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias);
-  /// Contacts that seem to pull go to the body's other side, where they push, if they may be there.
-  /// True where one did: the shape is to be fitted again.
+  /// Moves contacts whose force is a significant pull to the body's other side, where they push, if
+  /// their uncertainty allows it. True where one moved: the shape must be fitted again.
   bool FlipAdhesiveContacts();
-  /// Moves the contacts to where the deformation, and where they were seen, ask for: all the way in
-  /// their first frames, then by a share of it, so that noise is averaged.
+  /// Moves the visible contacts by a Gauss-Newton step of the deformation, with their image
+  /// location as prior: by all of it in their first frames, then by a share, which averages noise.
   Status Locate(const ShapeFrame& frame, const DepthBias& bias);
 
-  /// What may be tried and taken back.
+  /// A state that can be restored.
   struct Attempt {
     std::vector<ShapeSite> sites;
     ModelState state;
     double chi_squared = 0.0;
   };
-  /// Into memory that is kept.
+  /// Copies the state into `attempt`, whose memory is used again.
   void KeepIn(Attempt* attempt) const;
   void GoBack(const Attempt& attempt);
-  /// To its shape, with no contact.
+  /// Restores its shape, without contacts.
   void GoBackWithoutContacts(Attempt attempt);
-  /// Other hidden sites than there were, without forces to begin with.
+  /// Replaces the hidden sites; their forces begin at zero.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
 
   /// The shape to which the bias belongs: nodes [3n].
-  void LearntAt(const Eigen::VectorXd& x_m) { learnt_x_m_ = x_m; }
+  void SetBiasShape(const Eigen::VectorXd& x_m) { bias_x_m_ = x_m; }
 
   const correspondence::SurfaceFeatures& features() const { return features_; }
   const std::vector<correspondence::FeatureMatch>& matches() const { return *matches_; }
   const ShapeTargets& targets() const { return targets_; }
-  ContactTracks& book() { return book_; }
-  const ContactTracks& book() const { return book_; }
-  const std::vector<ShapeSite>& sites() const { return book_.sites(); }
+  ContactTracks& tracks() { return tracks_; }
+  const ContactTracks& tracks() const { return tracks_; }
+  const std::vector<ShapeSite>& sites() const { return tracks_.sites(); }
   ForceFitter& fitter() { return fitter_; }
   const ForceFitter& fitter() const { return fitter_; }
   const ModelState& state() const { return state_; }
   const std::vector<LocatedForce>& located() const { return located_; }
   /// Mean square of residual over expected error, of the last fit; 1 where it fits.
   double Misfit() const;
-  /// Of the model, since it was made.
+  /// Of the model, since construction.
   int linearisations() const { return linearisations_; }
-  /// Linearises at the shape that was fitted, where the steps of the frame say that the factor has
-  /// aged: the next frame begins there. Whether it did; where that fails there is no factor.
+  /// Linearises at the fitted shape, where the next frame begins, if the frame took many chord
+  /// steps. Returns whether it did; where that fails there is no factor.
   bool RenewAgedFactor();
-  /// Takes places that the book has changed, and fits about them.
-  Status FitAtNewPlaces(const ShapeFrame& frame, const DepthBias& bias);
+  /// Fits after the locations of tracks have changed.
+  Status FitAtNewLocations(const ShapeFrame& frame, const DepthBias& bias);
   int TakeIterations() { return std::exchange(iterations_, 0); }
 
   Eigen::Vector3d ForceAt(std::size_t site) const {
     return state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * site));
   }
-  /// Unit, outward, of the contact's patch of skin in its present shape: what presses on an edge
-  /// touches both of its sides.
+  /// Unit, outward: mean normal of the contact's patch of surface in its present shape, as a
+  /// contact at an edge touches both of its sides.
   Eigen::Vector3d NormalAt(std::size_t site) const;
-  /// Of a contact's force along the surface, before it is seen: what friction allows.
+  /// Prior sigma of a contact's tangential force, by friction.
   double TangentialSigma_N(std::size_t site) const;
 
  private:
@@ -113,27 +167,28 @@ class ShapeFitter {
   Status FitRoughly(const ShapeFrame& frame);
   Status Fit(const ShapeFrame& frame);
   void CountSteps(const ForceFit& fit);
-  /// Of the features since the nodes were there.
+  /// Of the surface points since the nodes were there.
   double LargestMotion_m(const Eigen::VectorXd& from_x_m) const;
   bool IsTimeToLocate() const;
   /// The longest step that was made, m.
   double MoveSites();
 
   ShapeConfig shape_;
+  ShapeFitterTuning tuning_;
   correspondence::SurfaceFeatures features_;
   SurfaceMatching matching_;
   ShapeTargets targets_;
-  ContactTracks book_;
+  ContactTracks tracks_;
   ForceFitter fitter_;
   LocationStep location_;
   bool limited_ = false;
-  fem::TimeBudget budget_;      ///< for what can wait
-  fem::TimeBudget fit_budget_;  ///< for what was begun
+  fem::TimeBudget budget_;      ///< of work that can be postponed
+  fem::TimeBudget fit_budget_;  ///< of fits that were begun
   ModelState state_;
-  Eigen::VectorXd matched_x_m_;            ///< [3n] where the features were matched last
-  Eigen::VectorXd learnt_x_m_;             ///< [3n]; empty: the first shape that was started at
-  std::vector<std::string> fitted_names_;  ///< of the sites that the fitter has
-  bool places_moved_ = false;              ///< since the fitter took them
+  Eigen::VectorXd matched_x_m_;            ///< [3n] of the last matching
+  Eigen::VectorXd bias_x_m_;               ///< [3n]; empty: the first initial shape
+  std::vector<std::string> fitted_names_;  ///< of the fitter's sites
+  bool places_moved_ = false;              ///< since the fitter's last update
   const std::vector<correspondence::FeatureMatch>* matches_ = nullptr;
   std::vector<LocatedForce> located_;
   int iterations_ = 0;

@@ -20,24 +20,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-constexpr Eigen::Index kFewestPoints = 50;
-/// Residual over what is expected of it, mean square, from which on no force explains the shape.
-constexpr double kWorstMisfit = 30.0;
-/// After so many such frames the model begins anew from where it is without contact.
-constexpr int kMisfitsToRestart = 3;
-/// A fit that needs more frames than this follows something that is not the robot's shape.
-constexpr int kMostFramesOnBudget = 8;
-/// After a pause of so many frames' time, and no less than this, what touched before is forgotten.
-constexpr double kGapFrames = 5.0;
-constexpr double kLeastGap_s = 0.5;
-/// Where a sequence begins nothing is known of what touches: contacts are looked for until the
-/// misfit falls no more, in no more rounds than this,
-constexpr int kRoundsToBegin = 8;
-constexpr double kStillFalls = 0.95;
-/// one below this is good,
-constexpr double kGoodMisfit = 2.0;
-/// and again in so many frames where that does not lead to the shape that is seen.
-constexpr int kFramesToBegin = 3;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -45,9 +27,10 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 class ShapeForceEstimator::Impl {
  public:
   Impl(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
-       double modulus_sigma)
+       double modulus_sigma, const ShapeForceEstimatorTuning& tuning)
       : model_(model),
         shape_(shape),
+        tuning_(tuning),
         bias_(static_cast<int>(model.body().feature_points.size()), shape),
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
@@ -77,7 +60,7 @@ class ShapeForceEstimator::Impl {
 
   void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera) {
     bias_.StartFrom(map, T_robot_camera);
-    learning_ = true;  // the first frame with a contact ends it
+    calibrates_ = true;  // until the first frame that may have contacts
   }
 
   const std::vector<FeatureReport>& features() const { return features_; }
@@ -102,6 +85,7 @@ class ShapeForceEstimator::Impl {
 
   robot::RobotModel& model_;
   ShapeConfig shape_;
+  ShapeForceEstimatorTuning tuning_;
   DepthBias bias_;
   ShapeFitter fit_;
   HiddenContacts hidden_;
@@ -111,15 +95,15 @@ class ShapeForceEstimator::Impl {
   std::uint32_t epoch_ = 0;      ///< of the last frame
   double last_t_s_ = kUnknown;
   double period_s_ = std::numeric_limits<double>::infinity();  ///< between the last two frames
-  int frames_to_begin_ = kFramesToBegin;                       ///< left
+  int frames_to_begin_ = tuning_.frames_to_begin;              ///< left
   bool begins_ = false;                                        ///< this frame is one of them
   int misfits_ = 0;                                            ///< frames in a row
   int frames_on_budget_ = 0;                                   ///< in a row
-  bool learning_ = false;  ///< untouched frames came since the bias was solved for
+  bool calibrates_ = false;  ///< contact-free frames came since the bias was solved for
   std::vector<FeatureReport> features_;
   ForceEstimate estimate_;
   bool published_ = false;
-  bool fitted_ = false;                      ///< the last frame, and nothing was prepared since
+  bool fitted_ = false;  ///< the last frame, and PrepareNext was not called since
   std::vector<robot::CableCommand> cables_;  ///< its inputs
 };
 
@@ -146,12 +130,12 @@ Status ShapeForceEstimator::Impl::CheckFrame(const ShapeFrame& frame) const {
 }
 
 Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
-  learning_ = true;
+  calibrates_ = true;
   if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   PublishState();
   if (Status status = fit_.Match(frame); !status.ok()) return status;
   bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
-  fit_.LearntAt(fit_.state().x_m);
+  fit_.SetBiasShape(fit_.state().x_m);
   return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
                                           std::to_string(bias_.frames()) + " without contact"};
 }
@@ -164,13 +148,13 @@ Status ShapeForceEstimator::Impl::StartFromFreeState(const ShapeFrame& frame) {
 }
 
 Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
-  if (std::exchange(learning_, false)) {
+  if (std::exchange(calibrates_, false)) {
     if (Status status = bias_.Finish(); !status.ok()) return status;
   }
   if (!fit_.started()) {
     if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   }
-  if (frame.cloud.Count() < kFewestPoints) {
+  if (frame.cloud.Count() < tuning_.fewest_points) {
     PublishState();
     return {StatusCode::kNoRobotSeen,
             "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
@@ -180,13 +164,13 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
   fit_.BeginFrame(begins_);
   Status status = FitFrame(frame);
   frames_on_budget_ = status.code() == StatusCode::kBudgetReached ? frames_on_budget_ + 1 : 0;
-  const bool goes_on = frames_on_budget_ < kMostFramesOnBudget;
+  const bool goes_on = frames_on_budget_ < tuning_.most_frames_on_budget;
   if (status.code() == StatusCode::kNoRobotSeen || (frames_on_budget_ > 0 && goes_on)) {
-    PublishState();  // where the robot would be, so that perception finds it
+    PublishState();  // perception needs the predicted shape
     return status;
   }
   if (!status.ok()) {
-    // The last state leads nowhere: once more from the equilibrium without contact.
+    // The last state does not converge: again from the equilibrium without contact.
     hidden_.Forget();
     if (fit_.IsWorkUsedUp()) {
       fit_.Stop();
@@ -211,7 +195,7 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
 
 Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
   fit_.KeepIn(&before_);
-  fit_.book().ForgetQuiet();
+  fit_.tracks().ForgetQuiet();
   fit_.See(frame);
   Status status = fit_.MatchAndFit(frame, bias_);
   if (begins_) {
@@ -224,11 +208,11 @@ Status ShapeForceEstimator::Impl::FitFrame(const ShapeFrame& frame) {
   return status;
 }
 
-/// Nothing is known of what touches. Contacts as they seem to lie may lead nowhere while the body
-/// is far from the shape that is seen: then without them, first, whatever fits better.
+/// In the first frames contacts are unknown. Visible ones may be mapped wrongly while the model is
+/// far from the robot's shape: then a fit without them is compared.
 Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status) {
   if (status.ok()) status = FindInRounds(frame);
-  if (status.ok() && fit_.Misfit() < kGoodMisfit) return status;
+  if (status.ok() && fit_.Misfit() < tuning_.good_misfit) return status;
   ShapeFitter::Attempt with_seen;
   const double misfit = status.ok() ? fit_.Misfit() : std::numeric_limits<double>::infinity();
   fit_.KeepIn(&with_seen);
@@ -242,24 +226,24 @@ Status ShapeForceEstimator::Impl::FindAll(const ShapeFrame& frame, Status status
   return fit_.MatchAndFit(frame, bias_);
 }
 
-/// Until the misfit falls no more. Where it is good before and after, noise says which is better,
-/// and the later round has seen the contacts about the shape that was found.
+/// Until the misfit falls no more. Where it is good before and after, the difference is noise, and
+/// the later round has mapped the contacts about the fitted shape.
 Status ShapeForceEstimator::Impl::FindInRounds(const ShapeFrame& frame) {
   ShapeFitter::Attempt best;
-  for (int round = 0; round < kRoundsToBegin; ++round) {
+  for (int round = 0; round < tuning_.rounds_to_begin; ++round) {
     const double misfit = fit_.Misfit();
     fit_.KeepIn(&best);
     const Status status = FindContacts(frame);
-    if (!status.ok() || fit_.Misfit() > std::max(misfit, kGoodMisfit)) {
+    if (!status.ok() || fit_.Misfit() > std::max(misfit, tuning_.good_misfit)) {
       fit_.GoBack(best);
       return fit_.MatchAndFit(frame, bias_);
     }
-    if (fit_.Misfit() > kStillFalls * misfit) break;
+    if (fit_.Misfit() > tuning_.falling_misfit * misfit) break;
   }
   return Status::Ok();
 }
 
-/// About the shape of the last fit: those that are seen, those that are not, and where they are.
+/// About the shape of the last fit: visible contacts, hidden ones, and their locations.
 Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
   Status status = Status::Ok();
   if (fit_.SeeAgain(frame)) status = fit_.MatchAndFitFromFar(frame, bias_);
@@ -269,16 +253,16 @@ Status ShapeForceEstimator::Impl::FindContacts(const ShapeFrame& frame) {
   return status;
 }
 
-/// A shape that neither contacts nor noise explain is not the robot's, or not seen from where the
-/// camera is said to be: the model stays as it was before.
+/// A shape that neither contacts nor noise explain is not the robot's, or the camera pose is wrong:
+/// the model keeps its state from before the frame.
 Status ShapeForceEstimator::Impl::CheckMisfit() {
   const double misfit = fit_.Misfit();
-  if (misfit <= kWorstMisfit) {
+  if (misfit <= tuning_.worst_misfit) {
     misfits_ = 0;
     return Status::Ok();
   }
   fit_.GoBack(before_);
-  if (++misfits_ % kMisfitsToRestart == 0) {
+  if (++misfits_ % tuning_.misfits_to_restart == 0) {
     hidden_.Forget();
     fit_.StartAt(free_state_);
   }
@@ -287,16 +271,16 @@ Status ShapeForceEstimator::Impl::CheckMisfit() {
                                         " sigmas off: camera pose, intrinsics, or not the robot"};
 }
 
-/// Another recording, or a camera that was away: the robot was left to itself in between.
+/// Another recording, or a gap: contacts may have changed in between.
 void ShapeForceEstimator::Impl::ForgetBefore(const ShapeFrame& frame) {
   const double passed_s = frame.t_s - last_t_s_;
   last_t_s_ = frame.t_s;
   const bool opened = std::exchange(epoch_, frame.epoch) != frame.epoch;
-  const double longest_s = std::max(kLeastGap_s, kGapFrames * period_s_);
+  const double longest_s = std::max(tuning_.least_gap_s, tuning_.gap_frames * period_s_);
   if (opened || passed_s < 0.0 || passed_s > longest_s) {
-    frames_to_begin_ = kFramesToBegin;
+    frames_to_begin_ = tuning_.frames_to_begin;
     hidden_.Begin();
-    fit_.book().Forget();
+    fit_.tracks().Forget();
     fit_.Stop();
   } else if (std::isfinite(passed_s)) {
     period_s_ = passed_s;
@@ -343,7 +327,7 @@ void ShapeForceEstimator::Impl::ReportFeatures() {
   }
 }
 
-/// Nothing of an earlier frame stands for this one.
+/// No result of an earlier frame may stand for this one.
 void ShapeForceEstimator::Impl::Withdraw() {
   estimate_.residual_rms_m = estimate_.noise_rms_m = estimate_.chi_squared = kUnknown;
   estimate_.degrees_of_freedom = 0;
@@ -367,8 +351,9 @@ double ShapeForceEstimator::Impl::SmallestForce_N(const Eigen::Vector3d& rest_po
 
 ShapeForceEstimator::ShapeForceEstimator(robot::RobotModel& model, const Config& config,
                                          const ShapeConfig& shape,
-                                         double youngs_modulus_relative_sigma)
-    : impl_(std::make_unique<Impl>(model, config, shape, youngs_modulus_relative_sigma)) {}
+                                         double youngs_modulus_relative_sigma,
+                                         const ShapeForceEstimatorTuning& tuning)
+    : impl_(std::make_unique<Impl>(model, config, shape, youngs_modulus_relative_sigma, tuning)) {}
 
 ShapeForceEstimator::~ShapeForceEstimator() = default;
 

@@ -17,7 +17,7 @@
 
 namespace palpate::force_estimation {
 
-/// A feature point in the last frame.
+/// A surface point in the last frame.
 struct FeatureReport {
   correspondence::MatchState state = correspondence::MatchState::kHidden;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the model, robot frame
@@ -25,41 +25,66 @@ struct FeatureReport {
   double sigma_m = 0.0;     ///< expected of it
 };
 
-/// External forces from the robot's shape as a depth camera sees it (sections V.A.4 to V.B of the
-/// paper, and beyond it): features matched along their normals, the QP (10) to (14) iterated to
-/// equilibrium, contacts that were seen moved along the surface as far as the deformation asks for
-/// within their covariance, contacts that nobody saw searched for.
+struct ShapeForceEstimatorTuning {
+  Eigen::Index fewest_points = 50;  ///< of the robot cloud; fewer: shapes that the prior determines
+  /// Mean square residual over its variance above which no force explains the shape. Larger: forces
+  /// from a wrong camera pose; smaller: real deformations are refused.
+  double worst_misfit = 30.0;
+  /// Such frames in a row until the model restarts from the shape without contact. Fewer: one bad
+  /// frame costs the contacts' history.
+  int misfits_to_restart = 3;
+  /// Frames in a row that a fit may take. More: a longer pursuit of a shape that is not the
+  /// robot's.
+  int most_frames_on_budget = 8;
+  /// A gap of so many frame periods, and of this time, ends a sequence: contacts may have changed.
+  /// Longer: contacts survive a change that was not seen; shorter: dropped frames restart.
+  double gap_frames = 5.0;
+  double least_gap_s = 0.5;
+  /// At the start of a sequence: rounds of contact search, as long as the misfit falls to this
+  /// share of the last one. More rounds: a longer first frame.
+  int rounds_to_begin = 8;
+  double falling_misfit = 0.95;
+  /// Misfit below which a fit needs no alternative. Smaller: more alternatives are tried.
+  double good_misfit = 2.0;
+  /// Frames at the start of a sequence without a limit of work. More: a longer start, fewer
+  /// sequences that begin with a wrong shape.
+  int frames_to_begin = 3;
+};
+
+/// External forces from the robot's shape in depth images (sections V.A.4 to V.B of the paper, with
+/// extensions): surface points matched along their normals, the QP (10) to (14) iterated to
+/// equilibrium, visible contacts moved along the surface by the deformation within their
+/// covariance, hidden contacts found by search.
 ///
-/// The first frames with `untouched` teach the depth bias and give kNoCalibration. A frame of which
-/// too little matches gives kNoRobotSeen; its x_m says where the robot would be, so that perception
-/// finds it.
+/// The first frames with `untouched` serve to estimate the depth bias and give kNoCalibration. A
+/// frame with too few matches gives kNoRobotSeen; its x_m is the predicted shape for perception.
 class ShapeForceEstimator {
  public:
   /// `model` must outlive the estimator. Of `config` these count: significance,
   /// unobservable_sigma_N, max_contacts, max_iterations, frame_tolerance, frame_budget_s,
   /// contact_marker_weight. Throws InputError where the robot has no feature points.
   ShapeForceEstimator(robot::RobotModel& model, const Config& config, const ShapeConfig& shape,
-                      double youngs_modulus_relative_sigma = 0.0);
+                      double youngs_modulus_relative_sigma = 0.0,
+                      const ShapeForceEstimatorTuning& tuning = {});
   ~ShapeForceEstimator();
 
-  /// What calibration found of the depth image, together with this pose of the camera, which frames
-  /// will give: frames without contact then teach the rest of it, and none are needed. Before the
-  /// first frame.
+  /// The depth bias that a calibration has estimated together with this camera pose, which frames
+  /// must have. Contact-free frames then refine it, and none are needed. Before the first frame.
   void TakeDepthBias(const geometry::DepthBiasMap& map, const Eigen::Isometry3d& T_robot_camera);
 
-  /// The estimate stays valid until the next call. Contacts that were seen have their names and
-  /// kOk, kTangentialUnobservable or kUnobservable; those found by search are called hidden_1,
-  /// hidden_2 and have kHidden.
+  /// The estimate stays valid until the next call. Visible contacts have their names and kOk,
+  /// kTangentialUnobservable or kUnobservable; hidden ones are called hidden_1, hidden_2 and have
+  /// kHidden.
   const ForceEstimate& Update(const ShapeFrame& frame);
 
-  /// To be called after each Update, once its estimate is out: a factor and responses at the shape
-  /// that was found, where the next frame will want them. The estimate and the features stay.
+  /// To be called after each Update, once its estimate is published: a factor and responses at the
+  /// fitted shape, for the next frame. The estimate and the features stay.
   void PrepareNext();
 
   const std::vector<FeatureReport>& features() const;  ///< of the last frame
-  /// Smallest force that a contact at this place of the undeformed body could have and be found, N
-  /// (normal direction, Config::significance); NaN before the bias is known, and where the model
-  /// has no factor.
+  /// Smallest force of a contact at this place of the undeformed body that is detectable, N (normal
+  /// direction, Config::significance); NaN before the bias is known, and where the model has no
+  /// factor.
   double SmallestForce_N(const Eigen::Vector3d& rest_position_m) const;
 
  private:
@@ -67,7 +92,7 @@ class ShapeForceEstimator {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether x_m of this estimate may be shown to perception as the robot's predicted shape.
+/// Whether x_m of this estimate may be sent to perception as the robot's predicted shape.
 bool PredictsShape(const ForceEstimate& estimate);
 
 }  // namespace palpate::force_estimation

@@ -26,17 +26,17 @@ struct SeenContact {
 /// A contact given in the camera's frame, in the robot's; its extent stays along the camera's axes.
 SeenContact InRobotFrame(const SeenContact& in_camera, const Eigen::Isometry3d& T_robot_camera);
 
-/// One look at the robot's shape.
+/// Input of one frame.
 struct ShapeFrame {
   double t_s = 0.0;
   rgbd::SensedCloud cloud;  ///< the robot's points, camera frame
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
   std::vector<SeenContact> contacts;
   std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
-  /// Of the camera, or the number of the recording: where it is another one than in the frame
-  /// before, nothing is known of what touches.
+  /// Of the camera, or the number of the recording. A change begins a sequence, whose contacts are
+  /// unknown.
   std::uint32_t epoch = 0;
-  /// Nobody touches the robot, and that is known: the frame only teaches (depth bias, noise).
+  /// The frame is known to be contact-free: it serves to estimate depth bias and noise only.
   bool untouched = false;
 };
 

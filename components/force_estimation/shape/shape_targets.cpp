@@ -12,30 +12,24 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// A feature's share of the surface reaches about so far; a contact within it dents it.
-constexpr double kReachOfFeature_m = 6e-3;
-constexpr double kMuchOfAWeight = 0.2;
-/// Mean square of residual over sigma up to which a shape tells outliers.
-constexpr double kNear = 4.0;
-
 bool IsNearContact(const correspondence::FeatureMatch& match,
                    const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-                   const std::vector<ShapeSite>& sites) {
+                   const std::vector<ShapeSite>& sites, double reach_m) {
   const Eigen::Vector3d position_m = T_robot_camera * match.position_m;
   return std::any_of(sites.begin(), sites.end(), [&](const ShapeSite& site) {
-    return (site.patch.weights.Position(x_m) - position_m).norm() <
-           site.radius_m + kReachOfFeature_m;
+    return (site.patch.weights.Position(x_m) - position_m).norm() < site.radius_m + reach_m;
   });
 }
 
 }  // namespace
 
-ShapeTargets::ShapeTargets(const ShapeConfig& config, double contact_weight)
-    : config_(config), contact_weight_(contact_weight) {}
+ShapeTargets::ShapeTargets(const ShapeConfig& config, double contact_weight,
+                           const ShapeTargetsTuning& tuning)
+    : config_(config), tuning_(tuning), contact_weight_(contact_weight) {}
 
 void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matches,
                          const DepthBias& bias, const Eigen::Isometry3d& T_robot_camera,
-                         const Eigen::VectorXd& x_m, const Eigen::VectorXd& learnt_x_m,
+                         const Eigen::VectorXd& x_m, const Eigen::VectorXd& bias_x_m,
                          const std::vector<ShapeSite>& sites) {
   rows_.clear();
   features_.clear();
@@ -55,11 +49,12 @@ void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matche
     const correspondence::FeatureMatch& match = matches[static_cast<std::size_t>(feature)];
     targets_.value_m[r] = match.target_m - bias.Correction_m(feature, match, T_robot_camera);
     noise_m_[r] = bias.NoiseScale() * match.sigma_m;
-    const double moved_m = match.row.Value(x_m) - match.row.Value(learnt_x_m);
+    const double moved_m = match.row.Value(x_m) - match.row.Value(bias_x_m);
     const double constant_m = std::hypot(bias.CorrectionSigma_m(feature, match, T_robot_camera),
                                          config_.model_relative_sigma * moved_m);
     sigma_m_[r] = std::hypot(noise_m_[r], constant_m);
-    const double share = IsNearContact(match, T_robot_camera, x_m, sites) ? contact_weight_ : 1.0;
+    const bool is_near = IsNearContact(match, T_robot_camera, x_m, sites, tuning_.feature_reach_m);
+    const double share = is_near ? contact_weight_ : 1.0;
     targets_.weight[r] = share / (sigma_m_[r] * sigma_m_[r]);
   }
   full_weight_ = targets_.weight;
@@ -70,7 +65,7 @@ void ShapeTargets::WeighAt(const Eigen::VectorXd& x_m) {
   for (Eigen::Index r = 0; r < residual_m.size(); ++r) {
     residual_m[r] = targets_.value_m[r] - rows_[static_cast<std::size_t>(r)].Value(x_m);
   }
-  if (residual_m.cwiseQuotient(sigma_m_).squaredNorm() < kNear * targets_.rows) {
+  if (residual_m.cwiseQuotient(sigma_m_).squaredNorm() < tuning_.near_chi_squared * targets_.rows) {
     Reweight(residual_m);
   }
 }
@@ -81,7 +76,8 @@ bool ShapeTargets::Reweight(const Eigen::VectorXd& residual_m) {
     const double off = std::abs(residual_m[r]) / sigma_m_[r];
     const double share = HuberWeight(off, config_.robust_threshold);
     const double weight = share * full_weight_[r];
-    changed = changed || std::abs(weight - targets_.weight[r]) > kMuchOfAWeight * full_weight_[r];
+    changed =
+        changed || std::abs(weight - targets_.weight[r]) > tuning_.changed_weight * full_weight_[r];
     targets_.weight[r] = weight;
   }
   return changed;

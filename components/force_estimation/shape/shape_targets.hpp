@@ -15,18 +15,32 @@
 
 namespace palpate::force_estimation {
 
-/// The matched features as rows of the fit: targets without the constant bias, weights from the
-/// depth noise, from what is left of the bias, from the model's error (a share of how far a feature
-/// has moved since the bias was learnt), less near contacts, and less for those that do not fit.
+struct ShapeTargetsTuning {
+  /// Radius of a surface point's share of the surface: a contact closer than this dents it. Larger:
+  /// fewer points have their full weight; smaller: dents bias the force.
+  double feature_reach_m = 6e-3;
+  /// Change of a robust weight, as a share of the full one, that asks for another fit. Smaller:
+  /// more fits in a frame.
+  double changed_weight = 0.2;
+  /// Mean square of residual over sigma up to which outliers are recognised. Larger: where the
+  /// shape is still far away, points on the robot lose weight.
+  double near_chi_squared = 4.0;
+};
+
+/// The matched surface points as rows of the fit: targets without the constant bias; weights from
+/// the depth noise, the uncertainty of the bias and the model error (a share of the displacement
+/// since the bias was estimated); lower near contacts, and for outliers.
 class ShapeTargets {
  public:
-  explicit ShapeTargets(const ShapeConfig& config, double contact_weight);
+  ShapeTargets(const ShapeConfig& config, double contact_weight,
+               const ShapeTargetsTuning& tuning = {});
 
-  /// `x_m` [3n] the model's present shape, `learnt_x_m` the shape in which the bias was learnt.
+  /// `x_m` [3n] the model's present shape, `bias_x_m` the shape in which the bias was
+  /// estimated.
   void Build(const std::vector<correspondence::FeatureMatch>& matches, const DepthBias& bias,
              const Eigen::Isometry3d& T_robot_camera, const Eigen::VectorXd& x_m,
-             const Eigen::VectorXd& learnt_x_m, const std::vector<ShapeSite>& sites);
-  /// Huber's weights for the residuals at a shape, where that is near enough to tell outliers by.
+             const Eigen::VectorXd& bias_x_m, const std::vector<ShapeSite>& sites);
+  /// Huber's weights for the residuals at a shape, where that is near enough to recognise outliers.
   void WeighAt(const Eigen::VectorXd& x_m);
   /// Huber's weights for these residuals of the rows; true where one has changed much.
   bool Reweight(const Eigen::VectorXd& residual_m);
@@ -41,6 +55,7 @@ class ShapeTargets {
 
  private:
   ShapeConfig config_;
+  ShapeTargetsTuning tuning_;
   double contact_weight_;
   std::vector<robot::ObservationRow> rows_;
   std::vector<int> features_;

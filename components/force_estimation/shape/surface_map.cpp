@@ -9,17 +9,12 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Of the walk through the body to its other side,
-constexpr double kStep_m = 1e-3;
-/// which is turned no more than 60 degrees away.
-constexpr double kFacesThatWay = 0.5;
-
 geometry::TriangleSurface DrawnSurface(const robot::RobotModel& model) {
   const fem::TetMesh& mesh = model.body().mesh;
   return {mesh.nodes_m, fem::ExtractBoundary(mesh).DrawnTriangles()};
 }
 
-Eigen::Vector3d Interpolate(const geometry::TriangleSurface& surface, const SkinPoint& point) {
+Eigen::Vector3d Interpolate(const geometry::TriangleSurface& surface, const MaterialPoint& point) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     position += point.barycentric[i] * surface.Corner(point.triangle, i);
@@ -29,52 +24,53 @@ Eigen::Vector3d Interpolate(const geometry::TriangleSurface& surface, const Skin
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(const robot::RobotModel& model)
-    : rest_(DrawnSurface(model)), now_(rest_.surface()) {}
+SurfaceMap::SurfaceMap(const robot::RobotModel& model, const SurfaceMapTuning& tuning)
+    : tuning_(tuning), rest_(DrawnSurface(model)), now_(rest_.surface()) {}
 
 void SurfaceMap::Deform(const Eigen::VectorXd& x_m) {
   now_.Refit(Eigen::Map<const Eigen::Matrix3Xd>(x_m.data(), 3, x_m.size() / 3));
 }
 
-SkinPoint SurfaceMap::PointOf(const geometry::SurfacePoint& found) const {
-  SkinPoint point{.triangle = found.triangle, .barycentric = found.barycentric};
+MaterialPoint SurfaceMap::PointOf(const geometry::SurfacePoint& found) const {
+  MaterialPoint point{.triangle = found.triangle, .barycentric = found.barycentric};
   point.rest_m = Interpolate(rest_.surface(), point);
   point.distance_m = found.distance_m;
   return point;
 }
 
-SkinPoint SurfaceMap::NearestNow(const Eigen::Vector3d& position_m) const {
+MaterialPoint SurfaceMap::NearestNow(const Eigen::Vector3d& position_m) const {
   return PointOf(now_.Closest(position_m));
 }
 
-SkinPoint SurfaceMap::NearestAtRest(const Eigen::Vector3d& rest_m) const {
+MaterialPoint SurfaceMap::NearestAtRest(const Eigen::Vector3d& rest_m) const {
   return PointOf(rest_.Closest(rest_m));
 }
 
-std::optional<SkinPoint> SurfaceMap::OtherSideNow(const SkinPoint& point,
-                                                  const Eigen::Vector3d& inward,
-                                                  double farthest_m) const {
+std::optional<MaterialPoint> SurfaceMap::OtherSideNow(const MaterialPoint& point,
+                                                      const Eigen::Vector3d& inward,
+                                                      double farthest_m) const {
   const Eigen::Vector3d start_m = PositionNow_m(point);
-  for (double depth_m = kStep_m; depth_m <= farthest_m; depth_m += kStep_m) {
-    const SkinPoint next = NearestNow(start_m + depth_m * inward);
-    if (next.distance_m <= kStep_m && NormalNow(next).dot(inward) > kFacesThatWay) return next;
+  for (double depth_m = tuning_.step_m; depth_m <= farthest_m; depth_m += tuning_.step_m) {
+    const MaterialPoint next = NearestNow(start_m + depth_m * inward);
+    if (next.distance_m <= tuning_.step_m && NormalNow(next).dot(inward) > tuning_.least_cosine)
+      return next;
   }
   return std::nullopt;
 }
 
-Eigen::Vector3d SurfaceMap::PositionNow_m(const SkinPoint& point) const {
+Eigen::Vector3d SurfaceMap::PositionNow_m(const MaterialPoint& point) const {
   return Interpolate(now_.surface(), point);
 }
 
-Eigen::Vector3d SurfaceMap::NormalNow(const SkinPoint& point) const {
+Eigen::Vector3d SurfaceMap::NormalNow(const MaterialPoint& point) const {
   return geometry::TriangleNormal(now_.surface(), point.triangle);
 }
 
-Eigen::Vector3d SurfaceMap::NormalAtRest(const SkinPoint& point) const {
+Eigen::Vector3d SurfaceMap::NormalAtRest(const MaterialPoint& point) const {
   return geometry::TriangleNormal(rest_.surface(), point.triangle);
 }
 
-std::vector<int> SurfaceMap::TrianglesAround(const SkinPoint& point, double radius_m) const {
+std::vector<int> SurfaceMap::TrianglesAround(const MaterialPoint& point, double radius_m) const {
   const Eigen::Vector3d normal = NormalAtRest(point);
   std::vector<int> around = {point.triangle};
   for (const int triangle : rest_.TrianglesWithin(point.rest_m, radius_m)) {

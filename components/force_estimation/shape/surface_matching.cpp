@@ -18,11 +18,6 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// How far a surface may move between two frames, m: half a metre per second at 30 frames a second.
-constexpr double kMotion_m = 15e-3;
-/// Points that are asked for their nearest neighbour.
-constexpr Eigen::Index kSpacingSamples = 15;
-
 void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_node) {
   const rgbd::SensedCloud& cloud = frame.cloud;
   PALPATE_CHECK(cloud.sigma_m.size() == cloud.Count(), cloud.sigma_m.size(), cloud.Count());
@@ -32,10 +27,10 @@ void CheckInput(const ShapeFrame& frame, const Eigen::VectorXd& x_m, int last_no
   PALPATE_CHECK(x_m.size() > 3 * last_node + 2 && x_m.allFinite(), x_m.size(), last_node);
 }
 
-/// Median distance to the nearest neighbour, of points spread over the cloud, m.
-double Spacing_m(const Eigen::Matrix3Xf& points_m) {
+/// Median distance to the nearest neighbour of `most_samples` points spread over the cloud, m.
+double Spacing_m(const Eigen::Matrix3Xf& points_m, Eigen::Index most_samples) {
   if (points_m.cols() < 2) return 0.0;
-  const Eigen::Index samples = std::min(kSpacingSamples, points_m.cols());
+  const Eigen::Index samples = std::min(most_samples, points_m.cols());
   std::vector<float> squared_m2;
   for (Eigen::Index s = 0; s < samples; ++s) {
     const Eigen::Index k = s * points_m.cols() / samples;
@@ -51,17 +46,20 @@ double Spacing_m(const Eigen::Matrix3Xf& points_m) {
 }
 
 correspondence::MatchDistances ChooseDistances(const ShapeConfig& config,
-                                               const rgbd::SensedCloud& cloud) {
+                                               const rgbd::SensedCloud& cloud,
+                                               const SurfaceMatchingTuning& tuning) {
   correspondence::MatchDistances distances{config.hidden_distance_m, config.outlier_distance_m};
-  if (distances.hidden_m == 0.0) distances.hidden_m = 2.0 * Spacing_m(cloud.points_m);
+  if (distances.hidden_m == 0.0) {
+    distances.hidden_m = 2.0 * Spacing_m(cloud.points_m, tuning.spacing_samples);
+  }
   if (distances.outlier_m == 0.0) {
     std::vector<float> sigmas_m(cloud.sigma_m.data(), cloud.sigma_m.data() + cloud.sigma_m.size());
-    distances.outlier_m = kMotion_m + 3.0 * static_cast<double>(UpperMedian(sigmas_m));
+    distances.outlier_m = tuning.motion_m + 3.0 * static_cast<double>(UpperMedian(sigmas_m));
   }
   return distances;
 }
 
-/// For a patch, whose points do not aim at the feature's normal line.
+/// For a patch, whose points are not searched along the surface point's normal line.
 void MeasureLineDistances(const correspondence::SurfaceFeatures& features, const ShapeFrame& frame,
                           const Eigen::VectorXd& x_m,
                           std::vector<correspondence::FeatureMatch>* matches) {
@@ -80,6 +78,7 @@ void MeasureLineDistances(const correspondence::SurfaceFeatures& features, const
 struct SurfaceMatching::Parts {
   const correspondence::SurfaceFeatures& features;
   ShapeConfig config;
+  SurfaceMatchingTuning tuning;
   correspondence::MovingSurface surface;
   correspondence::PredictedView view;
   correspondence::PatchMatching patches;
@@ -87,9 +86,10 @@ struct SurfaceMatching::Parts {
 };
 
 SurfaceMatching::SurfaceMatching(const correspondence::SurfaceFeatures& features,
-                                 const ShapeConfig& config)
+                                 const ShapeConfig& config, const SurfaceMatchingTuning& tuning)
     : parts_(new Parts{features,
                        config,
+                       tuning,
                        correspondence::MovingSurface(features.triangles()),
                        correspondence::PredictedView(),
                        correspondence::PatchMatching(features),
@@ -104,12 +104,13 @@ const std::vector<correspondence::FeatureMatch>& SurfaceMatching::Match(
   CheckInput(frame, x_m, features.triangles().maxCoeff());
   matches.assign(static_cast<size_t>(features.Count()), correspondence::FeatureMatch{});
   if (frame.cloud.Count() == 0) return matches;
-  const correspondence::MatchDistances distances = ChooseDistances(parts_->config, frame.cloud);
+  const correspondence::MatchDistances distances =
+      ChooseDistances(parts_->config, frame.cloud, parts_->tuning);
   parts_->surface.MoveTo(x_m, frame.T_robot_camera.inverse());
   parts_->view.Look(parts_->surface.vertices_m(), parts_->surface.triangles());
   if (parts_->config.matching == "point") {
-    MatchPoints(features, frame.cloud, frame.T_robot_camera, x_m, parts_->view, distances,
-                &matches);
+    MatchPoints(features, frame.cloud, frame.T_robot_camera, x_m, parts_->view, distances, &matches,
+                parts_->tuning);
   } else {
     parts_->patches.Match(frame.cloud, frame.T_robot_camera, parts_->surface, parts_->view,
                           distances, &matches);

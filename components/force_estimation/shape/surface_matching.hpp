@@ -14,19 +14,33 @@
 
 namespace palpate::force_estimation {
 
-/// Algorithm 3 of the paper, with two ways to match: `point` takes the cloud point nearest to the
-/// normal line, as published; `patch` (the default) takes all cloud points that lie on the
-/// feature's share of the surface, found through the camera's view of the predicted surface, and
-/// averages their distances to it (robust mean), so that no measurement is thrown away.
-/// What the camera cannot see of the predicted surface (its own body hides it, or it is turned
-/// away) is hidden, whatever the cloud says; what it sees at a grazing angle counts little.
+struct SurfaceMatchingTuning {
+  /// Method `point`: depth before a surface point within which the rendered surface is the point's
+  /// own. Larger: points behind a thin part count as visible; smaller: rendering error hides
+  /// points.
+  double same_surface_m = 3e-3;
+  /// Largest motion of the surface between two frames: half a metre per second at 30 frames a
+  /// second. Larger: objects near the robot are matched as its surface; smaller: a fast robot is
+  /// lost.
+  double motion_m = 15e-3;
+  /// Points whose nearest neighbour gives the cloud's spacing. More: slower, a steadier estimate.
+  Eigen::Index spacing_samples = 15;
+};
+
+/// Algorithm 3 of the paper, with two methods: `point` takes the cloud point nearest to the normal
+/// line, as published; `patch` (the default) takes all cloud points on the surface point's share of
+/// the surface, found by rendering the predicted surface, and averages their distances to it
+/// (robust mean), so that all measurements are used. Parts of the predicted surface that are
+/// occluded by the body or face away from the camera are hidden, whatever the cloud holds there.
+/// Parts at a grazing angle have a low weight.
 ///
-/// d_m of 0 is twice the distance between neighbouring cloud points; d_l of 0 is 15 mm, by which a
-/// surface may move between two frames, and three sigmas of the cloud. For a patch d_m is how far
-/// beside the silhouette a cloud point may lie.
+/// d_m of 0 is twice the distance between neighbouring cloud points; d_l of 0 is the motion of the
+/// surface between two frames and three sigmas of the cloud. For a patch d_m is the largest
+/// distance of a cloud point from the silhouette, outside of it.
 class SurfaceMatching {
  public:
-  SurfaceMatching(const correspondence::SurfaceFeatures& features, const ShapeConfig& config);
+  SurfaceMatching(const correspondence::SurfaceFeatures& features, const ShapeConfig& config,
+                  const SurfaceMatchingTuning& tuning = {});
   ~SurfaceMatching();
 
   /// `x_m` [3n] the model's nodes, robot frame. One entry for each feature; holds until the next

@@ -5,8 +5,8 @@
 
 namespace palpate::force_estimation {
 
-/// Correlation of a feature's depth error with that of the next frame, as of stereo cameras; where
-/// the bias is learnt, it is measured (DepthBias).
+/// Correlation of a surface point's depth error with that of the next frame, as of stereo cameras;
+/// DepthBias estimates it from contact-free frames.
 inline constexpr double kFrameCorrelation = 0.3;
 /// Variance of a mean over many frames times their number, over that of a single frame: (1 + r) /
 /// (1 - r) of a first-order process (Bartlett, J. R. Stat. Soc. Suppl. 8 (1946) 27).

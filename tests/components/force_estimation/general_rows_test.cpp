@@ -190,7 +190,7 @@ TEST_F(GeneralRows, APriorHoldsTheForceBack) {
 
 TEST_F(GeneralRows, AMisplacedContactGoesWhereTheForceActs) {
   const SurfaceMap map(*model_);
-  const SkinPoint true_place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
+  const MaterialPoint true_place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
   const fem::StaticState truth =
       SolveTruth(*model_, {}, {LoadAt(*model_, true_place.rest_m, kRadius_m, kGeneralForce_N)});
   const RowTargets targets = TargetsAt(truth.x_m);
@@ -225,8 +225,8 @@ TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
   const fem::StaticState bent =
       SolveTruth(*model_, {}, {LoadAt(*model_, kPushedTip, kRadius_m, kGeneralForce_N)});
   map.Deform(bent.x_m);
-  const SkinPoint at_rest = map.NearestAtRest(kPushedTip + Eigen::Vector3d(-0.03, 0.002, 0.0));
-  const SkinPoint found = map.NearestNow(map.PositionNow_m(at_rest));
+  const MaterialPoint at_rest = map.NearestAtRest(kPushedTip + Eigen::Vector3d(-0.03, 0.002, 0.0));
+  const MaterialPoint found = map.NearestNow(map.PositionNow_m(at_rest));
   EXPECT_LT((found.rest_m - at_rest.rest_m).norm(), 1e-9);
   EXPECT_LT(found.distance_m, 1e-9);
   EXPECT_NEAR(map.NormalNow(at_rest).norm(), 1.0, 1e-12);
@@ -236,12 +236,12 @@ TEST_F(GeneralRows, TheSkinIsTheSameInEveryShape) {
 TEST_F(GeneralRows, TheSkinAroundAPointIsOnItsSideOfTheBody) {
   constexpr double kThroughTheBody_m = 0.05;
   const SurfaceMap map(*model_);
-  const SkinPoint place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
+  const MaterialPoint place = map.NearestAtRest(kPushedTip - Eigen::Vector3d(0.02, 0, 0));
   const std::vector<int> around = map.TrianglesAround(place, kThroughTheBody_m);
   ASSERT_GT(around.size(), 1U);
   EXPECT_EQ(around.front(), place.triangle);
   for (const int triangle : around) {
-    const SkinPoint other{.triangle = triangle};
+    const MaterialPoint other{.triangle = triangle};
     EXPECT_GT(map.NormalAtRest(other).dot(map.NormalAtRest(place)), 0.0);
   }
   EXPECT_EQ(map.TrianglesAround(place, 0.0).front(), place.triangle);

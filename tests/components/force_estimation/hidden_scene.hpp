@@ -147,7 +147,7 @@ class HiddenScene {
     }
     Status status = model.linearisation().Update(state.x_m, state.multipliers_N, force_N);
     if (!status.ok()) return status;
-    search->LookAt(state.x_m);
+    search->SetShape(state.x_m);
     responses.Clear();
     return responses.Add(model, rows, state.x_m, commands, state.multipliers_N);
   }

@@ -39,7 +39,7 @@ class Contacts : public testing::Test {
       EXPECT_TRUE(fit_.Match(frame).ok());
       bias_.Learn(fit_.matches(), free_.x_m, frame.T_robot_camera);
     }
-    fit_.LearntAt(free_.x_m);
+    fit_.SetBiasShape(free_.x_m);
     EXPECT_TRUE(bias_.Finish().ok());
   }
 
@@ -224,7 +224,7 @@ TEST_F(Contacts, ThreeThatNobodySeesAreFollowedTogether) {
   }
   fem::StaticState pushed = scene_.model->RestState();
   ASSERT_TRUE(scene_.model->Solve(cables_, loads, &pushed).status.ok());
-  fit_.book().ReplaceHidden(there);
+  fit_.tracks().ReplaceHidden(there);
   for (int k = 0; k < 3; ++k) {
     const ShapeFrame frame = FrameOf(pushed);
     Fit(frame);

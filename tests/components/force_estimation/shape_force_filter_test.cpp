@@ -48,7 +48,7 @@ TEST(ForceFilter, NoiseIsAveragedToWhatItsCovarianceSays) {
   EXPECT_GT(scatter_N, 0.4 * std::sqrt(filter.covariance_N2()(0, 0)));
 }
 
-TEST(ForceFilter, AForceThatIsToldWellFollowsAtOnce) {
+TEST(ForceFilter, AnAccurateForceIsFollowedAtOnce) {
   constexpr double kSigma_N = 0.003;
   ForceFilter filter(2.0);
   for (int k = 0; k <= 30; ++k) {
@@ -101,11 +101,22 @@ TEST(ForceFilter, ARampIsFollowedWithinWhatItsCovarianceSays) {
   EXPECT_GE(inside, 0.8);
 }
 
-TEST(ForceFilter, AJumpBeginsAnew) {
+TEST(ForceFilter, AJumpRestarts) {
   ForceFilter filter(0.1);
   for (int k = 0; k < 30; ++k) filter.Update(k / 30.0, kForce_N, Noise(0.02));
   filter.Update(1.0, -kForce_N, Noise(0.02));
   EXPECT_EQ(filter.force_N(), -kForce_N);
+}
+
+TEST(ForceFilter, ASmallerThresholdOfChangeFollowsASmallerJump) {
+  const Eigen::Vector3d jump_N(0.0, 0.0, 0.06);  // three sigmas of a frame
+  ForceFilter by_default(0.1), sensitive(0.1, {.changed_chi_squared = 4.0});
+  for (ForceFilter* filter : {&by_default, &sensitive}) {
+    for (int k = 0; k < 30; ++k) filter->Update(k / 30.0, kForce_N, Noise(0.02));
+    filter->Update(1.0, kForce_N + jump_N, Noise(0.02));
+  }
+  EXPECT_EQ(sensitive.force_N(), kForce_N + jump_N);
+  EXPECT_LT((by_default.force_N() - kForce_N).norm(), 0.5 * jump_N.norm()) << "averaged as noise";
 }
 
 TEST(ForceFilter, TurnsWithTheFrame) {

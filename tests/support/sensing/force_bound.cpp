@@ -19,8 +19,8 @@ namespace {
 
 using correspondence::FeatureMatch;
 using correspondence::MatchState;
+using force_estimation::MaterialPoint;
 using force_estimation::ShapeFrame;
-using force_estimation::SkinPoint;
 using force_estimation::Tangents;
 
 constexpr double kFriction = 0.3;
@@ -95,8 +95,9 @@ ForceBounds::Rows ForceBounds::RowsOf(const ShapeFrame& frame, const Eigen::Vect
 }
 
 /// [rows x 5] by the force along the inward normal and both tangents, and by the place along those.
-Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth, const SkinPoint& place,
-                                      const ShapeFrame& frame, const fem::StaticState& state,
+Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth,
+                                      const MaterialPoint& place, const ShapeFrame& frame,
+                                      const fem::StaticState& state,
                                       const std::vector<robot::ObservationRow>& rows) {
   force_estimation::ObservationJacobian responses;
   Expect(responses.Add(model_, rows, state.x_m, frame.cables, state.multipliers_N));
@@ -121,7 +122,7 @@ Eigen::MatrixXd ForceBounds::Jacobian(const virtual_robot::TrueForce& truth, con
 
 ForceBound ForceBounds::Of(const virtual_robot::TrueForce& truth, const ShapeFrame& frame,
                            int frames) {
-  const SkinPoint place = map_.NearestAtRest(truth.rest_position_m);
+  const MaterialPoint place = map_.NearestAtRest(truth.rest_position_m);
   const fem::SurfacePatch patch = model_.Patch(place.rest_m, shape_.contact_radius_m);
   fem::StaticState state = untouched_;
   Expect(model_.Solve(frame.cables, {{patch.weights, truth.force_N}}, &state).status);

@@ -44,7 +44,7 @@ class ForceBounds {
   struct Rows;
   Rows RowsOf(const force_estimation::ShapeFrame& frame, const Eigen::VectorXd& x_m, int frames);
   Eigen::MatrixXd Jacobian(const virtual_robot::TrueForce& truth,
-                           const force_estimation::SkinPoint& place,
+                           const force_estimation::MaterialPoint& place,
                            const force_estimation::ShapeFrame& frame, const fem::StaticState& state,
                            const std::vector<robot::ObservationRow>& rows);
 
