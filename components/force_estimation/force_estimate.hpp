@@ -42,6 +42,9 @@ struct ForceEstimate {
   std::vector<robot::CableState> cables;
 };
 
+/// Whether an estimate of this status may be used: forces were found, or none act.
+bool IsUsable(const Status& status);
+
 /// Standard deviation of |F|: along the force, and where there is none in the worst direction, N.
 double SigmaOfSize_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2);
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/force_estimation/node/make_pipeline.hpp"
 #include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"

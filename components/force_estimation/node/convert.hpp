@@ -23,8 +23,8 @@ FrameHead HeadOf(const idl::palpate_msgs::MarkerArray3& message,
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, MarkerFrame* frame);
 
-/// What perception says about a frame of the camera.
-Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message);
+/// Perception's status of a frame of the camera.
+Status StatusOfPerception(const idl::palpate_msgs::PerceptionReport& message);
 
 /// Contacts of the camera's frame, in the robot's. kInvalidInput for numbers that are not finite.
 Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
@@ -52,8 +52,5 @@ dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result);
 /// Without positions: the answer to a frame that was not estimated.
 dds::Message<idl::palpate_msgs::MeshState> NoMeshState(const FrameHead& head, const Status& status,
                                                        const std::string& mesh_hash);
-
-/// Whether an estimate may be used: forces were found, or none were needed.
-bool IsUsable(const Status& status);
 
 }  // namespace palpate::force_estimation

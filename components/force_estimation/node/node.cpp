@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/node/convert.hpp"
 #include "components/force_estimation/node/frame_gate.hpp"
+#include "components/force_estimation/node/make_pipeline.hpp"
 #include "components/force_estimation/node/marker_source.hpp"
 #include "components/force_estimation/node/shape_source.hpp"
 #include "libs/app/yaml.hpp"
@@ -49,8 +50,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
                                          std::unique_ptr<robot::RobotModel> model,
                                          const robot::CalibrationFile& calibration, int domain_id,
                                          dds::TopicTable table,
-                                         dds::NodeLog::ProcessLog process_log,
-                                         FrameEstimatorMaker maker)
+                                         dds::NodeLog::ProcessLog process_log, PipelineMaker maker)
     : config_(config),
       participant_(dds::ParticipantOf(config.dds, "palpate_force_estimation", domain_id),
                    std::move(table)),
@@ -58,7 +58,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       cables_overdue_(loop_.AddAlarm([this] { MatchWithCables(); })),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
-      worker_(std::move(model), maker ? maker : EstimatorMakerOf(config, calibration),
+      worker_(std::move(model), maker ? maker : PipelineMakerOf(config, calibration),
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
@@ -148,7 +148,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   }
   if (!calibration.moduli.empty()) in_use_.moduli = calibration.moduli;
   calibration_pending_ = std::make_shared<NewCalibration>(
-      calibration, maker_is_given_ ? FrameEstimatorMaker() : EstimatorMakerOf(config_, in_use_));
+      calibration, maker_is_given_ ? PipelineMaker() : PipelineMakerOf(config_, in_use_));
   sequence_pending_ = true;
   log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
                                   calibration.data + ") from the next frame on");

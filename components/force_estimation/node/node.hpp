@@ -26,12 +26,12 @@ namespace palpate::force_estimation {
 class ForceEstimationNode {
  public:
   /// `calibration`: what `model` has been given; older ones on /calibration are stale. One without
-  /// a date: none. `maker`: what estimates; empty: what the settings say. Throws InputError for bad
+  /// a date: none. `maker`: of the pipelines; empty: by the settings. Throws InputError for bad
   /// settings, RunError where DDS refuses.
   ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
                       const robot::CalibrationFile& calibration, int domain_id,
                       dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
-                      FrameEstimatorMaker maker = {});
+                      PipelineMaker maker = {});
 
   /// Works until Stop().
   void Run() { loop_.Run(); }

@@ -77,7 +77,7 @@ void ShapeSource::TakeReports() {
     parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
                             dds::ToPicture(message.picture)},
                            message.frame_counter,
-                           LookedFrom(message)};
+                           StatusOfPerception(message)};
   }
   PassOn();
 }
@@ -128,14 +128,15 @@ void ShapeSource::Accept(Parts parts) {
                      "where the camera stands is not known: no camera_pose is set, and nothing has "
                      "come on /calibration"});
   }
-  if (depth_bias_ && report.looked.ok()) {
+  if (depth_bias_ && report.perception.ok()) {
     const Status status = robot::CheckDepthPicture(*depth_bias_, report.origin.picture);
     if (!status.ok()) return events().refused(last_head_, status);
   }
   FrameInput input;
   input.head = last_head_;
-  auto& [frame, looked] = input.frame.emplace<SeenShape>();
-  looked = report.looked;
+  auto& shape = input.frame.emplace<PerceivedShape>();
+  shape.perception = report.perception;
+  ShapeFrame& frame = shape.frame;
   frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
   frame.cloud = std::move(*parts.cloud);
   frame.T_robot_camera = *T_robot_camera_;

@@ -45,7 +45,7 @@ class ShapeSource : public FrameSource {
   struct Report {
     Origin origin;
     uint64_t frame_counter = 0;
-    Status looked;
+    Status perception;
   };
   /// The parts of a frame, as far as they have come.
   struct Parts {
