@@ -37,9 +37,9 @@ FrameResult Worker::Estimate(FrameInput& input) {
   return {pipeline_->Update(std::move(input.frame)), input.head};
 }
 
-void Worker::Adopt(const NewCalibration& found) {
-  robot::ApplyCalibration(found.calibration, model_.get());
-  if (found.maker) maker_ = found.maker;
+void Worker::Adopt(const NewCalibration& change) {
+  robot::ApplyCalibration(change.calibration, model_.get());
+  if (change.maker) maker_ = change.maker;
 }
 
 }  // namespace palpate::force_estimation

@@ -12,8 +12,8 @@
 
 namespace palpate::force_estimation {
 
-/// Runs the pipeline in a thread of its own. Frames wait in a bounded queue in which a newer frame
-/// overtakes older ones, except those with a reference shape.
+/// Runs the pipeline in a thread of its own. Frames wait in a bounded queue. A newer frame replaces
+/// older ones there, except those with a reference shape and those that begin a sequence.
 class Worker {
  public:
   /// `on_result` is called from that thread when a result waits. Throws what `maker` throws.
@@ -27,7 +27,7 @@ class Worker {
 
  private:
   FrameResult Estimate(FrameInput& input);
-  void Adopt(const NewCalibration& found);
+  void Adopt(const NewCalibration& change);
 
   std::unique_ptr<robot::RobotModel> model_;
   PipelineMaker maker_;
