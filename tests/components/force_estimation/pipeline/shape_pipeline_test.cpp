@@ -21,7 +21,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
-const Eigen::Vector3d kTip_m(0.0, 0.015, 0.03);
+const Eigen::Vector3d kBeamTip_m(0.0, 0.015, 0.03);
 
 /// The pipeline of a beam with an estimator that records its inputs and returns given results.
 class ShapePipelineTest : public testing::Test {
@@ -132,20 +132,20 @@ TEST_F(ShapePipelineTest, KnownContactsReplaceThoseOfPerceptionAndTheSettingsTho
   PerceivedShape shape = Seen();
   shape.frame.contacts.resize(2);
   shape.frame.contacts[0].name = "near";
-  shape.frame.contacts[0].position_m = kTip_m;
+  shape.frame.contacts[0].position_m = kBeamTip_m;
   shape.frame.contacts[1].name = "far";
   shape.frame.contacts[1].position_m = {-0.05, 0.015, 0.03};
-  shape.loads = {{.name = "load_1", .position_m = kTip_m}};
+  shape.loads = {{.name = "load_1", .position_m = kBeamTip_m}};
   ShapePipeline without_settings = MakePipeline(0);
   without_settings.Update(shape);
   EXPECT_THAT(LastContacts(), ElementsAre("load_1", "far"));
-  ShapePipeline with_settings = MakePipeline(0, {{.name = "given", .position_m = kTip_m}});
+  ShapePipeline with_settings = MakePipeline(0, {{.name = "given", .position_m = kBeamTip_m}});
   with_settings.Update(shape);
   EXPECT_THAT(LastContacts(), ElementsAre("given", "far"));
 }
 
 TEST_F(ShapePipelineTest, MovesKnownContactsWithThePredictedShape) {
-  ShapePipeline pipeline = MakePipeline(0, {{.name = "given", .position_m = kTip_m}});
+  ShapePipeline pipeline = MakePipeline(0, {{.name = "given", .position_m = kBeamTip_m}});
   estimate_.x_m += Eigen::Vector3d(0.0, 0.0, -0.01).replicate(estimate_.x_m.size() / 3, 1);
   pipeline.Update(Seen());
   pipeline.Update(Seen());
