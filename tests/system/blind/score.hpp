@@ -13,7 +13,7 @@
 
 namespace palpate::blind {
 
-/// What is large enough to be found (DIAGNOSIS, "Acceptance"). `sigma_m` is that of diagnose.yaml.
+/// Smallest effects that must be found. `sigma_m` is that of diagnose.yaml.
 struct Limits {
   double sigma_m = 4e-4;
   double single_m = 3e-4;      ///< at least this,

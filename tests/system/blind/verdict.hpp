@@ -40,7 +40,7 @@ struct Residuals {
   double noise = 0.0;
 };
 
-/// verdict.json, as far as the judge reads it (ARCHITECTURE, "The command").
+/// verdict.json (docs/experiment.md), as far as the judge reads it.
 struct Verdict {
   std::string verdict = {};
   std::vector<Suspect> causes = {};
