@@ -45,7 +45,7 @@ struct Score {
   Share wrongly_unfit;
   // Causes that were named rightly, of whatever size.
   Share covered;                         ///< parameters inside their 95 % intervals
-  Share told;                            ///< parameters of which the verdict says anything
+  Share told;                            ///< parameters that the verdict has
   std::vector<double> parameter_errors;  ///< |error| / |truth|, vectors as a whole
   std::vector<double> fault_errors;      ///< |error| / |truth - nominal|
   std::vector<double> place_errors_m;    ///< of loads

@@ -50,9 +50,9 @@ struct Verdict {
 
   /// There is a gap that the catalogue does not explain.
   bool IsFlagged() const { return verdict == "unexplained" || verdict == "partly_explained"; }
-  /// Somebody is accused.
+  /// The verdict accuses.
   bool Accuses() const;
-  /// The most probable ones, no two alike: causes, then those that cannot be told from the first,
+  /// The most probable ones, no two equal: causes, then those not identifiable from the first,
   /// then alternatives.
   std::vector<const Suspect*> First(std::size_t count) const;
 };
