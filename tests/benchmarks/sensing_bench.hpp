@@ -9,8 +9,8 @@
 
 namespace palpate::benchmarks {
 
-/// Force estimation from depth images of four_leg on the virtual bench, whose physics, mesh and noise
-/// the estimator does not know: the time of one frame, and the accuracy of forces in sets of
+/// Force estimation from depth images of four_leg on the virtual bench, whose physics, mesh and
+/// noise the estimator does not know: the time of one frame, and the accuracy of forces in sets of
 /// contacts. The figures of a set are its counters (PrintSensing).
 ///
 /// PALPATE_SENSING_CONTACTS: single contacts of a set (10; two at once and hidden ones: half as
