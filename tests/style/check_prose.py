@@ -19,14 +19,9 @@ REPLACED = re.compile(
     r"\b(told|nobody|anew|looked at|gives way|give way|believed in|is believed)\b", re.IGNORECASE)
 # Not yet in these words. A file leaves the list when it is rewritten, and none joins it.
 PENDING = {
-    "CHANGELOG.md",
     "components/calibration/README.md",
     "components/calibration/cloud/README.md",
     "components/calibration/live/README.md",
-    "docs/experiment.md",
-    "docs/near_incompressibility.md",
-    "tests/data/beam_calculix/README.md",
-    "tests/system/blind/README.md",
 }
 NOT_OURS = {"LICENSE.md"}
 CODE = re.compile(r"`[^`]*`")

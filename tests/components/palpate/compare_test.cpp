@@ -83,7 +83,7 @@ TEST(TruthTimeline, IsSteadyWhereTheForceStays) {
   EXPECT_TRUE(truth.IsSteady("ball", 1.31, 0.3, 0.05));
   EXPECT_TRUE(truth.IsSteady("ball", 1.28, 0.3, 0.05));  // 2 % is within the share
   EXPECT_FALSE(truth.IsSteady("other", 1.5, 0.3, 0.05));
-  EXPECT_FALSE(truth.IsSteady("ball", 2.2, 0.3, 0.05));  // nobody knows
+  EXPECT_FALSE(truth.IsSteady("ball", 2.2, 0.3, 0.05));  // unknown
 }
 
 TEST(CompareFrame, GivesEachTrueForceTheNearestEstimate) {

@@ -70,7 +70,7 @@ TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
   ASSERT_TRUE(file.geometry_scale);
   EXPECT_EQ(file.geometry_scale->scale, ValueNamed(fit, "geometry_scale")->value);
   EXPECT_EQ(file.geometry_scale->standard_error, ValueNamed(fit, "geometry_scale")->standard_error);
-  EXPECT_TRUE(file.cable_routes.empty()) << "nobody looked for them";
+  EXPECT_TRUE(file.cable_routes.empty()) << "they were not to be estimated";
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
 }
 

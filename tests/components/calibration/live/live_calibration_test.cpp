@@ -164,7 +164,7 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   ASSERT_EQ(found.drives.size(), 2u);
   EXPECT_EQ(found.drives[1].cable, "a");
   EXPECT_EQ(found.drives[1].drive.offset_m, 1e-3);
-  // Told u, it takes in 1.1 (1.2 u + 2 mm) + 0.1 mm.
+  // Commanded u, it takes in 1.1 (1.2 u + 2 mm) + 0.1 mm.
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(0.0), 2.3e-3, 1e-15);
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(1e-2), 1.32e-2 + 2.3e-3, 1e-15);
   EXPECT_EQ(found.drives[0].standard_error.offset_m, 3e-4);

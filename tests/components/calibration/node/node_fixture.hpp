@@ -147,7 +147,7 @@ class CalibrationNodeTest : public testing::Test {
     }
     ASSERT_TRUE(requests_.Write(message));
   }
-  /// The first thing that is told of it with this state, from now on.
+  /// The next status message about the request with this state.
   Told WaitForState(const std::string& id, const std::string& state) {
     Told found;
     EXPECT_TRUE(test_.WaitFor([&] {

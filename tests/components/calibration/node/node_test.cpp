@@ -175,7 +175,7 @@ TEST_F(CalibrationNodeTest, WorksOnOneRequestAtATimeWhichStaysTheLastWord) {
   WaitForState("one", "done");
 }
 
-/// A fit that nobody lets end of itself.
+/// A fit that does not end by itself.
 class HeldFit : public CalibrationNodeTest {
  protected:
   /// Two settings from this time on, of a request that is taken.

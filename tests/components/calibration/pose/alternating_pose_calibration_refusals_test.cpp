@@ -162,7 +162,7 @@ TEST_F(Algorithm1Refusals, IterationsUsedUp) {
   EXPECT_NEAR(pose.rms_m, found.residual_rms_m, 1e-12);
 }
 
-/// No cable pulls: nothing to learn of inputs but that they are none; the pose is told.
+/// No cable pulls: the inputs are estimated as zero, and the pose is estimated.
 TEST_F(Algorithm1Refusals, ZeroMotionIsSaid) {
   const fem::StaticState rest = SolveTensions(*model_, Eigen::VectorXd::Zero(4));
   std::vector<MarkerSighting> sightings = Sight(*model_, rest, TableOnePose(), kNineMarkers);

@@ -107,7 +107,7 @@ TEST_F(ShapeNodeTest, SaysStaleOnceASecondWhenTheCloudsStopAndGoesOnWhenTheyCome
 
 TEST_F(ShapeNodeTest, ANewEpochKeepsWhatWasLearntAndAnotherCameraDoesNot) {
   Ask({.stamp_ns = 100, .epoch = 1});
-  Ask({.stamp_ns = 200, .epoch = 2});                        // opened anew
+  Ask({.stamp_ns = 200, .epoch = 2});                        // opened again
   Ask({.stamp_ns = 50, .epoch = 3});                         // the next recording
   Ask({.stamp_ns = 60, .device = "Palpate-2", .epoch = 3});  // another camera
   Ask({.stamp_ns = 50, .device = "Palpate-2", .epoch = 1});  // played again from the start
