@@ -165,11 +165,11 @@ TEST_F(ShapeNodeTest, SaysWhereTheCalibrationNoLongerHoldsAndHowFarTheCameraMove
   moved.state = DriftReport::State::kMoved;
   moved.motion << 0.001, 0.002, 0.003, 0.004, 0.005, 0.006;
   moved.standard_error << 0.01, 0.02, 0.03, 0.04, 0.05, 0.06;
-  moved.advice = "calibrate anew";
+  moved.advice = "calibrate again";
   script_.SetDrift(moved);
   ASSERT_TRUE(said_of_frames("moved"));
   EXPECT_EQ(values_["status"], "no_calibration");
-  EXPECT_THAT(said_, HasSubstr("calibrate anew"));
+  EXPECT_THAT(said_, HasSubstr("calibrate again"));
   EXPECT_EQ(values_["drift_turn_rad"], "0.001 0.002 0.003");
   EXPECT_EQ(values_["drift_turn_error_rad"], "0.01 0.02 0.03");
   EXPECT_EQ(values_["drift_shift_m"], "0.004 0.005 0.006");
