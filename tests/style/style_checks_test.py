@@ -297,9 +297,9 @@ class CheckSizes(TreeTest):
 
 
 class CheckProse(TreeTest):
-    def found(self, text, pending=frozenset()):
+    def found(self, text):
         self.plant("docs/page.md", text)
-        return self.rules(check_prose.check_tree(self.root, pending)[0])
+        return self.rules(check_prose.check_tree(self.root)[0])
 
     def test_sentences_of_25_words_and_no_more(self):
         self.assertEqual(self.found("# Page\n\n" + "w " * 24 + "end. Another one.\n"), "")
@@ -313,10 +313,6 @@ class CheckProse(TreeTest):
     def test_long_lines_and_replaced_words(self):
         self.assertIn("docs/page.md:1: 121 columns", self.found("x" * 121 + "\n"))
         self.assertIn('docs/page.md:1: "told"', self.found("The robot is told.\n"))
-
-    def test_a_pending_page_that_conforms_leaves_the_list(self):
-        self.assertEqual(self.found("The robot is told.\n", {"docs/page.md"}), "")
-        self.assertIn("take it out", self.found("The robot moves.\n", {"docs/page.md"}))
 
 
 class CheckLinks(TreeTest):

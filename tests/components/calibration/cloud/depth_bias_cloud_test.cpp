@@ -19,9 +19,9 @@ class DepthBiasOfClouds : public ::testing::Test {
  protected:
   DepthBiasOfClouds() {
     settings_.fit_depth_bias = true;
-    settings_.request.drive_offsets = false;
-    settings_.facet_error_share = 0.0;  // the clouds are of the model's own skin
-    settings_.skin_errors = NoSkinErrors();
+    settings_.request.actuator_offsets = false;
+    settings_.facet_error_share = 0.0;  // the clouds are of the model's own surface
+    settings_.surface_errors = NoSurfaceErrors();
     settings_.depth_bias_sigma = kSigma;
   }
 

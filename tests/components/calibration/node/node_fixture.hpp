@@ -162,7 +162,7 @@ class CalibrationNodeTest : public testing::Test {
     return found;
   }
 
-  /// The robot's markers with a drive that counts from kOffset_m, as the camera sees them.
+  /// The robot's markers with an actuator that counts from kOffset_m, as the camera sees them.
   Eigen::Matrix3Xd MarkersSeen(double told_m) {
     fem::StaticState state = robot_->RestState();
     const auto result =

@@ -96,7 +96,7 @@ TEST_F(UnlabelledMarkers, MirroredOnesAreRefused) {
   RecordThree({.names = false, .spoil = [](const Eigen::Vector3d& p) {
                  return Eigen::Vector3d(-p.x(), p.y(), p.z());
                }});
-  ExpectFailure(Calibrate(), "or seen in a mirror");
+  ExpectFailure(Calibrate(), "or mirrored points");
 }
 
 TEST_F(UnlabelledMarkers, OfAnotherRobotAreRefused) {
@@ -117,7 +117,7 @@ TEST_F(UnlabelledMarkers, TooFewAreRefused) {
 TEST_F(UnlabelledMarkers, OnOneLineAreRefused) {
   RecordThree({.names = false,
                .spoil = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), 0.3, 0.5); }});
-  ExpectFailure(Calibrate(), "no pose and inputs bring 5 of the points to markers");
+  ExpectFailure(Calibrate(), "no pose and tensions match 5 of the points with markers");
 }
 
 TEST_F(UnlabelledMarkers, NeedACamerasFrame) {
