@@ -15,7 +15,7 @@
 namespace palpate::force_estimation {
 namespace {
 
-const std::string kTip = "tip: 0, 0.015, 0.03, 0.004";
+const std::string kTipContact = "tip: 0, 0.015, 0.03, 0.004";
 
 /// A reference frame, then a force at the tip that grows, with noise.
 std::vector<MarkerFrame> GrowingPush() {
@@ -44,7 +44,7 @@ void ExpectSame(const ForceEstimate& a, const ForceEstimate& b) {
 }
 
 TEST(MarkerPipeline, EstimatesAsTheEstimatorAloneWithAndWithoutMonitors) {
-  for (const auto& contacts : {std::vector{kTip}, std::vector<std::string>()}) {
+  for (const auto& contacts : {std::vector{kTipContact}, std::vector<std::string>()}) {
     const auto model = Build(BeamRobot()), model_alone = Build(BeamRobot());
     MarkerPipeline pipeline(*model, WithContacts(contacts), robot::CalibrationFile());
     MarkerForceEstimator alone(*model_alone, WithContacts(contacts));
@@ -62,7 +62,7 @@ TEST(MarkerPipeline, EstimatesAsTheEstimatorAloneWithAndWithoutMonitors) {
 
 TEST(MarkerPipeline, KnowsTheStateOfFramesWithForcesOnly) {
   const auto model = Build(BeamRobot());
-  MarkerPipeline pipeline(*model, WithContacts({kTip}), robot::CalibrationFile());
+  MarkerPipeline pipeline(*model, WithContacts({kTipContact}), robot::CalibrationFile());
   const std::vector<MarkerFrame> frames = GrowingPush();
   const PipelineResult& result = pipeline.Update(frames.front());
   EXPECT_FALSE(result.state_is_known);
