@@ -111,7 +111,7 @@ TEST_F(MarkerDriftTest, FindsACameraThatMovedByTwoMillimetresOrAThirdOfADegree) 
     EXPECT_FALSE(Watch(places_m, 7.0)) << last_.advice;
     EXPECT_EQ(last_.state, State::kHolds);
     EXPECT_TRUE(Watch(Seen(places_m, shift_m, turn_rad), 6.0));
-    EXPECT_THAT(last_.advice, testing::HasSubstr("calibrate anew"));
+    EXPECT_THAT(last_.advice, testing::HasSubstr("calibrate again"));
     const Eigen::Matrix3Xd off_m = Seen(places_m, shift_m, turn_rad) - places_m;
     const double error_m = 4.0 * last_.standard_error.tail<3>().norm() + 2e-4;
     EXPECT_NEAR(last_.motion.tail<3>().norm(), off_m.rowwise().mean().norm(), error_m);

@@ -84,7 +84,7 @@ TEST_F(GapWatchTest, NamesTheCableNextToWhichTheModelIsSuddenlyOff) {
   ASSERT_EQ(watch_.report().state, GapState::kHolds);
   Watch(30.0, 36.0, off_m);
   ASSERT_EQ(watch_.report().state, GapState::kGrown) << "seed " << kSeed;
-  EXPECT_THAT(watch_.report().advice, HasSubstr("cable north or its drive"));
+  EXPECT_THAT(watch_.report().advice, HasSubstr("cable north or its actuator"));
   EXPECT_THAT(watch_.report().advice, HasSubstr("palpate diagnose"));
 }
 

@@ -108,7 +108,7 @@ TEST_F(ShapeNodeTest, SaysStaleOnceASecondWhenTheCloudsStopAndGoesOnWhenTheyCome
 
 TEST_F(ShapeNodeTest, ANewEpochKeepsWhatWasLearntAndAnotherCameraDoesNot) {
   Ask({.stamp_ns = 100, .epoch = 1});
-  Ask({.stamp_ns = 200, .epoch = 2});                        // opened anew
+  Ask({.stamp_ns = 200, .epoch = 2});                        // opened again
   Ask({.stamp_ns = 50, .epoch = 3});                         // the next recording
   Ask({.stamp_ns = 60, .device = "Palpate-2", .epoch = 3});  // another camera
   Ask({.stamp_ns = 50, .device = "Palpate-2", .epoch = 1});  // played again from the start
@@ -166,11 +166,11 @@ TEST_F(ShapeNodeTest, SaysWhereTheCalibrationNoLongerHoldsAndHowFarTheCameraMove
   moved.state = DriftReport::State::kMoved;
   moved.motion << 0.001, 0.002, 0.003, 0.004, 0.005, 0.006;
   moved.standard_error << 0.01, 0.02, 0.03, 0.04, 0.05, 0.06;
-  moved.advice = "calibrate anew";
+  moved.advice = "calibrate again";
   script_.SetDrift(moved);
   ASSERT_TRUE(said_of_frames("moved"));
   EXPECT_EQ(values_["status"], "no_calibration");
-  EXPECT_THAT(said_, HasSubstr("calibrate anew"));
+  EXPECT_THAT(said_, HasSubstr("calibrate again"));
   EXPECT_EQ(values_["drift_turn_rad"], "0.001 0.002 0.003");
   EXPECT_EQ(values_["drift_turn_error_rad"], "0.01 0.02 0.03");
   EXPECT_EQ(values_["drift_shift_m"], "0.004 0.005 0.006");
