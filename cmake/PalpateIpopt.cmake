@@ -13,6 +13,6 @@ if(NOT IPOPT_LIBRARY OR NOT IPOPT_INCLUDE_DIR)
 endif()
 add_library(palpate_ipopt INTERFACE)
 target_include_directories(palpate_ipopt SYSTEM INTERFACE ${IPOPT_INCLUDE_DIR})
-# Ipopt 3.11's headers include <cstddef> only where they are told that it exists.
+# Ipopt 3.11's headers include <cstddef> only if HAVE_CSTDDEF is defined.
 target_compile_definitions(palpate_ipopt INTERFACE HAVE_CSTDDEF)
 target_link_libraries(palpate_ipopt INTERFACE ${IPOPT_LIBRARY})

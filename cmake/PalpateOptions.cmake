@@ -22,8 +22,8 @@ option(PALPATE_UNITY "Compile many sources of a target at a time" OFF)
 
 # -Wno-restrict, -Wno-stringop-overflow: GCC 12 warns without cause inside std::string's operator+
 # (GCC bug 105651). What the optimiser guesses about bounds and initialisation depends on what it
-# inlines, so it warns but never stops a build. The same holds for a name that shadows one of another
-# source of its unit; in the debug preset a unit is one source.
+# inlines, so it warns but never stops a build. The same holds for a name that shadows one of
+# another source of its unit; in the debug preset a unit is one source.
 add_library(palpate_warnings INTERFACE)
 target_compile_options(palpate_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Woverloaded-virtual -Wdouble-promotion

@@ -12,7 +12,7 @@ endif()
 # share the compiler's own default.
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
-# ccache looks at what a precompiled header was made of only when told that macros do not matter.
+# ccache caches precompiled headers only with a sloppiness that ignores changes of macros.
 if(PALPATE_CCACHE)
   set(launcher env CCACHE_SLOPPINESS=pch_defines,time_macros ${PALPATE_CCACHE})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # write_manuals.sh SHARE PROGRAM...: asks the programs of the current folder for their manual pages
 # and completions, and writes them where man and bash-completion expect them below SHARE. The first
-# program has verbs; each of these gets a page of its own.
+# program has verbs; each of these gets a page of its own, palpate-VERB or, where a program has that
+# name, palpate_VERB.
 set -euo pipefail
 
 readonly share=$1
@@ -22,5 +23,7 @@ COMP_WORDS=("$1" '')
 COMP_CWORD=1
 "_$1"
 for verb in "${COMPREPLY[@]}"; do
-  "./$1" "$verb" --man >"$pages/$1-$verb.1"
+  page=$pages/$1-$verb.1
+  [[ " $* " != *" $1-$verb "* ]] || page=$pages/$1_$verb.1
+  "./$1" "$verb" --man >"$page"
 done

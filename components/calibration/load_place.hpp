@@ -7,8 +7,8 @@
 
 namespace palpate::calibration {
 
-/// Where a load acts, in metres on the undeformed robot, robot frame: on one that is larger than
-/// the model another part of the body is there.
+/// Where a load acts, m, undeformed robot, robot frame. It stays there when the size of the robot
+/// is estimated: another part of the body is then at that place.
 struct LoadPlace {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   double patch_radius_m = 0.0;  ///< 0: a point

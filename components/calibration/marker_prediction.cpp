@@ -109,7 +109,7 @@ Status MarkerPredictor::PredictReference(const StaticObservation& observation, M
   return Status::Ok();
 }
 
-/// The coordinates that were seen.
+/// Appends the observed coordinates.
 void MarkerPredictor::AppendRows(const StaticObservation& observation,
                                  const Eigen::VectorXd& residual_m,
                                  const Eigen::MatrixXd& jacobian_m, Eigen::Index* row,

@@ -13,17 +13,17 @@
 
 namespace palpate::calibration {
 
-/// Observed minus predicted marker positions for given moduli, and the prediction's derivative with
-/// respect to ln E. Rows are the coordinates that were seen, over all observations.
+/// Observed minus predicted marker positions for given moduli, and the derivative of the prediction
+/// with respect to ln E. Rows: the observed coordinates of all observations.
 struct Prediction {
-  Eigen::VectorXd scaled_residual;     ///< [rows] over its sigma
+  Eigen::VectorXd scaled_residual;     ///< [rows] over its standard deviation
   Eigen::MatrixXd scaled_jacobian;     ///< [rows x moduli]
   std::vector<double> residual_rms_m;  ///< of each observation
   double residual_rms_all_m = 0.0;
 };
 
-/// Predicts the markers of static observations. `model` and `observations` must outlive it; the
-/// model's moduli and gravity are changed along the way.
+/// Predicts the markers of static observations. `model` and `observations` must outlive it. It
+/// changes moduli and gravity of the model.
 class MarkerPredictor {
  public:
   MarkerPredictor(robot::RobotModel& model, const std::vector<StaticObservation>& observations,
@@ -31,10 +31,10 @@ class MarkerPredictor {
 
   int rows() const { return rows_; }
 
-  /// Sets the moduli and solves all equilibria, from the states that were accepted last on. Not ok
-  /// where one cannot be reached or linearised.
+  /// Sets the moduli and solves all equilibria, starting from the accepted states. Not ok where one
+  /// is not reached or has no tangent.
   Status Predict(const Eigen::VectorXd& log_modulus, Prediction* prediction);
-  /// Keeps the equilibria of the last Predict as the ones to start from.
+  /// The equilibria of the last Predict become the start of the next one.
   void Accept() { accepted_ = states_; }
 
   void SetModuli(const Eigen::VectorXd& log_modulus);

@@ -9,15 +9,15 @@
 
 namespace palpate::calibration {
 
-/// A marker as the camera sees it.
+/// A measured marker.
 struct MarkerSighting {
   int marker = -1;                                       ///< index into RobotBody::markers
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
-  /// Of the position and of the model there, camera frame; positive definite.
+  /// Of measurement and model at the marker, camera frame; positive definite.
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// A marker of a robot at rest trembles by less from picture to picture.
+/// Largest distance between two measurements of one marker of a robot at rest.
 inline constexpr double kStillMarker_m = 3e-3;
 
 /// [3 x n]

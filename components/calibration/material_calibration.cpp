@@ -17,6 +17,16 @@ namespace palpate::calibration {
 
 namespace {
 
+struct MaterialFitTuning {
+  double longest_step = 1.0;  ///< of ln E in one iteration: more may miss equilibria
+  /// A prior standard deviation of 1000 on ln E, so that undetermined moduli stay where they are.
+  double damping = 1e-6;
+  int halvings = 20;         ///< of a step that raises the residual
+  double rounding = 1e-12;   ///< share by which a residual may rise
+  double at_minimum = 1e-5;  ///< full step below which no better residual means the minimum
+};
+constexpr MaterialFitTuning kMaterialTuning;
+
 /// Gauss-Newton on the logarithms of the moduli.
 class MaterialFit {
  public:
@@ -80,11 +90,9 @@ Status MaterialFit::Iterate(MaterialCalibration* result) {
   Status status = predictor_.Predict(log_modulus_, &prediction_);
   if (!status.ok()) return status;
   predictor_.Accept();
-  constexpr double kLongestStep = 1.0;  // a factor of e in one iteration
-  // A prior sigma of 1000 on ln E: nothing where the data say something, and no step where not.
-  constexpr double kDamping = 1e-6;
+  constexpr double kLongestStep = kMaterialTuning.longest_step;
   const Eigen::MatrixXd damping =
-      kDamping * Eigen::MatrixXd::Identity(log_modulus_.size(), log_modulus_.size());
+      kMaterialTuning.damping * Eigen::MatrixXd::Identity(log_modulus_.size(), log_modulus_.size());
   while (result->iterations < settings_.max_iterations) {
     ++result->iterations;
     const Eigen::VectorXd gradient =
@@ -95,9 +103,9 @@ Status MaterialFit::Iterate(MaterialCalibration* result) {
     if (longest > kLongestStep) step *= kLongestStep / longest;
     status = StepDown(&step);
     if (status.ok()) continue;
-    // Nothing better within reach: the minimum, where the full step was down to rounding.
+    // No lower residual: the minimum, where the full step was within rounding.
     const Status determined = CheckDetermined();
-    return determined.ok() && longest > 1e-5 ? status : determined;
+    return determined.ok() && longest > kMaterialTuning.at_minimum ? status : determined;
   }
   const Status determined = CheckDetermined();
   return determined.ok() ? Status(StatusCode::kNotConverged, "iterations used up") : determined;
@@ -105,13 +113,15 @@ Status MaterialFit::Iterate(MaterialCalibration* result) {
 
 /// Takes the step, halved until it leads to equilibria and to no larger residual.
 Status MaterialFit::StepDown(Eigen::VectorXd* step) {
-  constexpr int kHalvings = 20;
   const double before = prediction_.scaled_residual.squaredNorm();
   Status status;
-  for (int halving = 0; halving < kHalvings; ++halving, *step *= 0.5) {
+  for (int halving = 0; halving < kMaterialTuning.halvings; ++halving, *step *= 0.5) {
     Prediction trial;
     status = predictor_.Predict(log_modulus_ + *step, &trial);
-    if (!status.ok() || !(trial.scaled_residual.squaredNorm() <= before * (1.0 + 1e-12))) continue;
+    if (!status.ok() ||
+        !(trial.scaled_residual.squaredNorm() <= before * (1.0 + kMaterialTuning.rounding))) {
+      continue;
+    }
     predictor_.Accept();
     log_modulus_ += *step;
     prediction_ = std::move(trial);
@@ -144,7 +154,7 @@ Status MaterialFit::CheckDetermined() const {
   return Status::Ok();
 }
 
-/// A residual larger than the noise widens the errors by its ratio (Birge), never narrows them.
+/// Birge's ratio: a residual beyond the noise widens the errors, and never narrows them.
 void MaterialFit::Conclude(MaterialCalibration* result) const {
   const Eigen::Index p = log_modulus_.size();
   result->chi_squared = prediction_.scaled_residual.squaredNorm();

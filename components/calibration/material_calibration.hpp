@@ -12,31 +12,31 @@
 
 namespace palpate::calibration {
 
-/// Shape of the body from which the displacements of an observation are counted.
+/// Reference shape of an observation's displacements.
 enum class ReferenceShape {
-  kNone,         ///< none: marker rest positions are those of the robot file
-  kUndeformed,   ///< the body was held in its undeformed shape
-  kEquilibrium,  ///< at rest under its own weight and the observation's cables, no load
+  kNone,         ///< none: marker positions of the undeformed body are those of the robot file
+  kUndeformed,   ///< the undeformed body
+  kEquilibrium,  ///< equilibrium under its weight and the observation's cables, without loads
 };
 
 /// One static phase with known loads.
 struct StaticObservation {
   std::string name;             ///< for messages
   Eigen::VectorXd position_m;   ///< [3m] mean marker positions, robot frame
-  Eigen::VectorXd variance_m2;  ///< [3m] of them; <= 0: marker not seen
+  Eigen::VectorXd variance_m2;  ///< [3m] of these means; <= 0: not observed
   ReferenceShape reference = ReferenceShape::kNone;
-  Eigen::VectorXd reference_position_m;  ///< [3m] where there is a reference shape
+  Eigen::VectorXd reference_position_m;  ///< [3m] in the reference shape; kNone: empty
   std::vector<robot::CableCommand> cables;
   std::vector<robot::DeadLoad> loads;
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
 };
 
 struct MaterialCalibrationSettings {
-  /// Materials to fit: RobotBody::materials, 0 the body, k + 1 region k. The others stay.
+  /// Materials whose modulus is estimated: RobotBody::materials, 0 the body, k + 1 region k.
   std::vector<int> materials = {0};
   int max_iterations = 50;
-  double tolerance = 1e-7;  ///< largest change of any ln E at which the fit stops
-  /// ln E known no better than this (one sigma) counts as not determined by the data.
+  double tolerance = 1e-7;  ///< converged where no ln E changes by more
+  /// ln E with a larger standard deviation is not determined by the data.
   double undetermined_sigma = 0.5;
 };
 
@@ -57,12 +57,12 @@ struct MaterialCalibration {
   std::vector<double> residual_rms_of_observation_m;
 };
 
-/// Fits Young's moduli to static observations by Gauss-Newton on ln E with analytic sensitivities
-/// (all equilibria to the static solver's tolerance). Standard errors come from the variances,
-/// widened where the residual exceeds them. The model is left with the fitted moduli where the fit
-/// succeeds, and as it was where it fails: kUnobservable names the modulus that the data do not
-/// determine (for instance E under displacement-controlled cables without a known force).
-/// The moduli hold for this mesh and element only.
+/// Fits Young's moduli to static observations by Gauss-Newton on ln E with exact sensitivities; all
+/// equilibria are solved to the static solver's tolerance. Standard errors follow from the
+/// variances and carry Birge's ratio. On success the model has the fitted moduli, on failure those
+/// of before. kUnobservable names the modulus that the data do not determine (such as E under
+/// displacement control without a known force); kNotConverged: no smaller residual, or
+/// max_iterations. The moduli hold for this mesh and element only.
 MaterialCalibration CalibrateMaterial(robot::RobotModel& model,
                                       const std::vector<StaticObservation>& observations,
                                       const MaterialCalibrationSettings& settings);

@@ -14,8 +14,8 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Mean position of each robot marker over `window` and its variance, both in the robot frame; a
-/// variance of -1 where the marker was not seen.
+/// Mean position of each robot marker over `window` and its variance, both in the robot frame;
+/// variance -1: not observed.
 void AverageMarkers(const experiment::Experiment& experiment,
                     const experiment::Recording& recording, const Eigen::Isometry3d& T_robot,
                     const experiment::TimeWindow& window, const robot::RobotModel& model,
@@ -37,7 +37,7 @@ void AverageMarkers(const experiment::Experiment& experiment,
                                        T_robot.linear().transpose() / mean.count;
     const auto row = ToIndex(3 * m);
     position_m->segment<3>(row) = T_robot * mean.mean_m;
-    // Rounding of the file bounds what any mean can be known to.
+    // Rounding of the file bounds the accuracy of a mean.
     constexpr double kFloor_m2 = 1e-14;
     variance_m2->segment<3>(row) =
         covariance.diagonal().array() + marker_bias_m * marker_bias_m + kFloor_m2;

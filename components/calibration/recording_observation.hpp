@@ -9,10 +9,10 @@
 
 namespace palpate::calibration {
 
-/// The static phase of a recording as CalibrateMaterial takes it: marker means over the steady
-/// window (absent: the whole recording), cable inputs and known loads at its middle, gravity turned
-/// with the base. The variance of a mean is that of the noise (measured, and no less than the
-/// experiment's markers_sigma_m) over the number of frames, plus `marker_bias_m` squared.
+/// The static phase of a recording for CalibrateMaterial: marker means over the steady window
+/// (absent: the whole recording), cable inputs and known loads at its middle, gravity turned with
+/// the base. The variance of a mean is the noise variance (measured, at least markers_sigma_m of
+/// the experiment) over the number of frames, plus `marker_bias_m` squared.
 /// Throws InputError (file:line) as force_estimation's reading of recordings does, and where no
 /// frame lies in a window.
 StaticObservation ObserveRecording(const experiment::Experiment& experiment,

@@ -16,13 +16,17 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Cables that moved less than this are still.
-constexpr double kStill_m = 1e-5;
-constexpr double kStill_N = 1e-3;
+/// Larger values take slow motions for static phases.
+struct RecordingPhaseTuning {
+  double still_m = 1e-5;     ///< range of a displacement without motion
+  double still_N = 1e-3;     ///< range of a tension without motion
+  double farthest_m = 0.02;  ///< distance of a known load from the surface
+};
+constexpr RecordingPhaseTuning kPhaseTuning;
 
 robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
   const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
-  constexpr double kFarthest_m = 0.02;
+  constexpr double kFarthest_m = kPhaseTuning.farthest_m;
   if (patch.distance_m > kFarthest_m) {
     throw InputError(load.where, "the load lies " + FormatNumber(patch.distance_m) +
                                      " m from the body's surface; at most " +
@@ -44,7 +48,7 @@ bool CablesAreStill(const experiment::Recording& recording) {
       most = std::max(most, *sample);
     }
     const bool by_tension = column.quantity == experiment::CableQuantity::kTension;
-    if (most - least > (by_tension ? kStill_N : kStill_m)) return false;
+    if (most - least > (by_tension ? kPhaseTuning.still_N : kPhaseTuning.still_m)) return false;
   }
   return true;
 }
@@ -54,13 +58,13 @@ std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recor
   if (recording.steady_window_s) return {*recording.steady_window_s};
   const auto& frames = recording.markers->frames;
   if (CablesAreStill(recording)) return {{frames.front().t_s, frames.back().t_s}};
-  std::vector<experiment::TimeWindow> moments;
+  std::vector<experiment::TimeWindow> times;
   const auto count = std::min(frames.size(), static_cast<std::size_t>(most_frames));
   for (std::size_t k = 0; k < count; ++k) {
     const double t_s = frames[count == 1 ? 0 : k * (frames.size() - 1) / (count - 1)].t_s;
-    moments.push_back({t_s, t_s});
+    times.push_back({t_s, t_s});
   }
-  return moments;
+  return times;
 }
 
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,

@@ -11,24 +11,24 @@
 
 namespace palpate::calibration {
 
-/// Whether no cable moved, by more than drives and sensors tremble, in the whole recording.
+/// Whether no cable moves in the recording by more than the noise of actuators and sensors.
 bool CablesAreStill(const experiment::Recording& recording);
 
-/// Windows to average markers over: a static phase is one, of a motion up to `most_frames` single
-/// moments. The recording has markers.
+/// Windows over which markers are averaged: one for a static phase, up to `most_frames` single
+/// times for a motion. The recording must have markers.
 std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recording,
                                               int most_frames);
 
-/// What the cables were commanded at this time of the recording, as the model's drives read it;
-/// kNone for a cable of which nothing was recorded.
+/// Cable inputs at this time of the recording, corrected by the model's actuators; kNone for a
+/// cable without recorded input.
 std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
                                           const robot::RobotModel& model,
                                           robot::CableInput preferred, double t_s);
 
-/// The known loads of that time. Throws InputError (file:line) where one lies off the body.
+/// The known loads at that time. Throws InputError (file:line) where one lies off the body.
 std::vector<robot::DeadLoad> LoadsAt(const experiment::Recording& recording,
                                      const robot::RobotModel& model, double t_s);
-/// Where these act.
+/// Where they act.
 std::vector<LoadPlace> LoadPlacesAt(const experiment::Recording& recording, double t_s);
 
 }  // namespace palpate::calibration

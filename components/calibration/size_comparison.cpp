@@ -12,9 +12,13 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr double kDisagreement = 0.05;
-/// A rigid motion leaves just the difference of the sizes, and noise comes to that.
-constexpr double kMostOfDifference = 1.5;
+struct SizeComparisonTuning {
+  double disagreement = 0.05;  ///< relative difference: less may be that of cables and noise
+  /// Largest residual over the difference of the sizes: a registration leaves the difference
+  /// itself, and noise adds to it.
+  double most_of_difference = 1.5;
+};
+constexpr SizeComparisonTuning kSizeTuning;
 
 double SquaresAboutMiddle_m2(const Eigen::Matrix3Xd& points_m) {
   if (points_m.cols() == 0) return 0.0;
@@ -39,17 +43,18 @@ double SizeComparison::model_m() const {
 }
 
 bool SizeComparison::Disagrees() const {
-  return std::abs(seen_m() - model_m()) > kDisagreement * model_m();
+  return std::abs(seen_m() - model_m()) > kSizeTuning.disagreement * model_m();
 }
 
 bool SizeComparison::Explains(double residual_rms_m) const {
-  return Disagrees() && residual_rms_m <= kMostOfDifference * std::abs(seen_m() - model_m());
+  return Disagrees() &&
+         residual_rms_m <= kSizeTuning.most_of_difference * std::abs(seen_m() - model_m());
 }
 
 std::string SizeComparison::Text(const std::string& what) const {
   std::array<char, 256> text;
   std::snprintf(text.data(), text.size(),
-                "the sizes disagree: %s lie %.2f mm from their middle (RMS), those of the "
+                "the sizes disagree: %s are %.2f mm from their centre (RMS), those of the "
                 "model %.2f mm: another robot, or one %.2f times as large as its file says",
                 what.c_str(), 1e3 * seen_m(), 1e3 * model_m(), seen_m() / model_m());
   return text.data();

@@ -8,20 +8,20 @@
 
 namespace palpate::calibration {
 
-/// Compares the size of what was seen with that of the model, whatever lies where: RMS distances of
-/// points from the middle of their picture, over all pictures.
+/// Compares the size of measured points with that of the model, independently of pose: RMS
+/// distances of points from the centroid of their frame, over all frames.
 class SizeComparison {
  public:
-  /// [3 x n] points of one picture and those of the model, in the same order.
+  /// [3 x n] points of one frame and those of the model, in the same order.
   void Add(const Eigen::Matrix3Xd& seen_m, const Eigen::Matrix3Xd& model_m);
 
   double seen_m() const;
   double model_m() const;
-  /// By more than the cables make of a robot's size.
+  /// By more than cables change the size of a robot.
   bool Disagrees() const;
-  /// And by so much that this, and not places that are wrong, left the residual (RMS distance).
+  /// And the difference is large enough to cause this residual (RMS distance).
   bool Explains(double residual_rms_m) const;
-  /// "the sizes disagree: ...", with both numbers; `what` lies there.
+  /// "the sizes disagree: ...", with both numbers; `what`: the kind of points.
   std::string Text(const std::string& what = "markers") const;
 
  private:

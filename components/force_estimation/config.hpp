@@ -11,11 +11,11 @@
 
 namespace palpate::force_estimation {
 
-/// Settings of MarkerForceEstimator and of the model it works with.
+/// Settings of MarkerForceEstimator and of its model.
 struct Config {
-  /// Where contacts may be: each "name: x, y, z[, patch radius][ along dx, dy, dz]" (m, undeformed
-  /// body, robot frame; the direction where it is known, as of a hung weight). Empty: the robot's
-  /// feature points are searched.
+  /// Given contacts, each "name: x, y, z[, patch radius][ along dx, dy, dz]" (m, undeformed body,
+  /// robot frame; with a direction where it is known, as of a hung weight). Empty: contacts are
+  /// searched among the robot's feature points.
   std::vector<std::string> contacts;
   double candidate_patch_radius_m = 0.005;
   int max_contacts = 1;
@@ -34,8 +34,7 @@ struct Config {
   void Visit(Visitor&& v) {
     v("contacts", contacts,
       "Contacts as \"name: x, y, z[, patch radius][ along dx, dy, dz]\", m, undeformed body; "
-      "empty: "
-      "search");
+      "empty: search");
     v("candidate_patch_radius_m", candidate_patch_radius_m, {.min = 0.0},
       "Radius of the patch of a contact found by search");
     v("max_contacts", max_contacts, {.min = 1.0, .max = 5.0},

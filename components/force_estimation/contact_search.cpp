@@ -15,10 +15,16 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Candidates that are fitted to equilibrium: the first-order ranking errs among neighbours.
-constexpr size_t kFittedCandidates = 3;
-/// A fit at the old places counts as good up to this times the residual that the search left.
-constexpr double kKeepFactor = 2.0;
+struct ContactSearchTuning {
+  /// Candidates that are fitted to equilibrium. The first-order ranking errs among neighbours: more
+  /// find the best one more often, at a fit each.
+  size_t fitted_candidates = 3;
+  /// Contacts of the last frame are kept while the weighted residual is below this times that of
+  /// the search. Larger: steadier locations and fewer searches. Smaller: a contact that moves is
+  /// followed sooner.
+  double keep_factor = 2.0;
+};
+constexpr ContactSearchTuning kContactSearchTuning;
 
 double MeanSpacing(const std::vector<FitSite>& candidates) {
   double sum = 0.0;
@@ -39,7 +45,7 @@ std::vector<size_t> Ranking(const std::vector<double>& chi_squared) {
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](size_t a, size_t b) { return chi_squared[a] < chi_squared[b]; });
-  order.resize(std::min(order.size(), kFittedCandidates));
+  order.resize(std::min(order.size(), kContactSearchTuning.fitted_candidates));
   return order;
 }
 
@@ -83,15 +89,15 @@ const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
     }
     Status added = AddContact(targets, cables);
     if (added.ok() || contact == 0) result_.status = added;
-    if (!added.ok()) break;  // what was found before it stands
+    if (!added.ok()) break;  // the contacts before it hold
   }
   searched_chi_squared_ = result_.fit.chi_squared;
   searched_force_N_ = result_.state.lambda_f_N.norm();
   return result_;
 }
 
-/// Fits the forces at the places of the last frame. Model errors grow with the forces, so what
-/// counts as a good fit does too.
+/// Fits the forces at the locations of the last frame. Model errors grow with the forces, and the
+/// limit of the residual with them.
 bool ContactSearch::KeepContacts(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables,
                                  double noise_limit) {
@@ -102,7 +108,8 @@ bool ContactSearch::KeepContacts(const RowTargets& targets,
   const ForceFit& fit = fitter_.Fit(targets, cables, &state);
   if (!fit.status.ok()) return false;
   const double growth = state.lambda_f_N.squaredNorm() / (searched_force_N_ * searched_force_N_);
-  const double searched = kKeepFactor * searched_chi_squared_ * std::max(1.0, growth);
+  const double searched =
+      kContactSearchTuning.keep_factor * searched_chi_squared_ * std::max(1.0, growth);
   if (fit.chi_squared > std::max(noise_limit, searched)) return false;
   result_.fit = fit;
   result_.state = std::move(state);

@@ -12,20 +12,20 @@
 
 namespace palpate::force_estimation {
 
-/// Finds where on the surface forces act, from the deformation alone: the feature points are
-/// screened to first order, the most likely are fitted to equilibrium, and another contact joins as
-/// long as the residual is beyond the noise. Contacts that still explain the markers in the next
-/// frame stay where they are and keep their names.
+/// Searches contact locations from the deformation alone, among the robot's feature points. All
+/// candidates are screened to first order, the best are fitted to equilibrium, and contacts are
+/// added one by one while the residual is beyond the noise (Config::significance). Contacts that
+/// still explain the markers of the next frame keep their location and name.
 class ContactSearch {
  public:
   struct Result {
-    Status status;  ///< kNoContact: the markers lie where the model without contact has them
+    Status status;  ///< kNoContact: the model without contact explains the markers
     ForceFit fit;
     ModelState state;
     std::vector<ContactSite> sites;
     std::vector<FitSite> fit_sites;
-    /// Distance within which sites explain the markers as well, at 95 %, and no less than half the
-    /// distance between candidates.
+    /// Radius of the 95 % confidence region of the location, m; at least half the distance between
+    /// candidates.
     double location_ci95_m = 0.0;
   };
 
@@ -50,9 +50,9 @@ class ContactSearch {
   ForceFitter& fitter_;
   std::vector<FitSite> candidates_;
   double spacing_m_ = 0.0;             ///< mean distance from a candidate to the next
-  std::vector<size_t> chosen_;         ///< candidates that are contacts by now
+  std::vector<size_t> chosen_;         ///< candidates at which there is a contact
   double searched_chi_squared_ = 0.0;  ///< of the last search
-  double searched_force_N_ = 0.0;      ///< size of all forces then
+  double searched_force_N_ = 0.0;      ///< norm of all forces of that search
   Result result_;
 };
 

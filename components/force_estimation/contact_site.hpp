@@ -9,7 +9,7 @@
 
 namespace palpate::force_estimation {
 
-/// A place on the undeformed body where an external force may act.
+/// A given contact location on the undeformed body.
 struct ContactSite {
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
@@ -18,9 +18,8 @@ struct ContactSite {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-/// Reads Config::contacts, each "name: x, y, z[, patch radius][ along dx, dy, dz]".
-/// Throws InputError for text that is
-/// no site, or a name given twice.
+/// Reads Config::contacts, each "name: x, y, z[, patch radius][ along dx, dy, dz]", m. Throws
+/// InputError for other text, and for a name given twice.
 std::vector<ContactSite> ParseContactSites(const std::vector<std::string>& texts);
 
 }  // namespace palpate::force_estimation

@@ -9,6 +9,10 @@
 
 namespace palpate::force_estimation {
 
+bool IsUsable(const Status& status) {
+  return status.ok() || status.code() == StatusCode::kNoContact;
+}
+
 double SigmaOfSize_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2) {
   const double size_N = force_N.norm();
   if (size_N > 0.0) {

@@ -22,13 +22,22 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// F' C^-1 F in the directions that were fitted.
+struct MarkerTuning {
+  /// Largest distance of a given contact from the body's surface, m. Larger accepts places that are
+  /// measured less well; smaller finds a wrong frame or unit sooner.
+  double largest_contact_distance_m = 0.02;
+  /// Variances below this share of the largest are of directions that were not fitted.
+  double least_variance = 1e-12;
+};
+constexpr MarkerTuning kMarkerTuning;
+
+/// F' C^-1 F in the directions that were fitted: the statistic of the test for a contact.
 double SquaredDistanceFromZero(const ContactForce& contact) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.covariance_N2);
   double sum = 0.0;
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double variance = eigen.eigenvalues()[k];
-    if (variance <= 1e-12 * eigen.eigenvalues()[2]) continue;
+    if (variance <= kMarkerTuning.least_variance * eigen.eigenvalues()[2]) continue;
     const double component = eigen.eigenvectors().col(k).dot(contact.force_N);
     sum += component * component / variance;
   }
@@ -46,7 +55,7 @@ class MarkerForceEstimator::Impl {
         modulus_sigma_(modulus_sigma),
         clock_(std::move(clock)),
         sites_(ParseContactSites(config.contacts)),
-        tare_(model),
+        offsets_(model),
         fitter_(model, config),
         free_state_(model.RestState()) {
     if (model.body().markers.empty()) throw InputError("the robot file names no markers");
@@ -113,25 +122,24 @@ class MarkerForceEstimator::Impl {
   std::vector<ContactSite> sites_;
   std::vector<FitSite> fit_sites_;
   std::vector<double> marker_weight_;
-  MarkerOffsetCalibration tare_;
+  MarkerOffsetCalibration offsets_;
   ForceFitter fitter_;
   std::optional<ContactSearch> search_;
   RowTargets targets_;
-  double freedom_ = 0.0;         ///< coordinates used; those on a contact count by their weight
+  double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
   ModelState state_;             ///< last fit
   ForceEstimate estimate_;
   std::vector<ContactForce> withdrawn_;  ///< keeps its memory for the next frame
-  bool published_ = false;               ///< something of the present frame
+  bool published_ = false;               ///< the estimate has a state of this frame
 };
 
 fem::SurfacePatch MarkerForceEstimator::Impl::PatchOf(const ContactSite& site) const {
   const fem::SurfacePatch patch = model_.Patch(site.position_m, site.patch_radius_m);
-  constexpr double kFarthest_m = 0.02;
-  if (patch.distance_m > kFarthest_m) {
+  if (patch.distance_m > kMarkerTuning.largest_contact_distance_m) {
     throw InputError("contact '" + site.name + "' lies " + std::to_string(patch.distance_m) +
-                     " m from the body's surface; at most " + std::to_string(kFarthest_m) +
-                     " m is allowed");
+                     " m from the body's surface; at most " +
+                     std::to_string(kMarkerTuning.largest_contact_distance_m) + " m is allowed");
   }
   return patch;
 }
@@ -146,10 +154,10 @@ bool MarkerForceEstimator::Impl::StandsOnContact(const robot::BodyMarker& marker
 Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
   if (Status status = CheckFrame(frame); !status.ok()) return status;
   if (frame.reference != ReferenceShape::kNone) {
-    tare_.Add(frame);
+    offsets_.Add(frame);
     return {StatusCode::kNoCalibration, "reference frame: marker offsets are being set"};
   }
-  if (Status status = tare_.Finish(); !status.ok()) return status;
+  if (Status status = offsets_.Finish(); !status.ok()) return status;
   if (Status status = SetTargets(frame); !status.ok()) return status;
   return sites_.empty() ? SearchSites(frame) : FitGivenSites(frame);
 }
@@ -172,13 +180,13 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
   for (size_t m = 0; m < frame.markers.size(); ++m) {
     const MarkerObservation& marker = frame.markers[m];
     const auto row = static_cast<Eigen::Index>(3 * m);
-    const bool used = marker.valid && marker.position_m.allFinite() && tare_.Usable(m);
+    const bool used = marker.valid && marker.position_m.allFinite() && offsets_.Usable(m);
     for (Eigen::Index i = 0; i < 3; ++i) {
       const double given = marker.sigma_m[i];
       const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
       const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
       targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
-      targets_.value_m[row + i] = used ? marker.position_m[i] - tare_.offset_m()[row + i] : 0.0;
+      targets_.value_m[row + i] = used ? marker.position_m[i] - offsets_.offset_m()[row + i] : 0.0;
       if (!(targets_.weight[row + i] > 0.0)) continue;
       ++targets_.rows;
       freedom_ += marker_weight_[m];
@@ -194,8 +202,7 @@ Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
   return model_.Solve(frame.cables, {}, &free_state_).status;
 }
 
-/// Goes on from the last frame's state; where that leads nowhere, once more from the equilibrium
-/// without contact.
+/// Starts at the last frame's state; where that diverges, again at the equilibrium without contact.
 Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
   const fem::TimeBudget budget(config_.frame_budget_s > 0.0
                                    ? config_.frame_budget_s
@@ -207,7 +214,7 @@ Status MarkerForceEstimator::Impl::FitGivenSites(const MarkerFrame& frame) {
     status = Fit(frame, budget);
   }
   const bool diverged = !status.ok() && status.code() != StatusCode::kBudgetReached;
-  // Without a state to go on from there is no way to keep to the budget.
+  // Without a state to start at the budget cannot be kept.
   if (diverged && !(state_.valid && budget.Over())) status = FitFromFreeState(frame);
   state_.valid = status.ok() || status.code() == StatusCode::kBudgetReached;
   if (!status.ok()) return status;
@@ -231,7 +238,7 @@ Status MarkerForceEstimator::Impl::Fit(const MarkerFrame& frame, const fem::Time
   return fit.status;
 }
 
-/// A frame may be used where a force of it may, or where none acts.
+/// A frame may be used where one of its forces may, or where none acts.
 Status MarkerForceEstimator::Impl::StatusOfContacts() const {
   bool none_acts = true;
   for (const ContactForce& contact : estimate_.contacts) {
@@ -280,7 +287,7 @@ void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
   }
 }
 
-/// Nothing of an earlier frame stands for this one.
+/// A frame that failed must not show values of an earlier one.
 void MarkerForceEstimator::Impl::Withdraw() {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   HideContacts();
@@ -307,7 +314,7 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
     misfit.response_m = fitter_.Response();
     return misfit;
   }
-  // The search has fitted other sites after those that it chose.
+  // The fitter holds the last sites that the search tried, not those that it chose.
   const std::vector<FitSite>& sites = search_->result().fit_sites;
   const auto count = static_cast<Eigen::Index>(estimate_.contacts.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
@@ -323,8 +330,8 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
   return misfit;
 }
 
-/// A residual larger than the noise says that the model, too, is wrong: the intervals are widened
-/// by its ratio (Birge), never narrowed.
+/// A residual beyond the noise is a sign of model error: the intervals are widened by the Birge
+/// ratio, never narrowed.
 void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<FitSite>& fit_sites,
                                          const std::vector<ContactSite>& sites,
                                          double location_ci95_m) {

@@ -19,37 +19,39 @@
 
 namespace palpate::force_estimation {
 
-/// What a frame's fit left of the markers, for whoever asks what else explains it.
+/// Residual of a frame's fit, and what contact forces could make of it.
 struct MarkerMisfit {
-  Eigen::VectorXd residual_m;  ///< [3m] observed - model; 0 where a marker was not used
+  Eigen::VectorXd residual_m;  ///< [3m] measured - model; 0 where a marker was not used
   Eigen::VectorXd weight;      ///< [3m] 1/m^2; 0: not used
-  Eigen::MatrixXd response_m;  ///< [3m x 3k] to the contacts' forces, per N, under the cable inputs
+  /// [3m x 3k] displacement of the markers for each newton of the contact forces, under the cable
+  /// inputs, m/N.
+  Eigen::MatrixXd response_m;
 };
 
-/// External forces from marker displacements: the QP of eqs. (11) to (14) with the cable inputs
-/// imposed as forces (13) or displacements (14), relinearised until the model is in equilibrium.
-/// Frames are taken one after the other; the state goes on from one to the next. Frames with a
-/// reference shape only set the marker offsets (a tare) and give kNoCalibration.
+/// External forces from marker positions: the QP of eqs. (11) to (14) of the paper with prescribed
+/// cable tensions (13) or displacements (14), relinearised until the model is in equilibrium. Each
+/// frame starts at the state of the one before. Frames with a reference shape only set the marker
+/// offsets and give kNoCalibration.
 class MarkerForceEstimator {
  public:
-  /// `model` must outlive the estimator. `youngs_modulus_relative_sigma` of the calibration enters
-  /// the intervals. Throws InputError where a robot without markers is given, or a site lies far
-  /// from the body. `clock`: by which frame_budget_s is counted.
+  /// `model` must outlive the estimator. `youngs_modulus_relative_sigma`: relative standard error
+  /// of the modulus, which widens the intervals. `clock`: of frame_budget_s. Throws InputError for
+  /// a robot without markers, too many given contacts, and one far from the body's surface.
   MarkerForceEstimator(robot::RobotModel& model, const Config& config,
                        double youngs_modulus_relative_sigma = 0.0,
                        fem::SecondsClock clock = fem::SteadySeconds);
   ~MarkerForceEstimator();
 
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
-  /// after the first frame, as long as none needs a restoration (fit/force_fitter.hpp).
+  /// after the first frame, unless one needs a continuation step (fit/force_fitter.hpp).
   const ForceEstimate& Update(const MarkerFrame& frame);
 
-  /// Of the last frame; nothing (weights 0) where no fit of it stands.
+  /// Of the last frame; weights of 0 where its fit failed.
   MarkerMisfit Misfit();
 
   /// The given contact sites; empty where contacts are searched.
   const std::vector<ContactSite>& sites() const;
-  /// The last converged state of given contacts, kept apart from frames that failed.
+  /// The last converged state of given contacts; later frames that failed do not change it.
   const ModelState& last_good() const;
 
  private:

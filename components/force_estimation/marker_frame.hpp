@@ -10,17 +10,18 @@
 
 namespace palpate::force_estimation {
 
-/// What is known of the body's shape while a frame was taken.
+/// Known shape of the body in a frame.
 enum class ReferenceShape {
-  kNone,         ///< nothing: forces are estimated
+  kNone,         ///< unknown: forces are estimated
   kUndeformed,   ///< held in its undeformed shape
-  kEquilibrium,  ///< at rest under its own weight and its cables, nobody touches it
+  kEquilibrium,  ///< contact-free, in static equilibrium under its weight and its cables
 };
 
 struct MarkerObservation {
   bool valid = false;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
-  Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();     ///< one sigma; 0: Config's
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();     ///< standard deviations along the robot's
+                                                         ///< axes; 0: Config::marker_sigma_m
 };
 
 struct MarkerFrame {

@@ -38,7 +38,7 @@ Status MarkerOffsetCalibration::Finish() {
     offset_.segment<3>(row) = sum_.segment<3>(row) / counts_[m] - model_positions.segment<3>(row);
   }
   open_ = false;
-  tared_ = true;
+  calibrated_ = true;
   return Status::Ok();
 }
 

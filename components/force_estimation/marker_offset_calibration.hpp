@@ -12,24 +12,24 @@
 
 namespace palpate::force_estimation {
 
-/// Constant offsets between the markers as they are measured and as the model has them, from frames
-/// in which the shape of the body was known.
+/// Constant marker offsets, measured minus model, from frames of a known shape of the body. All
+/// consecutive frames of one reference shape are averaged.
 class MarkerOffsetCalibration {
  public:
   explicit MarkerOffsetCalibration(robot::RobotModel& model);
 
-  /// Takes one frame with a reference shape. One of another shape, or the first after Offset() was
-  /// asked for, starts a new tare.
+  /// Adds a frame with a reference shape. Another shape than before, and the first frame after
+  /// Finish(), begin a new calibration.
   void Add(const MarkerFrame& frame);
 
-  /// Finishes the tare where frames were added since. kOk also where there never was one: the
-  /// offsets are zero then.
+  /// Computes the offsets where frames were added since the last call. kOk also without any frame:
+  /// the offsets are zero then. Else the status of the solution for the equilibrium.
   Status Finish();
 
-  /// Measured minus model [3m], robot frame, m; 0 for markers that no reference frame showed.
+  /// Measured minus model [3m], robot frame, m; 0 for markers that were in no reference frame.
   const Eigen::VectorXd& offset_m() const { return offset_; }
-  /// Whether the marker may be used: seen in the tare, or there was none.
-  bool Usable(size_t marker) const { return !tared_ || counts_[marker] > 0; }
+  /// Whether the marker may be used: it has an offset, or there was no calibration.
+  bool Usable(size_t marker) const { return !calibrated_ || counts_[marker] > 0; }
 
  private:
   Status ModelPositions(Eigen::VectorXd* positions_m);
@@ -40,7 +40,7 @@ class MarkerOffsetCalibration {
   Eigen::VectorXd offset_;
   std::vector<int> counts_;
   bool open_ = false;
-  bool tared_ = false;
+  bool calibrated_ = false;
 };
 
 }  // namespace palpate::force_estimation

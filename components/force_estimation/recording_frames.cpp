@@ -29,15 +29,28 @@ Eigen::Vector3d RotateSigma(const Eigen::Matrix3d& R_robot_measurement,
   return covariance.diagonal().cwiseSqrt();
 }
 
+std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording,
+                                          const robot::RobotModel& model,
+                                          robot::CableInput preferred, double t_s) {
+  using Quantity = experiment::CableQuantity;
+  std::vector<robot::CableCommand> commands;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const std::string& cable = model.body().cables[static_cast<size_t>(c)].name;
+    commands.push_back(model.CommandFor(
+        c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
+        experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));
+  }
+  return commands;
+}
+
 std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experiment,
                                            const experiment::Recording& recording,
                                            const robot::RobotModel& model,
                                            robot::CableInput preferred) {
   const std::vector<std::string> marker_names = model.MarkerNames();
-  const std::vector<std::string> cable_names = model.CableNames();
   const experiment::MarkerTracks& tracks = experiment::RequireMarkers(recording);
   experiment::CheckMarkers(recording, marker_names);
-  experiment::CheckCables(recording, cable_names);
+  experiment::CheckCables(recording, model.CableNames());
   const Eigen::Isometry3d T_robot_measurement =
       experiment::RequireRobotFromMarkers(experiment, recording);
   const Eigen::Vector3d sigma_m = RotateSigma(
@@ -59,13 +72,7 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
       }
       frame.markers.push_back(marker);
     }
-    for (int c = 0; c < model.CableCount(); ++c) {
-      using Quantity = experiment::CableQuantity;
-      const std::string& cable = cable_names[static_cast<size_t>(c)];
-      frame.cables.push_back(model.CommandFor(
-          c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, measured.t_s),
-          experiment::CableInputAt(recording, cable, Quantity::kTension, measured.t_s), preferred));
-    }
+    frame.cables = CablesAt(recording, model, preferred, measured.t_s);
     frames.push_back(std::move(frame));
   }
   return frames;

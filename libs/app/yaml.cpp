@@ -155,8 +155,7 @@ ConfigNode ParseYaml(const std::string& text, const std::string& name) {
     const bool tab_before = tab_line > 0 && tab_line <= error.mark.line + 1;
     if (tab_before) {
       throw InputError({name, tab_line, 1},
-                       "not valid YAML: the line is indented by a tab; "
-                       "YAML wants blanks");
+                       "not valid YAML: the line is indented by a tab; use spaces");
     }
     throw InputError(Locate(name, error.mark), "not valid YAML: " + Excerpt(error.msg));
   }

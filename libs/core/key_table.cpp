@@ -30,7 +30,7 @@ constexpr std::array<Unit, 23> kMixedUpUnits{{
     {"mg", "mg"},       {"mN", "mN"},       {"kN", "kN"},       {"in", "in"},
     {"m", "m"},         {"g", "g"},         {"N", "N"},
 }};
-// Nobody writes these in another unit.
+// No file has these in another unit.
 constexpr std::array<Unit, 8> kOtherUnits{{
     {"rad_Nm", "rad/(N m)"},
     {"rad_m", "rad/m"},

@@ -73,7 +73,7 @@ TopicTable::TopicTable(std::vector<TopicSettings> topics) : topics_(std::move(to
   std::set<std::string> names;
   for (const TopicSettings& topic : topics_) {
     if (!names.insert(topic.name).second) {
-      throw InputError("topic '" + topic.name + "' stands twice in the topic table");
+      throw InputError("topic '" + topic.name + "' is given twice in the topic table");
     }
   }
 }

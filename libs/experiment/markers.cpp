@@ -19,7 +19,7 @@ void CheckWritable(const std::string& name) {
   const bool blank_end = !name.empty() && (name.front() == ' ' || name.back() == ' ');
   if (name.empty() || blank_end || name.find_first_of(",\"\r\n\t") != std::string::npos) {
     throw InputError("marker name '" + name +
-                     "' cannot stand in a CSV file (empty, or has a comma, a quote or an outer "
+                     "' is not allowed in a CSV file (empty, or has a comma, a quote or an outer "
                      "blank); give it another name");
   }
 }

@@ -21,9 +21,8 @@ Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& A, double threshold);
 /// With a threshold of min(m, n) times the precision of a double.
 Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& A);
 
-/// The x that makes |A x - b| smallest, A [m x n] not empty (Eigen::ColPivHouseholderQR). Where A
-/// has not full column rank to rounding, unknowns that the others can stand in for are zero. NaN
-/// in, NaN out.
+/// The x that minimises |A x - b|, A [m x n] not empty (Eigen::ColPivHouseholderQR). Where A has
+/// not full column rank to rounding, unknowns that depend on others are zero. NaN in, NaN out.
 Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 /// [n x k] the same of each column of B [m x k].
 Eigen::MatrixXd LeastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

@@ -90,8 +90,8 @@ const KeyTable& DepthBiasKeys() {
   static const KeyTable keys{
       .title = "depth bias",
       .about =
-          "A point that is measured at p is at (1 + b) p, camera frame. b is a polynomial in "
-          "x / (z span) and y / (z span).",
+          "A point measured at p is at (1 + b) p, camera frame. The relative error b is a "
+          "polynomial in x / (z span) and y / (z span).",
       .keys = {
           {"image", value::Map(PictureKeys()), kRequired, "The images that it belongs to."},
           {"order", value::WholeNumber(0, kHighestOrder), kRequired, "Order of the polynomial."},

@@ -15,7 +15,7 @@ Eigen::Vector3d EyeletMoved_m(const BodyCable& cable, int eyelet);
 /// Where the robot file has it, of a robot of that scale.
 Eigen::Vector3d EyeletPlace_m(const BodyCable& cable, double scale, int eyelet);
 
-/// Puts it so far off its place; what it holds on to is found anew. `scale`: RobotBody::scale.
+/// Displaces an eyelet by `moved_m` and locates its element again. `scale`: RobotBody::scale.
 void MoveEyelet(const fem::PointLocator& locator, double scale, int eyelet,
                 const Eigen::Vector3d& moved_m, BodyCable* cable);
 

@@ -36,8 +36,8 @@ const KeyTable& MaterialKeys() {
                {"poissons_ratio", value::Real(kPoissonsRatio), kRequired,
                 "Poisson's ratio. Give 0.4999 for an incompressible body."},
                {"volumetric", value::Choice({"pointwise", "mean_dilatation"}), kOptional,
-                "How an element sees its change of volume. `mean_dilatation` averages it over the "
-                "element, against locking. Absent: `mean_dilatation` for `tet10` from a Poisson's "
+                "Volume change in an element. `mean_dilatation` averages it over the element, "
+                "against locking. Absent: `mean_dilatation` for `tet10` from a Poisson's "
                 "ratio of 0.48 on where the model has it, else `pointwise`."},
                {"c20_over_c10", value::Real(), yeoh, "Ratio of Yeoh's constants C20 and C10."},
                {"c30_over_c10", value::Real(kNonNegative), yeoh,
@@ -110,7 +110,7 @@ const KeyTable& MarkerKeys() {
       .about = "A point that motion capture measures, or the centre of a fiducial.",
       .keys = {{"name", value::Text(), kRequired, "Unique name, as in `markers.csv`."},
                {"position_m", value::Vector3(), kRequired,
-                "Position on the undeformed body, before gravity acts; robot frame. It may stand "
+                "Position on the undeformed body, before gravity acts; robot frame. It may be "
                 "off the surface."}}};
   return keys;
 }

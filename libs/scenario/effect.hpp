@@ -57,7 +57,7 @@ struct Effect {
   SourceLocation location;
 };
 
-/// An effect of the bench: part of the sealed answer.
+/// An effect of the bench: part of the ground truth.
 struct ActiveEffect {
   std::string id;
   std::vector<std::string> where;

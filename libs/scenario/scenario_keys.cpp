@@ -154,7 +154,7 @@ const KeyTable& ToolKeys() {
       .keys = {
           {"name", value::Text(), kRequired, "Unique name."},
           {"shape", value::Choice({"sphere", "cylinder", "plate", "hand"}), kRequired,
-           "The axis of a cylinder is z. A hand is only seen, it touches nothing."},
+           "The axis of a cylinder is z. A hand is visible and touches nothing."},
           {"radius_m", value::Real(kToolLength), RequiredFor("sphere, cylinder"), "Radius."},
           {"length_m", value::Real(kToolLength), RequiredFor("cylinder"), "Length."},
           {"size_m", value::Vector3(kToolLength), RequiredFor("plate"), "Edges along x, y, z."},
@@ -249,9 +249,9 @@ const KeyTable& MarkerSpecKeys() {
           "Markers that are measured. Without `frame`, motion capture measures all of them "
           "without bias, in the frame of the camera where there is one.",
       .keys = {{"frame", value::Choice({"camera"}), kOptional,
-                "The depth camera measures the markers, with its errors, in its frame. It sees "
-                "those whose surface it sees at rest from less than `grazing_angle_rad`. It takes "
-                "no images then."},
+                "The depth camera measures the markers, with its errors, in its frame. Visible "
+                "are markers whose surface it views at rest from less than `grazing_angle_rad`. "
+                "It takes no images then."},
                {"sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
                 Default(defaults.sigma_m), "Standard deviation: one number, or `[x, y, z]`."},
                {"rate_hz", value::Real(kRate), Default(defaults.rate_hz), "Rate."}}};
@@ -297,7 +297,7 @@ const KeyTable& ToolPathKeys() {
 const KeyTable& HungWeightKeys() {
   static const KeyTable keys{
       .title = "weight",
-      .about = "A known weight that hangs on the body. It goes into loads.csv.",
+      .about = "A known weight that hangs on the body. loads.csv lists it.",
       .keys = {
           {"t_s", value::Real(kNonNegative), kRequired,
            "It hangs from this time to the next time that is named for any weight."},

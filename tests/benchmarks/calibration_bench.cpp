@@ -26,7 +26,7 @@ using Kind = robot::CableCommand::Kind;
 constexpr double kNoise_m = 3e-4;
 constexpr int kManyFrames = 10;
 constexpr double kLoad_N = 0.5;
-constexpr double kDriveOffset_m = 7e-4;
+constexpr double kActuatorOffset_m = 7e-4;
 
 /// RobotBody::materials of the many frames, and what their moduli are times the robot file's.
 const std::vector<std::pair<int, double>> kModuli = {{0, 1.08}, {1, 0.9}, {2, 1.15}};
@@ -82,7 +82,7 @@ class CalibrationScene {
       loads.push_back({truth_.Patch({0.0, 0.0, 0.125}, 0.005).weights, force_N});
     }
     See("frame " + std::to_string(frame), cables, loads);
-    for (robot::CableCommand& cable : frames_.back().cables) cable.value -= kDriveOffset_m;
+    for (robot::CableCommand& cable : frames_.back().cables) cable.value -= kActuatorOffset_m;
   }
 
   void See(const std::string& name, const std::vector<robot::CableCommand>& cables,

@@ -174,8 +174,9 @@ std::vector<Block> SensingBlocks() {
   const int half = (size.contacts + 1) / 2;
   std::vector<Block> blocks = FrameBlocks(sets);
   const auto add = [&](Benchmark set) {
-    blocks.push_back({.heading = "force sensing by sight: whole sets (their accuracy: below)",
-                      .benchmarks = {std::move(set)}});
+    blocks.push_back(
+        {.heading = "force estimation from depth images: whole sets (their accuracy: below)",
+         .benchmarks = {std::move(set)}});
   };
   for (const Eyes eyes : {Eyes::kPerception, Eyes::kIdeal}) {
     add(OfTouches(sets, eyes, "one_visible", {.where = Where::kVisible}, size.contacts));

@@ -207,7 +207,7 @@ Benchmark OfCosts(const SharedSets& sets) {
 }  // namespace
 
 std::vector<Block> FrameBlocks(const SharedSets& sets) {
-  const std::string robot = "force sensing by sight, four_leg_tet10: ";
+  const std::string robot = "force estimation from depth images, four_leg_tet10: ";
   return {{.heading = robot + "one frame of the estimator",
            .benchmarks = {OfFrames(sets, 51), OfFrames(sets, 15)}},
           {.heading = robot + "all frames of four contacts (what they cost: below)",

@@ -57,8 +57,7 @@ class SensingSets {
   /// The same contacts, each there already in the first picture of a sequence, which has no second.
   test_support::Watched FirstPictures(Eyes eyes, const test_support::ContactWish& wish, int count);
 
-  /// What can be told at best of each of these contacts' forces, held as long as Touches holds
-  /// them.
+  /// Accuracy bound of each of these contacts' forces, held as long as Touches holds them.
   std::vector<test_support::ForceBound> Bounds(const test_support::ContactWish& wish, int count);
 
   struct Untouched {
@@ -69,7 +68,7 @@ class SensingSets {
   Untouched NobodyTouches(Eyes eyes);
 
   /// Mean of |F| over the frames for each weight of Table III, N; 0 where it was not found.
-  /// `given`: the estimator is told that something touches the tip; else it finds out.
+  /// `given`: the estimator knows the contact at the tip; else it searches.
   std::array<double, kTableWeights_mN.size()> HangWeights(Eyes eyes, bool given);
 
   /// The frames of `contacts` contacts in view, one after the other, each coming, held and going,

@@ -56,11 +56,12 @@ bool IsOfFrames(const std::string& name, const Result& result) {
 
 void PrintHead(std::ostream& out) {
   out << R"(
-Force sensing by sight against the virtual bench. |F| and place of the contacts held (each force in each
-frame counts; one that is not found errs by 100 % and has no place), mean direction error where the
-estimate says that it was observable, share of forces and places inside their 95 % intervals; over all
-frames, also of the way there and back: estimated forces that belong to no true one, frames without an
-estimate; smallest true force, on its way up, from which on it was found (median).
+Force estimation from depth images against the virtual bench.
+Held contacts: |F| and location. Each force counts in each frame; a missed one errs by 100 % and has no
+location. Mean direction error of observable estimates. Share of forces and locations inside their 95 %
+intervals.
+All frames, moving contacts included: false forces, and frames without an estimate. Smallest rising true
+force from which on it was found (median).
 
 )" << std::left
       << std::setw(kQuantityWidth) << "set" << std::right;

@@ -15,6 +15,7 @@ import check_decompositions
 import check_format
 import check_includes
 import check_layers
+import check_links
 import check_prose
 import check_readmes
 import check_references
@@ -296,9 +297,9 @@ class CheckSizes(TreeTest):
 
 
 class CheckProse(TreeTest):
-    def found(self, text, pending=frozenset()):
+    def found(self, text):
         self.plant("docs/page.md", text)
-        return self.rules(check_prose.check_tree(self.root, pending)[0])
+        return self.rules(check_prose.check_tree(self.root)[0])
 
     def test_sentences_of_25_words_and_no_more(self):
         self.assertEqual(self.found("# Page\n\n" + "w " * 24 + "end. Another one.\n"), "")
@@ -313,9 +314,36 @@ class CheckProse(TreeTest):
         self.assertIn("docs/page.md:1: 121 columns", self.found("x" * 121 + "\n"))
         self.assertIn('docs/page.md:1: "told"', self.found("The robot is told.\n"))
 
-    def test_a_pending_page_that_conforms_leaves_the_list(self):
-        self.assertEqual(self.found("The robot is told.\n", {"docs/page.md"}), "")
-        self.assertIn("take it out", self.found("The robot moves.\n", {"docs/page.md"}))
+
+class CheckLinks(TreeTest):
+    def found(self, text, path="docs/page.md"):
+        self.plant("docs/other.md",
+                   "# Other page\n\n## It's `x_m`, **twice**\n\n## Part\n\n## Part\n")
+        self.plant("docs/image.png", "")
+        self.plant(path, text)
+        return self.rules(check_links.check_tree(self.root)[0])
+
+    def test_links_and_anchors_that_exist(self):
+        self.assertEqual(self.found(
+            "# Page\n\n[up](#page), [other](other.md#its-x_m-twice),\n"
+            "[two\nlines](other.md#part-1),\n"
+            "[folder](../docs), ![image](image.png), [web](https://example.org/none.md)\n"), "")
+
+    def test_links_to_nothing(self):
+        self.assertIn("docs/page.md:3: none.md: there is no such file",
+                      self.found("\n\n[a](none.md)\n"))
+        self.assertIn("docs/page.md:2: other.md#none: there is no such heading",
+                      self.found("[a\nb](other.md#none)\n"))
+        self.assertIn("#none: there is no such heading", self.found("[a](#none)\n"))
+
+    def test_code_holds_no_links(self):
+        self.assertEqual(self.found("`[a](none.md)`\n\n```\n[a](none.md)\n```\n"), "")
+        self.assertIn("no such heading", self.found("[a](#none)\n\n```\n# none\n```\n"))
+
+    def test_pages_that_comments_name(self):
+        self.assertEqual(self.found("// docs/other.md\n", "libs/a.hpp"), "")
+        self.assertIn("libs/a.hpp:1: docs/none.md: there is no such file",
+                      self.found("// docs/none.md\n", "libs/a.hpp"))
 
 
 class CheckYaml(TreeTest):

@@ -18,7 +18,15 @@ namespace palpate::calibration {
 
 namespace {
 
-/// The search of one calibration, from round to round.
+/// Larger values end earlier, with a pose that still moves within its standard error.
+struct CloudCalibrationTuning {
+  double share_of_error = 0.1;  ///< of the standard error, motion of a settled camera
+  double step_tolerance =
+      1e-6;  ///< of a joint fit: far below the noise, and points are matched again
+};
+constexpr CloudCalibrationTuning kCloudCalibrationTuning;
+
+/// State of one calibration.
 class Search {
  public:
   Search(robot::RobotModel& model, const std::vector<CloudFrame>& frames,
@@ -26,9 +34,9 @@ class Search {
       : model_(model),
         frames_(frames),
         settings_(settings),
-        skin_errors_(model.body(), model.RestState().x_m, settings.skin_errors) {
+        surface_errors_(model.body(), model.RestState().x_m, settings.surface_errors) {
     for (const CloudFrame& frame : frames) {
-      skins_.emplace_back(model.body());
+      surfaces_.emplace_back(model.body());
       thin_.push_back(Thin(frame.cloud, settings.spacing_m));
       thinner_.push_back(Thin(frame.cloud, settings.search_spacing_m));
     }
@@ -41,7 +49,7 @@ class Search {
     if (result_.status.ok()) result_.status = FitTogether();
     if (result_.status.ok()) result_.status = CheckResult(start);
     if (!result_.status.ok() || LeastCovered() < settings_.search.good_cover) {
-      LookForOtherSize(start);
+      TestOtherSizes(start);
     }
     return std::move(result_);
   }
@@ -56,14 +64,14 @@ class Search {
   void Match();
   Status CheckResult(const geometry::RigidTransform& start);
   double LeastCovered() const;
-  void LookForOtherSize(const geometry::RigidTransform& start);
+  void TestOtherSizes(const geometry::RigidTransform& start);
 
   robot::RobotModel& model_;
   const std::vector<CloudFrame>& frames_;
   const CloudSettings& settings_;
-  SkinErrors skin_errors_;
+  SurfaceErrors surface_errors_;
   std::vector<Eigen::VectorXd> shapes_m_;  ///< [frames] of [3n] nodes
-  std::vector<SkinInView> skins_;
+  std::vector<SurfaceInView> surfaces_;
   std::vector<ThinCloud> thin_, thinner_;  ///< of the fit and of the search
   JointSetup setup_;
   CloudCalibration result_;
@@ -92,11 +100,11 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
   return TakeShapes();
 }
 
-/// Equilibria under what is believed of the inputs.
+/// Equilibria under the prior means of the inputs.
 Status Search::TakeShapes() {
   const ModelSnapshot kept(model_);
-  shapes_m_.resize(skins_.size());
-  for (std::size_t f = 0; f < skins_.size(); ++f) {
+  shapes_m_.resize(surfaces_.size());
+  for (std::size_t f = 0; f < surfaces_.size(); ++f) {
     if (settings_.request.stop.stop_requested()) return {StatusCode::kNotConverged, "stopped"};
     const CalibrationFrame& frame = setup_.frames[f];
     model_.SetGravity(frame.gravity_m_s2);
@@ -106,25 +114,26 @@ Status Search::TakeShapes() {
     if (!solved.status.ok()) {
       return {solved.status.code(), frame.name + ": " + solved.status.message()};
     }
-    skins_[f].TakeShape(state.x_m);
+    surfaces_[f].TakeShape(state.x_m);
     shapes_m_[f] = state.x_m;
   }
   return Status::Ok();
 }
 
 Status Search::FindRigid(const geometry::RigidTransform& start) {
-  const PoseFit fit = SearchPose(skins_, thinner_, start, settings_.search);
+  const PoseFit fit = SearchPose(surfaces_, thinner_, start, settings_.search);
   result_.rigid_T_robot_camera = fit.T_robot_camera;
   result_.starts = fit.starts;
   setup_.T_robot_camera = fit.T_robot_camera;
-  if (fit.skin_covered >= settings_.least_cover) return Status::Ok();
+  if (fit.surface_covered >= settings_.least_cover) return Status::Ok();
   return {StatusCode::kNotConverged,
-          "no pose near the start explains the clouds (at best " + FormatNumber(fit.skin_covered) +
-              " of the skin that should be seen has points near it): the start is too far off, or "
+          "no pose near the initial one explains the clouds (at best " +
+              FormatNumber(fit.surface_covered) +
+              " of the visible surface is covered): the initial pose is too far off, or "
               "it is another robot"};
 }
 
-/// As far as the bias is known by now.
+/// With the depth bias of the last round.
 ThinCloud Search::UnbiasedOf(const ThinCloud& cloud) const {
   ThinCloud unbiased = cloud;
   if (!result_.joint.depth_bias) return unbiased;
@@ -134,21 +143,20 @@ ThinCloud Search::UnbiasedOf(const ThinCloud& cloud) const {
 }
 
 void Search::Match() {
-  result_.matches.resize(skins_.size());
-  for (std::size_t f = 0; f < skins_.size(); ++f) {
-    skins_[f].LookFrom(setup_.T_robot_camera);
-    setup_.frames[f].surface = MatchCloud(skins_[f], thin_[f], UnbiasedOf(thin_[f]).points_m,
+  result_.matches.resize(surfaces_.size());
+  for (std::size_t f = 0; f < surfaces_.size(); ++f) {
+    surfaces_[f].LookFrom(setup_.T_robot_camera);
+    setup_.frames[f].surface = MatchCloud(surfaces_[f], thin_[f], UnbiasedOf(thin_[f]).points_m,
                                           setup_.T_robot_camera, settings_, &result_.matches[f]);
   }
-  setup_.shared_errors = skin_errors_.Share(shapes_m_, &setup_.frames);
+  setup_.shared_errors = surface_errors_.Share(shapes_m_, &setup_.frames);
 }
 
-/// Whether the last round moved the camera, by what it does to the cloud's middle (camera frame),
-/// no more than asked for, or by less than a share of its standard error: other points that lie as
-/// near are matched in each round.
+/// Whether the last round moved the cloud's centroid (camera frame), and turned it, by no more than
+/// the settings or a share of the standard error ask for: each round matches other points.
 bool Search::IsSettled(const geometry::RigidTransform& last,
                        const Eigen::Vector3d& middle_m) const {
-  constexpr double kShareOfError = 0.1;
+  constexpr double kShareOfError = kCloudCalibrationTuning.share_of_error;
   const geometry::RigidTransform& now = setup_.T_robot_camera;
   const double turned_rad = last.rotation().angularDistance(now.rotation());
   const double moved_m = (last * middle_m - now * middle_m).norm();
@@ -165,8 +173,7 @@ bool Search::IsSettled(const geometry::RigidTransform& last,
 Status Search::FitTogether() {
   JointSettings joint_settings;
   joint_settings.solver.huber_threshold = settings_.huber_threshold;
-  // Finer than the noise by far; points are matched again after each fit anyway.
-  joint_settings.solver.step_tolerance = 1e-6;
+  joint_settings.solver.step_tolerance = kCloudCalibrationTuning.step_tolerance;
   joint_settings.solver.stop = settings_.request.stop;
   while (result_.rounds < settings_.max_rounds && !settings_.request.stop.stop_requested()) {
     Match();
@@ -174,7 +181,7 @@ Status Search::FitTogether() {
     result_.joint = CalibrateJointly(model_, setup_, joint_settings);
     if (!result_.joint.status.ok()) return result_.joint.status;
     shapes_m_ = result_.joint.x_m;
-    for (std::size_t f = 0; f < skins_.size(); ++f) skins_[f].TakeShape(shapes_m_[f]);
+    for (std::size_t f = 0; f < surfaces_.size(); ++f) surfaces_[f].TakeShape(shapes_m_[f]);
     const geometry::RigidTransform last = setup_.T_robot_camera;
     setup_.T_robot_camera = result_.joint.T_robot_camera;
     if (IsSettled(last, thin_.front().points_m.rowwise().mean())) return Status::Ok();
@@ -187,35 +194,34 @@ Status Search::FitTogether() {
 Status Search::CheckResult(const geometry::RigidTransform& start) {
   Match();
   const geometry::RigidTransform& found = setup_.T_robot_camera;
-  for (std::size_t f = 0; f < skins_.size(); ++f) {
+  for (std::size_t f = 0; f < surfaces_.size(); ++f) {
     CloudMatch& match = result_.matches[f];
-    match.skin_covered =
-        ShareCovered(skins_[f], UnbiasedOf(thin_[f]), found, settings_.search.near_m);
-    if (match.skin_covered < settings_.least_cover || match.rms_m > settings_.most_rms_m) {
+    match.surface_covered =
+        ShareCovered(surfaces_[f], UnbiasedOf(thin_[f]), found, settings_.search.near_m);
+    if (match.surface_covered < settings_.least_cover || match.rms_m > settings_.most_rms_m) {
       return {StatusCode::kInvalidInput,
-              frames_[f].name + ": " + FormatNumber(match.skin_covered) +
-                  " of the skin that should be seen has points near it, which lie " +
-                  FormatNumber(match.rms_m) + " m off it (RMS): another robot"};
+              frames_[f].name + ": " + FormatNumber(match.surface_covered) +
+                  " of the visible surface is covered, by points " + FormatNumber(match.rms_m) +
+                  " m off it (RMS): another robot"};
     }
   }
   if (!IsNear(found, start, thinner_, settings_.search)) {
     return {StatusCode::kNotConverged,
-            "the clouds fit farther from the start than it may be off: another start is needed"};
+            "the clouds fit too far from the initial pose: another initial pose is needed"};
   }
   return Status::Ok();
 }
 
-/// Of a fit that was checked.
+/// After CheckResult.
 double Search::LeastCovered() const {
   double least = 1.0;
-  for (const CloudMatch& match : result_.matches) least = std::min(least, match.skin_covered);
+  for (const CloudMatch& match : result_.matches) least = std::min(least, match.surface_covered);
   return least;
 }
 
-/// Whatever a fit stumbled over, a robot of another size is the reason where it explains the
-/// clouds; and where one fits that covers little, where it explains them better: a small robot lies
-/// within a large one.
-void Search::LookForOtherSize(const geometry::RigidTransform& start) {
+/// A failed fit is explained by a robot of another size where that fits the clouds. A fit with low
+/// coverage is replaced where another size fits better: a small robot lies inside a large one.
+void Search::TestOtherSizes(const geometry::RigidTransform& start) {
   if (settings_.request.stop.stop_requested() || !TakeShapes().ok()) return;
   SizeDemands demands{.most_rms_m = settings_.most_rms_m};
   if (result_.status.ok()) {
@@ -224,10 +230,10 @@ void Search::LookForOtherSize(const geometry::RigidTransform& start) {
       demands.most_rms_m = std::min(demands.most_rms_m, match.rms_m);
     }
   }
-  const auto sizes = FindOtherSize(skins_, thinner_, start, settings_.search, demands);
+  const auto sizes = FindOtherSize(surfaces_, thinner_, start, settings_.search, demands);
   if (!sizes) return;
-  const std::string stumbled = result_.status.ok() ? "" : result_.status.message() + "; ";
-  result_.status = Status(StatusCode::kInvalidInput, stumbled + sizes->Text("points of the skin"));
+  const std::string before = result_.status.ok() ? "" : result_.status.message() + "; ";
+  result_.status = Status(StatusCode::kInvalidInput, before + sizes->Text("points of the surface"));
 }
 
 }  // namespace

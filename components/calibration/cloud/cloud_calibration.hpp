@@ -7,82 +7,82 @@
 
 #include "components/calibration/cloud/cloud_frame.hpp"
 #include "components/calibration/cloud/pose_search.hpp"
-#include "components/calibration/cloud/skin_errors.hpp"
+#include "components/calibration/cloud/surface_errors.hpp"
 #include "components/calibration/joint/joint_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 
 namespace palpate::calibration {
 
 struct CloudSettings {
-  /// What is looked for beside the pose: offsets of the drives, unless told otherwise. What it says
-  /// of markers and whether the pose is fitted has no meaning here.
+  /// Parameters that are estimated beside the pose, by default actuator offsets. Its marker
+  /// settings and `pose` have no meaning here.
   JointRequest request;
-  double huber_threshold = 2.0;  ///< sigmas; in place of the request's
-  /// Smooth error of the depth image, one sigma of each coefficient as a share of z
-  /// (geometry::DepthBiasMap): what of it is not looked for, and what the clouds do not tell, stays
-  /// at 0 and counts in the standard errors. 0: it has none.
+  double huber_threshold = 2.0;  ///< standard deviations; replaces the request's
+  /// Prior standard deviation of each coefficient of the depth bias, as a share of z
+  /// (geometry::DepthBiasMap). Coefficients that are not estimated, or not determined, stay at 0
+  /// and are considered in the covariance. 0: no depth bias.
   double depth_bias_sigma = 0.003;
   geometry::DepthBiasBasis depth_bias = {};
-  bool fit_depth_bias = true;  ///< look for it
-  SkinErrorSettings skin_errors;
+  bool fit_depth_bias = true;  ///< estimate it
+  SurfaceErrorSettings surface_errors;
   PoseSearchSettings search;
-  /// Distance of neighbouring points that are used, m: of the search, and of the joint fit. Depth
-  /// noise is alike in neighbouring pixels; points some pixels apart count as independent.
+  /// Spacing of the points that are used, m: in the search, and in the joint fit. Depth noise is
+  /// correlated between neighbouring pixels; points some pixels apart count as independent.
   double search_spacing_m = 0.008;
   double spacing_m = 0.003;
-  /// Share of the facets' arc heights (SkinInView::FacetError_m) that counts as error of the skin;
-  /// 0: the skin is made of these facets.
+  /// Share of the facets' arc heights (SurfaceInView::FacetError_m) that counts as surface error;
+  /// 0: the surface consists of these facets.
   double facet_error_share = 1.0;
-  /// The fit takes points nearer than `gate_sigmas` times the robust spread of their distances,
+  /// The fit uses points nearer than `gate_sigmas` robust standard deviations of the distances,
   /// within these bounds, m.
   double gate_sigmas = 5.0;
   double narrowest_gate_m = 0.002;
   double widest_gate_m = 0.015;
-  /// Points are matched again until that moves the first cloud's middle, and turns it, less than
-  /// this or than a tenth of the standard error.
+  /// Matching and fit repeat until they move the first cloud's centroid, and turn it, by less than
+  /// this or a tenth of the standard error.
   double moved_m = 2e-5;
   double turned_rad = 8.7e-5;
   int max_rounds = 25;
-  /// Fewer points than these in a frame are none of a robot.
+  /// Smallest number of points of a robot in a frame.
   int least_points = 150;
-  /// Refused as none of this robot: less of the skin that should be seen has points near it, or the
-  /// points on it lie farther off (RMS).
+  /// Smallest coverage of the visible surface, and largest RMS distance of its points, of this
+  /// robot.
   double least_cover = 0.5;
   double most_rms_m = 0.003;
 };
 
 /// How the model explains one cloud.
 struct CloudMatch {
-  int points = 0;              ///< that were used, after thinning
-  int matched = 0;             ///< that lie on the skin
-  double rms_m = 0.0;          ///< of these, along the normal
-  double outlier_share = 0.0;  ///< of the points: of other things, or too far from the skin
-  double skin_covered = 0.0;   ///< share of the skin that should be seen and has points near it
+  int points = 0;                ///< used points, after thinning
+  int matched = 0;               ///< on the surface
+  double rms_m = 0.0;            ///< distance of these along the normal
+  double outlier_share = 0.0;    ///< share of unmatched points
+  double surface_covered = 0.0;  ///< share of the visible surface with points near it
 };
 
 struct CloudCalibration {
-  /// kInvalidInput: no frames, numbers that are not finite, sigmas <= 0, cables that are not this
-  /// robot's, or clouds of another robot. kNoRobotSeen: too few points. kUnobservable: the clouds
-  /// do not determine the pose. kNotConverged: no pose near the start explains the clouds (start
-  /// too far off, or another robot), or the rounds are used up. Else why an equilibrium fails.
+  /// kInvalidInput: no frames, numbers that are not finite, sigmas <= 0, another number of cables,
+  /// or another robot. kNoRobotSeen: too few points. kUnobservable: the clouds do not determine the
+  /// pose. kNotConverged: no pose near the initial one explains the clouds, or max_rounds.
+  /// Otherwise the status of a failed equilibrium.
   Status status;
-  JointCalibration joint;                         ///< usable where `status` is ok
+  JointCalibration joint;                         ///< valid where `status` is ok
   std::vector<CloudMatch> matches;                ///< [frames]
-  geometry::RigidTransform rigid_T_robot_camera;  ///< of the search with shapes held
+  geometry::RigidTransform rigid_T_robot_camera;  ///< of the search with fixed shapes
   int starts = 0;                                 ///< of the search
-  int rounds = 0;                                 ///< of matching and joint fit
+  int rounds = 0;                                 ///< of matching and fit
 };
 
-/// Camera pose, and what `settings.request` asks for, from clouds of the robot without markers:
-/// first the pose with shapes held at the equilibria under the cable inputs as they were measured
-/// (SearchPose), then all together (CalibrateJointly) on points matched to the skin that is seen,
-/// matched again until the camera rests. The error of a point along the normal is that of its depth
-/// (its sigma times the cosine to the line of sight) and that of the facets.
+/// Camera pose and the parameters of `settings.request` from clouds of the robot without markers:
+/// first the pose with shapes fixed at the equilibria under the measured inputs (SearchPose), then
+/// all parameters (CalibrateJointly) on points matched to the visible surface. Matching and fit
+/// repeat until the camera rests. The error of a point along the normal combines its depth noise
+/// and the facets.
 ///
-/// From starts off by up to 50 mm and 20 degrees at the robot. A robot that looks the same after a
-/// turn (config/robots/four_leg.yaml nearly does, by quarter turns) is told from itself by the
-/// start alone: it must be right to less than half of that turn. The model's moduli are left with
-/// what was found, on failure as they were.
+/// Initial poses may be off by 50 mm and 20 degrees at the robot. For a symmetric robot
+/// (config/robots/four_leg.yaml nearly is, by quarter turns) only the initial pose decides, and it
+/// must be right to less than half of that turn. On success the model has the estimates, on failure
+/// it is unchanged.
 CloudCalibration CalibrateFromClouds(robot::RobotModel& model,
                                      const std::vector<CloudFrame>& frames,
                                      const geometry::RigidTransform& T_robot_camera_start,

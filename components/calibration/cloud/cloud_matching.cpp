@@ -15,16 +15,16 @@ namespace {
 
 struct Candidate {
   Eigen::Index point;
-  SkinFoot foot;
+  SurfaceFoot foot;
   double height_m;  ///< along the normal
 };
 
-/// Points whose line to their foot is farther off the normal than this lie beyond a ridge or an
-/// outline.
-constexpr double kMostAcross_m = 2e-3;
-
-/// Below, a point is left out.
-constexpr double kLeastTrust = 0.03;
+/// Stricter limits lose points of the robot, looser ones take points of other objects.
+struct CloudMatchingTuning {
+  double most_across_m = 2e-3;  ///< distance across the normal; beyond, the point is past an edge
+  double least_trust = 0.03;    ///< weight below which a point is left out
+};
+constexpr CloudMatchingTuning kMatchingTuning;
 
 double AcrossOf_m(const Candidate& candidate) {
   const double squared_m2 = candidate.foot.distance_m * candidate.foot.distance_m -
@@ -32,25 +32,25 @@ double AcrossOf_m(const Candidate& candidate) {
   return std::sqrt(std::max(0.0, squared_m2));
 }
 
-/// 1 at 0, falling smoothly to 0 at 1 and beyond: the root of Tukey's biweight. Points do not come
-/// and go by leaps, which would keep the camera moving for ever.
+/// 1 at 0, falling smoothly to 0 at 1 and beyond: the root of Tukey's biweight. Points with jumping
+/// weights would keep the camera moving between rounds.
 double Fading(double share) { return std::max(0.0, 1.0 - share * share); }
 
-std::vector<Candidate> CandidatesOf(const SkinInView& skin, const Eigen::Matrix3Xd& points_m,
+std::vector<Candidate> CandidatesOf(const SurfaceInView& surface, const Eigen::Matrix3Xd& points_m,
                                     const geometry::RigidTransform& T_robot_camera,
                                     double widest_m) {
   std::vector<Candidate> candidates;
   for (Eigen::Index k = 0; k < points_m.cols(); ++k) {
     const Eigen::Vector3d here_m = T_robot_camera * points_m.col(k);
-    const std::optional<SkinFoot> foot = skin.FootOf(here_m);
+    const std::optional<SurfaceFoot> foot = surface.FootOf(here_m);
     if (!foot || foot->distance_m > widest_m) continue;
     const Candidate candidate{k, *foot, foot->normal.dot(here_m - foot->position_m)};
-    if (AcrossOf_m(candidate) < kMostAcross_m) candidates.push_back(candidate);
+    if (AcrossOf_m(candidate) < kMatchingTuning.most_across_m) candidates.push_back(candidate);
   }
   return candidates;
 }
 
-/// From the median distance, which is 0.6745 sigma of normal noise.
+/// From the median distance, which is 0.6745 standard deviations of normal noise.
 double GateOf(const std::vector<Candidate>& candidates, const CloudSettings& settings) {
   std::vector<double> off_m;
   for (const Candidate& candidate : candidates) off_m.push_back(std::abs(candidate.height_m));
@@ -73,9 +73,10 @@ Status CheckCloud(const robot::RobotModel& model, const CloudFrame& frame,
     const bool fine = cloud.points_m.col(k).allFinite() && cloud.points_m(2, k) > 0.0f &&
                       std::isfinite(cloud.sigma_m[k]) && cloud.sigma_m[k] > 0.0f;
     if (!fine) {
-      return Invalid(frame, "point " + std::to_string(k) +
-                                " of the cloud is not finite, not before the camera, or its sigma "
-                                "is not above 0");
+      return Invalid(frame,
+                     "point " + std::to_string(k) +
+                         " of the cloud is not finite, not in front of the camera, or its sigma "
+                         "is not above 0");
     }
   }
   if (static_cast<int>(frame.cables.size()) != model.CableCount()) {
@@ -101,30 +102,32 @@ Status CheckClouds(const robot::RobotModel& model, const std::vector<CloudFrame>
   return Status::Ok();
 }
 
-std::vector<SurfaceSighting> MatchCloud(const SkinInView& skin, const ThinCloud& cloud,
+std::vector<SurfaceSighting> MatchCloud(const SurfaceInView& surface, const ThinCloud& cloud,
                                         const Eigen::Matrix3Xd& unbiased_m,
                                         const geometry::RigidTransform& T_robot_camera,
                                         const CloudSettings& settings, CloudMatch* match) {
   *match = {.points = static_cast<int>(cloud.Count()), .outlier_share = 1.0};
   const std::vector<Candidate> candidates =
-      CandidatesOf(skin, unbiased_m, T_robot_camera, settings.widest_gate_m);
+      CandidatesOf(surface, unbiased_m, T_robot_camera, settings.widest_gate_m);
   std::vector<SurfaceSighting> sightings;
   if (candidates.empty()) return sightings;
   const double gate_m = GateOf(candidates, settings);
   double squares_m2 = 0.0;
   for (const Candidate& candidate : candidates) {
     const double trust = Fading(candidate.height_m / gate_m) *
-                         Fading(AcrossOf_m(candidate) / kMostAcross_m) * candidate.foot.openness;
-    if (trust < kLeastTrust) continue;
+                         Fading(AcrossOf_m(candidate) / kMatchingTuning.most_across_m) *
+                         candidate.foot.openness;
+    if (trust < kMatchingTuning.least_trust) continue;
     const Eigen::Vector3d point_m = cloud.points_m.col(candidate.point);
     const Eigen::Vector3d normal_camera =
         T_robot_camera.rotation().conjugate() * candidate.foot.normal;
     const double depth_m =
         std::abs(normal_camera.dot(point_m)) / point_m.z() * cloud.sigma_m[candidate.point];
-    const double facet_m = settings.facet_error_share * skin.FacetError_m(candidate.foot.triangle);
+    const double facet_m =
+        settings.facet_error_share * surface.FacetError_m(candidate.foot.triangle);
     sightings.push_back({.position_m = point_m,
                          .sigma_m = std::hypot(depth_m, facet_m) / trust,
-                         .point = skin.WeightsOf(candidate.foot),
+                         .point = surface.WeightsOf(candidate.foot),
                          .normal = candidate.foot.normal});
     squares_m2 += candidate.height_m * candidate.height_m;
   }

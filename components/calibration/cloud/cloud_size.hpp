@@ -11,18 +11,18 @@
 
 namespace palpate::calibration {
 
-/// What a size must explain.
+/// Requirements for another size.
 struct SizeDemands {
-  /// Share of the skin that should be seen and has points near it; of less a size says little: some
-  /// half of it lies near any cloud of that extent.
+  /// Smallest coverage of the visible surface. About half of it lies near any cloud of that extent,
+  /// so that less is no evidence.
   double least_cover = 0.8;
-  double most_rms_m = 0.003;  ///< of points that lie on the skin, along its normal
+  double most_rms_m = 0.003;  ///< largest RMS distance along the normal
 };
 
-/// For clouds that are not those of the robot: whether they are those of one of the same shape but
-/// of another size (0.6 to 1.6 times, and what a fit adds), and how large both are. `skins`: the
-/// model's, as large as its file says. nullopt also where the size is the model's.
-std::optional<SizeComparison> FindOtherSize(std::vector<SkinInView>& skins,
+/// For clouds that do not fit the robot: whether they fit one of the same shape and another size
+/// (0.6 to 1.6 times, then refined), with both sizes. `surfaces`: those of the model at its own
+/// size. nullopt: no size, or that of the model.
+std::optional<SizeComparison> FindOtherSize(std::vector<SurfaceInView>& surfaces,
                                             const std::vector<ThinCloud>& clouds,
                                             const geometry::RigidTransform& T_robot_camera_start,
                                             const PoseSearchSettings& settings,

@@ -21,16 +21,21 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Share of the distance across the normal in what is minimised while the kernel is wide: planes
-/// alone let flat legs slide along themselves.
-constexpr double kAcross = 0.2;
-/// Of the kernel's width, how far anything pulls.
-constexpr double kSearchReach = 3.0;
-/// Once the kernel is this share of its first width, a pose that covers less of the skin than
-/// kHopeless is given up.
-constexpr double kHalfway = 0.4;
-constexpr double kHopeless = 0.45;
-constexpr Eigen::Index kReturnPulls = 250;
+/// A larger reach and more return points find poses from farther off, and cost time.
+struct PoseSearchTuning {
+  /// Weight of distances across the normal while the kernel is wide: point-to-plane distances alone
+  /// let flat legs slide along themselves, larger weights slow the last steps.
+  double across = 0.2;
+  double reach = 3.0;  ///< in widths of the kernel, beyond which a pair has no weight
+  /// Once the kernel has this share of its first width, a pose with less coverage is abandoned: a
+  /// larger share or coverage saves time and loses poses that still converge.
+  double halfway = 0.4;
+  double hopeless = 0.45;
+  Eigen::Index return_points = 250;   ///< surface points matched with the cloud, about
+  Eigen::Index coverage_stride = 17;  ///< of surface points whose coverage is tested
+  double arm_m = 0.1;                 ///< lever arm that compares turns with shifts
+};
+constexpr PoseSearchTuning kPoseSearchTuning;
 
 Eigen::Vector3d MeanOf(const std::vector<ThinCloud>& clouds) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
@@ -42,12 +47,12 @@ Eigen::Vector3d MeanOf(const std::vector<ThinCloud>& clouds) {
   return sum_m / static_cast<double>(std::max<Eigen::Index>(1, count));
 }
 
-/// Normal equations of a small turn about `centre_m` and a shift, robot frame.
+/// Normal equations of a small rotation about `centre_m` and a translation, robot frame.
 struct NormalEquations {
   Matrix6 matrix = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
 
-  /// A pull of `weight` along unit `direction` that would move a point at `arm_m` by `off_m`.
+  /// A residual `off_m` along the unit `direction` of a point at `arm_m`.
   void Add(const Eigen::Vector3d& arm_m, const Eigen::Vector3d& direction, double off_m,
            double weight) {
     Vector6 row;
@@ -57,8 +62,7 @@ struct NormalEquations {
   }
 };
 
-/// What is pulled where: the width of the kernel and how much of the distance across the normal
-/// counts.
+/// Geman-McClure kernel of a point-to-plane distance: its width, and the weight across the normal.
 struct Pull {
   double width_m;
   double across;
@@ -74,13 +78,13 @@ struct Pull {
   }
 };
 
-void AddPulls(const SkinInView& skin, const ThinCloud& cloud,
+void AddPulls(const SurfaceInView& surface, const ThinCloud& cloud,
               const geometry::RigidTransform& T_robot_camera, const Eigen::Vector3d& centre_m,
               const Pull& pull, NormalEquations* equations) {
   for (const auto& point : cloud.points_m.colwise()) {
     const Eigen::Vector3d here_m = T_robot_camera * point;
-    const std::optional<SkinFoot> foot = skin.FootOf(here_m);
-    if (!foot || foot->distance_m > kSearchReach * pull.width_m) continue;
+    const std::optional<SurfaceFoot> foot = surface.FootOf(here_m);
+    if (!foot || foot->distance_m > kPoseSearchTuning.reach * pull.width_m) continue;
     pull.Add(here_m - centre_m, foot->normal, foot->position_m - here_m, 1.0, equations);
   }
 }
@@ -93,36 +97,37 @@ Eigen::Index Nearest(const Eigen::Matrix3Xd& points_m, const Eigen::Vector3d& pl
   return nearest;
 }
 
-/// The other way round: each place of the skin asks for the cloud point nearest to it. Points of
-/// other things pull only where they lie nearer than the robot's.
-void AddReturnPulls(const SkinInView& skin, const ThinCloud& cloud,
+/// Matches visible surface points with the nearest cloud points. Other objects count only where
+/// they are nearer than the robot's points.
+void AddReturnPulls(const SurfaceInView& surface, const ThinCloud& cloud,
                     const geometry::RigidTransform& T_robot_camera, const Eigen::Vector3d& centre_m,
                     const Pull& pull, double weight, NormalEquations* equations) {
   if (cloud.Count() == 0) return;
   const Eigen::Matrix3Xd points_m = T_robot_camera.Apply(cloud.points_m);
-  const Eigen::Matrix3Xd& places_m = skin.seen_places_m();
-  const double reach_m = kSearchReach * pull.width_m;
-  const Eigen::Index stride = 1 + places_m.cols() / kReturnPulls;
+  const Eigen::Matrix3Xd& places_m = surface.seen_places_m();
+  const double reach_m = kPoseSearchTuning.reach * pull.width_m;
+  const Eigen::Index stride = 1 + places_m.cols() / kPoseSearchTuning.return_points;
   for (Eigen::Index k = 0; k < places_m.cols(); k += stride) {
     double squared_m2 = 0.0;
     const Eigen::Vector3d point_m = points_m.col(Nearest(points_m, places_m.col(k), &squared_m2));
     if (squared_m2 > reach_m * reach_m) continue;
-    pull.Add(point_m - centre_m, skin.NormalAtSeenPlace(k), places_m.col(k) - point_m, weight,
+    pull.Add(point_m - centre_m, surface.NormalAtSeenPlace(k), places_m.col(k) - point_m, weight,
              equations);
   }
 }
 
-/// One step; how far it moves points a typical arm away, m.
-double Step(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+/// One Gauss-Newton step. Returns its size: the displacement of a point at a typical arm, m.
+double Step(std::vector<SurfaceInView>& surfaces, const std::vector<ThinCloud>& clouds,
             const Eigen::Vector3d& middle_camera_m, const Pull& pull, double return_weight,
             geometry::RigidTransform* T_robot_camera) {
-  constexpr double kArm_m = 0.1;
+  constexpr double kArm_m = kPoseSearchTuning.arm_m;
   const Eigen::Vector3d centre_m = *T_robot_camera * middle_camera_m;
   NormalEquations equations;
-  for (std::size_t f = 0; f < skins.size(); ++f) {
-    skins[f].LookFrom(*T_robot_camera);
-    AddPulls(skins[f], clouds[f], *T_robot_camera, centre_m, pull, &equations);
-    AddReturnPulls(skins[f], clouds[f], *T_robot_camera, centre_m, pull, return_weight, &equations);
+  for (std::size_t f = 0; f < surfaces.size(); ++f) {
+    surfaces[f].LookFrom(*T_robot_camera);
+    AddPulls(surfaces[f], clouds[f], *T_robot_camera, centre_m, pull, &equations);
+    AddReturnPulls(surfaces[f], clouds[f], *T_robot_camera, centre_m, pull, return_weight,
+                   &equations);
   }
   Vector6 ease;
   ease << Eigen::Vector3d::Constant(kArm_m * kArm_m), Eigen::Vector3d::Ones();
@@ -173,17 +178,17 @@ ThinCloud Thin(const rgbd::SensedCloud& cloud, double spacing_m) {
 
 namespace {
 
-double MeanCovered(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+double MeanCovered(std::vector<SurfaceInView>& surfaces, const std::vector<ThinCloud>& clouds,
                    const geometry::RigidTransform& T_robot_camera, double near_m) {
   double sum = 0.0;
-  for (std::size_t f = 0; f < skins.size(); ++f) {
-    skins[f].LookFrom(T_robot_camera);
-    sum += ShareCovered(skins[f], clouds[f], T_robot_camera, near_m);
+  for (std::size_t f = 0; f < surfaces.size(); ++f) {
+    surfaces[f].LookFrom(T_robot_camera);
+    sum += ShareCovered(surfaces[f], clouds[f], T_robot_camera, near_m);
   }
-  return sum / static_cast<double>(skins.size());
+  return sum / static_cast<double>(surfaces.size());
 }
 
-PoseFit SearchFrom(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+PoseFit SearchFrom(std::vector<SurfaceInView>& surfaces, const std::vector<ThinCloud>& clouds,
                    const geometry::RigidTransform& start, const PoseSearchSettings& settings) {
   PoseFit fit{.T_robot_camera = start};
   const Eigen::Vector3d middle_m = MeanOf(clouds);
@@ -191,22 +196,23 @@ PoseFit SearchFrom(std::vector<SkinInView>& skins, const std::vector<ThinCloud>&
   for (bool last = false; !last; width_m *= settings.shrink) {
     last = width_m <= settings.narrowest_m;
     width_m = std::max(width_m, settings.narrowest_m);
-    const Pull pull{.width_m = width_m, .across = kAcross * width_m / settings.widest_m};
+    const Pull pull{.width_m = width_m,
+                    .across = kPoseSearchTuning.across * width_m / settings.widest_m};
     const double return_weight = last ? 0.0 : 1.0;
     for (int k = 0; k < settings.steps_each; ++k) {
       const double moved_m =
-          Step(skins, clouds, middle_m, pull, return_weight, &fit.T_robot_camera);
+          Step(surfaces, clouds, middle_m, pull, return_weight, &fit.T_robot_camera);
       if (moved_m < settings.at_rest_m || settings.stop.stop_requested()) break;
     }
-    if (width_m > kHalfway * settings.widest_m) continue;
-    fit.skin_covered = MeanCovered(skins, clouds, fit.T_robot_camera, settings.near_m);
-    if (fit.skin_covered < kHopeless) return fit;
+    if (width_m > kPoseSearchTuning.halfway * settings.widest_m) continue;
+    fit.surface_covered = MeanCovered(surfaces, clouds, fit.T_robot_camera, settings.near_m);
+    if (fit.surface_covered < kPoseSearchTuning.hopeless) return fit;
   }
-  fit.skin_covered = MeanCovered(skins, clouds, fit.T_robot_camera, settings.near_m);
+  fit.surface_covered = MeanCovered(surfaces, clouds, fit.T_robot_camera, settings.near_m);
   return fit;
 }
 
-/// The start itself, then turned and shifted about the cloud's middle along the camera's axes.
+/// The initial pose, then rotated and translated about the cloud's centroid along camera axes.
 std::vector<geometry::RigidTransform> StartsAround(const geometry::RigidTransform& start,
                                                    const Eigen::Vector3d& middle_camera_m,
                                                    const PoseSearchSettings& settings) {
@@ -226,7 +232,7 @@ std::vector<geometry::RigidTransform> StartsAround(const geometry::RigidTransfor
 
 }  // namespace
 
-PoseFit SearchPose(std::vector<SkinInView>& skins, const std::vector<ThinCloud>& clouds,
+PoseFit SearchPose(std::vector<SurfaceInView>& surfaces, const std::vector<ThinCloud>& clouds,
                    const geometry::RigidTransform& T_robot_camera_start,
                    const PoseSearchSettings& settings) {
   PoseFit best;
@@ -234,15 +240,15 @@ PoseFit SearchPose(std::vector<SkinInView>& skins, const std::vector<ThinCloud>&
   bool best_is_near = false;
   for (const geometry::RigidTransform& start :
        StartsAround(T_robot_camera_start, MeanOf(clouds), settings)) {
-    PoseFit fit = SearchFrom(skins, clouds, start, settings);
+    PoseFit fit = SearchFrom(surfaces, clouds, start, settings);
     const bool near = IsNear(fit.T_robot_camera, T_robot_camera_start, clouds, settings);
-    const bool covers_more = near == best_is_near && fit.skin_covered > best.skin_covered;
+    const bool covers_more = near == best_is_near && fit.surface_covered > best.surface_covered;
     if (searched == 0 || (near && !best_is_near) || covers_more) {
       best = fit;
       best_is_near = near;
     }
     best.starts = ++searched;
-    if (best_is_near && best.skin_covered >= settings.good_cover) break;
+    if (best_is_near && best.surface_covered >= settings.good_cover) break;
     if (settings.stop.stop_requested()) break;
   }
   return best;
@@ -256,11 +262,11 @@ bool IsNear(const geometry::RigidTransform& T_robot_camera, const geometry::Rigi
   return moved_m <= settings.farthest_m && turned_rad <= settings.farthest_rad;
 }
 
-double ShareCovered(const SkinInView& skin, const ThinCloud& cloud,
+double ShareCovered(const SurfaceInView& surface, const ThinCloud& cloud,
                     const geometry::RigidTransform& T_robot_camera, double near_m) {
-  constexpr Eigen::Index kStride = 17;
+  constexpr Eigen::Index kStride = kPoseSearchTuning.coverage_stride;
   const Eigen::Matrix3Xd points_m = T_robot_camera.Apply(cloud.points_m);
-  const Eigen::Matrix3Xd& places_m = skin.seen_places_m();
+  const Eigen::Matrix3Xd& places_m = surface.seen_places_m();
   int count = 0, covered = 0;
   for (Eigen::Index k = 0; k < places_m.cols(); k += kStride, ++count) {
     if (points_m.cols() == 0) continue;

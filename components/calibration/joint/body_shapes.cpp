@@ -16,12 +16,14 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Of the size of the forces: what is left of them where Newton's steps have found the shape and
-/// those of the variables, too, may begin. A body that is still stretched by them tells wrong
-/// moduli.
-constexpr double kNear = 1e-2;
-/// The same where a shape counts as an equilibrium.
-constexpr double kBalanced = 1e-9;
+struct BodyShapesTuning {
+  /// Residual over the size of the forces at which the variables may move, too: before, stretched
+  /// bodies determine wrong moduli; less costs Newton steps.
+  double near = 1e-2;
+  double balanced = 1e-9;             ///< the same of an equilibrium
+  double shortest_step = 1.0 / 16.0;  ///< share of a step that inverts no element
+};
+constexpr BodyShapesTuning kShapesTuning;
 
 }  // namespace
 
@@ -49,9 +51,9 @@ void BodyShapes::Keep() {
 void BodyShapes::Return() { states_ = kept_; }
 
 double BodyShapes::ValueOf(std::size_t unknown, const Eigen::VectorXd& variables) const {
-  const Belief& belief = setup_.unknowns[unknown]->belief();
+  const GaussianPrior& prior = setup_.unknowns[unknown]->prior();
   const auto column = first_column_ + ToIndex(unknown);
-  return belief.mean + ScaleOf(belief) * variables[column];
+  return prior.mean + ScaleOf(prior) * variables[column];
 }
 
 FrameInputs BodyShapes::InputsOf(int frame, const Eigen::VectorXd& variables) const {
@@ -78,7 +80,7 @@ Status BodyShapes::ApplyToModels(const Eigen::VectorXd& variables) {
   return Status::Ok();
 }
 
-/// Status of the first frame that fails, whoever finishes first.
+/// Status of the first frame that fails, in the order of the frames.
 template <typename Work>
 Status BodyShapes::OnEachFrame(const Work& work) {
   std::vector<Status> status(setup_.frames.size(), Status::Ok());
@@ -140,7 +142,7 @@ void BodyShapes::DescribeInfluences(int frame, const FrameInputs& inputs,
          unknown.InfluencesOn(worker->model, ValueOf(u, variables), frame, inputs)) {
       worker->parameters.push_back(std::move(influence.parameter));
       worker->column_of.push_back(first_column_ + ToIndex(u));
-      worker->factor_of.push_back(influence.per_value * ScaleOf(unknown.belief()));
+      worker->factor_of.push_back(influence.per_value * ScaleOf(unknown.prior()));
     }
   }
 }
@@ -152,12 +154,12 @@ Status BodyShapes::ComeNear(const Eigen::VectorXd& variables) {
   });
 }
 
-/// Whether something acts in this frame that nothing is known of.
+/// Whether an input of this frame has no prior.
 bool BodyShapes::IsGuessed(int frame, const Eigen::VectorXd& variables) const {
   const FrameInputs inputs = InputsOf(frame, variables);
   for (std::size_t u = 0; u < setup_.unknowns.size(); ++u) {
     const Unknown& unknown = *setup_.unknowns[u];
-    if (std::isfinite(unknown.belief().sigma)) continue;
+    if (std::isfinite(unknown.prior().sigma)) continue;
     const robot::RobotModel& model = workers_.front()->model;
     if (!unknown.InfluencesOn(model, ValueOf(u, variables), frame, inputs).empty()) return true;
   }
@@ -170,7 +172,7 @@ Status BodyShapes::FollowFrame(int frame, const Eigen::VectorXd& variables, Work
   model.SetGravity(acting.mass_factor * acting.gravity_m_s2);
   Eigen::VectorXd weight_N = Eigen::VectorXd::Zero(model.elastic_body().rest_m().size());
   model.AddWeight(weight_N);
-  robot::FrameTracker tracker(model, {.relative_tolerance = kNear});
+  robot::FrameTracker tracker(model, {.relative_tolerance = kShapesTuning.near});
   fem::StaticState& state = states_[At(frame)];
   tracker.Start(state);
   const fem::LoadState loads = model.Loads(acting.cables, acting.loads);
@@ -203,7 +205,7 @@ Status BodyShapes::LineariseFrame(int frame, const Eigen::VectorXd& variables, W
   if (!status.ok()) return status;
   fem::StaticState led_to = state;
   worker->step.Apply(1.0, state.x_m, state.multipliers_N, &led_to.x_m, &led_to.multipliers_N);
-  // The derivatives about the present shape, with the cables taut that are so after the step.
+  // Derivatives at the present shape, with the cables that are taut after the step.
   fem::StaticState about = state;
   about.multipliers_N = led_to.multipliers_N;
   DescribeInfluences(frame, inputs, variables, worker);
@@ -248,7 +250,7 @@ double BodyShapes::StepTo(const Eigen::VectorXd& variables) {
 }
 
 double BodyShapes::StepFrame(int frame, const Eigen::VectorXd& variables, Worker* worker) {
-  constexpr double kShortestStep = 1.0 / 16.0;
+  constexpr double kShortestStep = kShapesTuning.shortest_step;
   const auto f = static_cast<size_t>(frame);
   const fem::StaticState from = states_[f];
   fem::StaticState to = from;
@@ -288,10 +290,10 @@ Status BodyShapes::CheckFrame(int frame, const Eigen::VectorXd& variables, Worke
   const double scale_N = fem::ForceScale_N(linearisation, state.loads, state.multipliers_N);
   const double missed_m =
       fem::ConstraintError_m(linearisation, state.loads, state.x_m, state.multipliers_N);
-  const bool balanced =
-      residual_N <= std::max(kBalanced * scale_N, fem::RoundingForce_N(linearisation, state.x_m)) &&
-      missed_m <= kMostMissed_m;
-  if (!balanced) return {StatusCode::kNotConverged, "not in balance"};
+  const bool balanced = residual_N <= std::max(kShapesTuning.balanced * scale_N,
+                                               fem::RoundingForce_N(linearisation, state.x_m)) &&
+                        missed_m <= kMostMissed_m;
+  if (!balanced) return {StatusCode::kNotConverged, "not in equilibrium"};
   for (const fem::ConstraintCommand& command : state.loads.commands) {
     const bool imposed = command.mode == fem::ConstraintCommand::Mode::kMultiplier;
     if (imposed && !(command.value >= 0.0 && command.value <= command.max_multiplier_N)) {

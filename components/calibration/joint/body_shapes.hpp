@@ -18,47 +18,47 @@
 
 namespace palpate::calibration {
 
-/// The body's shape in each frame of a joint calibration, and how it moves with the variables: the
-/// equilibrium itself (Balance), or a step of Newton's method towards it (Linearise, StepTo).
-/// Frames are shared by the threads of the setup's helpers.
+/// Shape of the body in each frame of a joint calibration, and its derivative with respect to the
+/// variables: the equilibrium itself (Balance), or a Newton step towards it (Linearise, StepTo).
+/// The setup's helpers share the frames, one thread each.
 class BodyShapes {
  public:
-  /// Both must outlive it; the model's moduli and gravity are changed along the way. The setup's
-  /// unknowns are the variables from `first_column` on.
+  /// Both must outlive it. It changes moduli and gravity of the model. The setup's unknowns are the
+  /// variables from `first_column` on.
   BodyShapes(robot::RobotModel& model, const JointSetup& setup, int first_column);
 
-  /// All frames' equilibria, each from the last one that was kept; the conditions' values and
-  /// derivatives go into `point`. Not ok where there is one that is not reached.
+  /// Solves the equilibria of all frames, each from the last one that was kept; values and
+  /// derivatives of the conditions go into `point`. Not ok where one is not reached.
   Status Balance(const Eigen::VectorXd& variables, LeastSquaresPoint* point);
-  /// The last states() are what the next ones start from.
+  /// The present states() become the start of the next ones.
   void Keep();
 
-  /// states() come near the equilibria under these variables, but of frames in which something acts
-  /// that is only guessed.
+  /// Moves states() near the equilibria of these variables, except in frames with an input without
+  /// a prior.
   Status ComeNear(const Eigen::VectorXd& variables);
-  /// Newton's step of each frame from states() as they are, with the setting of these variables:
-  /// solved() then is where it leads, and how that moves with the variables.
+  /// Newton step of each frame from states() with the inputs of these variables. solved() is then
+  /// the predicted state and its derivatives.
   Status Linearise(const Eigen::VectorXd& variables);
   /// Whether every frame has a factor of its own.
   bool KeepsFactors() const { return setup_.frames.size() <= workers_.size(); }
-  /// The same with factors and derivatives of the last Linearise (a chord step): for shapes that
-  /// have moved little since. Only where KeepsFactors().
+  /// The same with factors and derivatives of the last Linearise (a chord step), for shapes that
+  /// have moved little. Requires KeepsFactors().
   Status LineariseKept(const Eigen::VectorXd& variables);
-  /// states() become what the last Linearise says of these variables, or as far that way as no
-  /// element is inverted. Gives the longest way that a node went, over the body's extent; infinite
-  /// where one could not go all the way.
+  /// Moves states() to the prediction of the last Linearise at these variables, shortened while an
+  /// element is inverted. Returns the largest nodal displacement over the body's extent; infinite
+  /// where a step was shortened.
   double StepTo(const Eigen::VectorXd& variables);
-  /// Whether states() are equilibria under these variables: forces to 1e-9 of their size, lengths
-  /// of cables to the static solver's tolerance.
+  /// Whether states() are equilibria at these variables: forces to 1e-9 of their size, cable
+  /// lengths to the static solver's tolerance.
   bool AreBalanced(const Eigen::VectorXd& variables);
-  /// states() are the last ones that were kept.
+  /// states() become the last ones that were kept.
   void Return();
 
   const std::vector<fem::StaticState>& states() const { return states_; }
   const SolvedState& solved(std::size_t frame) const { return solved_[frame]; }
 
  private:
-  /// Who works on frames, one thread each.
+  /// Model and buffers of one thread.
   struct Worker {
     explicit Worker(robot::RobotModel& of) : model(of), sensitivity(of), step(of.linearisation()) {}
 

@@ -14,32 +14,32 @@
 
 namespace palpate::calibration {
 
-/// A point's part in an error that it has in common with others: of a number that is believed to be
-/// 0 with a sigma of 1, how far the skin lies farther out along the normal per unit, m.
+/// Share of a point in an error that is common to several points: the surface lies farther out
+/// along its normal by `per_unit_m` times a parameter with the prior N(0, 1).
 struct SharedError {
   int number = 0;  ///< into JointSetup::shared_errors
   double per_unit_m = 0.0;
 };
 
-/// A point of the depth image, and the place of the model's skin that it shows.
+/// A point of the depth image, matched with a point of the model's surface.
 struct SurfaceSighting {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< camera frame
   double sigma_m = 0.0;                                  ///< along the normal, > 0
-  fem::InterpolationWeights point;                       ///< on the skin
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, of the skin there
-  std::vector<SharedError> shared = {};                  ///< beside sigma_m, each number once
+  fem::InterpolationWeights point;                       ///< on the surface
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, robot frame, at that point
+  std::vector<SharedError> shared = {};                  ///< beside sigma_m, each parameter once
 };
 
-/// What was seen of the robot at rest under one setting of its cables, and what is known of that
-/// setting. Measured values are where unknown inputs start from.
+/// Measurements of the robot at rest at one setting of its cables, and the known inputs. Measured
+/// inputs are the initial values of unknown ones.
 struct CalibrationFrame {
   std::string name;  ///< for messages
   std::vector<MarkerSighting> markers = {};
   std::vector<SurfaceSighting> surface = {};
   std::vector<robot::CableCommand> cables = {};  ///< one for each cable
   std::vector<robot::DeadLoad> loads = {};
-  /// [loads] where the robot's size is an unknown; none: they hold on to the same part of the body
-  /// whatever its size.
+  /// [loads] where the size is an unknown; empty: loads act on the same part of the body at every
+  /// size.
   std::vector<LoadPlace> load_places = {};
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
 };

@@ -10,14 +10,13 @@
 
 namespace palpate::calibration {
 
-/// Change of a pose: rotation vector (rad, about the axes of the target frame, before the old
-/// rotation's effect is shifted) and translation (m).
+/// Change of a pose: rotation vector (rad, axes of the target frame) and translation (m).
 using PoseChange = Eigen::Matrix<double, 6, 1>;
 
 /// T with R = exp(change[0..2]) R_0 and t = t_0 + change[3..5].
 geometry::RigidTransform Changed(const geometry::RigidTransform& T, const PoseChange& change);
 
-/// Residual rows of one sighting, each over its sigma, measured - predicted, and their derivatives.
+/// Residual rows of one sighting, measured minus predicted, whitened, and their derivatives.
 template <int Rows>
 struct SightingRows {
   Eigen::Matrix<double, Rows, 1> residual;
@@ -26,18 +25,17 @@ struct SightingRows {
   Eigen::Matrix<double, Rows, 3> per_point_m;      ///< per motion of the body's point, robot frame
 };
 
-/// How a camera shows points of the body, for a pose that is yet to be found.
+/// Measurement model of the camera at a pose that is being estimated.
 class CameraView {
  public:
   CameraView(const geometry::RigidTransform& T_robot_camera_start, const PoseChange& change);
 
   const geometry::RigidTransform& T_robot_camera() const { return T_; }
 
-  /// `point_m`: where the model has the marker, robot frame. What is measured at p is at
-  /// (1 + depth_scale) p.
+  /// `point_m`: the model's marker, robot frame. A point measured at p is at (1 + depth_scale) p.
   SightingRows<3> Rows(const MarkerSighting& sighting, const Eigen::Vector3d& point_m,
                        double depth_scale) const;
-  /// Distance to the skin along its normal.
+  /// Distance to the surface along its normal.
   SightingRows<1> Rows(const SurfaceSighting& sighting, const Eigen::Vector3d& point_m,
                        double depth_scale) const;
 

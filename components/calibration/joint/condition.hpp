@@ -15,7 +15,7 @@
 
 namespace palpate::calibration {
 
-/// Something that the equilibrium of one frame must fulfil, and that bounds on unknowns cannot say.
+/// Constraint on the equilibrium of one frame, beyond bounds on unknowns.
 class Condition {
  public:
   Condition(int frame, double lower, double upper) : frame_(frame), lower_(lower), upper_(upper) {}
@@ -37,12 +37,12 @@ class Condition {
 
 using ConditionPtr = std::unique_ptr<const Condition>;
 
-/// sum of shares[c] times the displacement (m, pulled in) of cable c lies within the bounds: one
-/// drum winds up a cable and lets out another, whatever pulls on them. In units of 1 mm.
+/// The sum of shares[c] times the displacement (m, pulled in) of cable c lies within the bounds, as
+/// where one drum winds up a cable and lets out another. In units of 1 mm.
 ConditionPtr CableLengths(int frame, std::vector<double> shares, double lower_m, double upper_m);
 
 /// A point of the body stays at least `distance_m` beyond the plane through `plane_point_m` with
-/// the unit `normal` (robot frame): it does not enter the table. In units of 1 mm.
+/// the unit `normal` (robot frame), such as a table. In units of 1 mm.
 ConditionPtr StaysBeyondPlane(int frame, fem::InterpolationWeights point,
                               const Eigen::Vector3d& plane_point_m, const Eigen::Vector3d& normal,
                               double distance_m = 0.0);

@@ -8,12 +8,11 @@
 
 namespace palpate::calibration {
 
-/// What is believed of the smooth error of a depth image (geometry::DepthBiasMap) before the data
-/// are looked at.
+/// Prior of the depth bias (geometry::DepthBiasMap).
 struct DepthBiasPrior {
-  Belief coefficient;  ///< of each, a share of the distance
-  /// Else it stays at its mean, and counts in the standard errors of all that is estimated (a
-  /// Schmidt consider covariance).
+  GaussianPrior coefficient;  ///< of each coefficient, a share of the distance
+  /// Otherwise it stays at its mean and is considered in the covariance of the estimates
+  /// (Schmidt 1966).
   bool estimated = true;
   geometry::DepthBiasBasis basis = {};
 };

@@ -44,7 +44,7 @@ bool IsOfDepthBias(int variable, const JointProblem& problem) {
   return variable >= first && variable < first + geometry::CountOf(problem.depth_bias()->basis);
 }
 
-/// Variances of `free` beside what the data tell of them: what is considered shifts them by.
+/// Additional variances of `free` by the considered variables.
 Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse,
                               const std::vector<int>& free, const JointProblem& problem) {
   std::vector<int> considered;
@@ -56,7 +56,7 @@ Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::Matr
   return (inverse * information).rowwise().squaredNorm();
 }
 
-/// Variables are scaled by min(sigma, plausible), so that 1 is what was believed of each.
+/// Variables are scaled by min(sigma, plausible), so that each has the prior variance 1.
 std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
                                     double share) {
   std::vector<int> free;
@@ -106,30 +106,30 @@ WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
 
 Eigen::MatrixXd CovarianceOf(const WeightedFit& fit, const JointProblem& problem, double widened,
                              Against against) {
-  std::vector<int> estimated, believed;
+  std::vector<int> estimated, considered;
   for (int v = 0; v < CountOf(problem); ++v) {
     const Variable& variable = problem.variables()[At(v)];
     if (!problem.IsHeld(v)) {
       estimated.push_back(v);
-    } else if (std::isfinite(variable.belief.sigma) &&
+    } else if (std::isfinite(variable.prior.sigma) &&
                !(variable.models_own && against == Against::kThisModel)) {
-      believed.push_back(v);
+      considered.push_back(v);
     }
   }
   const Eigen::MatrixXd inverse = linalg::InverseSymmetric(Pick(fit.information, estimated));
-  Eigen::VectorXd sigma(std::ssize(believed));
+  Eigen::VectorXd sigma(std::ssize(considered));
   for (Eigen::Index k = 0; k < sigma.size(); ++k) {
-    const int v = believed[At(k)];
-    sigma[k] = problem.variables()[At(v)].belief.sigma / problem.Scale(v);
+    const int v = considered[At(k)];
+    sigma[k] = problem.variables()[At(v)].prior.sigma / problem.Scale(v);
   }
-  // One held a sigma too high shifts the estimates by this.
+  // Shift of the estimates by one standard deviation of each considered variable.
   const Eigen::MatrixXd shift =
-      -inverse * Pick(fit.information, estimated, believed) * sigma.asDiagonal();
+      -inverse * Pick(fit.information, estimated, considered) * sigma.asDiagonal();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(CountOf(problem), CountOf(problem));
   covariance(estimated, estimated) = widened * inverse + shift * shift.transpose();
-  covariance(estimated, believed) = shift * sigma.asDiagonal();
-  covariance(believed, estimated) = covariance(estimated, believed).transpose();
-  covariance(believed, believed) = sigma.cwiseAbs2().asDiagonal();
+  covariance(estimated, considered) = shift * sigma.asDiagonal();
+  covariance(considered, estimated) = covariance(estimated, considered).transpose();
+  covariance(considered, considered) = sigma.cwiseAbs2().asDiagonal();
   return covariance;
 }
 

@@ -51,24 +51,24 @@ void TakePose(const JointCalibration& fit, robot::CalibrationFile* file) {
   file->pose = pose;
 }
 
-void TakeDrives(const JointCalibration& fit, const robot::RobotModel& model,
-                robot::CalibrationFile* file) {
+void TakeActuators(const JointCalibration& fit, const robot::RobotModel& model,
+                   robot::CalibrationFile* file) {
   for (const std::string& cable : model.CableNames()) {
     const FittedValue* offset = FindValue(fit, "cable_offset:" + cable);
     const FittedValue* gain = FindValue(fit, "cable_gain:" + cable);
     const bool has_offset = offset != nullptr && offset->determined;
     const bool has_gain = gain != nullptr && gain->determined;
     if (!has_offset && !has_gain) continue;
-    robot::CalibratedDrive drive{.cable = cable, .drive = {}, .standard_error = {}};
+    robot::CalibratedDrive actuator{.cable = cable, .drive = {}, .standard_error = {}};
     if (has_offset) {
-      drive.drive.offset_m = offset->value;
-      drive.standard_error.offset_m = offset->standard_error;
+      actuator.drive.offset_m = offset->value;
+      actuator.standard_error.offset_m = offset->standard_error;
     }
     if (has_gain) {
-      drive.drive.gain = gain->value;
-      drive.standard_error.gain = gain->standard_error;
+      actuator.drive.gain = gain->value;
+      actuator.standard_error.gain = gain->standard_error;
     }
-    file->drives.push_back(drive);
+    file->drives.push_back(actuator);
   }
 }
 
@@ -86,7 +86,7 @@ void TakeMaterials(const JointCalibration& fit, const std::vector<std::string>& 
   }
 }
 
-/// Its direction and the weight of the body, as one vector.
+/// Direction and mass factor as one vector.
 void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s2,
                  robot::CalibrationFile* file) {
   Eigen::Vector3d turned_m_s2 = nominal_m_s2;
@@ -106,7 +106,7 @@ void TakeGravity(const JointCalibration& fit, const Eigen::Vector3d& nominal_m_s
       robot::CalibratedGravity{(has_mass ? mass->value : 1.0) * turned_m_s2, variance.cwiseSqrt()};
 }
 
-/// Of a point of a cable's path.
+/// Of one point of a cable's route.
 void TakeRoute(const JointCalibration& fit, const robot::RobotBody& body, int cable, int point,
                robot::CalibrationFile* file) {
   robot::CalibratedRoute route{.cable = body.cables[At(cable)].name, .point = point};
@@ -140,7 +140,7 @@ void TakeGeometry(const JointCalibration& fit, const robot::RobotBody& body,
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file) {
   if (!fit.pose_covariance.isZero()) TakePose(fit, file);
-  TakeDrives(fit, model, file);
+  TakeActuators(fit, model, file);
   TakeMaterials(fit, PartNames(model.body()), file);
   TakeGravity(fit, model.gravity_m_s2(), file);
   TakeGeometry(fit, model.body(), file);

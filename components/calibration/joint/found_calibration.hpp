@@ -12,30 +12,29 @@
 
 namespace palpate::calibration {
 
-/// The number of this name that a calibration looked for; nullptr: it did not.
+/// The parameter of this name; nullptr: it was not estimated.
 const FittedValue* FindValue(const JointCalibration& fit, const std::string& name);
 
-/// Two determined numbers whose errors go together: the data tell less of each than of both.
+/// Two determined parameters with correlated errors.
 struct CorrelatedValues {
   std::string one;
   std::string other;
   double correlation = 0.0;
 };
-/// Those with a correlation of at least so much in size, the closest ones first.
+/// Pairs with a correlation of at least `least` in absolute value, the largest first.
 std::vector<CorrelatedValues> FindCorrelated(const JointCalibration& fit, double least);
 
 /// Names of the materials (RobotBody::materials) in calibration files: "body", then the regions'.
 std::vector<std::string> PartNames(const robot::RobotBody& body);
 
-/// Puts into the file what a joint calibration that succeeded found: the pose, drives, materials,
-/// gravity, size and cables' paths that its data determine, the names of what they do not, and how
-/// well it fits. Marker offsets are no part of a calibration file. `model`'s gravity is the nominal
-/// one.
+/// Writes a successful joint calibration into `file`: pose, actuators, materials, gravity, size and
+/// cable routes that the data determine, the names of undetermined parameters, and the residual.
+/// Marker offsets are not part of a calibration file. `model` must have the nominal gravity.
 void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
              robot::CalibrationFile* file);
 
-/// Puts the depth bias that was found from images of this size and lens into the file, with the
-/// pose, which it belongs to.
+/// Writes the depth bias of images of this size and lens into `file`, beside the pose that it
+/// belongs to.
 void TakeDepthBias(const JointCalibration& fit, const geometry::DepthPicture& picture,
                    robot::CalibrationFile* file);
 

@@ -13,10 +13,12 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Added to the Hessian's diagonal, so that what the data do not tell stays: a variable's change by
-/// 1 is what is believed of it.
-constexpr double kDamping = 1e-6;
-constexpr double kShortestStep = 1e-3;
+struct GaussNewtonTuning {
+  /// Added to the Hessian's diagonal, so that undetermined variables stay: more slows the others.
+  double damping = 1e-6;
+  double shortest_step = 1e-3;  ///< share of the full step; less tries longer for a lower objective
+};
+constexpr GaussNewtonTuning kGaussNewtonTuning;
 
 class Descent {
  public:
@@ -42,12 +44,12 @@ class Descent {
   }
 
  private:
-  /// How far the variable went that moved furthest; 0 where no step gains anything.
+  /// Largest change of a variable; 0 where no step lowers the objective.
   double Step() {
     ++solution_.iterations;
     const Eigen::VectorXd step = FullStep();
     LeastSquaresPoint point;
-    for (double length = 1.0; length >= kShortestStep; length *= 0.5) {
+    for (double length = 1.0; length >= kGaussNewtonTuning.shortest_step; length *= 0.5) {
       const Eigen::VectorXd variables =
           (solution_.variables + length * step).cwiseMax(bounds_.col(0)).cwiseMin(bounds_.col(1));
       if (!problem_.Evaluate(variables, &point).ok()) continue;
@@ -63,7 +65,7 @@ class Descent {
     return 0.0;
   }
 
-  /// Of the variables that are not pushed against a bound.
+  /// Step of the variables that the gradient does not push against a bound.
   Eigen::VectorXd FullStep() const {
     const Eigen::MatrixXd& jacobian = solution_.point.jacobian;
     const Eigen::VectorXd gradient =
@@ -77,7 +79,7 @@ class Descent {
     }
     const Eigen::MatrixXd moving = jacobian(Eigen::all, free);
     Eigen::MatrixXd hessian = moving.transpose() * loss_.weights.asDiagonal() * moving;
-    hessian.diagonal().array() += kDamping;
+    hessian.diagonal().array() += kGaussNewtonTuning.damping;
     Eigen::VectorXd step = Eigen::VectorXd::Zero(gradient.size());
     step(free) = -linalg::SolveSymmetric(hessian, Eigen::VectorXd(gradient(free)));
     return step;

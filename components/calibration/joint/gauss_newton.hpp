@@ -8,10 +8,10 @@
 
 namespace palpate::calibration {
 
-/// Minimises a problem within its bounds, which costs next to nothing to evaluate, by Gauss-Newton
-/// steps that are projected on the bounds and halved until the objective falls (Bertsekas, SIAM J.
-/// Control Optim. 20(2), 1982). Its constraints do not count. It ends like SolveLeastSquares, or
-/// where no step gains anything; kNotConverged where neither happens, or the start has no value.
+/// Minimises a problem that is cheap to evaluate within its bounds, by projected Gauss-Newton steps
+/// that are halved until the objective falls (Bertsekas, SIAM J. Control Optim. 20(2), 1982).
+/// Constraints are ignored. It ends like SolveLeastSquares, or where no step lowers the objective;
+/// kNotConverged where neither happens, or the start has no value.
 LeastSquaresSolution SolveWithinBounds(LeastSquaresProblem& problem,
                                        const LeastSquaresSettings& settings);
 

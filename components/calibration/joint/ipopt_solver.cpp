@@ -22,25 +22,26 @@ using Ipopt::Number;
 using VectorMap = Eigen::Map<const Eigen::VectorXd>;
 
 constexpr double kIpoptInfinity = 2e19;
-constexpr double kNoGradient = 1e-12;
-/// Of half of chi-squared: what gains less moves nothing by a hundredth of its standard error. Of
-/// data without noise, of which little is left over, the share of that. So many iterations with no
-/// more than the lowest end the search there: to and fro over a bend it goes up as well, and
-/// Ipopt's watchdog lets it for three.
-constexpr double kNoGain = 1e-5;
-constexpr double kNoGainShare = 1e-6;
-constexpr int kPatience = 5;
-/// The barrier, and the distance from the bounds, of a search that starts at its solution.
-constexpr double kNoBarrier = 1e-10;
 
-/// Variables that are held have none: Ipopt takes them out.
+/// Larger gains and less patience end the search earlier, before the minimum.
+struct IpoptTuning {
+  double no_gradient = 1e-12;   ///< Ipopt's own tolerance, practically off
+  double no_gain = 1e-5;        ///< of half of chi-squared: below a hundredth of a standard error
+  double no_gain_share = 1e-6;  ///< the same as a share, for data without noise
+  /// Iterations without gain that end the search: at a kink of the objective it goes up and down,
+  /// and Ipopt's watchdog allows three.
+  int patience = 5;
+  double no_barrier = 1e-10;  ///< barrier, and distance from the bounds, of a start at the solution
+};
+constexpr IpoptTuning kIpoptTuning;
+
+/// Held variables do not count: Ipopt eliminates them.
 bool HasBounds(const Eigen::MatrixX2d& bounds) {
   const auto is_free = bounds.col(0).array() < bounds.col(1).array();
   return (is_free && bounds.array().isFinite().rowwise().any()).any();
 }
 
-/// The problem in Ipopt's words. Values and derivatives are worked out together, once for each
-/// point that Ipopt asks about.
+/// Adapter of the problem to Ipopt. Values and derivatives are evaluated together, once per point.
 class Nlp final : public Ipopt::TNLP {
  public:
   Nlp(LeastSquaresProblem& problem, const LeastSquaresSettings& settings)
@@ -115,7 +116,7 @@ class Nlp final : public Ipopt::TNLP {
     return true;
   }
 
-  /// Of the residuals to first order; of the constraints nothing, which are nearly linear.
+  /// Gauss-Newton Hessian of the residuals; constraints are nearly linear and count as such.
   bool eval_h(Index n, const Number* x, bool, Number factor, Index, const Number*, bool, Index,
               Index* rows, Index* columns, Number* values) override {
     if (values != nullptr) {
@@ -135,9 +136,9 @@ class Nlp final : public Ipopt::TNLP {
     return true;
   }
 
-  /// Gradients of sums of squares in sigmas have no size to compare with: it ends where the steps
-  /// do, or where steps gain nothing: at a bend of the objective, as where a cable becomes slack,
-  /// they never end.
+  /// The gradient of a chi-squared has no natural scale. The search ends by the size of its steps,
+  /// or where they gain nothing: at a kink, as where a cable becomes slack, steps never become
+  /// small.
   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective,
                              Number infeasibility, Number, Number barrier, Number step, Number,
                              Number, Number, Index, const Ipopt::IpoptData*,
@@ -149,7 +150,7 @@ class Nlp final : public Ipopt::TNLP {
     const bool is_allowed = infeasibility <= tolerance && (!has_bounds_ || barrier <= tolerance);
     if (is_allowed) NoteGain(objective);
     const bool is_still = iteration > 0 && step <= tolerance;
-    ends_at_lowest_ = !is_still && idle_iterations_ >= kPatience;
+    ends_at_lowest_ = !is_still && idle_iterations_ >= kIpoptTuning.patience;
     arrived_ = is_allowed && (is_still || ends_at_lowest_);
     return !arrived_ && !settings_.stop.stop_requested();
   }
@@ -162,9 +163,10 @@ class Nlp final : public Ipopt::TNLP {
   }
 
  private:
-  /// Of the iterate, which was visited last.
+  /// Of the iterate, which was evaluated last.
   void NoteGain(double objective) {
-    const double worth = std::min(kNoGain, kNoGainShare * std::abs(objective));
+    const double worth =
+        std::min(kIpoptTuning.no_gain, kIpoptTuning.no_gain_share * std::abs(objective));
     idle_iterations_ = lowest_objective_ - objective > worth ? 0 : idle_iterations_ + 1;
     if (objective >= lowest_objective_) return;
     lowest_objective_ = objective;
@@ -215,19 +217,19 @@ void SetOptions(const LeastSquaresSettings& settings, Ipopt::OptionsList* option
   options->SetStringValue("sb", "yes");
   options->SetIntegerValue("print_level", 0);
   options->SetIntegerValue("max_iter", settings.max_iterations);
-  options->SetNumericValue("tol", kNoGradient);
-  options->SetNumericValue("acceptable_tol", kNoGradient);
-  // Variables come scaled, residuals in sigmas.
+  options->SetNumericValue("tol", kIpoptTuning.no_gradient);
+  options->SetNumericValue("acceptable_tol", kIpoptTuning.no_gradient);
+  // Variables are scaled and residuals whitened.
   options->SetStringValue("nlp_scaling_method", "none");
   if (settings.starts_there) {
-    options->SetNumericValue("mu_init", kNoBarrier);
-    options->SetNumericValue("bound_push", kNoBarrier);
-    options->SetNumericValue("bound_frac", kNoBarrier);
+    options->SetNumericValue("mu_init", kIpoptTuning.no_barrier);
+    options->SetNumericValue("bound_push", kIpoptTuning.no_barrier);
+    options->SetNumericValue("bound_frac", kIpoptTuning.no_barrier);
     options->SetStringValue("bound_mult_init_method", "mu-based");
   } else {
     options->SetStringValue("mu_strategy", "adaptive");
   }
-  // Nothing outside the bounds: no cable pushes.
+  // Bounds are strict: no cable pushes.
   options->SetNumericValue("bound_relax_factor", 0.0);
 }
 

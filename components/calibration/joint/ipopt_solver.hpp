@@ -15,14 +15,14 @@ namespace palpate::calibration {
 
 struct LeastSquaresSettings {
   int max_iterations = 100;
-  /// It has arrived where no variable moves further in a step, constraints are met as well, and the
-  /// barrier that keeps it from the bounds has shrunk as far.
+  /// Converged where no variable moves further in a step, and constraint violation and barrier
+  /// parameter are no larger.
   double step_tolerance = 1e-8;
-  /// Blocks weigh less beyond so many sigmas; <= 0: all weigh alike.
+  /// Huber's threshold of a block, in standard deviations; <= 0: no robust loss.
   double huber_threshold = 0.0;
-  /// The start is the solution but for tiny steps: it is not pushed away from its bounds.
+  /// The start is nearly the solution and is not pushed away from its bounds.
   bool starts_there = false;
-  /// Asked after each iteration: it then ends there, kNotConverged.
+  /// Checked after each iteration: ends with kNotConverged.
   std::stop_token stop = {};
 };
 
@@ -32,12 +32,12 @@ struct LeastSquaresSolution {
   LeastSquaresPoint point;         ///< at `variables`
   std::vector<double> objectives;  ///< of the start and after each iteration
   int iterations = 0;
-  std::string failed_evaluation;  ///< why the last point without a value had none
+  std::string failed_evaluation;  ///< reason of the last point without a value
 };
 
-/// Solves it with Ipopt (interior point, line search with filter); the Hessian is J' w J
-/// (Gauss-Newton: exact where residuals vanish). kNotConverged where Ipopt says anything but
-/// "solved"; `variables` are then where it stopped.
+/// Solves it with Ipopt (interior point, line search with filter) and the Gauss-Newton Hessian
+/// J' w J. kNotConverged where Ipopt does not report a solution; `variables` are then the last
+/// iterate.
 LeastSquaresSolution SolveLeastSquares(LeastSquaresProblem& problem,
                                        const LeastSquaresSettings& settings);
 

@@ -19,7 +19,7 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Holds what is not determined at this point; true where something new is held.
+/// Holds the variables that are not determined at this point. `held_more`: whether there are any.
 Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& settings,
                         JointProblem* problem, bool* held_more) {
   *held_more = false;
@@ -28,8 +28,8 @@ Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& set
     if (!worst) return Status::Ok();
     const Variable& variable = problem->variables()[At(*worst)];
     if (IsOfPose(*worst, *problem)) {
-      return {StatusCode::kUnobservable, "the data do not determine the camera's pose (" +
-                                             variable.name + "): it takes " +
+      return {StatusCode::kUnobservable, "the data do not determine the camera pose (" +
+                                             variable.name + "): it needs " +
                                              variable.what_would_tell};
     }
     problem->Hold(*worst);
@@ -37,7 +37,7 @@ Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& set
   }
 }
 
-/// The next search starts there, with what is held back at its mean.
+/// The next search starts there, with held variables at their means.
 void StartWithHeld(Eigen::VectorXd from, JointProblem* problem) {
   for (int v = 0; v < static_cast<int>(from.size()); ++v) {
     if (problem->IsHeld(v)) from[v] = 0.0;
@@ -45,8 +45,8 @@ void StartWithHeld(Eigen::VectorXd from, JointProblem* problem) {
   problem->StartAt(from);
 }
 
-/// Where the search starts, and what these data do not determine there. `starts_there`: it is the
-/// solution but for what Ipopt makes sure of.
+/// Finds the start of the search, and holds what is not determined there. `starts_there`: the start
+/// is nearly the solution.
 Status FindStart(JointProblem* problem, const JointSettings& settings,
                  LiftedSolution* lifted_gauss_newton, bool* starts_there) {
   if (problem->CanBeLifted()) {
@@ -94,7 +94,7 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
     const Variable& variable = problem.variables()[At(v)];
     const double value = problem.ValueOf(v, solution.variables);
     double error = problem.Scale(v) * std::sqrt(covariance(v, v));
-    if (problem.IsHeld(v)) error = variable.belief.sigma;
+    if (problem.IsHeld(v)) error = variable.prior.sigma;
     const Unknown* unknown = variable.unknown;
     if (unknown != nullptr) error *= std::abs(unknown->QuantityPerValue(value));
     result->values.push_back(
@@ -140,15 +140,15 @@ void ReportDepthBias(const JointProblem& problem, const LeastSquaresSolution& so
   result->pose_and_bias_covariance = per_variable * covariance * per_variable.transpose();
 }
 
-/// The way that the search took. An approach ended where Ipopt started.
-void ReportWay(const JointProblem& problem, const LiftedSolution& lifted_gauss_newton,
-               const LeastSquaresSolution& solution, JointCalibration* result) {
+/// Objective and residual of each iteration. The lifted method ends where Ipopt starts.
+void ReportIterations(const JointProblem& problem, const LiftedSolution& lifted_gauss_newton,
+                      const LeastSquaresSolution& solution, JointCalibration* result) {
   result->iterations = lifted_gauss_newton.steps + solution.iterations;
   result->objectives = lifted_gauss_newton.objectives;
   result->residual_rms_after_m = lifted_gauss_newton.residual_rms_after_m;
   const std::vector<double>& accepted_m = problem.residual_rms_after_m();
-  const std::size_t told = lifted_gauss_newton.steps > 0 ? 1 : 0;
-  const auto since = std::min(accepted_m.size(), solution.objectives.size()) - told;
+  const std::size_t reported = lifted_gauss_newton.steps > 0 ? 1 : 0;
+  const auto since = std::min(accepted_m.size(), solution.objectives.size()) - reported;
   for (std::size_t k = since; k > 0; --k) {
     result->objectives.push_back(solution.objectives[solution.objectives.size() - k]);
     result->residual_rms_after_m.push_back(accepted_m[accepted_m.size() - k]);
@@ -167,7 +167,7 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   result->chi_squared = fit.chi_squared;
   int free = 0;
   for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
-    free += problem.IsHeld(v) || std::isfinite(problem.variables()[At(v)].belief.sigma) ? 0 : 1;
+    free += problem.IsHeld(v) || std::isfinite(problem.variables()[At(v)].prior.sigma) ? 0 : 1;
   }
   result->degrees_of_freedom = static_cast<int>(rows) - free;
   const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));
@@ -200,7 +200,7 @@ JointCalibration CalibrateJointly(robot::RobotModel& model, const JointSetup& se
     kept.Restore();
     return result;
   }
-  ReportWay(problem, lifted_gauss_newton, solution, &result);
+  ReportIterations(problem, lifted_gauss_newton, solution, &result);
   Conclude(problem, solution, settings, &result);
   kept.RestoreGravity();
   return result;

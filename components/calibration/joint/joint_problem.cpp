@@ -13,8 +13,12 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr double kPlausibleTurn_rad = 0.1;
-constexpr double kPlausibleShift_m = 0.02;
+/// Scales of the pose, which has no prior: smaller ones demand more of the data.
+struct JointProblemTuning {
+  double plausible_turn_rad = 0.1;
+  double plausible_shift_m = 0.02;
+};
+constexpr JointProblemTuning kProblemTuning;
 
 }  // namespace
 
@@ -30,14 +34,14 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
   }
 }
 
-/// Gives the column of the first unknown.
+/// Returns the column of the first unknown.
 int JointProblem::AddVariables() {
   if (setup_.fit_pose) AddPoseVariables();
   if (setup_.depth_bias) {
     depth_bias_column_ = static_cast<int>(variables_.size());
     for (const std::string& name : geometry::NamesOf(setup_.depth_bias->basis)) {
       variables_.push_back({name, "", setup_.depth_bias->coefficient,
-                            "recordings of the robot at several distances, all over the picture",
+                            "recordings of the robot at several distances, all over the image",
                             nullptr, !setup_.depth_bias->estimated});
     }
   }
@@ -52,7 +56,7 @@ int JointProblem::AddVariables() {
       PALPATE_CHECK(setup_.conditions.empty(), setup_.conditions.size());
       scale_column_ = static_cast<int>(variables_.size());
     }
-    variables_.push_back({unknown->name(), unknown->unit(), unknown->belief(),
+    variables_.push_back({unknown->name(), unknown->unit(), unknown->prior(),
                           unknown->what_would_tell(), unknown.get()});
   }
   return first_unknown;
@@ -61,14 +65,18 @@ int JointProblem::AddVariables() {
 void JointProblem::AddPoseVariables() {
   pose_column_ = static_cast<int>(variables_.size());
   const char* axes[] = {"x", "y", "z"};
-  const std::string needed = "three or more markers that do not lie on one line";
+  const std::string needed = "three or more markers that are not collinear";
   for (const char* axis : axes) {
-    variables_.push_back(
-        {std::string("camera_rotation_") + axis, "rad", {.plausible = kPlausibleTurn_rad}, needed});
+    variables_.push_back({std::string("camera_rotation_") + axis,
+                          "rad",
+                          {.plausible = kProblemTuning.plausible_turn_rad},
+                          needed});
   }
   for (const char* axis : axes) {
-    variables_.push_back(
-        {std::string("camera_translation_") + axis, "m", {.plausible = kPlausibleShift_m}, needed});
+    variables_.push_back({std::string("camera_translation_") + axis,
+                          "m",
+                          {.plausible = kProblemTuning.plausible_shift_m},
+                          needed});
   }
 }
 
@@ -88,11 +96,11 @@ void JointProblem::AddMarkerOffsets() {
 }
 
 double JointProblem::Scale(int variable) const {
-  return ScaleOf(variables_[static_cast<size_t>(variable)].belief);
+  return ScaleOf(variables_[static_cast<size_t>(variable)].prior);
 }
 
 double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) const {
-  return variables_[static_cast<size_t>(variable)].belief.mean +
+  return variables_[static_cast<size_t>(variable)].prior.mean +
          Scale(variable) * variables[variable];
 }
 
@@ -104,7 +112,7 @@ CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
   return {setup_.T_robot_camera, change};
 }
 
-/// Empty where the depth counts as right.
+/// Empty without a depth bias.
 Eigen::VectorXd JointProblem::DepthBasisAt(const Eigen::Vector3d& p_camera_m) const {
   if (!setup_.depth_bias) return {};
   return geometry::ValuesAt(setup_.depth_bias->basis, p_camera_m);
@@ -153,9 +161,9 @@ double JointProblem::ResidualRms_m() const {
 Eigen::MatrixX2d JointProblem::Bounds() const {
   Eigen::MatrixX2d bounds(start_.size(), 2);
   for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
-    const Belief& belief = variables_[static_cast<size_t>(v)].belief;
-    bounds(v, 0) = IsHeld(v) ? 0.0 : (belief.lower - belief.mean) / Scale(v);
-    bounds(v, 1) = IsHeld(v) ? 0.0 : (belief.upper - belief.mean) / Scale(v);
+    const GaussianPrior& prior = variables_[static_cast<size_t>(v)].prior;
+    bounds(v, 0) = IsHeld(v) ? 0.0 : (prior.lower - prior.mean) / Scale(v);
+    bounds(v, 1) = IsHeld(v) ? 0.0 : (prior.upper - prior.mean) / Scale(v);
   }
   return bounds;
 }
@@ -192,11 +200,10 @@ void JointProblem::See(const Eigen::VectorXd& variables, LeastSquaresPoint* poin
 
 void JointProblem::Clear(LeastSquaresPoint* point) const {
   const auto columns = ToIndex(variables_.size());
-  const auto beliefs = std::count_if(variables_.begin(), variables_.end(), [](const Variable& v) {
-    return std::isfinite(v.belief.sigma);
-  });
-  point->residual.setZero(data_rows_ + beliefs);
-  point->jacobian.setZero(data_rows_ + beliefs, columns);
+  const auto priors = std::count_if(variables_.begin(), variables_.end(),
+                                    [](const Variable& v) { return std::isfinite(v.prior.sigma); });
+  point->residual.setZero(data_rows_ + priors);
+  point->jacobian.setZero(data_rows_ + priors, columns);
   point->constraint.setZero(ToIndex(setup_.conditions.size()));
   point->constraint_jacobian.setZero(ToIndex(setup_.conditions.size()), columns);
 }
@@ -209,7 +216,7 @@ void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* p
     SeeMarkers(frame, view, variables, &row, point);
     SeeSurface(frame, view, variables, &row, point);
   }
-  AddBeliefs(variables, point);
+  AddPriors(variables, point);
 }
 
 JointProblem::PlaceInFrame JointProblem::PlaceOf(std::size_t frame,
@@ -268,7 +275,7 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   }
 }
 
-/// They stay at 0.
+/// Considered parameters, at 0.
 void JointProblem::PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
                                    LeastSquaresPoint* point) const {
   for (const SharedError& error : sighting.shared) {
@@ -303,10 +310,10 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
   }
 }
 
-void JointProblem::AddBeliefs(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const {
+void JointProblem::AddPriors(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const {
   Eigen::Index row = data_rows_;
   for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
-    const double sigma = variables_[static_cast<size_t>(v)].belief.sigma;
+    const double sigma = variables_[static_cast<size_t>(v)].prior.sigma;
     if (!std::isfinite(sigma)) continue;
     point->residual[row] = Scale(v) * variables[v] / sigma;
     point->jacobian(row, v) = Scale(v) / sigma;

@@ -24,48 +24,48 @@ namespace palpate::calibration {
 struct Variable {
   std::string name;
   std::string unit;
-  Belief belief;
+  GaussianPrior prior;
   std::string what_would_tell;
-  const Unknown* unknown = nullptr;  ///< of the pose and other parts of the view: none
-  bool considered = false;           ///< held at its mean, for its part in the errors of the others
-  bool models_own = false;           ///< of an error that the model always has
+  const Unknown* unknown = nullptr;  ///< nullptr: of the pose or the measurement
+  bool considered = false;           ///< never estimated: held at its mean for the covariance
+  bool models_own = false;           ///< an error of the model itself (Against::kThisModel)
 };
 
-/// Camera pose, cable inputs, material and more from what was seen of the body in several frames
-/// (the paper's eq. (7) over all of them at once): residuals of equilibria, with exact derivatives
-/// by their sensitivities. Variables are scaled: value = mean + plausible change * variable.
-/// Rows: frame by frame markers (3 each), then surface points, then a row for each belief.
+/// The least-squares problem of a joint calibration (eq. (7) of the paper over all frames):
+/// residuals of the equilibria, with exact derivatives by their sensitivities. Variables are
+/// scaled: value = mean + ScaleOf(prior) * variable. Rows: per frame markers (3 each) and surface
+/// points (1 each), then one for each prior.
 class JointProblem final : public LeastSquaresProblem {
  public:
-  /// Both must outlive it; the model's moduli and gravity are changed along the way.
+  /// Both must outlive it. It changes moduli and gravity of the model.
   JointProblem(robot::RobotModel& model, const JointSetup& setup);
 
   const std::vector<Variable>& variables() const { return variables_; }
   /// Held variables stay at their mean.
   void Hold(int variable) { held_[static_cast<size_t>(variable)] = true; }
   bool IsHeld(int variable) const { return held_[static_cast<size_t>(variable)]; }
-  /// Where the search starts: the means, unless another start is given.
+  /// Start of the search; by default the prior means.
   void StartAt(const Eigen::VectorXd& variables) { start_ = variables; }
 
   Eigen::Index DataRows() const { return data_rows_; }
   double Scale(int variable) const;
   double ValueOf(int variable, const Eigen::VectorXd& variables) const;
   geometry::RigidTransform PoseAt(const Eigen::VectorXd& variables) const;
-  /// Whether derivatives say enough of it for SolveLiftedGaussNewton.
+  /// Whether SolveLiftedGaussNewton can solve it.
   bool CanBeLifted() const { return setup_.conditions.empty(); }
-  /// Columns of pose (6) and other parts of the view; -1: not fitted.
+  /// First columns of pose (6) and depth bias; -1: not estimated.
   int pose_column() const { return pose_column_; }
   int depth_bias_column() const { return depth_bias_column_; }
   const std::optional<DepthBiasPrior>& depth_bias() const { return setup_.depth_bias; }
-  /// [frames] equilibria of the model in the last point: of a robot of scale 1 (ToModel).
+  /// [frames] equilibria of the model at the last point: of a robot of scale 1 (ToModel).
   const std::vector<fem::StaticState>& states() const { return shapes_.states(); }
   BodyShapes& shapes() { return shapes_; }
-  /// [frames] nodes [3n] of the robot in the last point, which is at `variables`.
+  /// [frames] nodes [3n] of the robot at the last point, which is at `variables`.
   std::vector<Eigen::VectorXd> ShapesAt(const Eigen::VectorXd& variables) const;
-  /// m, [frames] of the last point: RMS distance over its markers, or points along the normal.
+  /// m, [frames] at the last point: RMS distance of markers, or of surface points along the normal.
   const std::vector<double>& residual_rms_m() const { return residual_rms_m_; }
-  double ResidualRms_m() const;  ///< of all frames, of the last point
-  /// m, of all frames, at each point that was accepted.
+  double ResidualRms_m() const;  ///< of all frames, at the last point
+  /// m, of all frames, at each accepted point.
   const std::vector<double>& residual_rms_after_m() const { return residual_rms_after_m_; }
 
   Eigen::VectorXd Start() const override { return start_; }
@@ -74,7 +74,7 @@ class JointProblem final : public LeastSquaresProblem {
   std::vector<RobustBlock> RobustBlocks() const override;
   Status Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) override;
   void Accept() override;
-  /// As Evaluate, with the bodies where shapes() says by the derivatives that it has.
+  /// As Evaluate, with the shapes that the derivatives of shapes() predict.
   void See(const Eigen::VectorXd& variables, LeastSquaresPoint* point);
 
  private:
@@ -94,7 +94,7 @@ class JointProblem final : public LeastSquaresProblem {
   /// A point of the body in a frame.
   struct PlaceInFrame {
     const fem::InterpolationWeights& point;
-    const std::vector<Eigen::Index>& column;  ///< of what it moves with
+    const std::vector<Eigen::Index>& column;  ///< variables that move it
     SolvedState::Place place;
   };
   PlaceInFrame PlaceOf(std::size_t frame, const fem::InterpolationWeights& point,
@@ -104,7 +104,7 @@ class JointProblem final : public LeastSquaresProblem {
   template <int Rows>
   void PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd& depth_basis,
                const PlaceInFrame& seen, Eigen::Index row, LeastSquaresPoint* point) const;
-  void AddBeliefs(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const;
+  void AddPriors(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const;
 
   robot::RobotModel& model_;
   const JointSetup& setup_;
@@ -118,7 +118,7 @@ class JointProblem final : public LeastSquaresProblem {
   int scale_column_ = -1;
   double scale_ = 1.0;  ///< of the robot, at the present variables
   Eigen::Index data_rows_ = 0;
-  BodyShapes shapes_;  ///< after the variables, of which some are its
+  BodyShapes shapes_;  ///< initialised after variables_
   std::vector<double> residual_rms_m_;
   std::vector<double> residual_rms_after_m_;
 };

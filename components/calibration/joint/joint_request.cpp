@@ -24,14 +24,19 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-constexpr double kWrongRobotShare = 0.1;
-/// Share of the distances that a reflection would leave.
-constexpr double kClearlyNotMirrored = 0.5;
-constexpr double kFirstTension_N = 0.5;
-constexpr double kLeastPoissonsRatio = 0.0;
-constexpr double kMostPoissonsRatio = 0.4999;
+struct JointRequestTuning {
+  /// Residual over the markers' spread of another robot: less refuses poor models of this one.
+  double wrong_robot_share = 0.1;
+  /// Residual over that of a reflection up to which the undeformed body gives the initial pose:
+  /// more saves equilibria, and risks a mirrored start.
+  double clearly_not_mirrored = 0.5;
+  double first_tension_N = 0.5;  ///< initial value of an unknown tension: taut, and far from limits
+  double least_poissons_ratio = 0.0;
+  double most_poissons_ratio = 0.4999;  ///< below 0.5, where the volume is fixed
+};
+constexpr JointRequestTuning kRequestTuning;
 
-/// The frames' equilibria under what is believed of their inputs.
+/// The frames' equilibria under the prior means of their inputs.
 Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
   std::vector<robot::RobotModel*> models = {&model};
   for (const auto& helper : setup->helpers) models.push_back(helper.get());
@@ -55,8 +60,7 @@ Status SolveStates(robot::RobotModel& model, JointSetup* setup) {
   return Status::Ok();
 }
 
-/// The rigid motion under which all frames' markers lie nearest to the model's, in these shapes
-/// [3n] of each frame.
+/// Registration of the markers of all frames with the model's in these shapes [frames] of [3n].
 geometry::Registration Register(const robot::RobotModel& model, const JointSetup& setup,
                                 const std::vector<Eigen::VectorXd>& x_m) {
   std::vector<Eigen::Vector3d> seen, expected;
@@ -76,13 +80,13 @@ geometry::Registration Register(const robot::RobotModel& model, const JointSetup
   return geometry::RegisterRigid(source_m, target_m);
 }
 
-/// Where the camera stands, and the frames' equilibria where it takes these to tell: the shape at
-/// rest does as long as it could not be taken for its mirror image.
+/// Initial camera pose by registration with the undeformed body, or with the frames' equilibria
+/// where a mirror image fits nearly as well.
 Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
   const std::vector<Eigen::VectorXd> at_rest(setup->frames.size(), model.RestState().x_m);
   geometry::Registration registration = Register(model, *setup, at_rest);
   if (!registration.status.ok() ||
-      registration.rms_m > kClearlyNotMirrored * registration.mirrored_rms_m) {
+      registration.rms_m > kRequestTuning.clearly_not_mirrored * registration.mirrored_rms_m) {
     if (Status status = SolveStates(model, setup); !status.ok()) return status;
     std::vector<Eigen::VectorXd> solved;
     for (const fem::StaticState& state : setup->states) solved.push_back(state.x_m);
@@ -92,17 +96,17 @@ Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
   return registration.status;
 }
 
-/// An unknown tension for each cable of which nothing is known in a frame.
+/// An unknown tension for each cable without an input in a frame.
 void AddInputs(const robot::RobotModel& model, JointSetup* setup) {
   for (std::size_t f = 0; f < setup->frames.size(); ++f) {
     for (int c = 0; c < model.CableCount(); ++c) {
       const auto cable = static_cast<size_t>(c);
       robot::CableCommand& command = setup->frames[f].cables[cable];
       if (command.kind != Kind::kNone) continue;
-      command = {Kind::kTension, kFirstTension_N};
+      command = {Kind::kTension, kRequestTuning.first_tension_N};
       setup->unknowns.push_back(CableInput(static_cast<int>(f), setup->frames[f].name, c,
                                            model.body().cables[cable].name, Kind::kTension,
-                                           {.mean = kFirstTension_N,
+                                           {.mean = kRequestTuning.first_tension_N,
                                             .lower = 0.0,
                                             .upper = model.body().cables[cable].max_tension_N,
                                             .plausible = 1.0}));
@@ -110,7 +114,7 @@ void AddInputs(const robot::RobotModel& model, JointSetup* setup) {
   }
 }
 
-void AddDrives(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
+void AddActuators(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   for (int c = 0; c < model.CableCount(); ++c) {
     const auto cable = static_cast<size_t>(c);
     const std::string& name = model.body().cables[cable].name;
@@ -122,12 +126,12 @@ void AddDrives(const robot::RobotModel& model, const JointRequest& request, Join
       measured.push_back(by_displacement ? frame.cables[cable].value : 0.0);
     }
     if (!driven) continue;
-    if (request.drive_offsets) {
-      const double sigma_m = request.drive_offset_sigma_m;
+    if (request.actuator_offsets) {
+      const double sigma_m = request.actuator_offset_sigma_m;
       setup->unknowns.push_back(CommandOffset(c, name, {.sigma = sigma_m, .plausible = sigma_m}));
     }
-    if (request.drive_gains) {
-      const double sigma = request.drive_gain_sigma;
+    if (request.actuator_gains) {
+      const double sigma = request.actuator_gain_sigma;
       setup->unknowns.push_back(
           CommandGain(c, name, std::move(measured), {.sigma = sigma, .plausible = sigma}));
     }
@@ -156,13 +160,13 @@ void AddPoissonsRatios(const robot::RobotModel& model, const JointRequest& reque
         PoissonsRatioOf(material, part,
                         {.mean = model.body().materials.at(index).poissons_ratio,
                          .sigma = sigma,
-                         .lower = kLeastPoissonsRatio,
-                         .upper = kMostPoissonsRatio,
+                         .lower = kRequestTuning.least_poissons_ratio,
+                         .upper = kRequestTuning.most_poissons_ratio,
                          .plausible = sigma}));
   }
 }
 
-/// Turns of gravity, and a factor on it.
+/// Tilts of gravity, and a factor on it.
 void AddWeight(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   const double tilt_sigma = std::tan(request.gravity_tilt_sigma_rad);
   if (tilt_sigma > 0.0) {
@@ -178,25 +182,25 @@ void AddWeight(const robot::RobotModel& model, const JointRequest& request, Join
   }
 }
 
-/// Where the points of a cable's path sit.
+/// Points of a cable's route.
 void AddRoute(const robot::RobotBody& body, const JointRequest& request, int cable,
               JointSetup* setup) {
   const auto points = 1 + body.cables[At(cable)].eyelets.size();
   for (int point = 0; point < static_cast<int>(points); ++point) {
     const double sigma_m = point == 0 ? request.cable_route_sigma_m : request.cable_eyelet_sigma_m;
     if (sigma_m <= 0.0) continue;
-    Belief belief{.sigma = sigma_m, .plausible = sigma_m};
+    GaussianPrior prior{.sigma = sigma_m, .plausible = sigma_m};
     if (point > 0) {
-      belief.upper = std::sqrt(0.5) * body.eyelet_room_m;  // both directions at once
-      belief.lower = -belief.upper;
+      prior.upper = std::sqrt(0.5) * body.eyelet_room_m;  // both directions at once
+      prior.lower = -prior.upper;
     }
     for (const TiltAxis& direction : AcrossCable(body, cable, point)) {
-      setup->unknowns.push_back(RouteOf(body, cable, point, direction, belief));
+      setup->unknowns.push_back(RouteOf(body, cable, point, direction, prior));
     }
   }
 }
 
-/// Size of the robot, and where its cables' guides and eyelets sit.
+/// Size of the robot, and its cable routes.
 void AddGeometry(const robot::RobotModel& model, const JointRequest& request, JointSetup* setup) {
   const double scale_sigma = request.geometry_scale_sigma;
   if (scale_sigma > 0.0) {
@@ -211,7 +215,7 @@ void AddGeometry(const robot::RobotModel& model, const JointRequest& request, Jo
   }
 }
 
-/// Of the markers that were seen and the model's in the shapes that were found.
+/// Measured markers against the model's in the estimated shapes.
 SizeComparison CompareSizes(const robot::RobotModel& model,
                             const std::vector<CalibrationFrame>& frames,
                             const std::vector<Eigen::VectorXd>& x_m) {
@@ -241,7 +245,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   if (request.cable_eyelet_sigma_m > model.body().eyelet_room_m) {
     return {StatusCode::kInvalidInput, "the model has no room to move eyelets by " +
                                            FormatNumber(request.cable_eyelet_sigma_m) +
-                                           " m: give its body room"};
+                                           " m: build its body with eyelet room"};
   }
   AddInputs(model, setup);
   const int threads = std::min(request.threads, static_cast<int>(setup->frames.size()));
@@ -251,7 +255,7 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   } else if (Status status = FindModelStart(model, setup); !status.ok()) {
     return status;
   }
-  AddDrives(model, request, setup);
+  AddActuators(model, request, setup);
   AddModuli(model, request, setup);
   AddPoissonsRatios(model, request, setup);
   AddWeight(model, request, setup);
@@ -282,15 +286,15 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   result = CalibrateJointly(model, setup, settings);
   if (!result.status.ok()) return result;
   const SizeComparison sizes = CompareSizes(model, setup.frames, result.x_m);
-  if (result.residual_rms_m > kWrongRobotShare * sizes.seen_m()) {
+  if (result.residual_rms_m > kRequestTuning.wrong_robot_share * sizes.seen_m()) {
     kept.Restore();
     const std::string off =
-        "the markers lie " + FormatNumber(result.residual_rms_m) + " m from the model's (RMS)";
+        "the markers are " + FormatNumber(result.residual_rms_m) + " m from the model's (RMS)";
     result.status = Status(StatusCode::kInvalidInput,
                            sizes.Explains(result.residual_rms_m)
                                ? off + "; " + sizes.Text()
-                               : off + ", of " + FormatNumber(sizes.seen_m()) +
-                                     " m that they are apart: another robot, or other markers");
+                               : off + ", with a spread of " + FormatNumber(sizes.seen_m()) +
+                                     " m: another robot, or other markers");
   }
   return result;
 }

@@ -10,56 +10,55 @@
 
 namespace palpate::calibration {
 
-/// What a joint calibration of recorded or live frames is to find, with what a data sheet says.
+/// Parameters that a joint calibration estimates, with their prior standard deviations.
 struct JointRequest {
   bool pose = true;
-  /// Where the displacement of each drive counts from.
-  bool drive_offsets = true;
-  double drive_offset_sigma_m = 2e-3;
-  bool drive_gains = false;
-  double drive_gain_sigma = 0.05;
-  std::vector<int> moduli = {};  ///< RobotBody::materials whose Young's modulus is looked for
+  /// Zero offset of each actuator's displacement.
+  bool actuator_offsets = true;
+  double actuator_offset_sigma_m = 2e-3;
+  bool actuator_gains = false;
+  double actuator_gain_sigma = 0.05;
+  std::vector<int> moduli = {};  ///< RobotBody::materials whose Young's modulus is estimated
   double modulus_relative_sigma = 0.5;
-  /// Poisson's ratio of the same materials, gravity's direction and the body's weight are looked
-  /// for where how far they may be off (one sigma) is not 0.
+  /// Prior standard deviations of Poisson's ratio of the same materials, of gravity's direction and
+  /// of the body's mass; 0: not estimated.
   double poissons_ratio_sigma = 0.0;
   double gravity_tilt_sigma_rad = 0.0;  ///< about each of two axes across gravity
   double mass_relative_sigma = 0.0;
-  /// The same of the robot's size (FrameInputs::scale), of the guides from which the cables are
-  /// pulled and of their eyelets on the body, along each of two directions across them, and of the
-  /// depth by which markers were measured, a share of it. Eyelets need a model whose body has room
-  /// (robot::GiveEyeletsRoom) of some such sigmas.
+  /// The same of the robot's size (FrameInputs::scale), of the points from which cables are pulled
+  /// and of their eyelets on the body, along each of two directions across the cable, and of the
+  /// depth scale of markers. Eyelets need a model whose body has room for several such standard
+  /// deviations (robot::GiveEyeletsRoom).
   double geometry_scale_sigma = 0.0;
   double cable_route_sigma_m = 0.0;
   double cable_eyelet_sigma_m = 0.0;
   double depth_scale_sigma = 0.0;
-  /// Smooth error of the depth that all of a camera's markers have in common, one sigma as a share
-  /// of z: counts in the standard errors (DepthBiasPrior) where no scale of it is looked for; 0:
-  /// it has none.
+  /// Standard deviation of the depth bias common to all markers of a camera, as a share of z. It is
+  /// considered in the covariance (DepthBiasPrior) where depth_scale_sigma is 0; 0: none.
   double depth_bias_sigma = 0.0;
-  /// How far a marker may sit from its place in the robot file: looked for where it is not 0; else
-  /// it counts in the standard errors as `marker_placement_sigma_m`: what meshes of quadratic
-  /// elements as fine as the four legs' make of it, mostly where cables' eyelets sink in (measured:
-  /// TableTwo). Linear ones err by three times as much.
+  /// Prior standard deviation of marker offsets; 0: not estimated, and `marker_placement_sigma_m`
+  /// is considered in the covariance. That default is the mesh error of quadratic elements as fine
+  /// as the four legs', mostly from eyelets that sink in (measured: TableTwo). Linear elements err
+  /// by three times as much.
   double marker_offset_sigma_m = 0.0;
   double marker_placement_sigma_m = 1e-4;
-  /// That work on frames, each with a model of its own; never more than there are frames.
+  /// Threads, each with a model of its own; at most one per frame.
   int threads = 2;
-  double huber_threshold = 4.0;  ///< sigmas; for markers that are mistaken for others
-  std::stop_token stop = {};     ///< ends the fit, which then is kNotConverged
+  double huber_threshold = 4.0;  ///< standard deviations; for wrongly assigned markers
+  std::stop_token stop = {};     ///< ends the fit with kNotConverged
 };
 
-/// The problem for these frames: where no pose is given, the search starts from the rigid motion
-/// between the markers that were seen and the model's, of the body at rest; where that might be
-/// taken for its mirror image, under the frames' cable inputs. Tensions of cables of which nothing
-/// was recorded are unknowns of their own. Not ok where the markers tell no pose (too few, on one
-/// line, mirrored), or the model has no equilibrium under inputs that it takes to tell.
+/// The problem of these frames. Without a given pose the search starts from the registration of the
+/// markers with those of the undeformed body. Where a mirror image fits nearly as well, that body
+/// is replaced by the equilibria under the frames' inputs. A cable without a recorded input has an
+/// unknown tension in each frame. Not ok where the markers determine no pose (too few, collinear,
+/// mirrored), or such an equilibrium is not reached.
 Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                       const geometry::RigidTransform* T_robot_camera, const JointRequest& request,
                       JointSetup* setup);
 
-/// CalibrateJointly, refusing what is not this robot: kInvalidInput where the markers lie off by
-/// more than a tenth of their spread; the model is then as it was.
+/// CalibrateJointly that refuses another robot: kInvalidInput where the residual exceeds a tenth of
+/// the markers' spread; the model is then unchanged.
 JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<CalibrationFrame> frames,
                                  const geometry::RigidTransform* T_robot_camera,
                                  const JointRequest& request);

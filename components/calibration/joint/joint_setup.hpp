@@ -17,23 +17,23 @@
 
 namespace palpate::calibration {
 
-/// Everything that one joint calibration is about.
+/// Data, unknowns and known quantities of one joint calibration.
 struct JointSetup {
   std::vector<CalibrationFrame> frames;
   std::vector<UnknownPtr> unknowns;
-  std::vector<ConditionPtr> conditions;  ///< none beside an unknown scale
-  std::vector<fem::StaticState> states;  ///< [frames] to start from; empty: from rest
-  /// Models like the one that is calibrated (ModelsLike): each takes a share of the frames, on a
-  /// thread of its own.
+  std::vector<ConditionPtr> conditions;  ///< empty where the scale is an unknown
+  std::vector<fem::StaticState> states;  ///< [frames] initial states; empty: undeformed
+  /// Copies of the calibrated model (ModelsLike). Each takes a share of the frames on a thread of
+  /// its own.
   std::vector<std::unique_ptr<robot::RobotModel>> helpers = {};
-  geometry::RigidTransform T_robot_camera;  ///< to start from, or known
+  geometry::RigidTransform T_robot_camera;  ///< initial, or known
   bool fit_pose = true;
-  std::optional<DepthBiasPrior> depth_bias;  ///< nothing: the depth is right
-  /// [numbers that SurfaceSighting::shared speaks of] Whether each is the model's own: there again
-  /// wherever the model is laid on the robot. They count in the errors of all that is estimated.
+  std::optional<DepthBiasPrior> depth_bias;  ///< nullopt: no bias
+  /// [parameters of SurfaceSighting::shared] Whether each is an error of the model itself, which
+  /// recurs wherever the model is aligned with the robot. All are considered in the covariance.
   std::vector<bool> shared_errors = {};
-  /// How far a marker may lie from its place in the robot file, m, each axis (one sigma); 0: it
-  /// lies there. Where it is not estimated it counts in the errors of all that is.
+  /// Prior standard deviation of marker offsets, m, each axis; 0: none. Offsets that are not
+  /// estimated are considered in the covariance.
   double marker_offset_sigma_m = 0.0;
   bool estimate_marker_offsets = true;
 };

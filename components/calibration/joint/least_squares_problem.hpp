@@ -10,22 +10,23 @@
 
 namespace palpate::calibration {
 
-/// Values and first derivatives of a LeastSquaresProblem at one point. Rows beyond the residuals of
-/// data (priors) are the problem's to add.
+/// Values and first derivatives of a LeastSquaresProblem at one point. The problem may add rows
+/// beyond the residuals of data (priors).
 struct LeastSquaresPoint {
-  Eigen::VectorXd residual;             ///< [rows] each over its sigma
+  Eigen::VectorXd residual;             ///< [rows] each over its standard deviation
   Eigen::MatrixXd jacobian;             ///< [rows x variables]
   Eigen::VectorXd constraint;           ///< [constraints]
   Eigen::MatrixXd constraint_jacobian;  ///< [constraints x variables]
 };
 
-/// Residuals that share a weight: of one marker, or of one surface point.
+/// Residuals with one robust weight: of one marker, or of one surface point.
 struct RobustBlock {
   Eigen::Index first_row = 0;
   Eigen::Index rows = 0;
 };
 
-/// Minimise 1/2 sum of rho(|r_block|) + 1/2 sum of the other r^2 within bounds and constraints.
+/// Minimise 1/2 sum of rho(|r_block|) + 1/2 sum of the other r^2 within bounds and constraints;
+/// rho(r) = r^2 up to Huber's threshold.
 class LeastSquaresProblem {
  public:
   virtual ~LeastSquaresProblem() = default;
@@ -36,7 +37,8 @@ class LeastSquaresProblem {
   /// [constraints x 2]
   virtual Eigen::MatrixX2d ConstraintBounds() const = 0;
   virtual std::vector<RobustBlock> RobustBlocks() const = 0;
-  /// Not ok where there is no value (an equilibrium that is not reached): the step is shortened.
+  /// Not ok where there is no value, such as an equilibrium that is not reached: the solver then
+  /// shortens its step.
   virtual Status Evaluate(const Eigen::VectorXd& variables, LeastSquaresPoint* point) = 0;
   /// The point of the last Evaluate is the new iterate.
   virtual void Accept() {}

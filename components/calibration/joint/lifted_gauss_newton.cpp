@@ -12,15 +12,17 @@ namespace palpate::calibration {
 
 namespace {
 
-/// From the undeformed body it takes five to seven; more say that it wanders.
-constexpr int kMostSteps = 12;
-/// Of the body's extent: after a shorter way the next step is one with the factor that is there.
-/// The derivatives have changed by about as large a share.
-constexpr double kShortWay = 1e-4;
-/// A chord step that does not shorten the way to this share is followed by one with a new factor.
-constexpr double kShortens = 0.1;
+struct LiftedTuning {
+  int most_steps = 12;  ///< five to seven are normal from the undeformed body; more diverge
+  /// Nodal displacement over the body's extent after which a chord step follows: the derivatives
+  /// have changed by about that share. More saves factorisations and needs more steps.
+  double short_way = 1e-4;
+  /// A chord step that reduces the displacement by less is followed by a new factor.
+  double shortens = 0.1;
+};
+constexpr LiftedTuning kLiftedTuning;
 
-/// The problem with bodies that move as their derivatives say.
+/// The problem with linearised motion of the bodies.
 class Predicted final : public LeastSquaresProblem {
  public:
   Predicted(JointProblem* problem, Eigen::VectorXd start)
@@ -40,11 +42,11 @@ class Predicted final : public LeastSquaresProblem {
   Eigen::VectorXd start_;
 };
 
-/// Variables move to where the shapes, as they are linearised, leave the least.
+/// Moves the variables to the minimum with linearised shapes.
 Status MoveVariables(JointProblem* problem, const LeastSquaresSettings& settings,
                      LiftedSolution* lifted_gauss_newton) {
   LeastSquaresPoint point;
-  const auto tell = [&](double objective) {
+  const auto record = [&](double objective) {
     problem->See(lifted_gauss_newton->variables, &point);
     lifted_gauss_newton->objectives.push_back(objective);
     lifted_gauss_newton->residual_rms_after_m.push_back(problem->ResidualRms_m());
@@ -52,29 +54,29 @@ Status MoveVariables(JointProblem* problem, const LeastSquaresSettings& settings
   Predicted predicted(problem, lifted_gauss_newton->variables);
   const LeastSquaresSolution solution = SolveWithinBounds(predicted, settings);
   if (!solution.status.ok()) return solution.status;
-  if (lifted_gauss_newton->steps == 0) tell(solution.objectives.front());
+  if (lifted_gauss_newton->steps == 0) record(solution.objectives.front());
   lifted_gauss_newton->variables = solution.variables;
-  tell(solution.objectives.back());
+  record(solution.objectives.back());
   ++lifted_gauss_newton->steps;
   return Status::Ok();
 }
 
-/// Until nothing moves; not ok where that does not come.
+/// Until nothing moves; not ok without convergence.
 Status StepUntilStill(JointProblem* problem, const LeastSquaresSettings& settings,
                       LiftedSolution* lifted_gauss_newton) {
   BodyShapes& shapes = problem->shapes();
   if (Status status = shapes.ComeNear(lifted_gauss_newton->variables); !status.ok()) return status;
   double way = std::numeric_limits<double>::infinity();
-  while (lifted_gauss_newton->steps < kMostSteps) {
-    const bool keep = way < kShortWay && shapes.KeepsFactors();
+  while (lifted_gauss_newton->steps < kLiftedTuning.most_steps) {
+    const bool keep = way < kLiftedTuning.short_way && shapes.KeepsFactors();
     Status status = keep ? shapes.LineariseKept(lifted_gauss_newton->variables)
                          : shapes.Linearise(lifted_gauss_newton->variables);
     lifted_gauss_newton->factorisations += keep ? 0 : 1;
     if (status.ok()) status = MoveVariables(problem, settings, lifted_gauss_newton);
     if (!status.ok()) return status;
     const double last = std::exchange(way, shapes.StepTo(lifted_gauss_newton->variables));
-    const bool still = way < SolvedState::kTinyMove;
-    if (keep && way > kShortens * last) way = std::numeric_limits<double>::infinity();
+    const bool still = way < kSolvedStateTuning.tiny_move;
+    if (keep && way > kLiftedTuning.shortens * last) way = std::numeric_limits<double>::infinity();
     if (still && shapes.AreBalanced(lifted_gauss_newton->variables)) return Status::Ok();
   }
   return {StatusCode::kNotConverged, "steps used up"};
@@ -91,9 +93,9 @@ LiftedSolution SolveLiftedGaussNewton(JointProblem* problem, const LeastSquaresS
     return lifted_gauss_newton;
   }
   problem->shapes().Return();
-  LiftedSolution nowhere;
-  nowhere.status = lifted_gauss_newton.status;
-  return nowhere;
+  LiftedSolution failed;
+  failed.status = lifted_gauss_newton.status;
+  return failed;
 }
 
 }  // namespace palpate::calibration

@@ -12,22 +12,22 @@
 
 namespace palpate::calibration {
 
-/// How variables and shapes were brought near the solution.
+/// Result of the lifted Gauss-Newton method.
 struct LiftedSolution {
-  Status status;  ///< not ok: it led nowhere, and the problem is as it was
+  Status status;  ///< not ok: not converged, and the problem is unchanged
   Eigen::VectorXd variables;
-  std::vector<double> objectives;            ///< of the start and after each step
-  std::vector<double> residual_rms_after_m;  ///< of all frames, of the same
+  std::vector<double> objectives;            ///< at the start and after each step
+  std::vector<double> residual_rms_after_m;  ///< of all frames, likewise
   int steps = 0;
-  int factorisations = 0;  ///< for each frame: of the steps that were not chord steps
+  int factorisations = 0;  ///< per frame: steps that were no chord steps
 };
 
-/// Shapes and variables move together: Newton's step of each frame's equilibrium and Gauss-Newton's
-/// of the variables are of one linearisation (the lifted Newton method, Albersmeyer and Diehl,
-/// SIAM J. Optim. 20(3), 2010), so that on the way no equilibrium is solved for variables that are
-/// still far off. Bounds, beliefs, the camera's turn and robust weights count in each step as they
-/// are (Ipopt): only the bodies' motion is linear. It ends where steps are tiny and every frame is
-/// in balance to the static solver's tolerance. Not for problems with conditions.
+/// Shapes and variables move together: the Newton step of each equilibrium and the Gauss-Newton
+/// step of the variables share one linearisation (lifted Newton method, Albersmeyer and Diehl, SIAM
+/// J. Optim. 20(3), 2010), so that no equilibrium is solved far from the solution. Only the motion
+/// of the bodies is linearised: bounds, priors, camera rotation and robust weights are exact in
+/// each step. It ends where steps are tiny and every frame is in equilibrium to the static solver's
+/// tolerance. Not for problems with conditions.
 LiftedSolution SolveLiftedGaussNewton(JointProblem* problem, const LeastSquaresSettings& settings);
 
 }  // namespace palpate::calibration

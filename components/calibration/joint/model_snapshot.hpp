@@ -12,7 +12,7 @@
 
 namespace palpate::calibration {
 
-/// The model's moduli, Poisson's ratios, cables' paths and gravity, to put back.
+/// Moduli, Poisson's ratios, cable routes and gravity of a model, for restoring them.
 class ModelSnapshot {
  public:
   /// `model` must outlive it.

@@ -10,8 +10,8 @@
 
 namespace palpate::calibration {
 
-/// `count` models of this one's body as it is now, with the same solver: each for a thread of its
-/// own. Gravity is the robot file's.
+/// `count` copies of this model as it is now, with the same solver, for one thread each. Gravity is
+/// that of the robot file.
 std::vector<std::unique_ptr<robot::RobotModel>> ModelsLike(robot::RobotModel& model, int count);
 
 }  // namespace palpate::calibration

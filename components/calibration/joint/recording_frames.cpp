@@ -25,7 +25,7 @@ std::vector<MarkerSighting> Sightings(const experiment::Experiment& experiment,
   const std::vector<experiment::MarkerMean> means =
       experiment::MeanOver(*recording.markers, window);
   const Eigen::Vector3d sigma_m = experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero());
-  // Rounding of the file bounds what any mean can be known to.
+  // Rounding of the file bounds the accuracy of a mean.
   constexpr double kFloor_m2 = 1e-14;
   std::vector<MarkerSighting> sightings;
   const std::vector<std::string> names = model.MarkerNames();
@@ -44,7 +44,7 @@ std::vector<MarkerSighting> Sightings(const experiment::Experiment& experiment,
   return sightings;
 }
 
-/// The reference window as a frame of its own.
+/// The reference window as a frame.
 CalibrationFrame ReferenceFrame(const experiment::Experiment& experiment,
                                 const experiment::Recording& recording,
                                 const robot::RobotModel& model, robot::CableInput preferred) {

@@ -11,11 +11,10 @@
 
 namespace palpate::calibration {
 
-/// The markers of a recording as a joint calibration takes them, in the frame that they were
-/// measured in: the mean over its steady window, or over all of it where its cables are still, as
-/// one frame; of a moving one up to `most_frames`, spread over its time, with the markers of that
-/// moment. Their covariances are of markers_sigma_m (or what the still ones vary by, where that is
-/// more) over the number averaged, and `marker_bias_m` squared.
+/// The markers of a recording for a joint calibration, in the measurement frame. A recording with a
+/// steady window, or with still cables, gives one frame: the mean over it. A moving one gives up to
+/// `most_frames` single times, spread over the recording. Covariances are the noise variance
+/// (measured, at least markers_sigma_m) over the number averaged, plus `marker_bias_m` squared.
 /// Throws InputError (file:line) as ObserveRecording does.
 std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& experiment,
                                                 const experiment::Recording& recording,
@@ -23,9 +22,9 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
                                                 robot::CableInput preferred, double marker_bias_m,
                                                 int most_frames = 6);
 
-/// The same in the robot's frame, of a recording of which it is known where the camera stood. Its
-/// reference window is a frame of its own, of the undeformed body without weight, or of the body at
-/// rest without loads; `marker_bias_m`, an error between the two, counts in the others alone.
+/// The same in the robot frame, for a recording with a known camera pose. Its reference window is a
+/// further frame: the undeformed body without weight, or the equilibrium without loads.
+/// `marker_bias_m` is an error between both and counts in the other frames only.
 std::vector<CalibrationFrame> RobotFramesOfRecording(const experiment::Experiment& experiment,
                                                      const experiment::Recording& recording,
                                                      const robot::RobotModel& model,

@@ -10,7 +10,7 @@
 
 namespace palpate::calibration {
 
-/// What residuals cost where blocks of them have Huber's loss (HuberWeight of their norms).
+/// Objective and weights of residuals with Huber's loss per block (HuberWeight of its norm).
 struct RobustLoss {
   double objective = 0.0;   ///< LeastSquaresProblem's
   Eigen::VectorXd weights;  ///< [rows] gradient J' w r, Gauss-Newton's Hessian J' w J

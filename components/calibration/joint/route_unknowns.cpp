@@ -16,20 +16,20 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr const char* kPullsMuch =
-    "a recording in which this cable pulls much, with markers on the part it moves";
+constexpr const char* kLargeTension =
+    "a recording with a large tension of this cable, with markers on the part that it moves";
 
 class GuideUnknown final : public Unknown {
  public:
   GuideUnknown(int cable, std::string name, const Eigen::Vector3d& pull_point_m,
-               const Eigen::Vector3d& direction, const Belief& belief)
-      : Unknown(std::move(name), "m", belief, kPullsMuch),
+               const Eigen::Vector3d& direction, const GaussianPrior& prior)
+      : Unknown(std::move(name), "m", prior, kLargeTension),
         cable_(cable),
         pull_point_m_(pull_point_m),
         direction_(direction) {}
 
   Status ApplyToModel(double value, robot::RobotModel* model) const override {
-    // Two directions of one point: only this one's part is set.
+    // A point has two directions: only this component is set.
     const Eigen::Vector3d& now_m = model->cable(cable_).pull_point_m();
     const double off_m = value - direction_.dot(now_m - pull_point_m_);
     if (off_m != 0.0) model->SetPullPoint(cable_, now_m + off_m * direction_);
@@ -50,14 +50,14 @@ class GuideUnknown final : public Unknown {
 class EyeletUnknown final : public Unknown {
  public:
   EyeletUnknown(int cable, int eyelet, std::string name, const Eigen::Vector3d& direction,
-                const Belief& belief)
-      : Unknown(std::move(name), "m", belief, kPullsMuch),
+                const GaussianPrior& prior)
+      : Unknown(std::move(name), "m", prior, kLargeTension),
         cable_(cable),
         eyelet_(eyelet),
         direction_(direction) {}
 
   Status ApplyToModel(double value, robot::RobotModel* model) const override {
-    // Two directions of one eyelet: only this one's part is set.
+    // An eyelet has two directions: only this component is set.
     const Eigen::Vector3d moved_m = robot::EyeletMoved_m(CableOf(*model), eyelet_);
     const double off_m = value - direction_.dot(moved_m);
     if (off_m == 0.0) return Status::Ok();
@@ -85,7 +85,7 @@ class EyeletUnknown final : public Unknown {
   Eigen::Vector3d direction_;
 };
 
-/// Near TiltAxes of `along`, square to each other.
+/// Near TiltAxes of `along`, orthogonal.
 std::array<TiltAxis, 2> Across(const Eigen::Vector3d& along) {
   std::array<TiltAxis, 2> axes = TiltAxes(along);
   const Eigen::Vector3d square = along.normalized().cross(axes[0].direction);
@@ -110,15 +110,15 @@ std::string RouteName(const std::string& cable_name, int point, const std::strin
 }
 
 UnknownPtr RouteOf(const robot::RobotBody& body, int cable, int point, const TiltAxis& direction,
-                   const Belief& belief) {
+                   const GaussianPrior& prior) {
   const robot::BodyCable& path = body.cables.at(static_cast<std::size_t>(cable));
   std::string name = RouteName(path.name, point, direction.name);
   if (point == 0) {
     return std::make_unique<GuideUnknown>(cable, std::move(name), path.pull_point_m,
-                                          direction.direction, belief);
+                                          direction.direction, prior);
   }
   return std::make_unique<EyeletUnknown>(cable, point - 1, std::move(name), direction.direction,
-                                         belief);
+                                         prior);
 }
 
 }  // namespace palpate::calibration

@@ -8,23 +8,23 @@
 
 #include "components/calibration/joint/unknowns.hpp"
 
-/// Where the points of a cable's path sit: the guide that it is pulled from (point 0) and its
-/// eyelets on the body (from 1 on), as unknowns of a calibration.
+/// Points of a cable's route as unknowns: the point that it is pulled from (point 0) and its
+/// eyelets on the body (from 1 on).
 namespace palpate::calibration {
 
-/// Two directions square to each other and across the path from the point before to the one after
-/// (the first and the last one have one neighbour), near TiltAxes of it. Of places in the robot
-/// file, wherever the points are now.
+/// Two orthogonal directions across the route from the point before to the one after (the first and
+/// the last point have one neighbour), near TiltAxes of it. They refer to the robot file, not to
+/// the present places.
 std::array<TiltAxis, 2> AcrossCable(const robot::RobotBody& body, int cable, int point);
 
-/// Name of RouteOf: "cable_route:north:x" of the guide, "cable_eyelet:north:1:x" of an eyelet.
+/// Name of RouteOf: "cable_route:north:x" of point 0, "cable_eyelet:north:1:x" of an eyelet.
 std::string RouteName(const std::string& cable_name, int point, const std::string& axis_name);
 
-/// m: how far a point of a cable's path sits off its place in the robot file along `direction`, of
-/// AcrossCable: along the cable nothing, or little, shows of it. Of a robot of scale 1. Drives
-/// count from the undeformed body with the point where it is. An eyelet needs a body with room
+/// m: offset of a point of a cable's route from the robot file along `direction` of AcrossCable. An
+/// offset along the cable is hardly observable. Of a robot of scale 1. Displacements of the
+/// actuator count from the undeformed body with this offset. An eyelet needs a body with room
 /// (robot/eyelets.hpp).
 UnknownPtr RouteOf(const robot::RobotBody& body, int cable, int point, const TiltAxis& direction,
-                   const Belief& belief);
+                   const GaussianPrior& prior);
 
 }  // namespace palpate::calibration

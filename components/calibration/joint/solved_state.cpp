@@ -6,13 +6,6 @@
 
 namespace palpate::calibration {
 
-namespace {
-
-/// Of the body's extent.
-constexpr double kSmallMove = 0.05;
-
-}  // namespace
-
 double ExtentOf(const Eigen::VectorXd& x_m) {
   const auto points = x_m.reshaped(3, x_m.size() / 3);
   return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
@@ -54,12 +47,12 @@ SolvedState::Move SolvedState::MoveTo(const Eigen::VectorXd& variables,
   const Eigen::VectorXd change = ChangeTo(variables);
   const Eigen::VectorXd motion_m = motion_m_ * change;
   const double furthest = motion_m.lpNorm<Eigen::Infinity>() / ExtentOf(x_m_);
-  if (!(furthest < kSmallMove)) return Move::kUnknown;
+  if (!(furthest < kSolvedStateTuning.small_move)) return Move::kUnknown;
   Extrapolate(variables, state);
-  return furthest < kTinyMove ? Move::kTiny : Move::kSmall;
+  return furthest < kSolvedStateTuning.tiny_move ? Move::kTiny : Move::kSmall;
 }
 
-/// No constraint's multiplier falls below 0, as no equilibrium's does.
+/// Multipliers stay at 0 or above, as in an equilibrium.
 void SolvedState::Extrapolate(const Eigen::VectorXd& variables, fem::StaticState* state) const {
   const Eigen::VectorXd change = ChangeTo(variables);
   state->x_m = x_m_ + motion_m_ * change;

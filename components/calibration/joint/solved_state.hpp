@@ -12,23 +12,28 @@
 
 namespace palpate::calibration {
 
-/// Size of the box around all nodes [3n], its longest side, m.
+/// Sizes of moves over the body's extent. Larger ones save solves and leave larger errors.
+struct SolvedStateTuning {
+  double tiny_move = 1e-6;   ///< extrapolated without a solve; the error is the square of it
+  double small_move = 0.05;  ///< a start for the solver
+};
+inline constexpr SolvedStateTuning kSolvedStateTuning;
+
+/// Longest side of the bounding box of all nodes [3n], m.
 double ExtentOf(const Eigen::VectorXd& x_m);
 
-/// An equilibrium that was solved, or the one that a Newton step leads to, and how its nodes move
-/// with the variables to first order. A solve that starts from there ends in a step or two; and
-/// changes too small to leave the static solver's tolerance still move the body as its derivatives
-/// say, so that a line search among them does not look at rounding.
+/// A solved equilibrium, or the prediction of a Newton step, with the derivatives of its nodes with
+/// respect to the variables. A solve from its extrapolation takes a step or two. Changes below the
+/// static solver's tolerance are extrapolated without a solve, so that a line search does not see
+/// rounding errors.
 class SolvedState {
  public:
-  /// How far variables lead from the state, by its derivatives.
+  /// Size of the nodal displacements that a change of the variables causes, to first order.
   enum class Move {
-    kUnknown,  ///< nothing was solved, or further than derivatives are good for
-    kSmall,    ///< a start for the solver
-    kTiny,     ///< what derivatives leave out is below the static solver's tolerance
+    kUnknown,  ///< no state, or beyond the range of the derivatives
+    kSmall,    ///< the extrapolation is a start for the solver
+    kTiny,     ///< the second-order error is below the static solver's tolerance
   };
-  /// Of the body's extent. What first order leaves out of a tiny move is its square.
-  static constexpr double kTinyMove = 1e-6;
 
   /// A point of the body.
   struct Place {
@@ -36,20 +41,20 @@ class SolvedState {
     Eigen::Matrix3Xd motion_m;  ///< [3 x column()] per unit of each variable
   };
 
-  /// `state` at `variables`; parameter p of `sensitivity` changes by factor[p] with a unit of
-  /// variable column[p].
+  /// `state` at `variables`; parameter p of `sensitivity` changes by factor[p] per unit of variable
+  /// column[p].
   void Keep(const fem::StaticState& state, const Eigen::VectorXd& variables,
             const std::vector<Eigen::Index>& column, const std::vector<double>& factor,
             const robot::SensitivitySolver& sensitivity);
-  /// The same derivatives about another state, which is near.
+  /// The same derivatives about another state nearby.
   void MoveBase(const fem::StaticState& state, const Eigen::VectorXd& variables);
 
-  /// Gives nodes and multipliers at other variables; leaves `state` where the move is unknown.
+  /// Extrapolates nodes and multipliers to other variables; kUnknown leaves `state` unchanged.
   Move MoveTo(const Eigen::VectorXd& variables, fem::StaticState* state) const;
-  /// The same however far it leads.
+  /// The same for a change of any size.
   void Extrapolate(const Eigen::VectorXd& variables, fem::StaticState* state) const;
 
-  /// Variables that the body moves with.
+  /// Variables that move the body.
   const std::vector<Eigen::Index>& column() const { return column_; }
   Place PlaceOf(const fem::InterpolationWeights& point, const Eigen::VectorXd& variables) const;
 

@@ -29,7 +29,7 @@ robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
   return inputs->cables.at(static_cast<size_t>(cable));
 }
 
-/// What `per_value` more of a cable's command does.
+/// Influence of `per_value` times a cable's command.
 std::vector<Influence> OfCommand(int cable, const FrameInputs& inputs, double per_value) {
   const double s = inputs.scale;
   switch (inputs.cables.at(static_cast<size_t>(cable)).kind) {
@@ -47,8 +47,8 @@ std::vector<Influence> OfDisplacement(int cable, const FrameInputs& inputs, doub
 
 class InputOfFrame final : public Unknown {
  public:
-  InputOfFrame(int frame, int cable, Kind kind, std::string name, const Belief& belief)
-      : Unknown(std::move(name), kind == Kind::kTension ? "N" : "m", belief, kAnotherSetting),
+  InputOfFrame(int frame, int cable, Kind kind, std::string name, const GaussianPrior& prior)
+      : Unknown(std::move(name), kind == Kind::kTension ? "N" : "m", prior, kAnotherSetting),
         frame_(frame),
         cable_(cable),
         kind_(kind) {}
@@ -70,8 +70,8 @@ class InputOfFrame final : public Unknown {
 
 class OffsetOfCommand final : public Unknown {
  public:
-  OffsetOfCommand(int cable, std::string name, const Belief& belief)
-      : Unknown(std::move(name), "m", belief, kAnotherSetting), cable_(cable) {}
+  OffsetOfCommand(int cable, std::string name, const GaussianPrior& prior)
+      : Unknown(std::move(name), "m", prior, kAnotherSetting), cable_(cable) {}
 
   void ApplyToFrame(double value, int, FrameInputs* inputs) const override {
     robot::CableCommand& command = CommandOf(cable_, inputs);
@@ -89,8 +89,9 @@ class OffsetOfCommand final : public Unknown {
 
 class GainOfCommand final : public Unknown {
  public:
-  GainOfCommand(int cable, std::string name, std::vector<double> measured, const Belief& belief)
-      : Unknown(std::move(name), "", belief, kAnotherSetting),
+  GainOfCommand(int cable, std::string name, std::vector<double> measured,
+                const GaussianPrior& prior)
+      : Unknown(std::move(name), "", prior, kAnotherSetting),
         cable_(cable),
         measured_(std::move(measured)) {}
 
@@ -113,8 +114,9 @@ class GainOfCommand final : public Unknown {
 
 class LogModulus final : public Unknown {
  public:
-  LogModulus(int material, const std::string& part, double youngs_modulus_Pa, const Belief& belief)
-      : Unknown("youngs_modulus:" + part, "Pa", belief, kKnownForce),
+  LogModulus(int material, const std::string& part, double youngs_modulus_Pa,
+             const GaussianPrior& prior)
+      : Unknown("youngs_modulus:" + part, "Pa", prior, kKnownForce),
         material_(material),
         youngs_modulus_Pa_(youngs_modulus_Pa) {}
 
@@ -138,9 +140,9 @@ class LogModulus final : public Unknown {
 
 class Poisson final : public Unknown {
  public:
-  Poisson(int material, const std::string& part, const Belief& belief)
-      : Unknown("poissons_ratio:" + part, "", belief,
-                "a recording with markers where the body bulges under large pulls"),
+  Poisson(int material, const std::string& part, const GaussianPrior& prior)
+      : Unknown("poissons_ratio:" + part, "", prior,
+                "a recording with markers where the body bulges under large tensions"),
         material_(material) {}
 
   Status ApplyToModel(double value, robot::RobotModel* model) const override {
@@ -159,9 +161,9 @@ class Poisson final : public Unknown {
 
 class MassUnknown final : public Unknown {
  public:
-  explicit MassUnknown(const Belief& belief)
-      : Unknown("mass_factor", "", belief,
-                "a recording with the base tilted or turned over, beside one with a known load") {}
+  explicit MassUnknown(const GaussianPrior& prior)
+      : Unknown("mass_factor", "", prior,
+                "a recording with the base tilted or turned over, and one with a known load") {}
 
   void ApplyToFrame(double value, int, FrameInputs* inputs) const override {
     inputs->mass_factor = value;
@@ -175,8 +177,8 @@ class MassUnknown final : public Unknown {
 
 class TiltUnknown final : public Unknown {
  public:
-  TiltUnknown(const std::string& axis_name, const Eigen::Vector3d& axis, const Belief& belief)
-      : Unknown("gravity_tilt:" + axis_name, "", belief,
+  TiltUnknown(const std::string& axis_name, const Eigen::Vector3d& axis, const GaussianPrior& prior)
+      : Unknown("gravity_tilt:" + axis_name, "", prior,
                 "a recording with the base tilted by a known angle"),
         axis_(axis) {}
 
@@ -196,9 +198,9 @@ class TiltUnknown final : public Unknown {
 
 class ScaleUnknown final : public Unknown {
  public:
-  explicit ScaleUnknown(const Belief& belief)
-      : Unknown("geometry_scale", "", belief,
-                "markers measured in metres that do not go by the camera's depth, or known "
+  explicit ScaleUnknown(const GaussianPrior& prior)
+      : Unknown("geometry_scale", "", prior,
+                "markers measured in metres independently of the camera's depth, or known "
                 "displacements of the cables") {}
 
   void ApplyToFrame(double value, int, FrameInputs* inputs) const override {
@@ -248,7 +250,7 @@ FrameInputs ToModel(const FrameInputs& robot) {
 
 void HoldLoadsAt(const std::vector<LoadPlace>& places, const robot::RobotModel& model,
                  FrameInputs* robot) {
-  // Holds change from cell to cell: over a tenth of a per mille, some 10 um, hardly ever.
+  // Weights change between elements: within 1e-4, some 10 um, hardly ever.
   constexpr double kStep = 1e-4;
   const auto hold = [&](const LoadPlace& place, double scale) {
     return model.Patch(place.position_m / scale, place.patch_radius_m / scale).weights;
@@ -266,38 +268,40 @@ void HoldLoadsAt(const std::vector<LoadPlace>& places, const robot::RobotModel& 
 }
 
 UnknownPtr CableInput(int frame, const std::string& frame_name, int cable,
-                      const std::string& cable_name, Kind kind, const Belief& belief) {
+                      const std::string& cable_name, Kind kind, const GaussianPrior& prior) {
   return std::make_unique<InputOfFrame>(frame, cable, kind,
-                                        "input:" + cable_name + ":" + frame_name, belief);
+                                        "input:" + cable_name + ":" + frame_name, prior);
 }
 
-UnknownPtr CommandOffset(int cable, const std::string& cable_name, const Belief& belief) {
-  return std::make_unique<OffsetOfCommand>(cable, "cable_offset:" + cable_name, belief);
+UnknownPtr CommandOffset(int cable, const std::string& cable_name, const GaussianPrior& prior) {
+  return std::make_unique<OffsetOfCommand>(cable, "cable_offset:" + cable_name, prior);
 }
 
 UnknownPtr CommandGain(int cable, const std::string& cable_name, std::vector<double> measured,
-                       const Belief& belief) {
+                       const GaussianPrior& prior) {
   return std::make_unique<GainOfCommand>(cable, "cable_gain:" + cable_name, std::move(measured),
-                                         belief);
+                                         prior);
 }
 
 UnknownPtr LogYoungsModulus(int material, const std::string& part, double youngs_modulus_Pa,
-                            const Belief& belief) {
-  return std::make_unique<LogModulus>(material, part, youngs_modulus_Pa, belief);
+                            const GaussianPrior& prior) {
+  return std::make_unique<LogModulus>(material, part, youngs_modulus_Pa, prior);
 }
 
-UnknownPtr PoissonsRatioOf(int material, const std::string& part, const Belief& belief) {
-  return std::make_unique<Poisson>(material, part, belief);
+UnknownPtr PoissonsRatioOf(int material, const std::string& part, const GaussianPrior& prior) {
+  return std::make_unique<Poisson>(material, part, prior);
 }
 
-UnknownPtr MassFactor(const Belief& belief) { return std::make_unique<MassUnknown>(belief); }
+UnknownPtr MassFactor(const GaussianPrior& prior) { return std::make_unique<MassUnknown>(prior); }
 
 UnknownPtr GravityTilt(const std::string& axis_name, const Eigen::Vector3d& axis,
-                       const Belief& belief) {
-  return std::make_unique<TiltUnknown>(axis_name, axis, belief);
+                       const GaussianPrior& prior) {
+  return std::make_unique<TiltUnknown>(axis_name, axis, prior);
 }
 
-UnknownPtr GeometryScaleOf(const Belief& belief) { return std::make_unique<ScaleUnknown>(belief); }
+UnknownPtr GeometryScaleOf(const GaussianPrior& prior) {
+  return std::make_unique<ScaleUnknown>(prior);
+}
 
 std::array<TiltAxis, 2> TiltAxes(const Eigen::Vector3d& gravity_m_s2) {
   const Eigen::Vector3d down = gravity_m_s2.normalized();

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-/// Pictures may come so much later than the cable readings of their time.
+/// Largest delay of clouds and markers behind the cable readings of their time.
 constexpr double kLatest_s = 10.0;
 
 std::int64_t Nanoseconds(double seconds) {

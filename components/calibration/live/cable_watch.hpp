@@ -12,20 +12,20 @@
 
 namespace palpate::calibration {
 
-/// When cables count as at rest.
+/// Criterion for cables at rest.
 struct RestSettings {
-  double still_s = 1.0;   ///< for so long they moved by less than the following
-  double still_m = 5e-5;  ///< of a displacement
-  double still_N = 0.05;  ///< of a tension
+  double still_s = 1.0;   ///< duration without motion
+  double still_m = 5e-5;  ///< largest change of a displacement without motion
+  double still_N = 0.05;  ///< the same of a tension
 };
 
-/// Tells when the robot's cables rest. Stamps may go back (a recording that is played anew): what
-/// was before is then forgotten.
+/// Detects when the robot's cables are at rest. A stamp that goes back (a recording that starts
+/// again) clears all readings.
 class CableWatch {
  public:
   enum class State {
-    kNotYet,   ///< readings do not reach that time yet
-    kMoving,   ///< or they are too few, or with gaps longer than half of still_s
+    kNotYet,   ///< no readings of that time yet
+    kMoving,   ///< or too few readings, or a gap longer than half of still_s
     kResting,  ///< over still_s before that time
   };
 
@@ -36,7 +36,7 @@ class CableWatch {
 
   /// A robot without cables always rests.
   State At(std::int64_t stamp_ns) const;
-  /// Means over still_s before a time at which they rest, one for each cable; kNone where neither
+  /// Mean inputs over still_s before a time of rest, one per cable; kNone where neither
   /// displacement nor tension is known.
   std::vector<robot::CableCommand> MeanAt(std::int64_t stamp_ns) const;
   bool IsEmpty() const { return readings_.empty(); }
@@ -51,7 +51,7 @@ class CableWatch {
   std::size_t cable_count_;
   robot::CableInput preferred_;
   RestSettings settings_;
-  std::deque<CableReading> readings_;  ///< rising stamps
+  std::deque<CableReading> readings_;  ///< ascending stamps
 };
 
 }  // namespace palpate::calibration

@@ -15,28 +15,28 @@ template <typename Frame>
 void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
                Frame* frame) {
   if (before.gravity) frame->gravity_m_s2 = before.gravity->gravity_m_s2;
-  for (const robot::CalibratedDrive& drive : before.drives) {
-    const auto name = std::find(cable_names.begin(), cable_names.end(), drive.cable);
+  for (const robot::CalibratedDrive& actuator : before.drives) {
+    const auto name = std::find(cable_names.begin(), cable_names.end(), actuator.cable);
     if (name == cable_names.end()) continue;
     robot::CableCommand& cable =
         frame->cables.at(static_cast<std::size_t>(name - cable_names.begin()));
-    if (cable.kind == Kind::kDisplacement) cable.value = drive.drive.TakenIn_m(cable.value);
+    if (cable.kind == Kind::kDisplacement) cable.value = actuator.drive.TakenIn_m(cable.value);
   }
 }
 
-/// Of parts that were not found anew.
+/// Keeps the parts that were not estimated again.
 template <typename Number, typename IsSamePart>
 void KeepParts(const std::vector<Number>& before, const IsSamePart& is_same_part,
                std::vector<Number>* found) {
   for (const Number& number : before) {
-    const bool found_anew = std::any_of(found->begin(), found->end(), [&](const Number& other) {
+    const bool again = std::any_of(found->begin(), found->end(), [&](const Number& other) {
       return is_same_part(number, other);
     });
-    if (!found_anew) found->push_back(number);
+    if (!again) found->push_back(number);
   }
 }
 
-/// The reading `before`, corrected by `found`. A standard error of 0: that was not found.
+/// The correction `before` followed by `found`. A standard error of 0 means not estimated.
 robot::CalibratedDrive Compose(const robot::CalibratedDrive& before,
                                const robot::CalibratedDrive& found) {
   robot::CalibratedDrive both = found;
@@ -82,16 +82,16 @@ void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile
   if (!file->gravity) file->gravity = before.gravity;
   if (!file->pose) {
     file->pose = before.pose;
-    file->depth_bias = before.depth_bias;  // found with that pose
+    file->depth_bias = before.depth_bias;  // belongs to that pose
   }
-  for (const robot::CalibratedDrive& drive : before.drives) {
+  for (const robot::CalibratedDrive& actuator : before.drives) {
     const auto found = std::find_if(
         file->drives.begin(), file->drives.end(),
-        [&](const robot::CalibratedDrive& other) { return other.cable == drive.cable; });
+        [&](const robot::CalibratedDrive& other) { return other.cable == actuator.cable; });
     if (found == file->drives.end()) {
-      file->drives.push_back(drive);
+      file->drives.push_back(actuator);
     } else {
-      *found = Compose(drive, *found);
+      *found = Compose(actuator, *found);
     }
   }
 }

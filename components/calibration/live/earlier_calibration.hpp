@@ -13,8 +13,8 @@
 
 namespace palpate::calibration {
 
-/// What an earlier calibration says of a frame: gravity, and displacements read as its drives ask
-/// for. `cable_names`: in the order of the frames' cables.
+/// Applies an earlier calibration to frames: gravity, and displacements corrected by its actuators.
+/// `cable_names`: in the order of the frames' cables.
 void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
                   std::vector<CloudFrame>* frames);
 void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
@@ -22,9 +22,9 @@ void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::s
 void ReadAsBefore(const robot::CalibrationFile& before, const std::vector<std::string>& cable_names,
                   std::vector<UnlabelledFrame>* frames);
 
-/// Puts into `file`, found from frames that were read so, what holds on: moduli, Poisson's ratios,
-/// gravity, size, guides and pose that it did not find anew. Its drives, which say how the earlier
-/// reading is off, become those of the displacement as it was measured.
+/// Adds to `file`, estimated from such frames, what it did not estimate again: moduli, Poisson's
+/// ratios, gravity, size, cable routes and pose. Its actuators correct the earlier correction; they
+/// are composed with it, so that they apply to measured displacements.
 void KeepFromBefore(const robot::CalibrationFile& before, robot::CalibrationFile* file);
 
 }  // namespace palpate::calibration

@@ -39,7 +39,7 @@ void FrameCollector::Begin(int count) {
   pictures_.clear();
   markers_.clear();
   points_.clear();
-  waits_for_ = "nothing of the robot has been seen yet";
+  waits_for_ = "no cloud or markers of the robot yet";
 }
 
 void FrameCollector::Add(CableReading reading) {
@@ -59,7 +59,7 @@ void FrameCollector::Advance() {
     const State state = watch_.At(StampOf(waiting_.front()));
     if (state == State::kNotYet) {
       waits_for_ = watch_.IsEmpty() ? "no cable inputs on /robot/joint_states yet"
-                                    : "the cable inputs of that time have not come yet";
+                                    : "the cable inputs of that time are not there yet";
       return;
     }
     Seen seen = std::move(waiting_.front());
@@ -73,14 +73,14 @@ void FrameCollector::Advance() {
   }
 }
 
-/// At something that was seen while the cables rested.
+/// Evaluates a cloud or markers seen while the cables rested.
 void FrameCollector::Look(Seen seen) {
   Setting setting{StampOf(seen), watch_.MeanAt(StampOf(seen))};
   if (!IsNew(setting)) {
     group_.clear();
     waits_for_ = cable_names_.empty()
                      ? "one frame is taken in " + FormatNumber(settings_.rest.still_s) + " s"
-                     : "this setting was taken: set a cable otherwise by " +
+                     : "this setting was taken: change a cable by " +
                            FormatNumber(settings_.new_setting_m) + " m or " +
                            FormatNumber(settings_.new_setting_N) + " N";
     return;
@@ -117,8 +117,7 @@ void FrameCollector::Take(SeenCloud seen, Setting setting) {
 void FrameCollector::Take(SeenMarkers seen, Setting setting) {
   group_.push_back(std::move(seen));
   if (static_cast<int>(group_.size()) < settings_.marker_pictures) {
-    waits_for_ = "the mean over " + std::to_string(settings_.marker_pictures) +
-                 " pictures of the markers is being taken";
+    waits_for_ = "averaging " + std::to_string(settings_.marker_pictures) + " marker messages";
     return;
   }
   std::vector<MarkerSighting> means = MeanMarkers(group_, settings_.marker_bias_m);
@@ -129,8 +128,8 @@ void FrameCollector::Take(SeenMarkers seen, Setting setting) {
   }
   const bool named = HaveNames(means);
   if (named ? !points_.empty() : !markers_.empty()) {
-    waits_for_ = named ? "these markers have names, those of the frames before had none"
-                       : "these markers have no names, those of the frames before had";
+    waits_for_ = named ? "these markers have names, those of earlier frames had none"
+                       : "these markers have no names, those of earlier frames had";
     return;
   }
   CalibrationFrame frame{

@@ -19,30 +19,30 @@
 
 namespace palpate::calibration {
 
-/// The untouched robot's points in one picture.
+/// Cloud of the robot without contacts.
 struct SeenCloud {
   std::int64_t stamp_ns = 0;
   rgbd::SensedCloud cloud;         ///< camera frame
-  geometry::DepthPicture picture;  ///< that it was made from
+  geometry::DepthPicture picture;  ///< of the depth image
 };
 
 struct CollectorSettings {
   RestSettings rest;
   robot::CableInput cable_input = robot::CableInput::kDisplacement;
-  /// A cable must be set otherwise by so much for another frame.
+  /// Smallest change of a cable that makes a new setting.
   double new_setting_m = 1e-3;
   double new_setting_N = 0.1;
-  int marker_pictures = 20;    ///< that a frame of markers is the mean of
-  double marker_bias_m = 0.0;  ///< what averaging does not remove, one sigma
+  int marker_pictures = 20;    ///< messages whose mean makes one frame
+  double marker_bias_m = 0.0;  ///< standard deviation that averaging does not reduce
 };
 
-/// Takes frames for a calibration from what goes by: of a robot with cables one of each setting in
-/// which they came to rest, else one in every still_s.
+/// Collects frames for a calibration from live data: of a robot with cables one per setting at
+/// which they rest, otherwise one in every still_s.
 class FrameCollector {
  public:
   FrameCollector(const robot::RobotModel& model, const CollectorSettings& settings);
 
-  /// Forgets the frames; `count` new ones are wanted.
+  /// Clears the frames and starts to collect `count` new ones.
   void Begin(int count);
   void Add(CableReading reading);
   void Add(SeenCloud seen) { Add(Seen(std::move(seen))); }
@@ -50,14 +50,14 @@ class FrameCollector {
 
   int taken() const { return static_cast<int>(settings_taken_.size()); }
   bool IsComplete() const { return wanted_ > 0 && taken() >= wanted_; }
-  /// Why there is no further frame yet, for a person.
+  /// Why there is no further frame yet, as text for the user.
   const std::string& waits_for() const { return waits_for_; }
-  /// What was taken: of one kind.
+  /// The collected frames, all of one kind.
   const std::vector<CloudFrame>& clouds() const { return clouds_; }
   const std::vector<CalibrationFrame>& markers() const { return markers_; }
-  /// Markers without names: where the first picture that was taken had none.
+  /// Markers without names, where the first collected frame has none.
   const std::vector<UnlabelledFrame>& points() const { return points_; }
-  /// That all clouds were made from; nullopt where it is not one.
+  /// Size and lens of the depth images of all clouds; nullopt where they differ.
   std::optional<geometry::DepthPicture> picture() const;
 
  private:
@@ -82,7 +82,7 @@ class FrameCollector {
   CollectorSettings settings_;
   CableWatch watch_;
   int wanted_ = 0;
-  std::deque<Seen> waiting_;        ///< for the cable readings of their time
+  std::deque<Seen> waiting_;        ///< until the cable readings of their time are there
   std::vector<SeenMarkers> group_;  ///< of this rest
   std::vector<Setting> settings_taken_;
   std::vector<CloudFrame> clouds_;

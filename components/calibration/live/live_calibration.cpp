@@ -68,14 +68,13 @@ JointCalibration Fit(robot::RobotModel& model, const LiveJob& job, LiveResult* r
     UnlabelledCalibration fit = CalibrateUnlabelled(model, job.points, start, settings);
     fit.joint.status = fit.status;
     result->left_out = std::move(fit.left_out);
-    result->told_by_last_pose = fit.told_by_last_pose;
+    result->decided_by_last_pose = fit.decided_by_last_pose;
     return std::move(fit.joint);
   }
   if (job.clouds.empty()) return CalibrateFrames(model, job.markers, start, job.request);
   if (start == nullptr) {
     JointCalibration refused;
-    refused.status = {StatusCode::kNoCalibration,
-                      "clouds need to know roughly where the camera stands"};
+    refused.status = {StatusCode::kNoCalibration, "clouds need an approximate camera pose"};
     return refused;
   }
   CloudSettings settings;
@@ -100,7 +99,7 @@ LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job) {
     ReadAsBefore(*job.before, model.CableNames(), &read.markers);
     ReadAsBefore(*job.before, model.CableNames(), &read.points);
     robot::CalibrationFile body = *job.before;
-    body.drives.clear();  // the frames are read so already
+    body.drives.clear();  // already applied to the frames
     robot::ApplyCalibration(body, &model);
   }
   const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2();

@@ -18,38 +18,38 @@
 
 namespace palpate::calibration {
 
-/// A calibration of frames that were taken from the running robot.
+/// A calibration of frames of the running robot. One of `clouds`, `markers` and `points` is set.
 struct LiveJob {
   JointRequest request;
-  std::vector<CloudFrame> clouds;         ///< these,
-  std::vector<CalibrationFrame> markers;  ///< or these,
-  std::vector<UnlabelledFrame> points;    ///< or these, of markers without names
-  /// That the clouds were made from: without, their depth bias is not looked for.
+  std::vector<CloudFrame> clouds;
+  std::vector<CalibrationFrame> markers;  ///< with names
+  std::vector<UnlabelledFrame> points;    ///< markers without names
+  /// Size and lens of the clouds' depth images; nullopt: the depth bias is not estimated.
   std::optional<geometry::DepthPicture> picture;
-  bool fit_depth_bias = true;  ///< of CloudSettings
-  /// Where the search for the pose starts; clouds need it, markers tell it. Those without names
-  /// on a robot that looks the same after a turn are told apart by it.
+  bool fit_depth_bias = true;  ///< as CloudSettings
+  /// Initial pose: required for clouds, optional for markers. It decides the assignment of unnamed
+  /// markers on a symmetric robot.
   std::optional<geometry::RigidTransform> T_robot_camera_start;
-  /// Where it stood when it was calibrated last (UnlabelledSettings).
+  /// Pose of the last calibration (UnlabelledSettings).
   std::optional<geometry::RigidTransform> T_robot_camera_last = {};
-  /// What holds where nothing else is looked for or determined: moduli, Poisson's ratios, gravity,
-  /// the robot's size, which must be the model's, its guides, and how drives are read.
+  /// The last calibration, which holds for parameters that are not estimated or not determined:
+  /// moduli, Poisson's ratios, gravity, size (must be the model's), cable routes, actuators.
   std::optional<robot::CalibrationFile> before;
-  std::string data;  ///< what it is fitted to, for people
+  std::string data;  ///< description of the data for the file
   std::int64_t found_ns_since_1970 = 0;
 };
 
 struct LiveResult {
-  /// Why not, as of CalibrateFromClouds, CalibrateFrames and CalibrateUnlabelled.
+  /// That of CalibrateFromClouds, CalibrateFrames or CalibrateUnlabelled.
   Status status;
-  robot::CalibrationFile file;        ///< where it is ok
-  std::vector<std::string> left_out;  ///< frames that are in none of it, and why
-  bool told_by_last_pose = false;     ///< of UnlabelledCalibration
+  robot::CalibrationFile file;        ///< valid where `status` is ok
+  std::vector<std::string> left_out;  ///< frames that are not used, and why
+  bool decided_by_last_pose = false;  ///< of UnlabelledCalibration
   /// Of the pose: rotation vector (rad), translation (m), robot frame.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// Runs it. `model`, which must be as the robot file has it, is left so.
+/// Runs a job. `model` must be as the robot file has it and is left unchanged.
 LiveResult CalibrateLive(robot::RobotModel& model, const LiveJob& job);
 
 }  // namespace palpate::calibration

@@ -14,38 +14,38 @@ namespace palpate::calibration {
 
 namespace {
 
-/// What counts in each mean.
+/// The sightings of each mean.
 using Groups = std::map<int, std::vector<const MarkerSighting*>>;
 
-Groups GroupByName(const std::vector<SeenMarkers>& pictures) {
+Groups GroupByName(const std::vector<SeenMarkers>& messages) {
   Groups groups;
-  for (const SeenMarkers& picture : pictures) {
-    for (const MarkerSighting& one : picture.markers) {
+  for (const SeenMarkers& message : messages) {
+    for (const MarkerSighting& one : message.markers) {
       if (one.marker >= 0) groups[one.marker].push_back(&one);
     }
   }
   return groups;
 }
 
-Groups GroupByPlace(const std::vector<SeenMarkers>& pictures) {
+Groups GroupByPlace(const std::vector<SeenMarkers>& messages) {
   Groups groups;
   const auto fullest = std::max_element(
-      pictures.begin(), pictures.end(),
+      messages.begin(), messages.end(),
       [](const auto& a, const auto& b) { return a.markers.size() < b.markers.size(); });
-  if (fullest == pictures.end()) return groups;
+  if (fullest == messages.end()) return groups;
   const Eigen::Matrix3Xd places_m = PositionsOf(fullest->markers);
-  for (const SeenMarkers& picture : pictures) {
+  for (const SeenMarkers& message : messages) {
     const std::vector<int> of_point =
-        MatchNearest(PositionsOf(picture.markers), places_m, kStillMarker_m);
+        MatchNearest(PositionsOf(message.markers), places_m, kStillMarker_m);
     for (std::size_t p = 0; p < of_point.size(); ++p) {
-      if (of_point[p] >= 0) groups[of_point[p]].push_back(&picture.markers[p]);
+      if (of_point[p] >= 0) groups[of_point[p]].push_back(&message.markers[p]);
     }
   }
   return groups;
 }
 
-/// Of one picture: what it says, or where that is less what the pictures vary by. Told apart along
-/// the directions that both have in common, so that it does not depend on the frame.
+/// Covariance of one message: the larger of stated and observed variance along the common principal
+/// directions of both, so that it does not depend on the frame.
 Eigen::Matrix3d LargerOf(const Eigen::Matrix3d& said_m2, const Eigen::Matrix3d& varies_m2) {
   const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(said_m2).matrixL();
   const Eigen::Matrix3d half =
@@ -83,11 +83,11 @@ bool HaveNames(const std::vector<MarkerSighting>& markers) {
                      [](const MarkerSighting& one) { return one.marker >= 0; });
 }
 
-std::vector<MarkerSighting> MeanMarkers(const std::vector<SeenMarkers>& pictures, double bias_m) {
-  const bool named = std::any_of(pictures.begin(), pictures.end(),
-                                 [](const auto& picture) { return HaveNames(picture.markers); });
+std::vector<MarkerSighting> MeanMarkers(const std::vector<SeenMarkers>& messages, double bias_m) {
+  const bool named = std::any_of(messages.begin(), messages.end(),
+                                 [](const auto& message) { return HaveNames(message.markers); });
   std::vector<MarkerSighting> means;
-  for (const auto& [mean, seen] : named ? GroupByName(pictures) : GroupByPlace(pictures)) {
+  for (const auto& [mean, seen] : named ? GroupByName(messages) : GroupByPlace(messages)) {
     means.push_back(MeanOf(seen, bias_m));
   }
   return means;

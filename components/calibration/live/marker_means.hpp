@@ -10,21 +10,21 @@
 
 namespace palpate::calibration {
 
-/// The markers in one picture; covariances are of one picture's noise. A marker of which nobody
-/// says which it is has the number -1.
+/// The markers of one message; covariances are the noise of one message. A marker without a name
+/// has the number -1.
 struct SeenMarkers {
   std::int64_t stamp_ns = 0;
   std::vector<MarkerSighting> markers;  ///< camera frame
 };
 
-/// Whether any of them is said to be one of the robot's.
+/// Whether any of them has a name.
 bool HaveNames(const std::vector<MarkerSighting>& markers);
 
-/// Of each marker the mean over the pictures of a robot at rest that show it. Where any has a name
-/// those without are left out; where none has, each point of the fullest picture is averaged with
-/// the nearest one of every other that is no farther than kStillMarker_m. What they vary by counts
-/// as the noise of one picture where that is more than the pictures say, in whatever direction.
-/// `bias_m`: what averaging does not remove, one sigma along each axis.
-std::vector<MarkerSighting> MeanMarkers(const std::vector<SeenMarkers>& pictures, double bias_m);
+/// Mean of each marker over messages of a robot at rest. If any marker has a name, those without
+/// are left out. If none has, each point of the message with most points is averaged with the
+/// nearest one of every other, if that is within kStillMarker_m. In each direction the larger of
+/// stated and observed variance counts. `bias_m`: standard deviation along each axis that averaging
+/// does not reduce.
+std::vector<MarkerSighting> MeanMarkers(const std::vector<SeenMarkers>& messages, double bias_m);
 
 }  // namespace palpate::calibration

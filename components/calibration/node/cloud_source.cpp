@@ -59,7 +59,7 @@ void CloudSource::TakeReports() {
         Report{std::string(dds::Text(message.device)),
                ok ? Status::Ok()
                   : Status(StatusCode::kNoRobotSeen,
-                           "perception says: " + std::string(dds::Text(message.status)) + ", " +
+                           "perception reports " + std::string(dds::Text(message.status)) + ", " +
                                std::string(dds::Text(message.reason))),
                message.contacts, dds::ToPicture(message.picture)};
     PassOn(stamp_ns);
@@ -74,7 +74,7 @@ void CloudSource::PassOn(std::int64_t stamp_ns) {
   if (!whole.status.ok()) return events_.refused(whole.status);
   if (!report.status.ok()) return events_.refused(report.status);
   if (report.contacts > 0 && !allow_contacts_) {
-    return events_.refused({StatusCode::kInvalidInput, "something touches the robot"});
+    return events_.refused({StatusCode::kInvalidInput, "perception detects a contact"});
   }
   events_.seen({stamp_ns, std::move(*whole.cloud), report.picture});
 }

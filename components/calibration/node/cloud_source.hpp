@@ -16,14 +16,14 @@
 
 namespace palpate::calibration {
 
-/// Whom it tells what came.
+/// Callbacks of CloudSource.
 struct CloudEvents {
-  std::function<void(SeenCloud)> seen;  ///< of the untouched robot
+  std::function<void(SeenCloud)> seen;  ///< cloud without contacts
   std::function<void(const Status&)> refused;
-  std::function<void(const std::string& device)> other_camera;  ///< from now on
+  std::function<void(const std::string& device)> other_camera;  ///< the device has changed
 };
 
-/// Clouds of /perception/robot_cloud with what /perception/report says of their frame.
+/// Clouds of /perception/robot_cloud, combined with the /perception/report of their stamp.
 class CloudSource {
  public:
   CloudSource(dds::Participant& participant, dds::WaitSet& loop, bool allow_contacts,

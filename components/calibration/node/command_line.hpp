@@ -16,10 +16,10 @@ struct Command : app::NodeCommand<NodeConfig> {
   std::filesystem::path robot;
 };
 
-/// nullopt: --help, --version or --print-config was asked for and printed. Throws InputError.
+/// nullopt: --help, --version or --print-config was printed. Throws InputError.
 std::optional<Command> ReadCommand(int argc, const char* const* argv);
 
-/// Reads robot, mesh and the last calibration and makes the node. Throws InputError, RunError.
+/// Reads robot, mesh and the last calibration, and builds the node. Throws InputError, RunError.
 std::unique_ptr<CalibrationNode> MakeNode(const Command& command);
 
 }  // namespace palpate::calibration

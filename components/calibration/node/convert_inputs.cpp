@@ -42,7 +42,7 @@ Status FromRequest(const idl::palpate_msgs::CalibrationRequest& message, const R
   for (const char* part : dds::Elements(message.moduli)) {
     request->moduli.emplace_back(dds::Text(part));
   }
-  request->drive_gains = message.drive_gains;
+  request->actuator_gains = message.drive_gains;
   return Status::Ok();
 }
 
@@ -50,8 +50,7 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, double sigma_m, SeenMarkers* seen) {
   if (Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
       !status.ok()) {
-    return Invalid(status.message() +
-                   ": the camera's pose is found from markers as the camera sees them");
+    return Invalid(status.message() + ": a calibration needs markers in the camera frame");
   }
   seen->stamp_ns = dds::StampNs(message.header.stamp);
   seen->markers.clear();

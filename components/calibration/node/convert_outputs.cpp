@@ -94,12 +94,12 @@ void SetGeometry(const robot::CalibrationFile& file, idl::palpate_msgs::Calibrat
 void SetNumbersFound(const robot::CalibrationFile& file, idl::palpate_msgs::Calibration* message) {
   dds::Resize(message->drives, file.drives.size());
   for (std::size_t k = 0; k < file.drives.size(); ++k) {
-    auto& drive = message->drives._buffer[k];
-    dds::SetText(drive.cable, file.drives[k].cable);
-    drive.offset_m = file.drives[k].drive.offset_m;
-    drive.offset_standard_error_m = file.drives[k].standard_error.offset_m;
-    drive.gain = file.drives[k].drive.gain;
-    drive.gain_standard_error = file.drives[k].standard_error.gain;
+    auto& actuator = message->drives._buffer[k];
+    dds::SetText(actuator.cable, file.drives[k].cable);
+    actuator.offset_m = file.drives[k].drive.offset_m;
+    actuator.offset_standard_error_m = file.drives[k].standard_error.offset_m;
+    actuator.gain = file.drives[k].drive.gain;
+    actuator.gain_standard_error = file.drives[k].standard_error.gain;
   }
   SetDepthBias(file, message);
   SetMaterials(file, message);

@@ -38,7 +38,7 @@ geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {
   return {Eigen::Quaterniond(T.linear()), T.translation()};
 }
 
-/// Of a file, which holds no correlations.
+/// Of a file, which has no correlations.
 Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibrationFile& file) {
   Eigen::Matrix<double, 6, 1> errors = Eigen::Matrix<double, 6, 1>::Zero();
   if (file.pose) errors << file.pose->rotation_error_rad, file.pose->translation_error_m;
@@ -47,10 +47,10 @@ Eigen::Matrix<double, 6, 6> CovarianceOf(const robot::CalibrationFile& file) {
 
 Status NotOk(StatusCode code, std::string reason) { return {code, std::move(reason)}; }
 
-/// "without frame 2: ..."; empty where all frames are in it and tell all.
+/// "without frame 2: ..."; empty where all frames are used.
 std::string RemarksOn(const LiveResult& result) {
-  std::string text = result.told_by_last_pose
-                         ? "the pose of the last calibration tells which marker is which"
+  std::string text = result.decided_by_last_pose
+                         ? "the pose of the last calibration decides which marker is which"
                          : "";
   for (const std::string& frame : result.left_out) {
     text += (text.empty() ? "without " : ", without ") + frame;
@@ -124,9 +124,9 @@ CloudEvents CalibrationNode::EventsOfClouds() {
           .other_camera =
               [this](const std::string& device) {
                 if (!Collects("clouds") || collector_.taken() == 0) return;
-                End("failed",
-                    NotOk(StatusCode::kInvalidInput,
-                          "the camera became '" + device + "' while frames were taken: ask again"));
+                End("failed", NotOk(StatusCode::kInvalidInput,
+                                    "the camera changed to '" + device +
+                                        "' while frames were taken: request again"));
               }};
 }
 
@@ -184,11 +184,11 @@ Request CalibrationNode::Defaults() const {
   return request;
 }
 
-/// Why a request cannot be begun.
+/// Whether a request can start, or why not.
 Status CalibrationNode::Check(const Request& request) const {
   if (IsGoing()) {
     return NotOk(StatusCode::kInvalidInput,
-                 "request '" + request_.id + "' is being worked on: cancel it, or wait for it");
+                 "request '" + request_.id + "' is in progress: cancel it, or wait for it");
   }
   if (worker_.busy()) {
     return NotOk(StatusCode::kInvalidInput, "the fit of a cancelled request has not ended yet");
@@ -200,12 +200,12 @@ Status CalibrationNode::Check(const Request& request) const {
   }
   if (request.source == "clouds" && !T_robot_camera_) {
     return NotOk(StatusCode::kNoCalibration,
-                 "clouds need to know roughly where the camera stands: set camera_pose");
+                 "clouds need an approximate camera pose: set camera_pose");
   }
   if (request.source == "markers" && std::ssize(marker_names_) < kLeastMarkers) {
     return NotOk(StatusCode::kUnobservable, "the robot file has " +
                                                 std::to_string(marker_names_.size()) +
-                                                " markers: a pose takes three");
+                                                " markers: a pose needs three");
   }
   return Status::Ok();
 }
@@ -219,21 +219,21 @@ void CalibrationNode::Begin(const Request& request) {
                .state = "collecting",
                .reason = collector_.waits_for(),
                .frames_wanted = request.frames};
-  log_.Write(Severity::kInfo, "takes " + std::to_string(request.frames) + " frames of " +
+  log_.Write(Severity::kInfo, "taking " + std::to_string(request.frames) + " frames of " +
                                   request.source + " for request '" + request.id + "'");
   SendProgress();
 }
 
 void CalibrationNode::Cancel(const Request& request) {
   if (!IsGoing() || (!request.id.empty() && request.id != request_.id)) {
-    return Refuse(request, NotOk(StatusCode::kInvalidInput, "no such request is being worked on"));
+    return Refuse(request, NotOk(StatusCode::kInvalidInput, "no such request is in progress"));
   }
   drop_result_ = progress_.state == "computing";
   if (drop_result_) worker_.StopFit();
-  End("cancelled", Status::Ok(), "as was asked");
+  End("cancelled", Status::Ok(), "as requested");
 }
 
-/// Answers it; what is being worked on stays the last word.
+/// Answers it; the status of a request in progress is sent last.
 void CalibrationNode::Refuse(const Request& request, const Status& status) {
   ++counts_.refused;
   log_.Write(Severity::kWarning, "request '" + request.id + "' refused: " + status.message());
@@ -250,7 +250,7 @@ void CalibrationNode::Refuse(const Request& request, const Status& status) {
   SendProgress();
 }
 
-/// Something came that does not serve.
+/// A message that cannot be used.
 void CalibrationNode::Obstruct(const Status& status, std::string* obstacle) {
   ++counts_.refused;
   *obstacle = status.message();
@@ -264,7 +264,7 @@ bool CalibrationNode::IsGoing() const {
   return progress_.state == "collecting" || progress_.state == "computing";
 }
 
-/// After something was added to the frames.
+/// Continues after a frame was added.
 void CalibrationNode::Advance() {
   if (progress_.state != "collecting" || collector_.taken() == progress_.frames_taken) return;
   progress_.frames_taken = collector_.taken();
@@ -277,9 +277,9 @@ void CalibrationNode::Advance() {
 
 LiveJob CalibrationNode::MakeJob() const {
   LiveJob job;
-  job.request = {.drive_offset_sigma_m = config_.drive_offset_sigma_m,
-                 .drive_gains = request_.drive_gains,
-                 .drive_gain_sigma = config_.drive_gain_sigma,
+  job.request = {.actuator_offset_sigma_m = config_.drive_offset_sigma_m,
+                 .actuator_gains = request_.actuator_gains,
+                 .actuator_gain_sigma = config_.drive_gain_sigma,
                  .moduli = {},
                  .modulus_relative_sigma = config_.modulus_relative_sigma};
   for (const std::string& part : request_.moduli) {
@@ -292,9 +292,9 @@ LiveJob CalibrationNode::MakeJob() const {
   if (request_.source == "markers") job.request.depth_bias_sigma = config_.marker_depth_bias;
   job.picture = collector_.picture();
   job.fit_depth_bias = config_.fit_depth_bias;
-  const bool pose_is_told = !config_.camera_pose.empty() && !job.points.empty();
-  if (!job.clouds.empty() || pose_is_told) job.T_robot_camera_start = T_robot_camera_;
-  // That it still stands there nobody says.
+  const bool pose_is_given = !config_.camera_pose.empty() && !job.points.empty();
+  if (!job.clouds.empty() || pose_is_given) job.T_robot_camera_start = T_robot_camera_;
+  // The camera may have moved since.
   job.T_robot_camera_last = T_robot_camera_;
   job.before = last_;
   job.data = std::to_string(collector_.taken()) + " frames of " + request_.source + ", live";
@@ -344,7 +344,7 @@ void CalibrationNode::End(const std::string& state, const Status& status,
   SendProgress();
 }
 
-/// Says what is waited for, and gives up where that does not come.
+/// Reports what is missing, and fails after patience_s.
 void CalibrationNode::Tick() {
   if (progress_.state != "collecting") return;
   const std::string& obstacle = cable_obstacle_.empty() ? obstacle_ : cable_obstacle_;

@@ -19,18 +19,18 @@
 
 namespace palpate::calibration {
 
-/// Takes frames of the running robot when asked on /calibration/request, calibrates, and publishes
-/// what came of it on /calibration, where it stays for late joiners. Every request is answered on
-/// /calibration/status, one at a time is worked on.
+/// On a /calibration/request, collects frames of the running robot, calibrates, and publishes the
+/// result on /calibration (latched). Every request is answered on /calibration/status, and one at a
+/// time is processed.
 class CalibrationNode {
  public:
-  /// `fit`: what calibrates. Publishes the last calibration where its file is there. Throws
-  /// InputError for bad settings and for a file of another robot, RunError where DDS refuses.
+  /// `fit`: runs a job. Publishes the last calibration where its file exists. Throws InputError for
+  /// bad settings and for a file of another robot, RunError where DDS fails.
   CalibrationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model, int domain_id,
                   dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
                   Worker::Fit fit = CalibrateLive);
 
-  /// Works until Stop().
+  /// Runs until Stop().
   void Run() { loop_.Run(); }
   /// From any thread.
   void Stop() { loop_.Stop(); }
@@ -77,13 +77,13 @@ class CalibrationNode {
   dds::Writer<idl::palpate_msgs::Calibration> calibration_;
   dds::Writer<idl::palpate_msgs::CalibrationStatus> status_;
   CloudSource clouds_;
-  std::optional<robot::CalibrationFile> last_;              ///< that was found or read
-  std::optional<geometry::RigidTransform> T_robot_camera_;  ///< where clouds start from
-  Request request_;                                         ///< the last one that was begun
+  std::optional<robot::CalibrationFile> last_;              ///< estimated or read
+  std::optional<geometry::RigidTransform> T_robot_camera_;  ///< initial pose
+  Request request_;                                         ///< the last accepted one
   Progress progress_;
-  std::string obstacle_;        ///< why the last cloud or markers do not serve; empty: they do
+  std::string obstacle_;        ///< why the last cloud or markers were refused; empty: accepted
   std::string cable_obstacle_;  ///< the same of the cable inputs
-  bool drop_result_ = false;    ///< of a request that was cancelled
+  bool drop_result_ = false;    ///< of a cancelled request
   Clock::time_point last_step_;
   std::string sent_reason_;
   dds::HealthCounts counts_;

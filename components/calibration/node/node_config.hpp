@@ -43,48 +43,49 @@ struct NodeConfig {
   void Visit(Visitor&& v) {
     constexpr NumberRule positive{.min = 0.0, .min_open = true};
     v("calibration_file", calibration_file,
-      "Where what is found is written, as `palpate calibrate` does; read and published at the "
-      "start where it is there; empty: neither");
+      "File to which each calibration is written, as by `palpate calibrate`; an existing file is "
+      "read and published at the start; empty: none");
     v("source", source, {"clouds", "markers"},
-      "What is calibrated from where a request does not say: /perception/robot_cloud, or "
-      "/perception/markers in the camera's frame");
+      "Data of a calibration unless the request names them: /perception/robot_cloud, or "
+      "/perception/markers in the camera frame");
     v("camera_pose", camera_pose,
-      "Roughly where the depth camera stands in the robot's frame, \"{translation_m: [x, y, z], "
-      "rotation_xyzw: [x, y, z, w]}\": clouds start from it; empty: from the last calibration; of "
-      "markers without names on a robot that looks the same after a turn it tells which is which, "
-      "and so does the last calibration where cables leave it open");
+      "Approximate pose of the depth camera in the robot frame, \"{translation_m: [x, y, z], "
+      "rotation_xyzw: [x, y, z, w]}\": initial pose for clouds; empty: that of the last "
+      "calibration; for unnamed markers on a symmetric robot it decides which marker is which, and "
+      "where it is empty the cables do, then the last calibration");
     v("frames", frames, {.min = 1.0, .max = 100.0},
-      "Frames of a calibration where the request does not say, each of another setting of the "
+      "Frames of a calibration unless the request gives a number, each at another setting of the "
       "cables");
-    v("at_start", at_start, "Begins a calibration at the start, without a request");
-    v("still_s", still_s, positive, "Cables that moved little for so long are at rest");
-    v("still_m", still_m, positive, "Little: of a displacement");
-    v("still_N", still_N, positive, "Little: of a tension");
+    v("at_start", at_start, "Starts a calibration at the start, without a request");
+    v("still_s", still_s, positive, "Time without motion after which the cables count as at rest");
+    v("still_m", still_m, positive, "Largest change of a displacement that counts as no motion");
+    v("still_N", still_N, positive, "Largest change of a tension that counts as no motion");
     v("new_setting_m", new_setting_m, positive,
-      "A cable's displacement must have changed by so much for another frame,");
-    v("new_setting_N", new_setting_N, positive, "or its tension by so much");
-    v("patience_s", patience_s, positive, "Without a further frame for so long it is given up");
-    v("allow_contacts", allow_contacts,
-      "Clouds in which perception sees something touch the robot serve, too");
+      "Smallest change of a displacement that makes a new setting of the cables");
+    v("new_setting_N", new_setting_N, positive,
+      "Smallest change of a tension that makes a new setting of the cables");
+    v("patience_s", patience_s, positive,
+      "Time without a further frame after which the calibration fails");
+    v("allow_contacts", allow_contacts, "Also uses clouds in which perception detects a contact");
     v("fit_depth_bias", fit_depth_bias,
-      "From clouds, find the smooth error of the depth image with the pose (Limits)");
+      "Estimates the depth bias together with the pose, from clouds (Limits)");
     v("marker_pictures", marker_pictures, {.min = 1.0, .max = 10000.0},
-      "A frame of markers is the mean over so many pictures");
+      "Marker messages whose mean makes one frame");
     v("marker_sigma_m", marker_sigma_m, positive,
-      "Marker noise where /perception/markers has none");
+      "Marker noise, one standard deviation, where /perception/markers has none");
     v("marker_bias_m", marker_bias_m, {.min = 0.0},
-      "Constant error of each marker that averaging does not remove, one sigma");
+      "Constant error of each marker that averaging does not remove, one standard deviation");
     v("marker_depth_bias", marker_depth_bias, {.min = 0.0, .max = 0.1},
-      "Sigma, as a share of z, of the smooth error that the depths of all markers have in common; "
-      "0 where they do not go by a depth image");
+      "Standard deviation of the depth bias common to all markers, as a share of z; 0 where "
+      "markers do not come from a depth image");
     v("cable_input", cable_input, {"displacement", "tension"},
-      "Which input of a cable counts where both are known");
+      "Input of a cable that is used where both are known");
     v("drive_offset_sigma_m", drive_offset_sigma_m, positive,
-      "How far a drive's zero may be off, one sigma");
+      "Prior standard deviation of an actuator's offset");
     v("drive_gain_sigma", drive_gain_sigma, positive,
-      "How far its gain may be off 1, one sigma, where it is looked for");
+      "Prior standard deviation of an actuator's gain, where it is estimated");
     v("modulus_relative_sigma", modulus_relative_sigma, positive,
-      "How far a modulus that is looked for may be off, one sigma of its logarithm");
+      "Prior standard deviation of ln E, where a modulus is estimated");
     v("solver", solver, fem::SolverNames(), "Sparse Cholesky of the model");
     v("threads", threads, {.min = 1.0, .max = 256.0}, "Threads of the model's solver");
     v("dds", dds, "DDS side");

@@ -13,27 +13,27 @@
 
 namespace palpate::calibration {
 
-/// Runs calibrations one after the other in a thread of its own.
+/// Runs calibrations, one at a time, in a thread of its own.
 class Worker {
  public:
   using Fit = std::function<LiveResult(robot::RobotModel&, const LiveJob&)>;
 
-  /// `on_result` is called from that thread when a result waits.
+  /// `on_result` is called from that thread when a result is ready.
   Worker(std::unique_ptr<robot::RobotModel> model, Fit fit, std::function<void()> on_result);
-  /// Stops the calibration that runs.
+  /// Stops the running calibration.
   ~Worker();
 
-  /// Not to be read while a job is in work.
+  /// Must not be read while busy().
   const robot::RobotModel& model() const { return *model_; }
   void Start(LiveJob job);
-  /// Stops the one in work, where there is one: its result is then a failure, and comes soon.
+  /// Stops the running job, if any; its result is then a failure.
   void StopFit() { stop_.request_stop(); }
   std::optional<LiveResult> TakeResult() { return worker_.TakeResult(); }
   bool busy() const { return worker_.busy(); }
 
  private:
   std::unique_ptr<robot::RobotModel> model_;
-  std::stop_source stop_;  ///< of the job in work
+  std::stop_source stop_;  ///< of the running job
   palpate::Worker<LiveJob, LiveResult> worker_;
 };
 

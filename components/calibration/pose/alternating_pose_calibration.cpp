@@ -25,7 +25,19 @@ namespace {
 
 using Eigen::Index;
 
-/// The alternation from rest to its fixed point.
+struct AlternationTuning {
+  /// Remaining change, as a share of that at the last tangent, that renews the tangent: a larger
+  /// share costs factorisations, a smaller one iterations.
+  double shrunk = 0.1;
+  double moving_N = 0.01;  ///< change of an iteration above which the tangent is renewed each time
+  double far_N = 1.0;      ///< the same of the remaining change
+  double current = 10.0;   ///< tolerances by which inputs may have moved since the tangent
+  double far_better = 1.0 / 9.0;  ///< chi-squared of a reflection that means mirrored markers
+  double moved_sigmas = 2.0;      ///< by which an input must exceed zero
+};
+constexpr AlternationTuning kAlternationTuning;
+
+/// The alternation from the undeformed body to its fixed point.
 class Alternation {
  public:
   Alternation(robot::RobotModel& model, const std::vector<MarkerSighting>& sightings,
@@ -111,7 +123,8 @@ bool Alternation::Fail(PoseFinding finding, StatusCode code, const std::string& 
   return false;
 }
 
-/// Equilibrium with the least tensions: without any, as in the paper, unless Omega asks for more.
+/// Equilibrium with the smallest tensions of Omega: zero, as in the paper, unless Omega excludes
+/// it.
 bool Alternation::Start() {
   Eigen::VectorXd least_N(model_.CableCount());
   for (Index c = 0; c < least_N.size(); ++c) {
@@ -124,7 +137,7 @@ bool Alternation::Start() {
               "no equilibrium to start from: " + status.message());
 }
 
-/// Cables that move no marker, whatever the pose, cannot be told from the markers.
+/// Cables that move no marker are not observable at any pose.
 bool Alternation::CheckInputsAreSeen() {
   Eigen::MatrixXd W = follower_.compliance().W_ea();
   whitener_.Apply(Eigen::Matrix3d::Identity(), W);
@@ -160,12 +173,13 @@ bool Alternation::Iterate() {
   return true;
 }
 
-/// The tangent is taken anew each time that what is left to change has shrunk tenfold: it is then
-/// wrong by that little, and the many iterations of a slow convergence are cheap.
+/// The tangent is renewed each time that the remaining change has shrunk tenfold: its error is then
+/// as small, and the many iterations of a slow convergence are cheap.
 bool Alternation::NeedsNewTangent() const {
-  constexpr double kShrunk = 0.1;
+  constexpr double kShrunk = kAlternationTuning.shrunk;
   const double remaining_N = result_.remaining_change_N;
-  const bool moves = !(last_change_N_ < 0.01) || !(remaining_N < 1.0);
+  const bool moves =
+      !(last_change_N_ < kAlternationTuning.moving_N) || !(remaining_N < kAlternationTuning.far_N);
   const bool stale = IsWithinTolerance() && !IsTangentCurrent();
   return moves || stale || remaining_N < kShrunk * remaining_at_tangent_N_ ||
          remaining_N > remaining_at_tangent_N_ / kShrunk;
@@ -178,7 +192,7 @@ bool Alternation::IsWithinTolerance() const {
 bool Alternation::IsTangentCurrent() const {
   const double moved_N =
       (follower_.lambda_a_N() - follower_.tangent_lambda_a_N()).lpNorm<Eigen::Infinity>();
-  return moved_N <= 10.0 * settings_.tolerance_N;
+  return moved_N <= kAlternationTuning.current * settings_.tolerance_N;
 }
 
 bool Alternation::HasConverged() const {
@@ -186,7 +200,7 @@ bool Alternation::HasConverged() const {
          follower_.balance_error() <= settings_.balance_tolerance;
 }
 
-/// Eq. (7) for the inputs as they are.
+/// Eq. (7) for the present inputs.
 bool Alternation::RegisterPose() {
   const geometry::Registration pose =
       geometry::RegisterRigid(camera_m_, follower_.Markers_m(), covariance_m2_);
@@ -199,7 +213,7 @@ bool Alternation::RegisterPose() {
   return Fail(finding, pose.status.code(), pose.status.message());
 }
 
-/// Eqs. (8), (9) for the pose as it is, and (6).
+/// Eqs. (8), (9) for the present pose, and (6).
 bool Alternation::FitInputs(bool new_tangent) {
   Status status = Status::Ok();
   if (new_tangent) {
@@ -260,7 +274,7 @@ void Alternation::EstimateRemainingChange(double change_N) {
   }
 }
 
-/// The pose of the last inputs, their equilibrium, and what both are known to.
+/// Pose and equilibrium of the last inputs, and the covariance.
 bool Alternation::Conclude() {
   Status status = follower_.Balance();
   if (status.ok()) status = follower_.Linearise();
@@ -288,7 +302,7 @@ void Alternation::JudgeResult() {
   const double ratio = std::sqrt(result_.chi_squared / expected);
   if (const std::string cables = UndeterminedCables(); !cables.empty()) {
     Fail(PoseFinding::kUnknownInputs, StatusCode::kUnobservable,
-         "the markers do not tell from a motion of the camera the input of " + cables);
+         "the markers do not distinguish from a camera motion the input of " + cables);
     return;
   }
   if (!(ratio <= settings_.wrong_robot_ratio)) {
@@ -297,7 +311,7 @@ void Alternation::JudgeResult() {
     sizes.Add(camera_m_, follower_.Markers_m());
     Fail(PoseFinding::kWrongRobot, StatusCode::kInvalidInput,
          "the residual of " + Short(1e3 * rms_m) + " mm RMS is " + Short(ratio) +
-             " times what the markers' errors explain" +
+             " times what the marker errors explain" +
              (sizes.Explains(rms_m) ? "; " + sizes.Text()
                                     : ": another robot, or markers assigned wrongly"));
     return;
@@ -310,7 +324,9 @@ void Alternation::JudgeResult() {
                                 Short(result_.remaining_change_N) + " N");
     return;
   }
-  const bool moved = (result_.lambda_a_N.array() > 2.0 * result_.standard_error_N.array()).any();
+  const bool moved = (result_.lambda_a_N.array() >
+                      kAlternationTuning.moved_sigmas * result_.standard_error_N.array())
+                         .any();
   result_.finding = moved ? PoseFinding::kSolved : PoseFinding::kZeroMotion;
   result_.status = Status::Ok();
 }
@@ -324,14 +340,13 @@ PoseAndInputs PoseRefusal(const robot::RobotModel& model, const Status& status) 
   return refused;
 }
 
-/// Markers assigned the wrong way round fit as a mirror shows them.
+/// Whether a mirrored assignment explains the markers.
 bool FitsMirrored(robot::RobotModel& model, const std::vector<MarkerSighting>& sightings,
                   const Algorithm1Settings& settings, double chi_squared) {
-  constexpr double kFarBetter = 1.0 / 9.0;  // of the sum of squares
   const std::vector<MarkerSighting> mirrored = Mirrored(sightings);
   const PoseAndInputs result = Alternation(model, mirrored, settings).Run();
   const bool fits = result.status.ok() || result.finding == PoseFinding::kNotConverged;
-  return fits && result.chi_squared < kFarBetter * chi_squared;
+  return fits && result.chi_squared < kAlternationTuning.far_better * chi_squared;
 }
 
 }  // namespace
@@ -362,8 +377,8 @@ PoseAndInputs RunAlgorithm1(robot::RobotModel& model, const std::vector<MarkerSi
   if (result.finding == PoseFinding::kWrongRobot &&
       FitsMirrored(model, sightings, settings, result.chi_squared)) {
     result.finding = PoseFinding::kMirroredMarkers;
-    result.status = Status(StatusCode::kInvalidInput,
-                           "the markers are mirrored: they fit as a mirror shows them");
+    result.status =
+        Status(StatusCode::kInvalidInput, "the markers are mirrored: a reflection fits them");
   }
   return result;
 }

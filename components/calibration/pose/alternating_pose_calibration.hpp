@@ -14,35 +14,34 @@ namespace palpate::calibration {
 struct Algorithm1Settings {
   int max_outer_iterations = 400;  ///< I_1 >= 1
   int inner_iterations = 1;        ///< I_2 >= 1
-  /// Ends where what all further iterations would change in the inputs is expected to be no more,
+  /// Converged where all further iterations together are expected to change the inputs by no more,
   /// N; 0: all I_1 iterations are made.
   double tolerance_N = 1e-7;
-  /// ... and the configuration is as near to equilibrium: residual over the size of the forces.
+  /// ... and the residual of the equilibrium over the size of the forces is no larger.
   double balance_tolerance = 1e-9;
   /// Omega, [a]; empty: tensions from 0 to the robot file's max_tension_N.
   std::vector<CableLimits> limits = {};
-  /// An input known no better (one sigma) counts as not determined by the markers.
+  /// An input with a larger standard deviation is not determined by the markers.
   double undetermined_sigma_N = 10.0;
-  /// The robot is another one where the residual is so many times what its errors explain.
+  /// A residual larger than so many times its expected size means another robot.
   double wrong_robot_ratio = 5.0;
 };
 
-/// The paper's Algorithm 1: camera pose and cable inputs from labelled markers of one picture, the
-/// robot's shape, material and geometry taken as known. In turns the pose for given inputs (7) and
-/// the inputs for a given pose (8), (9), the configuration following by (6). Both minimise the same
-/// sum, here of Mahalanobis distances, so that what it converges to is the joint minimum; it does
-/// so linearly, the slower the more a rigid motion looks like what the cables do.
+/// Algorithm 1 of the paper: camera pose and cable inputs from labelled markers of one frame, with
+/// known material and geometry. It alternates the pose for given inputs (7) with the inputs for a
+/// given pose (8), (9), and updates the configuration by (6). Both steps minimise one sum of
+/// Mahalanobis distances, so that the limit is the joint minimum. Convergence is linear, and slow
+/// where a rigid motion looks like a motion by the cables.
 ///
-/// The tangent is taken anew each time that what is left to change has shrunk tenfold, and always
-/// where the inputs still move; this changes the cost and not what is converged to.
+/// The tangent is renewed while the inputs move, and then whenever the remaining change has shrunk
+/// tenfold. This changes the cost, not the limit.
 ///
-/// Starts from the equilibrium without tension. `model` is used for solving and left as it was.
-/// Where (6) leads astray (an element turns inside out, no tangent), the equilibrium is followed to
-/// the new inputs instead, halfway where need be. The result is in equilibrium: it is solved for at
-/// the end.
+/// It starts at the equilibrium without tension. Where (6) fails (an inverted element, no tangent),
+/// a load continuation follows the equilibrium to the new inputs, or part of the way. The result is
+/// a solved equilibrium. `model` is used for solving and left unchanged.
 ///
-/// Mirrored markers are told by a reflection that explains them far better, at once or with inputs
-/// of its own. Markers that lie in one plane whatever the cables do cannot tell it.
+/// Mirrored markers are detected by a reflection that fits far better, at these inputs or with its
+/// own. Markers that lie in one plane at all inputs do not show it.
 PoseAndInputs RunAlgorithm1(robot::RobotModel& model, const std::vector<MarkerSighting>& sightings,
                             const Algorithm1Settings& settings = {});
 

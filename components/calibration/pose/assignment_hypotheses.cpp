@@ -19,8 +19,13 @@ namespace {
 using Eigen::Index;
 using Triplet = std::array<int, 3>;
 
-/// Sines of the angle at a corner below this make a needle, which says little about turns.
-constexpr double kNeedle = 0.2;
+struct HypothesisTuning {
+  /// Twice the area over the longest side squared below which a triangle is too thin for a
+  /// rotation: more leaves fewer hypotheses, less makes worse ones.
+  double needle = 0.2;
+  int uses = 4;  ///< triangles of one point, in shares: less spreads hypotheses over more points
+};
+constexpr HypothesisTuning kHypothesisTuning;
 
 struct RankedTriplet {
   Triplet points;
@@ -32,11 +37,11 @@ double Area_m2(const Eigen::Matrix3Xd& points_m, const Triplet& t) {
   const Eigen::Vector3d b = points_m.col(t[2]) - points_m.col(t[0]);
   const double area_m2 = 0.5 * a.cross(b).norm();
   const double longest_m2 = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
-  return area_m2 < 0.5 * kNeedle * longest_m2 ? 0.0 : area_m2;
+  return area_m2 < 0.5 * kHypothesisTuning.needle * longest_m2 ? 0.0 : area_m2;
 }
 
-/// Large triangles first; each point in three times its share at most, so that false points, which
-/// may lie far out, do not make all of them.
+/// Large triangles first. The number per point is limited, so that false points, which may lie far
+/// out, are not in all of them.
 std::vector<Triplet> ChooseTriplets(const Eigen::Matrix3Xd& points_m, int most) {
   const int count = static_cast<int>(points_m.cols());
   std::vector<RankedTriplet> ranked;
@@ -51,7 +56,7 @@ std::vector<Triplet> ChooseTriplets(const Eigen::Matrix3Xd& points_m, int most) 
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& x, const auto& y) { return x.area_m2 > y.area_m2; });
-  const int share = 1 + 4 * most / std::max(1, count);
+  const int share = 1 + kHypothesisTuning.uses * most / std::max(1, count);
   std::vector<int> uses(static_cast<size_t>(count), 0);
   std::vector<Triplet> chosen;
   for (const RankedTriplet& one : ranked) {
@@ -64,7 +69,7 @@ std::vector<Triplet> ChooseTriplets(const Eigen::Matrix3Xd& points_m, int most) 
   return chosen;
 }
 
-/// Triplets of markers that three distances fit.
+/// Marker triplets with feasible distances.
 class TripletFinder {
  public:
   TripletFinder(const MarkerShapes& shapes, double error_m) : shapes_(shapes), error_m_(error_m) {}

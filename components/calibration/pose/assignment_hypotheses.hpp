@@ -11,21 +11,21 @@
 
 namespace palpate::calibration {
 
-/// A pose that some three points and three markers suggest.
+/// Pose from a match of three points with three markers.
 struct PoseHypothesis {
   geometry::RigidTransform T_robot_camera;
-  double cost_m2 = 0.0;  ///< squared distances of the points from the nearest markers, capped
+  double cost_m2 = 0.0;  ///< sum of squared distances to the nearest markers, capped
 };
 
-/// For each point the index of its marker: pairs in the order of their distance, each point and
-/// marker once, none farther apart than `gate_m`; -1: none.
+/// Greedy nearest-neighbour matching: for each point the index of its marker. Each point and marker
+/// is used once, and no pair is farther apart than `gate_m`; -1: none.
 std::vector<int> MatchNearest(const Eigen::Matrix3Xd& points_m, const Eigen::Matrix3Xd& markers_m,
                               double gate_m);
 
-/// At most `most_triplets` triplets of points, of large triangles, no point in many more of them
-/// than its share, are laid on all triplets of markers whose distances agree within
-/// `distance_error_m` beside what the cables do to them. The best `most` poses, best first, no two
-/// of them with the same matches of points with mean markers.
+/// Registers at most `most_triplets` large triangles of points with all marker triplets whose
+/// distances agree within `distance_error_m` and the range of the cables. No point is in many more
+/// triangles than its share. Returns the best `most` poses, best first, with different matches of
+/// points with mean markers.
 std::vector<PoseHypothesis> SuggestPoses(const MarkerShapes& shapes,
                                          const Eigen::Matrix3Xd& points_m, double distance_error_m,
                                          int most_triplets, int most);

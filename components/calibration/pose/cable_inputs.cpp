@@ -17,8 +17,14 @@ namespace {
 
 using Eigen::Index;
 
-/// A limit of displacement may be missed by rounding, m.
-constexpr double kRounding_m = 1e-12;
+/// Smaller tolerances make rounding errors count as violations.
+struct CableInputsTuning {
+  double rounding_m = 1e-12;  ///< violation of a displacement limit
+  double rounding_N = 1e-12;  ///< violation of a tension limit
+  double slack_N = 1e-9;      ///< tension of a slack cable
+  int max_rounds = 32;        ///< in which violated limits are added
+};
+constexpr CableInputsTuning kInputsTuning;
 
 /// One half-space of Omega: row . lambda <= bound.
 struct HalfSpace {
@@ -52,12 +58,13 @@ HalfSpace MakeHalfSpace(const CableInputProblem& problem, SpaceKind kind, Index 
 
 bool Binds(const HalfSpace& half_space, const Eigen::VectorXd& lambda_a_N, double slack_N) {
   if (!std::isfinite(half_space.bound)) return false;
-  // The drive of a slack cable stands anywhere up to the most.
+  // The actuator of a slack cable may be anywhere below the upper limit.
   const bool slack = lambda_a_N[half_space.cable] <= slack_N;
   if (half_space.kind == SpaceKind::kMostDisplacement && slack) return false;
   const bool tension =
       half_space.kind == SpaceKind::kLeastTension || half_space.kind == SpaceKind::kMostTension;
-  return half_space.Excess(lambda_a_N) > (tension ? 1e-12 : kRounding_m);
+  return half_space.Excess(lambda_a_N) >
+         (tension ? kInputsTuning.rounding_N : kInputsTuning.rounding_m);
 }
 
 Status CheckLimits(const CableInputProblem& problem) {
@@ -66,13 +73,13 @@ Status CheckLimits(const CableInputProblem& problem) {
     if (!(one.least_tension_N <= one.most_tension_N) ||
         !(one.least_displacement_m <= one.most_displacement_m) || !(one.least_tension_N >= 0.0) ||
         !std::isfinite(one.least_tension_N)) {
-      return {StatusCode::kInvalidInput, "limits of a cable that cross, or let it push"};
+      return {StatusCode::kInvalidInput, "limits of a cable that cross, or that let it push"};
     }
   }
   return Status::Ok();
 }
 
-/// With the limits of tension only.
+/// With tension limits only.
 Status SolveTensions(const CableInputProblem& problem, Eigen::VectorXd* lambda_a_N) {
   fem::BoundedQp qp{problem.Q, problem.c, problem.c, problem.c};
   for (Index i = 0; i < problem.c.size(); ++i) {
@@ -90,7 +97,7 @@ Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
                  std::vector<HalfSpace>* half_spaces, Eigen::VectorXd* lambda_a_N) {
   const auto count = static_cast<Index>(half_spaces->size());
   if (count > fem::kMaxQpVariables) {
-    return {StatusCode::kNotConverged, "too many limits of the cables bind at once"};
+    return {StatusCode::kNotConverged, "too many limits of the cables are active at once"};
   }
   Eigen::MatrixXd A(count, problem.c.size());
   fem::QpVector b(count), start(count);
@@ -108,7 +115,7 @@ Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
   dual.upper = fem::QpVector::Constant(count, std::numeric_limits<double>::infinity());
   const fem::BoundedQpResult solution = fem::SolveBoundedQp(dual, start);
   if (solution.status.code() == StatusCode::kUnobservable) {
-    return {StatusCode::kTensionLimit, "no inputs keep all limits of the cables"};
+    return {StatusCode::kTensionLimit, "no inputs satisfy all limits of the cables"};
   }
   if (!solution.status.ok()) return solution.status;
   for (Index i = 0; i < count; ++i) {
@@ -118,9 +125,9 @@ Status SolveDual(const CableInputProblem& problem, const linalg::Cholesky& Q,
   return Status::Ok();
 }
 
-/// Adds the limits that `lambda_a_N` breaks; true where there are any.
-bool AddBroken(const CableInputProblem& problem, const Eigen::VectorXd& lambda_a_N, double slack_N,
-               std::vector<HalfSpace>* half_spaces) {
+/// Adds the limits that `lambda_a_N` violates; true where there are any.
+bool AddViolated(const CableInputProblem& problem, const Eigen::VectorXd& lambda_a_N,
+                 double slack_N, std::vector<HalfSpace>* half_spaces) {
   bool added = false;
   for (Index cable = 0; cable < problem.c.size(); ++cable) {
     for (const SpaceKind kind : {SpaceKind::kLeastTension, SpaceKind::kMostTension,
@@ -148,22 +155,21 @@ Status SolveCableInputs(const CableInputProblem& problem, Eigen::VectorXd* lambd
   Eigen::VectorXd solution_N = *lambda_a_N;
   if (Status status = SolveTensions(problem, &solution_N); !status.ok()) return status;
 
-  constexpr double kSlack_N = 1e-9;
-  constexpr int kMaxRounds = 32;
   std::vector<HalfSpace> half_spaces;
   const linalg::Cholesky Q(problem.Q);
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (!AddBroken(problem, solution_N, kSlack_N, &half_spaces)) {
+  for (int round = 0; round < kInputsTuning.max_rounds; ++round) {
+    if (!AddViolated(problem, solution_N, kInputsTuning.slack_N, &half_spaces)) {
       *lambda_a_N = solution_N;
       return Status::Ok();
     }
     if (!Q.ok()) {
-      return {StatusCode::kUnobservable, "limits bind on cables that the markers do not tell"};
+      return {StatusCode::kUnobservable,
+              "limits are active on cables that the markers do not determine"};
     }
     const Status status = SolveDual(problem, Q, &half_spaces, &solution_N);
     if (!status.ok()) return status;
   }
-  return {StatusCode::kNotConverged, "the limits of the cables that bind were not found"};
+  return {StatusCode::kNotConverged, "the active limits of the cables were not found"};
 }
 
 }  // namespace palpate::calibration

@@ -11,12 +11,12 @@
 
 namespace palpate::calibration {
 
-/// What one cable's drive can do: a factor of the paper's Omega.
+/// Limits of one cable and its actuator: a factor of the paper's Omega.
 struct CableLimits {
   double least_tension_N = 0.0;  ///< a cable cannot push
   double most_tension_N = std::numeric_limits<double>::infinity();
-  /// Of the drive, m pulled in from the undeformed body on. A taut cable's displacement is the
-  /// drive's; a slack one's is more than that, so that the most binds taut cables only.
+  /// Of the actuator, m pulled in since the undeformed body. A taut cable has the displacement of
+  /// its actuator and a slack one more, so that the upper limit applies to taut cables only.
   double least_displacement_m = -std::numeric_limits<double>::infinity();
   double most_displacement_m = std::numeric_limits<double>::infinity();
 };
@@ -31,11 +31,11 @@ struct CableInputProblem {
   std::vector<CableLimits> limits;  ///< [a]
 };
 
-/// Moves `lambda_a_N` [a], where the search starts, to the minimum. Tensions alone are bounds of
-/// the QP; limits of displacement that its solution would break are added as rows, solved for in
-/// the dual.
-/// kTensionLimit: limits that no input keeps; kUnobservable: they bind and Q is singular;
-/// kInvalidInput: limits that cross, or values that are not finite. On failure `lambda_a_N` stays.
+/// Moves `lambda_a_N` [a], the initial point, to the minimum. Tension limits are bounds of the QP.
+/// Displacement limits that its solution violates are added as rows and solved in the dual.
+/// kTensionLimit: no input satisfies the limits; kUnobservable: limits are active and Q is
+/// singular; kInvalidInput: limits that cross, or values that are not finite. On failure
+/// `lambda_a_N` stays.
 Status SolveCableInputs(const CableInputProblem& problem, Eigen::VectorXd* lambda_a_N);
 
 }  // namespace palpate::calibration

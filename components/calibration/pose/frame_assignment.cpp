@@ -16,10 +16,10 @@ namespace {
 
 using geometry::RigidTransform;
 
-struct Picture {
+struct FramePoints {
   std::size_t frame = 0;
   Eigen::Matrix3Xd points_m;
-  double spread_m = 0.0;  ///< RMS distance from their middle
+  double spread_m = 0.0;  ///< RMS distance from their centroid
   MarkerAssignment assignment;
 };
 
@@ -38,20 +38,20 @@ AssignmentSettings SettingsFor(const UnlabelledFrame& frame, double model_sigma_
   return settings;
 }
 
-Picture Look(const MarkerShapes& shapes, const UnlabelledFrame& frame, double model_sigma_m) {
-  Picture picture;
-  picture.points_m = PositionsOf(frame.points);
-  picture.assignment = AssignMarkers(shapes, picture.points_m, SettingsFor(frame, model_sigma_m));
-  if (picture.points_m.cols() > 0) {
-    const Eigen::Vector3d middle_m = picture.points_m.rowwise().mean();
-    const auto off_m = picture.points_m.colwise() - middle_m;
-    picture.spread_m = std::sqrt(off_m.colwise().squaredNorm().mean());
+FramePoints AssignFrame(const MarkerShapes& shapes, const UnlabelledFrame& frame,
+                        double model_sigma_m) {
+  FramePoints seen;
+  seen.points_m = PositionsOf(frame.points);
+  seen.assignment = AssignMarkers(shapes, seen.points_m, SettingsFor(frame, model_sigma_m));
+  if (seen.points_m.cols() > 0) {
+    const Eigen::Vector3d middle_m = seen.points_m.rowwise().mean();
+    const auto off_m = seen.points_m.colwise() - middle_m;
+    seen.spread_m = std::sqrt(off_m.colwise().squaredNorm().mean());
   }
-  return picture;
+  return seen;
 }
 
-/// Where no picture can be the robot's: whether the one with most points is that of a larger or a
-/// smaller one.
+/// Where no frame has an assignment: the size of the robot in the frame with most points.
 std::optional<SizeComparison> SizeOfFullest(const MarkerShapes& shapes,
                                             const std::vector<UnlabelledFrame>& frames,
                                             double model_sigma_m) {
@@ -62,17 +62,17 @@ std::optional<SizeComparison> SizeOfFullest(const MarkerShapes& shapes,
   return FindOtherSize(shapes, PositionsOf(fullest->points), SettingsFor(*fullest, model_sigma_m));
 }
 
-/// RMS distance between where two poses take a picture's points.
-double Distance_m(const Picture& picture, const RigidTransform& one, const RigidTransform& other) {
-  const Eigen::Matrix3Xd off_m = one.Apply(picture.points_m) - other.Apply(picture.points_m);
+/// RMS distance between the points of a frame under two poses.
+double Distance_m(const FramePoints& seen, const RigidTransform& one, const RigidTransform& other) {
+  const Eigen::Matrix3Xd off_m = one.Apply(seen.points_m) - other.Apply(seen.points_m);
   return std::sqrt(off_m.colwise().squaredNorm().mean());
 }
 
-const AssignmentChoice* NearestTo(const RigidTransform& pose, const Picture& picture) {
+const AssignmentChoice* NearestTo(const RigidTransform& pose, const FramePoints& seen) {
   const AssignmentChoice* nearest = nullptr;
-  double least_m = kSamePoseShare * picture.spread_m;
-  for (const AssignmentChoice& choice : picture.assignment.choices) {
-    const double distance_m = Distance_m(picture, pose, choice.T_robot_camera);
+  double least_m = kSamePoseShare * seen.spread_m;
+  for (const AssignmentChoice& choice : seen.assignment.choices) {
+    const double distance_m = Distance_m(seen, pose, choice.T_robot_camera);
     if (distance_m > least_m) continue;
     least_m = distance_m;
     nearest = &choice;
@@ -80,42 +80,42 @@ const AssignmentChoice* NearestTo(const RigidTransform& pose, const Picture& pic
   return nearest;
 }
 
-FrameLabels Follow(const RigidTransform& pose, const std::vector<Picture>& pictures) {
+FrameLabels Follow(const RigidTransform& pose, const std::vector<FramePoints>& all_seen) {
   FrameLabels labels{.T_robot_camera = pose, .frames = {}, .marker_of_point = {}, .tension_N = {}};
-  for (const Picture& picture : pictures) {
-    const AssignmentChoice* choice = NearestTo(pose, picture);
+  for (const FramePoints& seen : all_seen) {
+    const AssignmentChoice* choice = NearestTo(pose, seen);
     if (choice == nullptr) continue;
-    labels.frames.push_back(picture.frame);
+    labels.frames.push_back(seen.frame);
     labels.marker_of_point.push_back(choice->marker_of_point);
     labels.tension_N.push_back(choice->tension_N);
   }
   return labels;
 }
 
-/// One for each camera pose that any picture suggests.
-std::vector<FrameLabels> LabelChoices(const std::vector<Picture>& pictures) {
+/// One for each camera pose of any frame.
+std::vector<FrameLabels> LabelChoices(const std::vector<FramePoints>& all_seen) {
   std::vector<FrameLabels> choices;
-  for (const Picture& picture : pictures) {
-    for (const AssignmentChoice& choice : picture.assignment.choices) {
+  for (const FramePoints& seen : all_seen) {
+    for (const AssignmentChoice& choice : seen.assignment.choices) {
       const bool known = std::any_of(choices.begin(), choices.end(), [&](const auto& other) {
-        return Distance_m(picture, choice.T_robot_camera, other.T_robot_camera) <=
-               kSamePoseShare * picture.spread_m;
+        return Distance_m(seen, choice.T_robot_camera, other.T_robot_camera) <=
+               kSamePoseShare * seen.spread_m;
       });
-      if (!known) choices.push_back(Follow(choice.T_robot_camera, pictures));
+      if (!known) choices.push_back(Follow(choice.T_robot_camera, all_seen));
     }
   }
   return choices;
 }
 
-/// Leaves those that most pictures agree with, and of them the one nearest to the rough pose.
-void Narrow(const std::vector<Picture>& pictures, const RigidTransform* T_rough,
+/// Keeps the choices that most frames agree with, or the one of them nearest to the rough pose.
+void Narrow(const std::vector<FramePoints>& all_seen, const RigidTransform* T_rough,
             std::vector<FrameLabels>* choices) {
   std::size_t most = 0;
   for (const FrameLabels& choice : *choices) most = std::max(most, choice.frames.size());
   std::erase_if(*choices, [&](const auto& choice) { return choice.frames.size() < most; });
   if (T_rough == nullptr || choices->empty()) return;
   const auto off = [&](const FrameLabels& choice) {
-    return Distance_m(pictures.front(), choice.T_robot_camera, *T_rough);
+    return Distance_m(all_seen.front(), choice.T_robot_camera, *T_rough);
   };
   const auto nearest =
       std::min_element(choices->begin(), choices->end(),
@@ -128,30 +128,30 @@ void Narrow(const std::vector<Picture>& pictures, const RigidTransform* T_rough,
 FrameAssignment AssignFrames(const MarkerShapes& shapes, const std::vector<UnlabelledFrame>& frames,
                              const RigidTransform* T_rough, double model_sigma_m) {
   FrameAssignment result;
-  result.status = Status(StatusCode::kUnobservable, "no picture");
-  std::vector<Picture> pictures;
+  result.status = Status(StatusCode::kUnobservable, "no frame");
+  std::vector<FramePoints> all_seen;
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    Picture picture = Look(shapes, frames[f], model_sigma_m);
-    picture.frame = f;
-    if (picture.assignment.status.ok() || picture.assignment.ambiguous) {
-      pictures.push_back(std::move(picture));
+    FramePoints seen = AssignFrame(shapes, frames[f], model_sigma_m);
+    seen.frame = f;
+    if (seen.assignment.status.ok() || seen.assignment.ambiguous) {
+      all_seen.push_back(std::move(seen));
       continue;
     }
-    result.status = picture.assignment.status;
-    result.left_out.push_back(frames[f].frame.name + ": " + picture.assignment.status.message());
+    result.status = seen.assignment.status;
+    result.left_out.push_back(frames[f].frame.name + ": " + seen.assignment.status.message());
   }
-  if (pictures.empty()) {
+  if (all_seen.empty()) {
     if (const auto sizes = SizeOfFullest(shapes, frames, model_sigma_m)) {
       result.status = Status(StatusCode::kInvalidInput, sizes->Text());
     }
     return result;
   }
-  result.choices = LabelChoices(pictures);
-  Narrow(pictures, T_rough, &result.choices);
+  result.choices = LabelChoices(all_seen);
+  Narrow(all_seen, T_rough, &result.choices);
   const std::vector<std::size_t>& kept = result.choices.front().frames;
-  for (const Picture& picture : pictures) {
-    if (std::binary_search(kept.begin(), kept.end(), picture.frame)) continue;
-    result.left_out.push_back(frames[picture.frame].frame.name +
+  for (const FramePoints& seen : all_seen) {
+    if (std::binary_search(kept.begin(), kept.end(), seen.frame)) continue;
+    result.left_out.push_back(frames[seen.frame].frame.name +
                               ": its points need another camera pose than the others'");
   }
   result.status = Status::Ok();

@@ -14,39 +14,39 @@
 
 namespace palpate::calibration {
 
-/// Poses of one camera differ by less, as a share of how far the points are apart: those of single
-/// pictures are rough, those of a robot that looks alike after a turn differ by about all of it.
+/// Largest distance between poses of one camera, as a share of the points' spread. Poses of single
+/// frames are rough; equivalent poses of a symmetric robot differ by about the whole spread.
 inline constexpr double kSamePoseShare = 0.25;
 
-/// Points of one picture that nobody has named, and what acted on the robot then.
+/// Unlabelled points of one frame, and its inputs.
 struct UnlabelledFrame {
-  CalibrationFrame frame;              ///< its markers are yet to come
-  std::vector<MarkerSighting> points;  ///< camera frame; their `marker` means nothing
+  CalibrationFrame frame;              ///< without markers
+  std::vector<MarkerSighting> points;  ///< camera frame; `marker` has no meaning
 };
 
-/// Which marker each point is, in all pictures of one camera that stands still.
+/// Assignment of all frames of one camera at a fixed pose.
 struct FrameLabels {
   geometry::RigidTransform T_robot_camera;        ///< rough
-  std::vector<std::size_t> frames;                ///< those that agree with it, rising
+  std::vector<std::size_t> frames;                ///< frames that agree with it, ascending
   std::vector<std::vector<int>> marker_of_point;  ///< [of these frames][points]; -1: none
   std::vector<Eigen::VectorXd> tension_N;         ///< [of these frames][a] rough
 };
 
 struct FrameAssignment {
-  /// kUnobservable: no picture tells which marker is which. kInvalidInput: not finite, or of a
-  /// robot of another size.
+  /// kUnobservable: no frame has an assignment. kInvalidInput: not finite, or a robot of another
+  /// size.
   Status status;
-  std::vector<FrameLabels> choices;   ///< several: the pictures alone do not tell which holds
-  std::vector<std::string> left_out;  ///< pictures without an assignment, and why
+  std::vector<FrameLabels> choices;   ///< several: the frames alone are ambiguous
+  std::vector<std::string> left_out;  ///< frames without an assignment, and why
 };
 
-/// AssignMarkers for each picture, whose sigma_m is that of its points and `model_sigma_m` (of the
-/// model, and of where the markers sit) together. Of what is ambiguous in one picture those choices
-/// go on that need the same camera pose in all; `T_rough` (nullptr: not known) leaves the nearest.
+/// AssignMarkers for each frame. Its sigma_m combines the noise of the points and `model_sigma_m`
+/// (model and marker placement). Of ambiguous frames those choices remain that need one camera pose
+/// in all frames; `T_rough` (nullptr: unknown) selects the nearest of them.
 FrameAssignment AssignFrames(const MarkerShapes& shapes, const std::vector<UnlabelledFrame>& frames,
                              const geometry::RigidTransform* T_rough, double model_sigma_m = 1e-3);
 
-/// The frames of one choice with their markers.
+/// The frames of one choice with labelled markers.
 std::vector<CalibrationFrame> LabelledFrames(const std::vector<UnlabelledFrame>& frames,
                                              const FrameLabels& labels);
 

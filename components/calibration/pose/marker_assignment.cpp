@@ -22,7 +22,15 @@ using Eigen::Index;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Pose, tensions and matches that belong together.
+/// More rounds and steps refine worse hypotheses, and cost time for each.
+struct AssignmentTuning {
+  int max_rounds = 12;           ///< of matching and fit
+  int steps = 4;                 ///< of Gauss-Newton in each fit
+  double distance_sigmas = 3.0;  ///< error of a distance between points in hypotheses
+};
+constexpr AssignmentTuning kAssignmentTuning;
+
+/// Matches with their pose and tensions.
 struct Explanation {
   geometry::RigidTransform T_robot_camera;
   Eigen::VectorXd tension_N;
@@ -57,16 +65,15 @@ class Refiner {
   double sigma_m_;
 };
 
-/// The gate shrinks from how far the cables move the markers to how well the fit should be.
+/// The gate shrinks from the reach of the cables to the error of the fit.
 Explanation Refiner::Refine(const geometry::RigidTransform& T_robot_camera) const {
-  constexpr int kMaxRounds = 12;
   Explanation one{T_robot_camera, 0.5 * shapes_.most_tension_N(), {}};
-  // Matched with the mean shape at first, which no tensions need have.
+  // First matched with the mean shape, which may not be that of any tensions.
   one.marker_of_point =
       MatchNearest(T_robot_camera.Apply(points_m_), shapes_.mean_m(), shapes_.reach_m() + gate_m());
   if (!Fit(&one)) return one;
   double gate = std::max(0.5 * shapes_.reach_m(), gate_m());
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < kAssignmentTuning.max_rounds; ++round) {
     const bool changed = Match(gate, &one);
     if (!changed && gate <= gate_m()) break;
     if (!Fit(&one)) return one;
@@ -85,19 +92,18 @@ bool Refiner::Match(double gate_m, Explanation* explanation) const {
 }
 
 bool Refiner::Fit(Explanation* explanation) const {
-  constexpr int kSteps = 4;
   explanation->matches = static_cast<int>(std::count_if(explanation->marker_of_point.begin(),
                                                         explanation->marker_of_point.end(),
                                                         [](int marker) { return marker >= 0; }));
   if (explanation->matches < settings_.least_matches) return false;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kAssignmentTuning.steps; ++step) {
     if (!Step(explanation)) return false;
   }
   return true;
 }
 
-/// Gauss-Newton in (theta, tau, tensions), the tensions within their range and, where the matches
-/// say little of them, drawn to its middle.
+/// Gauss-Newton in (theta, tau, tensions). Tensions are bounded by their range and have a weak
+/// prior at its centre.
 bool Refiner::Step(Explanation* explanation) const {
   const Index cables = shapes_.CableCount();
   const Eigen::Matrix3Xd markers_m = shapes_.Positions_m(explanation->tension_N);
@@ -149,7 +155,7 @@ void Refiner::Rate(Explanation* explanation) const {
   }
 }
 
-/// Some point is one marker here and another there.
+/// Whether a point has different markers in both.
 bool Contradict(const std::vector<int>& one, const std::vector<int>& other) {
   for (size_t p = 0; p < one.size(); ++p) {
     if (one[p] >= 0 && other[p] >= 0 && one[p] != other[p]) return true;
@@ -157,7 +163,7 @@ bool Contradict(const std::vector<int>& one, const std::vector<int>& other) {
   return false;
 }
 
-/// Of the explanations, best first, those that fit alike.
+/// The explanations that fit equally well, best first.
 std::vector<AssignmentChoice> ChoicesOf(std::vector<Explanation> explanations,
                                         const AssignmentSettings& settings) {
   std::stable_sort(explanations.begin(), explanations.end(),
@@ -181,9 +187,9 @@ MarkerAssignment Judge(const std::vector<Explanation>& explanations,
   const auto best = std::min_element(explanations.begin(), explanations.end(),
                                      [](const auto& a, const auto& b) { return a.cost < b.cost; });
   if (best == explanations.end() || best->cost == kInfinity) {
-    result.status = Status(StatusCode::kUnobservable, "no pose and inputs bring " +
+    result.status = Status(StatusCode::kUnobservable, "no pose and tensions match " +
                                                           std::to_string(settings.least_matches) +
-                                                          " of the points to markers");
+                                                          " of the points with markers");
     return result;
   }
   result.marker_of_point = best->marker_of_point;
@@ -203,7 +209,7 @@ MarkerAssignment Judge(const std::vector<Explanation>& explanations,
     result.status = Status(StatusCode::kUnobservable,
                            "only " + std::to_string(result.matches) + " of " +
                                std::to_string(best->marker_of_point.size()) +
-                               " points can be markers: another robot, or seen in a mirror");
+                               " points can be markers: another robot, or mirrored points");
     return result;
   }
   result.choices = ChoicesOf(explanations, settings);
@@ -238,8 +244,8 @@ MarkerAssignment AssignMarkers(const MarkerShapes& shapes,
   }
   const Eigen::Matrix3Xd points = points_m;
   const Refiner refiner(shapes, points, settings);
-  // The distance of two points errs by both.
-  const double distance_error_m = 3.0 * std::sqrt(2.0) * refiner.sigma_m();
+  const double distance_error_m =
+      kAssignmentTuning.distance_sigmas * std::sqrt(2.0) * refiner.sigma_m();
   std::vector<Explanation> explanations;
   for (const PoseHypothesis& hypothesis : SuggestPoses(
            shapes, points, distance_error_m, settings.most_triplets, settings.most_refined)) {

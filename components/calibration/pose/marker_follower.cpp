@@ -10,8 +10,14 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Way to new tensions that needs more load steps than these is halved instead.
-constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
+struct MarkerFollowerTuning {
+  /// Of the load continuation: a change of tensions that needs more steps is halved.
+  fem::StaticSettings continuation{.max_newton_iterations = 20, .max_load_steps = 6};
+  int halvings = 6;  ///< of the change; more reach farther and cost a solve each
+  /// Residual over the forces above which a linearised step has failed: less continues more often.
+  double astray = 0.5;
+};
+constexpr MarkerFollowerTuning kFollowerTuning;
 
 std::vector<robot::ObservationRow> RowsOf(const robot::RobotModel& model,
                                           const std::vector<MarkerSighting>& sightings) {
@@ -37,7 +43,7 @@ MarkerFollower::MarkerFollower(robot::RobotModel& model,
     : model_(model),
       rows_(RowsOf(model, sightings)),
       compliance_(model.linearisation(), rows_),
-      equilibrium_(model.linearisation(), kFollowSettings),
+      equilibrium_(model.linearisation(), kFollowerTuning.continuation),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())) {
   model_.AddWeight(weight_N_);
 }
@@ -67,7 +73,7 @@ Status MarkerFollower::TryLinearise() {
 }
 
 void MarkerFollower::KeepTangent() {
-  // The linearisation has the residual of where the last step led.
+  // The linearisation has the residual after the last step.
   compliance_.ComputeChord(state_.x_m, model_.cable_rest_length_m(), state_.multipliers_N, {});
 }
 
@@ -77,8 +83,6 @@ Status MarkerFollower::MoveTo(const Eigen::VectorXd& lambda_a_N) {
 }
 
 Status MarkerFollower::TakeLinearStep(const Eigen::VectorXd& lambda_a_N) {
-  /// Residual over the forces above which the tangent says little about where the balance is.
-  constexpr double kAstray = 0.5;
   fem::StaticState moved = state_;
   moved.multipliers_N = lambda_a_N;
   moved.loads = model_.Loads(Tensions(lambda_a_N), {});
@@ -88,19 +92,20 @@ Status MarkerFollower::TakeLinearStep(const Eigen::VectorXd& lambda_a_N) {
   if (!status.ok()) return status;
   const double error =
       linearisation.residual_N().norm() / fem::ForceScale_N(linearisation, moved.loads, lambda_a_N);
-  if (!(error < kAstray)) return {StatusCode::kNotConverged, "the linearised step leads astray"};
+  if (!(error < kFollowerTuning.astray)) {
+    return {StatusCode::kNotConverged, "the linearised step diverges"};
+  }
   balance_error_ = error;
   state_ = std::move(moved);
   return status;
 }
 
 Status MarkerFollower::FollowEquilibrium(const Eigen::VectorXd& lambda_a_N) {
-  constexpr int kHalvings = 6;
   ++restorations_;
   const Eigen::VectorXd start_N = balanced_.multipliers_N;
   Status status;
   double fraction = 1.0;
-  for (int halving = 0; halving <= kHalvings; ++halving, fraction *= 0.5) {
+  for (int halving = 0; halving <= kFollowerTuning.halvings; ++halving, fraction *= 0.5) {
     fem::StaticState attempt = balanced_;
     const Eigen::VectorXd tension_N = start_N + fraction * (lambda_a_N - start_N);
     status = equilibrium_.Solve(model_.Loads(Tensions(tension_N), {}), &attempt).status;

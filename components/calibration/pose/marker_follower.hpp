@@ -14,21 +14,21 @@
 
 namespace palpate::calibration {
 
-/// The model's configuration under cable forces, and how the sighted markers answer to them.
+/// Configuration of the model under cable tensions, and the compliance of the sighted markers.
 class MarkerFollower {
  public:
   MarkerFollower(robot::RobotModel& model, const std::vector<MarkerSighting>& sightings);
 
-  /// Equilibrium under these tensions, from rest on.
+  /// Equilibrium under these tensions, from the undeformed body.
   Status Start(const Eigen::VectorXd& lambda_a_N);
-  /// Tangent and compliances at the configuration, (3)-(5); where it has no tangent, at the last
-  /// equilibrium on the way to it.
+  /// Tangent and compliances (3)-(5) at the configuration; where it has no tangent, at the last
+  /// equilibrium before it.
   Status Linearise();
-  /// The residual's part of it (delta_e^free, delta_a^free) with the tangent of the last Linearise,
-  /// a tenth of the work. After MoveTo.
+  /// Only delta_e^free and delta_a^free, with the tangent of the last Linearise: a tenth of the
+  /// work. After MoveTo.
   void KeepTangent();
-  /// (6) to these tensions; where that leads astray, the equilibrium with them or, halfway, with
-  /// less of the change. Needs Linearise or KeepTangent before it.
+  /// (6) to these tensions; where that fails, the equilibrium under them, or under part of the
+  /// change. Needs Linearise or KeepTangent before it.
   Status MoveTo(const Eigen::VectorXd& lambda_a_N);
   /// Solves for the equilibrium under the present tensions.
   Status Balance();
@@ -38,9 +38,9 @@ class MarkerFollower {
   const Eigen::VectorXd& lambda_a_N() const { return state_.multipliers_N; }
   /// [3 x sightings] of the model's markers in the configuration, robot frame.
   Eigen::Matrix3Xd Markers_m() const;
-  /// Tensions at which the tangent was taken.
+  /// Tensions at the last tangent.
   const Eigen::VectorXd& tangent_lambda_a_N() const { return tangent_lambda_a_N_; }
-  /// Residual over the size of the forces where MoveTo led.
+  /// Residual over the size of the forces after MoveTo.
   double balance_error() const { return balance_error_; }
   int continuation_steps() const { return restorations_; }
 
@@ -52,7 +52,7 @@ class MarkerFollower {
   robot::RobotModel& model_;
   std::vector<robot::ObservationRow> rows_;
   robot::Compliance compliance_;
-  fem::StaticSolver equilibrium_;  ///< for restorations
+  fem::StaticSolver equilibrium_;  ///< for the load continuation
   Eigen::VectorXd weight_N_;       ///< [3n]
   fem::StaticState state_;
   fem::StaticState balanced_;  ///< the last equilibrium

@@ -48,7 +48,7 @@ Eigen::MatrixXd MonomialGradients(const Eigen::VectorXd& t) {
   return gradients;
 }
 
-/// Digits of `index` >= 1 mirrored about the point: evenly spread over 0 to 1.
+/// Digits of `index` >= 1 mirrored about the point: a low-discrepancy sequence in 0 to 1.
 double RadicalInverse(int index, int base) {
   double value = 0.0;
   for (double digit = 1.0 / base; index > 0; index /= base, digit /= base) {

@@ -9,14 +9,18 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Sizes that are tried lie so near to each other that distances of half the robot's differ by
-/// less than hypotheses allow for.
-constexpr double kStep = 1.04;
-constexpr int kSteps = 13;  // each way: 0.6 to 1.7
-/// Of fewer of the points a size says little: some five always lie somehow.
-constexpr double kLeastShare = 0.8;
+/// Finer or more steps find more sizes and cost one assignment each.
+struct OtherSizeTuning {
+  /// Ratio of neighbouring sizes: distances of half the robot's differ by less than hypotheses
+  /// allow.
+  double step = 1.04;
+  int steps = 13;  ///< in each direction: 0.6 to 1.7
+  /// Share of the points that must match: at some size five points always do.
+  double least_share = 0.8;
+};
+constexpr OtherSizeTuning kOtherSizeTuning;
 
-/// The points and markers that were matched.
+/// Sizes of the matched points and markers.
 SizeComparison Compare(const MarkerShapes& shapes, const Eigen::Matrix3Xd& points_m,
                        const MarkerAssignment& found) {
   std::vector<int> points, markers;
@@ -36,12 +40,14 @@ std::optional<SizeComparison> FindOtherSize(const MarkerShapes& shapes,
                                             const Eigen::Matrix3Xd& points_m,
                                             const AssignmentSettings& settings) {
   double scale = 1.0;
-  for (int step = 1; step <= kSteps; ++step) {
-    scale *= kStep;
+  for (int step = 1; step <= kOtherSizeTuning.steps; ++step) {
+    scale *= kOtherSizeTuning.step;
     for (const double larger : {scale, 1.0 / scale}) {
       const MarkerAssignment found = AssignMarkers(shapes, points_m / larger, settings);
       const bool fits = found.status.ok() || found.ambiguous;
-      if (!fits || found.matches < kLeastShare * static_cast<double>(points_m.cols())) continue;
+      if (!fits ||
+          found.matches < kOtherSizeTuning.least_share * static_cast<double>(points_m.cols()))
+        continue;
       const SizeComparison sizes = Compare(shapes, points_m, found);
       if (sizes.Disagrees()) return sizes;
     }

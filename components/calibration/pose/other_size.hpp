@@ -10,8 +10,8 @@
 
 namespace palpate::calibration {
 
-/// For points that AssignMarkers cannot make the robot's markers: whether they could be those of a
-/// robot of another size (0.6 to 1.7 times), and how large both are. nullopt: of none of these.
+/// For points without an assignment: whether they are markers of a robot of another size (0.6
+/// to 1.7 times), with both sizes. nullopt: no such size.
 std::optional<SizeComparison> FindOtherSize(const MarkerShapes& shapes,
                                             const Eigen::Matrix3Xd& points_m,
                                             const AssignmentSettings& settings);

@@ -14,18 +14,18 @@
 
 namespace palpate::calibration {
 
-/// What a calibration of camera pose and cable inputs found.
+/// Outcome of a calibration of camera pose and cable inputs.
 enum class PoseFinding {
   kNotRun,
   kSolved,
   kZeroMotion,         ///< solved; no input differs from zero by more than its error
   kNotConverged,       ///< iterations used up
   kFailedEquilibrium,  ///< the model has no equilibrium under the inputs on the way
-  kDegenerateMarkers,  ///< fewer than 3, in one place, on one line: no pose
-  kMirroredMarkers,    ///< assigned the wrong way round
-  kUnknownInputs,      ///< the markers do not tell an input, named in the message
+  kDegenerateMarkers,  ///< fewer than 3, coincident or collinear: no pose
+  kMirroredMarkers,    ///< assigned to mirror images
+  kUnknownInputs,      ///< the markers do not determine an input, see the message
   kWrongRobot,         ///< the residual is far above the noise
-  kInvalidInput,       ///< NaN, unknown or double marker, limits that cross
+  kInvalidInput,       ///< NaN, unknown or duplicate marker, limits that cross
 };
 
 /// The word for `finding` in files and messages, e.g. "solved", "mirrored_markers".
@@ -42,8 +42,8 @@ struct PoseAndInputs {
   fem::StaticState state;          ///< equilibrium under lambda_a_N
 
   /// Of (theta rad, tau m, lambda_a N) jointly [6 + a]; theta and tau along the robot's axes about
-  /// T_robot_camera (geometry::Registration). From the sightings' covariances, to first order,
-  /// without the limits: an input at a limit is known better than this.
+  /// T_robot_camera (geometry::Registration). From the sightings' covariances, to first order.
+  /// Limits are ignored: an input at a limit has a smaller error.
   Eigen::MatrixXd covariance;
   Eigen::VectorXd standard_error_N;  ///< [a]
 
@@ -56,9 +56,9 @@ struct PoseAndInputs {
   std::vector<double> residual_rms_after_m;
   int outer_iterations = 0;
   int tangents = 0;  ///< linearisations
-  /// Times that the linearised step (6) failed and the equilibrium was followed instead.
+  /// Number of steps (6) that failed and were replaced by a load continuation.
   int continuation_steps = 0;
-  /// What a further outer iteration is expected to change in sum, N (linear convergence).
+  /// Expected change of the inputs by all further outer iterations, N (linear convergence).
   double remaining_change_N = 0.0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace palpate::calibration {
 
-/// Turns distances between camera and model, in the robot frame, into ones of unit covariance.
+/// Whitens distances between measured and model markers in the robot frame.
 class SightingWhitener {
  public:
   /// The covariances must be positive definite.
@@ -26,8 +26,8 @@ class SightingWhitener {
 
 /// Inverse of the joint information of pose and inputs, [6 + a x 6 + a], of
 ///   e = L^-1 R' (R p + T - W_ea lambda - delta_e^free)
-/// in (theta, tau, lambda_a). Directions that nothing tells get variances of 1e14 and more in units
-/// that scale the information's diagonal to 1.
+/// in (theta, tau, lambda_a). Unobservable directions have variances of at least 1e14 in units that
+/// scale the information's diagonal to 1.
 Eigen::MatrixXd JointCovariance(const std::vector<MarkerSighting>& sightings,
                                 const SightingWhitener& whitener,
                                 const geometry::RigidTransform& T_robot_camera,

@@ -15,7 +15,7 @@ Status CheckSighting(const MarkerSighting& sighting, int marker_count) {
   const std::string name = "marker " + std::to_string(sighting.marker);
   if (sighting.marker < 0 || sighting.marker >= marker_count) {
     return {StatusCode::kInvalidInput,
-            name + " is none of the robot's " + std::to_string(marker_count)};
+            name + " is not one of the robot's " + std::to_string(marker_count)};
   }
   if (!sighting.position_m.allFinite()) {
     return {StatusCode::kInvalidInput, name + ": a coordinate is not finite"};

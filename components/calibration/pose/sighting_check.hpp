@@ -10,13 +10,12 @@
 
 namespace palpate::calibration {
 
-/// Refuses a marker that the robot (with `marker_count`) has not or that is sighted twice, a
-/// position that is not finite, a covariance that is not positive definite (all kInvalidInput), and
-/// fewer than 3 sightings (kUnobservable).
+/// Refuses unknown markers (of `marker_count`), duplicates, positions that are not finite and
+/// covariances that are not positive definite (all kInvalidInput), and fewer than 3 sightings
+/// (kUnobservable).
 Status CheckSightings(const std::vector<MarkerSighting>& sightings, int marker_count);
 
-/// The sightings as a mirror shows them: what markers look like that are assigned the wrong way
-/// round.
+/// The mirror image of the sightings, which equals markers assigned to mirror images.
 std::vector<MarkerSighting> Mirrored(const std::vector<MarkerSighting>& sightings);
 
 }  // namespace palpate::calibration

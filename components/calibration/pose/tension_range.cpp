@@ -15,8 +15,15 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-constexpr double kMargin = 1.2;
-constexpr double kOffsetSigmas = 2.0;
+/// A wider range holds more offsets, and leaves the polynomial of MarkerShapes larger errors.
+struct TensionRangeTuning {
+  double margin = 1.2;         ///< factor on the tensions of the inputs
+  double offset_sigmas = 2.0;  ///< of actuators, added to displacements
+  double far_share = 0.25;     ///< motion of a marker over the spread, for a cable without an input
+  int doublings = 12;          ///< of the tension, up to max_tension_N
+  double least_share = 0.05;   ///< of the range of a cable alone, for a slack cable
+};
+constexpr TensionRangeTuning kRangeTuning;
 
 Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticState& state) {
   const auto& markers = model.body().markers;
@@ -27,33 +34,32 @@ Eigen::Matrix3Xd MarkersAt(const robot::RobotModel& model, const fem::StaticStat
   return markers_m;
 }
 
-/// What one cable alone may pull with before the markers move far.
+/// Tension of one cable alone up to which no marker moves far.
 double ReachOf(robot::RobotModel& model, int cable) {
-  constexpr double kFarShare = 0.25;
-  constexpr int kDoublings = 12;
   const double most_N = model.body().cables[At(cable)].max_tension_N;
   fem::StaticState state = model.RestState();
   const Eigen::Matrix3Xd rest_m = MarkersAt(model, state);
   const Eigen::Vector3d middle_m = rest_m.rowwise().mean();
   const double spread_m = std::sqrt((rest_m.colwise() - middle_m).colwise().squaredNorm().mean());
-  double reach_N = std::ldexp(most_N, -kDoublings);
+  double reach_N = std::ldexp(most_N, -kRangeTuning.doublings);
   for (double tension_N = reach_N; tension_N <= most_N; tension_N *= 2.0) {
     std::vector<robot::CableCommand> commands(static_cast<std::size_t>(model.CableCount()));
     commands[At(cable)] = {Kind::kTension, tension_N};
     if (!model.Solve(commands, {}, &state).status.ok()) break;
     const Eigen::Matrix3Xd moved_m = MarkersAt(model, state) - rest_m;
-    if (moved_m.colwise().norm().maxCoeff() > kFarShare * spread_m) break;
+    if (moved_m.colwise().norm().maxCoeff() > kRangeTuning.far_share * spread_m) break;
     reach_N = tension_N;
   }
   return reach_N;
 }
 
 /// Raises `most_N` to the tensions of one frame.
-Status Raise(robot::RobotModel& model, const CalibrationFrame& frame, double drive_offset_sigma_m,
-             Eigen::VectorXd* most_N) {
+Status Raise(robot::RobotModel& model, const CalibrationFrame& frame,
+             double actuator_offset_sigma_m, Eigen::VectorXd* most_N) {
   std::vector<robot::CableCommand> commands = frame.cables;
   for (robot::CableCommand& command : commands) {
-    if (command.kind == Kind::kDisplacement) command.value += kOffsetSigmas * drive_offset_sigma_m;
+    if (command.kind == Kind::kDisplacement)
+      command.value += kRangeTuning.offset_sigmas * actuator_offset_sigma_m;
   }
   model.SetGravity(frame.gravity_m_s2);
   fem::StaticState state = model.RestState();
@@ -63,7 +69,7 @@ Status Raise(robot::RobotModel& model, const CalibrationFrame& frame, double dri
   }
   for (int c = 0; c < model.CableCount(); ++c) {
     const double tension_N = model.StateOfCable(c, state).tension_N;
-    (*most_N)[c] = std::max((*most_N)[c], kMargin * tension_N);
+    (*most_N)[c] = std::max((*most_N)[c], kRangeTuning.margin * tension_N);
   }
   return Status::Ok();
 }
@@ -71,13 +77,12 @@ Status Raise(robot::RobotModel& model, const CalibrationFrame& frame, double dri
 }  // namespace
 
 Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
-                        double drive_offset_sigma_m, Eigen::VectorXd* most_N) {
-  constexpr double kLeastShare = 0.05;  // of what a cable alone may pull with
+                        double actuator_offset_sigma_m, Eigen::VectorXd* most_N) {
   const ModelSnapshot kept(model);
   *most_N = Eigen::VectorXd::Zero(model.CableCount());
   Status status = Status::Ok();
   for (const CalibrationFrame& frame : frames) {
-    if (status.ok()) status = Raise(model, frame, drive_offset_sigma_m, most_N);
+    if (status.ok()) status = Raise(model, frame, actuator_offset_sigma_m, most_N);
   }
   kept.RestoreGravity();
   if (!status.ok()) return status;
@@ -87,7 +92,7 @@ Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationF
     };
     const bool unknown = std::any_of(frames.begin(), frames.end(), is_unknown);
     if (!unknown && (*most_N)[c] > 0.0) continue;
-    const double share = unknown ? 1.0 : kLeastShare;
+    const double share = unknown ? 1.0 : kRangeTuning.least_share;
     (*most_N)[c] = std::max((*most_N)[c], share * ReachOf(model, c));
   }
   return status;

@@ -12,12 +12,12 @@
 
 namespace palpate::calibration {
 
-/// Up to which tension each cable may be pulled in these frames, `most_N` [a] > 0: what their
-/// inputs ask for, drives off by two `drive_offset_sigma_m`, and a fifth more. Of a cable of which
-/// nothing is known in some frame: as far as no marker moves by more than a quarter of the RMS
-/// distance of the markers from their middle, and not above the robot file's max_tension_N. Fails
-/// where the model has no equilibrium under a frame's inputs. The model is left as it was.
+/// Largest tension of each cable in these frames, `most_N` [a] > 0: that of their inputs with
+/// actuators off by two `actuator_offset_sigma_m`, and a fifth more. For a cable without an input
+/// in some frame: the tension at which a marker has moved by a quarter of the markers' RMS distance
+/// from their centroid, at most max_tension_N. Fails where the model has no equilibrium under a
+/// frame's inputs. The model is unchanged.
 Status FindTensionRange(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
-                        double drive_offset_sigma_m, Eigen::VectorXd* most_N);
+                        double actuator_offset_sigma_m, Eigen::VectorXd* most_N);
 
 }  // namespace palpate::calibration

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "components/calibration/joint/model_snapshot.hpp"
-#include "components/calibration/pose/drive_misfit.hpp"
+#include "components/calibration/pose/actuator_misfit.hpp"
 #include "components/calibration/pose/tension_range.hpp"
 #include "libs/core/text.hpp"
 
@@ -19,21 +19,21 @@ namespace {
 
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
 
-/// A choice and what came of it.
+/// An assignment and its calibration.
 struct Attempt {
   FrameLabels labels;
   std::vector<CalibrationFrame> frames;
   JointCalibration joint;
 
-  /// Sum of squares of all rows, robust.
+  /// Robust sum of squares of all rows.
   double Cost() const { return joint.status.ok() ? 2.0 * joint.objectives.back() : kNoFit; }
-  /// By how much the residual exceeds the noise, squared; at least 1.
+  /// Reduced chi-squared, at least 1.
   double Excess() const {
     return std::max(1.0, joint.chi_squared / std::max(1, joint.degrees_of_freedom));
   }
 };
 
-/// Points that have a name already.
+/// Assignment of points that have names.
 FrameAssignment TakeNames(const std::vector<UnlabelledFrame>& frames) {
   FrameAssignment assignment;
   FrameLabels& labels = assignment.choices.emplace_back();
@@ -53,7 +53,7 @@ FrameAssignment TakeNames(const std::vector<UnlabelledFrame>& frames) {
   return assignment;
 }
 
-/// The range of tensions, the shapes in it, and what the points are in them.
+/// Assignment by the shapes in the range of tensions.
 FrameAssignment Assign(robot::RobotModel& model, const std::vector<UnlabelledFrame>& frames,
                        const geometry::RigidTransform* T_rough,
                        const UnlabelledSettings& settings) {
@@ -63,7 +63,7 @@ FrameAssignment Assign(robot::RobotModel& model, const std::vector<UnlabelledFra
   for (const UnlabelledFrame& frame : frames) inputs.push_back(frame.frame);
   Eigen::VectorXd most_N;
   assignment.status =
-      FindTensionRange(model, inputs, settings.request.drive_offset_sigma_m, &most_N);
+      FindTensionRange(model, inputs, settings.request.actuator_offset_sigma_m, &most_N);
   if (!assignment.status.ok()) return assignment;
   const SolvedShapes solved = SolveMarkerShapes(model, most_N);
   assignment.status = solved.status;
@@ -71,22 +71,22 @@ FrameAssignment Assign(robot::RobotModel& model, const std::vector<UnlabelledFra
   return AssignFrames(solved.shapes, frames, T_rough, settings.model_sigma_m);
 }
 
-/// Gives up choices that contradict the drives.
-void HearDrives(robot::RobotModel& model, const std::vector<UnlabelledFrame>& frames,
-                const UnlabelledSettings& settings, std::vector<FrameLabels>* choices) {
+/// Removes choices that contradict the actuators.
+void RejectByActuators(robot::RobotModel& model, const std::vector<UnlabelledFrame>& frames,
+                       const UnlabelledSettings& settings, std::vector<FrameLabels>* choices) {
   if (choices->size() < 2) return;
-  const DriveErrors errors{.displacement_m = settings.model_sigma_m,
-                           .offset_m = settings.request.drive_offset_sigma_m};
+  const ActuatorErrors errors{.displacement_m = settings.model_sigma_m,
+                              .offset_m = settings.request.actuator_offset_sigma_m};
   std::vector<CalibrationFrame> inputs;
   for (const UnlabelledFrame& frame : frames) inputs.push_back(frame.frame);
   const Eigen::MatrixXd commanded_m = CommandedDisplacements_m(model, inputs);
   std::vector<double> misfits;
   for (const FrameLabels& labels : *choices) {
-    misfits.push_back(DriveMisfit(model, LabelledFrames(frames, labels), labels.tension_N,
-                                  commanded_m(Eigen::all, labels.frames), errors));
+    misfits.push_back(ActuatorMisfit(model, LabelledFrames(frames, labels), labels.tension_N,
+                                     commanded_m(Eigen::all, labels.frames), errors));
   }
   const double most =
-      *std::min_element(misfits.begin(), misfits.end()) + settings.most_drive_misfit;
+      *std::min_element(misfits.begin(), misfits.end()) + settings.most_actuator_misfit;
   std::vector<FrameLabels> kept;
   for (std::size_t k = 0; k < choices->size(); ++k) {
     if (misfits[k] <= most) kept.push_back(std::move((*choices)[k]));
@@ -98,7 +98,7 @@ bool FitsAsWell(const Attempt& other, const Attempt& best, const UnlabelledSetti
   return (other.Cost() - best.Cost()) / best.Excess() <= settings.ambiguous_below;
 }
 
-/// Whether a camera there would see the points about where the attempt's camera does.
+/// Whether a camera at this pose sees the points about where the attempt's camera does.
 bool StandsAt(const geometry::RigidTransform& T_robot_camera, const Attempt& attempt) {
   Eigen::Matrix3Xd points_m(3, 0);
   for (const CalibrationFrame& frame : attempt.frames) {
@@ -113,7 +113,7 @@ bool StandsAt(const geometry::RigidTransform& T_robot_camera, const Attempt& att
   return off_m.norm() <= kSamePoseShare * spread_m;
 }
 
-/// Of those that fit as well as the best: that of the last pose; nullptr where it is none of them.
+/// Of those that fit as well as the best: that of the last pose; nullptr: none.
 const Attempt* AtLastPose(const std::vector<Attempt>& attempts, const Attempt& best,
                           const UnlabelledSettings& settings) {
   if (!settings.T_robot_camera_last) return nullptr;
@@ -129,11 +129,11 @@ Status Compare(const std::vector<Attempt>& attempts, const Attempt& best,
   for (const Attempt& other : attempts) {
     if (&other == &best || !FitsAsWell(other, best, settings)) continue;
     return {StatusCode::kUnobservable,
-            "ambiguous: two ways to tell which marker is which explain all pictures alike "
+            "ambiguous: two assignments of the markers explain all frames equally well "
             "(chi-squared " +
                 FormatNumber(best.Cost()) + " and " + FormatNumber(other.Cost()) +
-                "); a rough pose of the camera tells, or other settings of the cables, or markers "
-                "that look different after every turn"};
+                "); an approximate camera pose decides, or other settings of the cables, or "
+                "markers without symmetry"};
   }
   return Status::Ok();
 }
@@ -151,7 +151,7 @@ UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
   result.left_out = std::move(assignment.left_out);
   if (!result.status.ok()) return result;
   result.choices = static_cast<int>(assignment.choices.size());
-  HearDrives(model, frames, settings, &assignment.choices);
+  RejectByActuators(model, frames, settings, &assignment.choices);
   std::vector<Attempt> attempts;
   for (FrameLabels& labels : assignment.choices) {
     Attempt& attempt = attempts.emplace_back();
@@ -165,10 +165,10 @@ UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
   result.status = best->joint.status;
   if (result.status.ok()) result.status = Compare(attempts, *best, settings);
   const bool ambiguous = best->joint.status.ok() && !result.status.ok();
-  if (const Attempt* told = ambiguous ? AtLastPose(attempts, *best, settings) : nullptr) {
-    best = attempts.begin() + (told - attempts.data());
+  if (const Attempt* decided = ambiguous ? AtLastPose(attempts, *best, settings) : nullptr) {
+    best = attempts.begin() + (decided - attempts.data());
     result.status = Status::Ok();
-    result.told_by_last_pose = true;
+    result.decided_by_last_pose = true;
   }
   result.joint = std::move(best->joint);
   result.labels = std::move(best->labels);

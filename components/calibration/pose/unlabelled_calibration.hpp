@@ -14,40 +14,36 @@ namespace palpate::calibration {
 
 struct UnlabelledSettings {
   JointRequest request;
-  /// The points' `marker` holds (-1: none); nothing is assigned.
+  /// The points are labelled by `marker` (-1: none), and nothing is assigned.
   bool named = false;
-  /// How far the model's markers may lie from the real ones when points are told apart, m, one
-  /// sigma: of material, mesh, and where the markers sit.
+  /// Standard deviation of the model's markers in the assignment, m: material, mesh, placement.
   double model_sigma_m = 1e-3;
-  /// Choices whose DriveMisfit, with errors of `model_sigma_m`, is larger than the least by more
-  /// than this are not calibrated from.
-  double most_drive_misfit = 50.0;
-  /// Another assignment that fits the pictures no worse than by so much (chi-squared, over the
-  /// reduced one of the best) fits as well.
+  /// Choices whose ActuatorMisfit, with errors of `model_sigma_m`, exceeds the smallest by more
+  /// than this are rejected.
+  double most_actuator_misfit = 50.0;
+  /// Assignments whose chi-squared, over the reduced one of the best, exceeds the best by no more
+  /// than this are ambiguous.
   double ambiguous_below = 9.0;
-  /// Where the camera stood when it was calibrated last. It may have been moved since: of what
-  /// pictures and cables tell it takes nothing away, but of several assignments that fit alike that
-  /// holds whose camera stands there.
+  /// Camera pose of the last calibration. The camera may have moved since, so that this pose only
+  /// decides between assignments that fit equally well.
   std::optional<geometry::RigidTransform> T_robot_camera_last = {};
 };
 
 struct UnlabelledCalibration {
-  /// kUnobservable: the points do not tell which marker is which, or not the pose; else as
-  /// CalibrateFrames.
+  /// kUnobservable: the points determine no assignment, or no pose; otherwise as CalibrateFrames.
   Status status;
-  JointCalibration joint;                ///< usable where `status` is ok
-  FrameLabels labels;                    ///< what it is from
-  std::vector<CalibrationFrame> frames;  ///< likewise: those of `labels`, with their markers
-  int choices = 0;                       ///< ways to tell the markers apart that pictures leave
-  bool told_by_last_pose = false;        ///< which of several that fit alike
-  std::vector<std::string> left_out;     ///< pictures that are in none of it, and why
+  JointCalibration joint;                ///< valid where `status` is ok
+  FrameLabels labels;                    ///< accepted assignment
+  std::vector<CalibrationFrame> frames;  ///< those of `labels`, labelled
+  int choices = 0;                       ///< assignments that the frames alone leave
+  bool decided_by_last_pose = false;     ///< between assignments that fit equally well
+  std::vector<std::string> left_out;     ///< frames that are not used, and why
 };
 
-/// CalibrateFrames from points without names. Where pictures alone do not tell which marker is
-/// which (the robot looks the same after a turn) what is known of the cables may: choices whose
-/// cables are pulled quite otherwise than the drives say (DriveMisfit) are given up, it is
-/// calibrated with each of the others, and the one that explains all best holds, unless another
-/// does as well and the last pose does not tell.
+/// CalibrateFrames from unlabelled points. Where the frames alone are ambiguous (a symmetric
+/// robot), choices that contradict the actuators (ActuatorMisfit) are rejected, and each remaining
+/// one is calibrated. The best is accepted unless another fits equally well and the last pose does
+/// not decide.
 UnlabelledCalibration CalibrateUnlabelled(robot::RobotModel& model,
                                           const std::vector<UnlabelledFrame>& frames,
                                           const geometry::RigidTransform* T_rough,

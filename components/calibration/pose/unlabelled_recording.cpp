@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using experiment::TimeWindow;
 
-/// Rounding of the file bounds what any mean can be known to.
+/// Rounding of the file bounds the accuracy of a mean.
 constexpr double kLeastVariance_m2 = 1e-14;
 
 Eigen::Matrix3Xd PointsOf(const experiment::MarkerFrame& frame) {
@@ -31,7 +31,7 @@ Eigen::Matrix3Xd PointsOf(const experiment::MarkerFrame& frame) {
   return points_m.leftCols(count);
 }
 
-/// Means over times of the points that one of them shows.
+/// Means over time of the points of one time.
 struct Means {
   explicit Means(const Eigen::Matrix3Xd& points)
       : first_m(points),

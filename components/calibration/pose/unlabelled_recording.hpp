@@ -11,9 +11,9 @@
 
 namespace palpate::calibration {
 
-/// As FramesOfRecording (joint/recording_frames.hpp), of points whose names mean nothing. Of a
-/// window, the time with most points counts: each of its points is averaged with the nearest one of
-/// every other time that is no farther than a few millimetres, whatever they are called.
+/// As FramesOfRecording (joint/recording_frames.hpp), for points whose names have no meaning. Each
+/// point of the time with most points is averaged with the nearest one of every other time of the
+/// window, if that is within kStillMarker_m.
 std::vector<UnlabelledFrame> UnlabelledFramesOfRecording(const experiment::Experiment& experiment,
                                                          const experiment::Recording& recording,
                                                          const robot::RobotModel& model,

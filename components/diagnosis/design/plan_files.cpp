@@ -85,8 +85,7 @@ std::string ByHandText(const PlannedRecording& plan) {
                   " s.");
   steps.push_back(
       proposal.recording.actuation
-          ? "Drive the cables through actuation.csv (its rows are joined by straight "
-            "lines; " +
+          ? "Actuate the cables as in actuation.csv (linear between rows; " +
                 Rounded(proposal.duration_s) + " s) and record the same data as in the others."
           : "Record the same data as in the others for " + Rounded(proposal.duration_s) + " s.");
   steps.push_back(

@@ -188,7 +188,7 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
   }
   result->marker_rest_m.rightCols(observed.feature_rest_m.cols()) = observed.feature_rest_m;
   for (Eigen::Index f = 0; f < observed.feature_rest_m.cols(); ++f) {
-    result->markers.push_back("skin " + std::to_string(f + 1));
+    result->markers.push_back("surface point " + std::to_string(f + 1));
   }
   result->surface_m = body.mesh.nodes_m;
   const Eigen::Matrix3Xi triangles = body.boundary.CornerTriangles();

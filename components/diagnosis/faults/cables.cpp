@@ -102,7 +102,7 @@ void MakeCableElasticity(const CatalogueInputs& inputs, std::vector<FaultModelPt
 
 namespace {
 
-/// Implausible error of a guide's place.
+/// Implausible error of the place of the fixed eyelet.
 constexpr double kFarthestEyelet_m = 0.02;
 
 /// The point that the cable is pulled from sits elsewhere; the actuator is zeroed with it there.
@@ -110,7 +110,7 @@ class CableRouting final : public FaultModel {
  public:
   CableRouting(const std::string& cable, int index)
       : FaultModel(
-            {"cable_routing", {"cable:" + cable}}, "place of the guide of cable " + cable,
+            {"cable_routing", {"cable:" + cable}}, "place of the fixed eyelet of cable " + cable,
             {{.name = "dx_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m},
              {.name = "dy_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m},
              {.name = "dz_m", .tolerance = 3e-4, .fault = 4e-3, .plausible = kFarthestEyelet_m}}),

@@ -63,9 +63,8 @@ void MakeDepthIncidenceBias(const CatalogueInputs& inputs, std::vector<FaultMode
 
 namespace {
 
-/// The camera's focal length and image centre are not those of its data sheet. Where it is not
-/// given how many pixels that focal length is, its centre cannot be told in pixels, and is left
-/// out.
+/// The camera's focal length and image centre are not those of its data sheet. The image centre is
+/// left out unless the focal length is known in pixels.
 class Intrinsics final : public FaultModel {
  public:
   explicit Intrinsics(bool with_centre)

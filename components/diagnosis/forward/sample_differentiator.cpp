@@ -15,7 +15,7 @@ namespace palpate::diagnosis {
 
 namespace {
 
-/// Where nobody saw any, what they do is not asked for.
+/// Derivatives of markers are computed only if a sample has some.
 bool SeesMarkers(const ObservedExperiment& observed) {
   return !observed.HasSurface() ||
          std::any_of(observed.samples.begin(), observed.samples.end(),

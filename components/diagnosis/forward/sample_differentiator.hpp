@@ -33,8 +33,8 @@ class SampleDifferentiator {
                        const std::vector<Eigen::MatrixXd>& actuator_change,
                        const ObservedExperiment& observed, SampleSolver* solver);
 
-  /// [coordinates x parameters] m per z; 0 for faults that are not wanted, and for what nobody
-  /// measured. NaN where there are no derivatives.
+  /// [coordinates x parameters] m per z; 0 for faults that are not requested, and for what
+  /// was not measured. NaN where there are no derivatives.
   Eigen::MatrixXd At(const FaultContext& at);
 
  private:

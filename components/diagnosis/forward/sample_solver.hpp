@@ -35,7 +35,7 @@ class SampleSolver {
   Eigen::VectorXd OnFinerMesh(const Eigen::VectorXd& x_m) const;
   /// What of the markers arrives where they are measured, with the nodes at `x_m` [3n].
   MeasuredPoints MeasuredPointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
-  /// The same of the surface; features that nobody saw then are nowhere (0). A camera is there
+  /// The same of the surface; surface points that were not visible then are 0. A camera is there
   /// wherever the recording has depth frames.
   MeasuredPoints SurfacePointsOf(const Sample& sample, const Eigen::VectorXd& x_m) const;
 

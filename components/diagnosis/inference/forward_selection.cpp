@@ -335,7 +335,7 @@ void ForwardSelectionStep::RefineTheBest() {
   // Out of time, only what may be named is completed (IsClear).
   for (std::size_t k = fits_.size(); k-- > 0 && !fitter_.IsOutOfTime();) {
     const double behind = candidates_.front().ln_bayes_factor - candidates_[k].ln_bayes_factor;
-    // How likely a further one is that cannot get clear, nobody asks.
+    // A further fault that cannot reach the least evidence needs no probability.
     if (behind < kSelectionTuning.indistinguishable_evidence &&
         candidates_[k].ln_bayes_factor >= least)
       Complete(k);

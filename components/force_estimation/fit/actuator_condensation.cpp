@@ -13,10 +13,15 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-/// A slack cable becomes taut when its displacement falls short by more than this; nothing else
-/// than rounding is below it.
-constexpr double kDisplacementTolerance_m = 1e-12;
-constexpr int kMaxChangesOfOneCable = 3;
+struct CondensationTuning {
+  /// A slack cable becomes taut where its displacement falls short by more than this. Anything
+  /// above rounding and far below the noise of a cable input gives the same cables.
+  double displacement_tolerance_m = 1e-12;
+  /// Changes of one cable between taut and slack. More follow a difficult transition further, fewer
+  /// end a cycle sooner.
+  int most_changes_of_a_cable = 3;
+};
+constexpr CondensationTuning kCondensationTuning;
 
 }  // namespace
 
@@ -42,8 +47,8 @@ void ActuatorCondensation::Start(const std::vector<robot::CableCommand>& command
   }
 }
 
-Status ActuatorCondensation::Eliminate(const robot::Compliance& compliance,
-                                       const std::vector<robot::CableCommand>& commands) {
+Status ActuatorCondensation::Condense(const robot::Compliance& compliance,
+                                      const std::vector<robot::CableCommand>& commands) {
   const auto t = static_cast<Eigen::Index>(taut_.size());
   const Eigen::Index f = compliance.W_ef().cols();
   G_ = compliance.W_ef();
@@ -91,12 +96,15 @@ bool ActuatorCondensation::Settle(const robot::Compliance& compliance,
   compliance.CableDisplacements(lambda_a_, lambda_f_N, &delta_a_);
   bool settled = true;
   for (size_t c = 0; c < commands.size(); ++c) {
-    if (commands[c].kind != Kind::kDisplacement || changes_[c] >= kMaxChangesOfOneCable) continue;
+    if (commands[c].kind != Kind::kDisplacement ||
+        changes_[c] >= kCondensationTuning.most_changes_of_a_cable)
+      continue;
     const auto row = static_cast<Eigen::Index>(c);
     const auto place = std::find(taut_.begin(), taut_.end(), static_cast<int>(c));
     const bool taut = place != taut_.end();
     const bool pushes = taut && lambda_a_[row] < 0.0;
-    const bool too_long = !taut && delta_a_[row] < commands[c].value - kDisplacementTolerance_m;
+    const bool too_long =
+        !taut && delta_a_[row] < commands[c].value - kCondensationTuning.displacement_tolerance_m;
     if (pushes) taut_.erase(place);
     if (too_long) taut_.push_back(static_cast<int>(c));
     if (pushes || too_long) {

@@ -13,34 +13,34 @@
 
 namespace palpate::force_estimation {
 
-/// The body's linear response to contact forces with the cable inputs imposed, eqs. (13) and (14)
-/// of the paper solved for the cables beforehand:
+/// Schur complement of the cable constraints, eqs. (13) and (14) of the paper: the linear response
+/// of effectors and cables to contact forces under the cable inputs,
 ///   delta_e = G lambda_f + e0,   lambda_a = T lambda_f + t0.
-/// A cable under displacement control is taut (its displacement is the commanded one) or slack (no
-/// tension); which, is part of the solution and is found by Settle.
+/// A cable of prescribed displacement is taut (it has that displacement) or slack (it has no
+/// tension). Which of them is part of the solution; Settle finds it.
 class ActuatorCondensation {
  public:
   ActuatorCondensation(int effector_rows, int cables);
 
-  /// Starts from the cables that pull in `lambda_a_N`.
+  /// Begins with the cables taut that have a tension in `lambda_a_N` [a].
   void Start(const std::vector<robot::CableCommand>& commands, const Eigen::VectorXd& lambda_a_N);
 
-  /// Computes the response for the present set of taut cables. kUnobservable where two taut cables
-  /// act alike.
-  Status Eliminate(const robot::Compliance& compliance,
-                   const std::vector<robot::CableCommand>& commands);
+  /// Computes the response for the present set of taut cables. kUnobservable where the
+  /// compliances of taut cables are linearly dependent.
+  Status Condense(const robot::Compliance& compliance,
+                  const std::vector<robot::CableCommand>& commands);
 
-  /// Whether lambda_f leaves every cable as it was assumed; otherwise changes the set, and
-  /// Eliminate must be called again. A cable is changed at most a few times, so this ends.
+  /// Whether every cable is taut or slack as assumed under lambda_f; else changes the set, and
+  /// Condense must be called again. A cable is changed at most a few times, so this ends.
   bool Settle(const robot::Compliance& compliance, const std::vector<robot::CableCommand>& commands,
               const Eigen::VectorXd& lambda_f_N);
 
   const Eigen::MatrixXd& G() const { return G_; }      ///< [3e x f] m/N
   const Eigen::VectorXd& e0_m() const { return e0_; }  ///< [3e]
-  /// lambda_a for these contact forces, N.
+  /// Cable tensions under these contact forces, N.
   void CableForces(const Eigen::VectorXd& lambda_f_N, Eigen::VectorXd* lambda_a_N) const;
-  /// How an additional motion of the effectors, and of the cables, arrives at the effectors when
-  /// the taut cables hold their length: e - W_ea W_TT^-1 a_T.
+  /// Corrects an additional displacement of the effectors, with which the cables move by
+  /// `cable_motion_m` [a], for taut cables that keep their length: e - W_ea W_TT^-1 a_T.
   void HoldTautCables(const robot::Compliance& compliance, const Eigen::VectorXd& cable_motion_m,
                       Eigen::VectorXd* effector_motion_m) const;
 

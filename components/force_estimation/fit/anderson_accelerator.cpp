@@ -11,11 +11,15 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// Directions of the memory that are shorter than this part of the longest, squared, are rounding
-/// and noise.
-constexpr double kIndependent = 1e-4;
-/// A secant that goes farther than so many steps has met another bend.
-constexpr double kMostAcceleration = 2.0;
+struct AccelerationTuning {
+  /// Eigenvalues of the scaled Gram matrix below this share, per pair, count as linear dependence.
+  /// Larger drops information, smaller amplifies rounding and noise.
+  double least_eigenvalue = 1e-4;
+  /// Longest correction, in steps. Larger accelerates more, but extrapolates across changes of
+  /// curvature.
+  double longest_correction = 2.0;
+};
+constexpr AccelerationTuning kAccelerationTuning;
 
 void Resize(FitVariables* variables, Eigen::Index nodes3, Eigen::Index cables,
             Eigen::Index forces) {
@@ -48,14 +52,14 @@ void AndersonAccelerator::SetUp(Eigen::Index nodes3, Eigen::Index cables, Eigen:
   Resize(&last_step_, nodes3, cables, forces);
 }
 
-bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& step,
+bool AndersonAccelerator::Correct(const FitVariables& at, const FitVariables& step,
                                   FitVariables* correction) {
-  if (has_last_) Learn(at, step);
+  if (has_last_) AddPair(at, step);
   last_at_ = at;
   last_step_ = step;
   has_last_ = true;
   if (count_ == 0) return false;
-  // What of the step the memory can make vanish, in the directions that it knows apart.
+  // Least squares of the step in the span of the pairs, in their independent directions.
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kDepth, 1>;
   Vector along(count_);
   for (int k = 0; k < count_; ++k) {
@@ -70,7 +74,7 @@ bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& st
   Vector share = Vector::Zero(count_);
   for (int k = 0; k < count_; ++k) {
     const double value = eigen.values[k];
-    if (value <= kIndependent * count_) continue;
+    if (value <= kAccelerationTuning.least_eigenvalue * count_) continue;
     share += eigen.vectors.col(k) * (seen[k] / value);
   }
   share = share.cwiseQuotient(size);
@@ -79,7 +83,8 @@ bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& st
     const Pair& pair = pairs_[static_cast<std::size_t>(k)];
     longest_m2 = std::max(longest_m2, share[k] * share[k] * pair.moved.x_m.squaredNorm());
   }
-  if (!(longest_m2 <= kMostAcceleration * kMostAcceleration *
+  if (!(longest_m2 <= kAccelerationTuning.longest_correction *
+                          kAccelerationTuning.longest_correction *
                           std::max(step.x_m.squaredNorm(), last_step_.x_m.squaredNorm()))) {
     return false;
   }
@@ -94,8 +99,8 @@ bool AndersonAccelerator::Improve(const FitVariables& at, const FitVariables& st
   return true;
 }
 
-/// In place of the oldest pair.
-void AndersonAccelerator::Learn(const FitVariables& at, const FitVariables& step) {
+/// Replaces the oldest pair.
+void AndersonAccelerator::AddPair(const FitVariables& at, const FitVariables& step) {
   if (!((step.x_m - last_step_.x_m).squaredNorm() > 0.0)) return;
   Pair& pair = pairs_[static_cast<std::size_t>(next_)];
   Subtract(at, last_at_, &pair.moved);

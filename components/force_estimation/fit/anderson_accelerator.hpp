@@ -8,44 +8,45 @@
 
 namespace palpate::force_estimation {
 
-/// What is moved by a fit's steps: nodes [3n], cable forces [a] and contact forces [f].
+/// Variables of a fit: nodes [3n], cable tensions [a] and contact forces [f].
 struct FitVariables {
   Eigen::VectorXd x_m;
   Eigen::VectorXd lambda_a_N;
   Eigen::VectorXd lambda_f_N;
 };
 
-/// What steps with one factor tell of how wrong that factor is: steps that change from place to
-/// place otherwise than Newton's would. A fit's next step is set right by what a least-squares
-/// secant makes of the last ones (Anderson, J. ACM 12 (1965) 547), also by those of earlier fits:
-/// a body that bends is misjudged along a few soft modes, the same from frame to frame. After
-/// SetUp nothing is allocated.
+/// Anderson acceleration (J. ACM 12 (1965) 547) of Newton steps with a frozen factor: a
+/// least-squares secant of the last steps corrects the next one for the factor's error. Pairs of
+/// earlier fits are kept, because the factor of a bending body errs along a few soft modes, which
+/// are the same from frame to frame. After SetUp nothing is allocated.
 class AndersonAccelerator {
  public:
+  /// Pairs that are kept. More correct more modes, at a dot product of size 3n each.
   static constexpr int kDepth = 4;
 
-  /// Room for nodes, cables and contact forces of this size; empties the memory.
+  /// Allocates for this many node coordinates, cables and contact force components; no pairs are
+  /// left.
   void SetUp(Eigen::Index nodes3, Eigen::Index cables, Eigen::Index forces);
-  /// The factor is another.
+  /// To be called with a new factor.
   void Forget() {
     count_ = next_ = 0;
     has_last_ = false;
   }
-  /// The targets are others: the next step cannot be compared with the last, but those known so far
-  /// still hold.
+  /// To be called with new targets: the next step cannot be paired with the last, but the pairs so
+  /// far still hold.
   void BeginFit() { has_last_ = false; }
 
-  /// `step`, of the whole length, was computed at `at`. False where nothing is known to add to it.
-  bool Improve(const FitVariables& at, const FitVariables& step, FitVariables* correction);
+  /// Computes what to add to `step`, the full Newton step from `at`. False: nothing.
+  bool Correct(const FitVariables& at, const FitVariables& step, FitVariables* correction);
 
   int count() const { return count_; }
 
  private:
-  void Learn(const FitVariables& at, const FitVariables& step);
+  void AddPair(const FitVariables& at, const FitVariables& step);
 
   struct Pair {
-    FitVariables moved;    ///< between two places,
-    FitVariables changed;  ///< and how the step changed
+    FitVariables moved;    ///< difference of two iterates
+    FitVariables changed;  ///< difference of their steps
   };
   std::array<Pair, kDepth> pairs_;
   Eigen::Matrix<double, kDepth, kDepth> gram_;  ///< of Pair::changed.x_m, m^2

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
 
@@ -15,13 +16,27 @@ namespace {
 
 using Kind = robot::CableCommand::Kind;
 
-constexpr int kMaxSetChanges = 12;  ///< of taut and slack cables in one linearisation
-/// Weight of the error at which the tangent was taken. A live fit is content with the tangent of
-/// where the frame began.
-constexpr double kTangentErrorWeight = 1e-3;
-
-/// A restoration that needs more load steps than these is halved instead.
-constexpr fem::StaticSettings kFollowSettings{.max_newton_iterations = 20, .max_load_steps = 6};
+struct ForceFitterTuning {
+  /// Changes between taut and slack cables in one QP. More serve robots of many cables; each costs
+  /// a condensation.
+  int most_set_changes = 12;
+  /// Weight of the error of the state at which the tangent was taken. Larger: intervals of the
+  /// fitted state itself, for more factorisations. Smaller: fewer factorisations, intervals of a
+  /// state further away.
+  double tangent_error_weight = 1e-3;
+  /// Limits of the static solve of a continuation step. Larger: fewer and longer steps, but a
+  /// failed one costs more before it is halved.
+  fem::StaticSettings continuation{.max_newton_iterations = 20, .max_load_steps = 6};
+  /// Halvings of a continuation step before the fit gives up.
+  int most_halvings = 8;
+  /// Rounding of the weighted residual, relative, below which a continuation step has not raised
+  /// it.
+  double residual_rounding = 1e-9;
+  /// Directions with less information than this share of the largest have no covariance. Larger
+  /// hides uncertain directions, smaller lets rounding pass for information.
+  double least_information = 1e-14;
+};
+constexpr ForceFitterTuning kForceFitterTuning;
 
 std::vector<robot::ObservationRow> MarkerRows(const robot::RobotModel& model) {
   std::vector<fem::InterpolationWeights> points;
@@ -41,6 +56,19 @@ std::vector<robot::ForceDirection> Directions(const std::vector<FitSite>& sites)
   return directions;
 }
 
+/// Inverse in the directions that have information. Those of infinite variance are not in the
+/// basis.
+fem::QpMatrix PseudoInverse(const fem::QpMatrix& information) {
+  const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(information);
+  fem::QpMatrix inverse = fem::QpMatrix::Zero(information.rows(), information.cols());
+  for (Eigen::Index k = 0; k < information.rows(); ++k) {
+    const double value = eigen.values[k];
+    if (value <= kForceFitterTuning.least_information * eigen.values.maxCoeff()) continue;
+    inverse += eigen.vectors.col(k) * eigen.vectors.col(k).transpose() / value;
+  }
+  return inverse;
+}
+
 bool Diverged(const Status& status) {
   return !status.ok() && status.code() != StatusCode::kBudgetReached;
 }
@@ -51,8 +79,8 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
     : model_(model),
       config_(config),
       compliance_(model.linearisation(), MarkerRows(model)),
-      equilibrium_(model.linearisation(), kFollowSettings),
-      elimination_(static_cast<int>(3 * model.body().markers.size()), model.CableCount()),
+      static_solver_(model.linearisation(), kForceFitterTuning.continuation),
+      condensation_(static_cast<int>(3 * model.body().markers.size()), model.CableCount()),
       weight_N_(Eigen::VectorXd::Zero(model.elastic_body().rest_m().size())),
       external_force_N_(weight_N_),
       new_lambda_a_(model.CableCount()),
@@ -93,12 +121,12 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
       variables->lambda_a_N = new_lambda_a_;
       variables->lambda_f_N = new_lambda_f_;
     }
-    secants_.SetUp(weight_N_.size(), model_.CableCount(), forces);
+    accelerator_.SetUp(weight_N_.size(), model_.CableCount(), forces);
   }
-  directions_.AskForEverything(sites_);
+  observable_.IncludeAll(sites_);
   last_good_.valid = false;
-  columns_current_ = false;
-  evaluated_.valid = false;
+  factor_.columns_current = false;
+  factor_.evaluated.valid = false;
 }
 
 const ForceFit& ForceFitter::Fit(const RowTargets& targets,
@@ -107,52 +135,52 @@ const ForceFit& ForceFitter::Fit(const RowTargets& targets,
   frame_ = {.targets = &targets, .cables = &cables, .budget = &budget, .state = state};
   fit_.iterations = fit_.chord_steps = fit_.continuation_steps = 0;
   UpdateWeight();
-  directions_.AskForEverything(sites_);
+  observable_.IncludeAll(sites_);
   start_ = *state;
   fit_.status = FitWithContinuation();
   if (fit_.status.ok()) fit_.status = Conclude();
   if (Diverged(fit_.status)) *state = start_;
-  evaluated_ = *state;
-  evaluated_.valid = fit_.status.ok();
-  fit_.observability = directions_.observability();
-  fit_.unknowns = directions_.unknowns();
+  factor_.evaluated = *state;
+  factor_.evaluated.valid = fit_.status.ok();
+  fit_.observability = observable_.observability();
+  fit_.unknowns = observable_.unknowns();
   return fit_;
 }
 
-/// Newton's steps, as cheap as they may be. Where they diverge, exact ones from where they began:
-/// steps with another state's factor may lead where no tangent leads back. Where these diverge,
-/// too, one step along equilibria, from which they try again.
+/// Newton's method with a frozen factor where one is kept. Where it diverges, exact steps from the
+/// start: steps with the factor of another state may lead to where exact ones do not converge.
+/// Where these diverge, too, continuation steps, after each of which exact steps are tried.
 Status ForceFitter::FitWithContinuation() {
-  Status status = RunLoop(/*careful=*/false);
+  Status status = RunNewton(/*exact_only=*/false);
   if (Diverged(status) && fit_.chord_steps > 0) {
     *frame_.state = start_;
-    status = RunLoop(/*careful=*/true);
+    status = RunNewton(/*exact_only=*/true);
   }
   if (Diverged(status) && !start_.balanced && last_good_.valid) start_ = last_good_;
   while (Diverged(status) && fit_.continuation_steps < most_continuation_steps_) {
     *frame_.state = start_;
     ++fit_.continuation_steps;
-    if (Status restored = Restore(); !restored.ok()) return restored;
+    if (Status moved = ContinueAlongEquilibria(); !moved.ok()) return moved;
     start_ = *frame_.state;
-    status = RunLoop(/*careful=*/true);
+    status = RunNewton(/*exact_only=*/true);
   }
   return status;
 }
 
-Status ForceFitter::RunLoop(bool careful) {
+Status ForceFitter::RunNewton(bool exact_only) {
   const bool keep_factor =
-      keep_factor_ && !careful && factor_age_cost_ < kFactorWork + kColumnsWork;
+      keep_factor_ && !exact_only && factor_.excess_work < kFactorWork + kColumnsWork;
   const fem::FrameOutcome outcome = fem::SolveNewton(
       *this,
       {.relative_tolerance = config_.frame_tolerance,
        .max_exact_steps = std::max(1, config_.max_iterations - fit_.iterations),
        .keep_factor = keep_factor,
-       .exact_step_cost_s = counts_work_ && !careful ? kFactorWork + kColumnsWork : 0.0},
+       .exact_step_cost_s = counts_work_ && !exact_only ? kFactorWork + kColumnsWork : 0.0},
       *frame_.budget);
   fit_.iterations += outcome.exact_steps;
   fit_.chord_steps += outcome.chord_steps;
-  // Beyond the one that every frame needs; once they would have paid a factor, a new one is made.
-  if (outcome.exact_steps == 0) factor_age_cost_ += std::max(0, outcome.chord_steps - 1);
+  // Every frame needs one step; those beyond it would have been saved by a new factor.
+  if (outcome.exact_steps == 0) factor_.excess_work += std::max(0, outcome.chord_steps - 1);
   fit_.error = outcome.error;
   frame_.state->balanced = outcome.converged();
   return outcome.status;
@@ -163,47 +191,48 @@ Status ForceFitter::PrepareExactStep() {
   Status status = Linearise(state, /*allow_shift=*/false);
   if (!status.ok()) return status;
   status = SolveInObservableDirections(state);
-  if (status.ok()) linearised_error_ = Error(state);
+  if (status.ok()) factor_.tangent_error = Error(state);
   return status;
 }
 
-/// With the factor of an earlier frame: what it was told of the state is new, W is not.
+/// With the factor of an earlier frame, the residual is of this state and W of the factor's state.
 Status ForceFitter::PrepareFrozenFactorStep() {
-  secants_.BeginFit();
-  if (!factor_known_) return {};
+  accelerator_.BeginFit();
+  if (!factor_.known) return {};
   const ModelState& state = *frame_.state;
   if (!IsEvaluated(state)) {
     UpdateExternalForce(state.lambda_f_N);
     Status evaluated =
         model_.linearisation().UpdateResidual(state.x_m, state.lambda_a_N, external_force_N_);
     if (!evaluated.ok()) return evaluated;
-    if (columns_current_) {
+    if (factor_.columns_current) {
       compliance_.ComputeChord(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
                                state.lambda_f_N);
       work_ += 1.0;
     } else {
       compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
                           state.lambda_f_N);
-      columns_current_ = true;
+      factor_.columns_current = true;
       work_ += kColumnsWork;
     }
   }
   compliance_.Observe(state.x_m, model_.cable_rest_length_m());
   const Status status = SolveInObservableDirections(state);
-  if (status.ok()) start_error_ = Error(state);
+  if (status.ok()) frame_.start_error = Error(state);
   return status;
 }
 
 bool ForceFitter::IsEvaluated(const ModelState& state) const {
-  return evaluated_.valid && columns_current_ && evaluated_.lambda_f_N == state.lambda_f_N &&
-         evaluated_.lambda_a_N == state.lambda_a_N && evaluated_.x_m == state.x_m;
+  return factor_.evaluated.valid && factor_.columns_current &&
+         factor_.evaluated.lambda_f_N == state.lambda_f_N &&
+         factor_.evaluated.lambda_a_N == state.lambda_a_N && factor_.evaluated.x_m == state.x_m;
 }
 
 Status ForceFitter::SolveInObservableDirections(const ModelState& state) {
-  elimination_.Start(*frame_.cables, state.lambda_a_N);
+  condensation_.Start(*frame_.cables, state.lambda_a_N);
   Status status = SolveQp(*frame_.targets, *frame_.cables, state);
   if (status.ok() && !frame_.observability_known) {
-    directions_.KeepObservable(sites_, Information(*frame_.targets), config_.unobservable_sigma_N);
+    observable_.KeepObservable(sites_, Information(*frame_.targets), config_.unobservable_sigma_N);
     frame_.observability_known = true;
     status = SolveQp(*frame_.targets, *frame_.cables, state);
   }
@@ -212,53 +241,114 @@ Status ForceFitter::SolveInObservableDirections(const ModelState& state) {
 
 Status ForceFitter::Try(double length, bool last) {
   const ModelState& state = *frame_.state;
-  const double share = StepShare(state);
-  step_was_cut_ = share < 1.0;
+  const double share = StepFraction(state);
+  trial_.was_cut = share < 1.0;
   length *= share;
-  trial_.x_m = state.x_m;
-  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.x_m);
-  trial_.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
-  trial_.lambda_f_N = state.lambda_f_N + length * (new_lambda_f_ - state.lambda_f_N);
+  trial_.state.x_m = state.x_m;
+  compliance_.UpdateConfiguration(new_lambda_a_, new_lambda_f_, length, &trial_.state.x_m);
+  trial_.state.lambda_a_N = state.lambda_a_N + length * (new_lambda_a_ - state.lambda_a_N);
+  trial_.state.lambda_f_N = state.lambda_f_N + length * (new_lambda_f_ - state.lambda_f_N);
   if (keep_factor_ && length == 1.0) Accelerate();
-  UpdateExternalForce(trial_.lambda_f_N);
-  Status status =
-      model_.linearisation().UpdateResidual(trial_.x_m, trial_.lambda_a_N, external_force_N_);
+  UpdateExternalForce(trial_.state.lambda_f_N);
+  Status status = model_.linearisation().UpdateResidual(trial_.state.x_m, trial_.state.lambda_a_N,
+                                                        external_force_N_);
   if (!status.ok()) return status;
-  // What the next step would change takes a substitution to know.
-  trial_error_ = BalanceError(trial_);
-  if (last && trial_error_ > config_.frame_tolerance) return status;
+  // The change of forces in the next step costs a substitution: the cheap errors come first.
+  trial_.error = EquilibriumError(trial_.state);
+  if (last && trial_.error > config_.frame_tolerance) return status;
   work_ += 1.0;
-  compliance_.ComputeChord(trial_.x_m, model_.cable_rest_length_m(), trial_.lambda_a_N,
-                           trial_.lambda_f_N);
-  status = SolveQp(*frame_.targets, *frame_.cables, trial_);
+  compliance_.ComputeChord(trial_.state.x_m, model_.cable_rest_length_m(), trial_.state.lambda_a_N,
+                           trial_.state.lambda_f_N);
+  status = SolveQp(*frame_.targets, *frame_.cables, trial_.state);
   if (!status.ok()) return status;
-  trial_error_ = Error(trial_);
-  // A factor that is kept stands for itself: how old it is does not say how wrong it is.
+  trial_.error = Error(trial_.state);
+  // The age of a kept factor says little about its error.
   if (!keep_factor_) {
-    trial_error_ = std::max(trial_error_, kTangentErrorWeight * linearised_error_);
+    trial_.error =
+        std::max(trial_.error, kForceFitterTuning.tangent_error_weight * factor_.tangent_error);
   }
   return status;
 }
 
-void ForceFitter::AcceptTrial() {
-  frame_.state->x_m.swap(trial_.x_m);
-  frame_.state->lambda_a_N.swap(trial_.lambda_a_N);
-  frame_.state->lambda_f_N.swap(trial_.lambda_f_N);
+/// Adds to the trial what the last steps with this factor say of the factor's error.
+void ForceFitter::Accelerate() {
+  const ModelState& state = *frame_.state;
+  step_.x_m = trial_.state.x_m - state.x_m;
+  step_.lambda_a_N = trial_.state.lambda_a_N - state.lambda_a_N;
+  step_.lambda_f_N = trial_.state.lambda_f_N - state.lambda_f_N;
+  from_.x_m = state.x_m;
+  from_.lambda_a_N = state.lambda_a_N;
+  from_.lambda_f_N = state.lambda_f_N;
+  if (!accelerator_.Correct(from_, step_, &correction_)) return;
+  trial_.state.x_m += correction_.x_m;
+  trial_.state.lambda_a_N += correction_.lambda_a_N;
+  trial_.state.lambda_f_N += correction_.lambda_f_N;
 }
 
-/// The forces are changed as far as the residual of the markers falls, the model following in
-/// equilibrium.
-Status ForceFitter::Restore() {
+void ForceFitter::AcceptTrial() {
+  frame_.state->x_m.swap(trial_.state.x_m);
+  frame_.state->lambda_a_N.swap(trial_.state.lambda_a_N);
+  frame_.state->lambda_f_N.swap(trial_.state.lambda_f_N);
+}
+
+/// `state`: the last one at which linearisation and QP were evaluated.
+double ForceFitter::Error(const ModelState& state) const {
+  return std::max(EquilibriumError(state), ForceChangeError(state));
+}
+
+/// `state`: the last one at which the linearisation was evaluated.
+double ForceFitter::EquilibriumError(const ModelState& state) const {
+  const fem::Linearisation& linearisation = model_.linearisation();
+  const double residual_N = linearisation.residual_N().norm();
+  double error = CableError(state);
+  if (residual_N > fem::RoundingForce_N(linearisation, state.x_m)) {
+    const double scale_N = std::max(
+        {linearisation.internal_force_norm_N(), weight_N_.norm(), state.lambda_f_N.norm(), 1e-9});
+    error = std::max(error, residual_N / scale_N);
+  }
+  return error;
+}
+
+/// Length by which a taut cable misses its displacement, or by which a slack one is too long, over
+/// its rest length; the largest of all cables.
+double ForceFitter::CableError(const ModelState& state) const {
+  double error = 0.0;
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const robot::CableCommand& command = (*frame_.cables)[static_cast<size_t>(c)];
+    if (command.kind != Kind::kDisplacement) continue;
+    const double missing_m = command.value - model_.cable(c).Displacement_m(state.x_m);
+    const bool taut = state.lambda_a_N[c] > 0.0;
+    error =
+        std::max(error, (taut ? std::abs(missing_m) : missing_m) / model_.cable(c).rest_length_m());
+  }
+  return error;
+}
+
+/// Largest change of a force in the QP's solution, over the largest contact force, or 1 N.
+double ForceFitter::ForceChangeError(const ModelState& state) const {
+  const double change = std::max((new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>(),
+                                 (new_lambda_a_ - state.lambda_a_N).lpNorm<Eigen::Infinity>());
+  return change / std::max(1.0, new_lambda_f_.lpNorm<Eigen::Infinity>());
+}
+
+/// Fraction of the QP's step that LimitForceStep admits.
+double ForceFitter::StepFraction(const ModelState& state) const {
+  const double change_N = (new_lambda_f_ - state.lambda_f_N).lpNorm<Eigen::Infinity>();
+  return longest_step_N_ > 0.0 && change_N > longest_step_N_ ? longest_step_N_ / change_N : 1.0;
+}
+
+/// One continuation step: the largest share of the QP's change of forces after which the model is
+/// in equilibrium and the rows' residual has not risen.
+Status ForceFitter::ContinueAlongEquilibria() {
   const ModelState& state = *frame_.state;
   Status status = Linearise(state, /*allow_shift=*/true);
   if (!status.ok()) return status;
   ++fit_.iterations;
-  elimination_.Start(*frame_.cables, state.lambda_a_N);
+  condensation_.Start(*frame_.cables, state.lambda_a_N);
   status = SolveQp(*frame_.targets, *frame_.cables, state);
   if (!status.ok()) return status;
-  constexpr int kHalvings = 8;
   double fraction = 1.0;
-  for (int k = 0; k < kHalvings; ++k, fraction *= 0.5) {
+  for (int k = 0; k < kForceFitterTuning.most_halvings; ++k, fraction *= 0.5) {
     status = StepToEquilibrium(fraction);
     if (status.ok() || status.code() == StatusCode::kBudgetReached) return status;
   }
@@ -275,29 +365,30 @@ Status ForceFitter::StepToEquilibrium(double fraction) {
   body.loads.external_force_N = external_force_N_;
   UpdateExternalForce(moved.lambda_f_N);
   loads.external_force_N = external_force_N_;
-  Status status = equilibrium_.Solve(loads, &body, *frame_.budget).status;
+  Status status = static_solver_.Solve(loads, &body, *frame_.budget).status;
   if (!status.ok()) return status;
   moved.x_m = body.x_m;
   moved.lambda_a_N = body.multipliers_N;
   moved.balanced = true;
-  // The residual before counts only where the state before was an equilibrium.
+  // The residual before is comparable only where the state before was an equilibrium.
   const double before = ChiSquared(*frame_.targets, state, &fit_.residual_m);
   const double after = ChiSquared(*frame_.targets, moved, &fit_.residual_m);
-  if (state.balanced && after > before * (1.0 + 1e-9)) return {StatusCode::kNotConverged, {}};
+  if (state.balanced && after > before * (1.0 + kForceFitterTuning.residual_rounding))
+    return {StatusCode::kNotConverged, {}};
   state = std::move(moved);
   return Status::Ok();
 }
 
 Status ForceFitter::Linearise(const ModelState& state, bool allow_shift) {
   UpdateExternalForce(state.lambda_f_N);
-  factor_known_ = false;
-  factor_age_cost_ = 0.0;
-  secants_.Forget();
+  factor_.known = false;
+  factor_.excess_work = 0.0;
+  accelerator_.Forget();
   Status status =
       model_.linearisation().Update(state.x_m, state.lambda_a_N, external_force_N_, allow_shift);
   if (!status.ok()) return status;
-  factor_known_ = !model_.linearisation().shifted();
-  columns_current_ = true;
+  factor_.known = !model_.linearisation().shifted();
+  factor_.columns_current = true;
   compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N, state.lambda_f_N);
   work_ += kFactorWork + kColumnsWork;
   return status;
@@ -316,7 +407,7 @@ void ForceFitter::UpdateExternalForce(const Eigen::VectorXd& lambda_f_N) {
 }
 
 fem::QpMatrix ForceFitter::Information(const RowTargets& targets) const {
-  const Eigen::MatrixXd& G = elimination_.G();
+  const Eigen::MatrixXd& G = condensation_.G();
   fem::QpMatrix information = prior_information_;
   for (Eigen::Index i = 0; i < G.cols(); ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
@@ -328,23 +419,23 @@ fem::QpMatrix ForceFitter::Information(const RowTargets& targets) const {
   return information;
 }
 
-/// Eqs. (11), (12) in the observable directions, the taut cables found along with the forces.
+/// Eqs. (11), (12) in the observable directions. The taut cables are found with the forces.
 Status ForceFitter::SolveQp(const RowTargets& targets,
                             const std::vector<robot::CableCommand>& cables,
                             const ModelState& state) {
-  const fem::QpMatrix& basis = directions_.basis();
+  const fem::QpMatrix& basis = observable_.basis();
   const Eigen::Index q = basis.cols();
   fem::BoundedQp qp;
   qp.lower = fem::QpVector::Constant(q, -std::numeric_limits<double>::infinity());
   qp.upper = -qp.lower;
   qp_start_ = basis.transpose() * state.lambda_f_N;
-  for (int round = 0; round < kMaxSetChanges; ++round) {
-    if (Status status = elimination_.Eliminate(compliance_, cables); !status.ok()) return status;
-    const Eigen::MatrixXd& G = elimination_.G();
+  for (int round = 0; round < kForceFitterTuning.most_set_changes; ++round) {
+    if (Status status = condensation_.Condense(compliance_, cables); !status.ok()) return status;
+    const Eigen::MatrixXd& G = condensation_.G();
     fem::QpVector c(G.cols());
     for (Eigen::Index j = 0; j < G.cols(); ++j) {
       c[j] = (G.col(j).array() * targets.weight.array() *
-              (elimination_.e0_m() - targets.value_m).array())
+              (condensation_.e0_m() - targets.value_m).array())
                  .sum();
     }
     qp.H = basis.transpose() * Information(targets) * basis;
@@ -356,9 +447,9 @@ Status ForceFitter::SolveQp(const RowTargets& targets,
     } else {
       new_lambda_f_.setZero();
     }
-    if (elimination_.Settle(compliance_, cables, new_lambda_f_)) break;
+    if (condensation_.Settle(compliance_, cables, new_lambda_f_)) break;
   }
-  elimination_.CableForces(new_lambda_f_, &new_lambda_a_);
+  condensation_.CableForces(new_lambda_f_, &new_lambda_a_);
   return Status::Ok();
 }
 
@@ -373,6 +464,110 @@ double ForceFitter::ChiSquared(const RowTargets& targets, const ModelState& stat
     sum += targets.weight[row] * residual * residual;
   }
   return sum;
+}
+
+/// Residual, covariance and sensitivity to the modulus of a converged fit.
+Status ForceFitter::Conclude() {
+  const RowTargets& targets = *frame_.targets;
+  const ModelState& state = *frame_.state;
+  fit_.chi_squared = ChiSquared(targets, state, &fit_.residual_m);
+  if (Status status = CheckTensions(state); !status.ok()) return status;
+  const fem::QpMatrix& basis = observable_.basis();
+  const fem::QpMatrix reduced = basis.transpose() * Information(targets) * basis;
+  fit_.covariance_N2 = basis * PseudoInverse(reduced) * basis.transpose();
+  if (tell_modulus_sensitivity_) ModulusSensitivity(targets, state);
+  last_good_ = state;
+  last_good_.valid = true;
+  return Status::Ok();
+}
+
+Status ForceFitter::CheckTensions(const ModelState& state) const {
+  for (int c = 0; c < model_.CableCount(); ++c) {
+    const double tension_N = state.lambda_a_N[c];
+    if (tension_N < -most_push_N_) return {StatusCode::kNotConverged, {}};
+    if (tension_N > model_.body().cables[static_cast<size_t>(c)].max_tension_N) {
+      return {StatusCode::kTensionLimit, {}};
+    }
+  }
+  return Status::Ok();
+}
+
+/// Stiffer material needs larger forces for the same shape: the internal forces grow with ln E, and
+/// the fit with them by dlambda_f/dlnE = -(G' S^-1 G)^-1 G' S^-1 de/dlnE.
+void ForceFitter::ModulusSensitivity(const RowTargets& targets, const ModelState& state) {
+  nodal_.setZero();
+  model_.elastic_body().AddForces(state.x_m, nodal_);
+  nodal_ *= -1.0;
+  RespondTo(nodal_, state.x_m, &response_motion_m_);
+  const Eigen::MatrixXd& G = condensation_.G();
+  fem::QpVector pull(G.cols());
+  for (Eigen::Index j = 0; j < G.cols(); ++j) {
+    pull[j] = (G.col(j).array() * targets.weight.array() * response_motion_m_.col(0).array()).sum();
+  }
+  fit_.modulus_sensitivity_N.noalias() = -fit_.covariance_N2 * pull;
+}
+
+void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
+                            const Eigen::VectorXd& x_m, Eigen::MatrixXd* row_motions_m) {
+  const fem::StiffnessMatrix& matrix = model_.linearisation().matrix();
+  responses_.resize(matrix.Size(), forces_N.cols());
+  for (Eigen::Index k = 0; k < forces_N.cols(); ++k) {
+    matrix.Reduce(forces_N.col(k), responses_.col(k));
+  }
+  model_.linearisation().SolveSingle(responses_);
+  work_ += kColumnsWork;
+  row_motions_m->resize(static_cast<Eigen::Index>(rows().size()), forces_N.cols());
+  for (Eigen::Index k = 0; k < forces_N.cols(); ++k) {
+    gradient_.setZero();
+    matrix.AddExpanded(responses_.col(k), 1.0, gradient_);
+    for (size_t r = 0; r < rows().size(); ++r) {
+      effector_motion_[static_cast<Eigen::Index>(r)] = rows()[r].Value(gradient_);
+    }
+    for (int c = 0; c < model_.CableCount(); ++c) {
+      cable_gradient_.setZero();
+      model_.cable(c).AddGradient(x_m, -1.0, cable_gradient_);
+      cable_motion_[c] = cable_gradient_.dot(gradient_);
+    }
+    condensation_.HoldTautCables(compliance_, cable_motion_, &effector_motion_);
+    row_motions_m->col(k) = effector_motion_;
+  }
+}
+
+/// All candidates use the same factor; each costs three more columns.
+Status ForceFitter::Screen(const RowTargets& targets,
+                           const std::vector<robot::CableCommand>& cables, const ModelState& state,
+                           const std::vector<FitSite>& candidates,
+                           std::vector<double>* chi_squared) {
+  const std::vector<FitSite> sites = sites_;
+  ModelState extended = state;
+  chi_squared->clear();
+  UpdateWeight();
+  Status status = Status::Ok();
+  for (size_t c = 0; c < candidates.size() && status.ok(); ++c) {
+    std::vector<FitSite> with_candidate = sites;
+    with_candidate.push_back(candidates[c]);
+    SetSites(with_candidate);
+    extended.lambda_f_N.setZero(3 * SiteCount());
+    extended.lambda_f_N.head(state.lambda_f_N.size()) = state.lambda_f_N;
+    condensation_.Start(cables, state.lambda_a_N);
+    if (c == 0) {
+      status = Linearise(extended, /*allow_shift=*/true);
+    } else {
+      compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
+                          extended.lambda_f_N);
+    }
+    if (status.ok()) status = condensation_.Condense(compliance_, cables);
+    if (!status.ok()) break;
+    if (!SolveQp(targets, cables, extended).ok()) {
+      chi_squared->push_back(std::numeric_limits<double>::infinity());
+      continue;
+    }
+    const Eigen::VectorXd residual =
+        targets.value_m - condensation_.e0_m() - condensation_.G() * new_lambda_f_;
+    chi_squared->push_back((residual.array().square() * targets.weight.array()).sum());
+  }
+  SetSites(sites);
+  return status;
 }
 
 }  // namespace palpate::force_estimation

@@ -18,155 +18,181 @@
 
 namespace palpate::force_estimation {
 
-/// What the observed rows should come to be: coordinates of markers, or of surface features along
-/// their normals.
+/// Measured values of the observed rows: coordinates of markers, or of surface points along their
+/// normals.
 struct RowTargets {
   Eigen::VectorXd value_m;  ///< [rows]
-  Eigen::VectorXd weight;   ///< [rows] 1 / variance, 1/m^2; 0: not seen
+  Eigen::VectorXd weight;   ///< [rows] 1 / variance, 1/m^2; 0: not measured
   int rows = 0;             ///< with a weight above 0
 };
 
-/// A configuration of the model and the forces it balances.
+/// A configuration of the model and the forces on it.
 struct ModelState {
-  bool valid = false;
-  bool balanced = false;       ///< known to be an equilibrium, not only near one
-  Eigen::VectorXd x_m;         ///< [3n]
+  bool valid = false;          ///< the other members are set
+  bool balanced = false;       ///< an equilibrium within the tolerance; else only near one
+  Eigen::VectorXd x_m;         ///< [3n] nodes, robot frame
   Eigen::VectorXd lambda_a_N;  ///< [cables]
-  Eigen::VectorXd lambda_f_N;  ///< [3 contacts] x, y, z of each
+  Eigen::VectorXd lambda_f_N;  ///< [3k] x, y, z of each contact, robot frame
 };
 
 struct ForceFit {
-  Status status;               ///< kBudgetReached: sound, nearer, but not converged
+  Status status;               ///< kBudgetReached: usable as a start, but not converged
   int iterations = 0;          ///< linearisations
-  int chord_steps = 0;         ///< steps without one
-  int continuation_steps = 0;  ///< static solves for which Newton's steps were given up
+  int chord_steps = 0;         ///< Newton steps with a frozen factor
+  int continuation_steps = 0;  ///< load steps along equilibria, where Newton's method diverged
   double error = 0.0;          ///< relative, compared with Config::frame_tolerance
   double chi_squared = 0.0;
-  Eigen::VectorXd residual_m;                ///< [rows] target - model, 0 where not seen
+  Eigen::VectorXd residual_m;                ///< [rows] measured - model; 0 where not measured
   Eigen::MatrixXd covariance_N2;             ///< [3k x 3k] from weights and priors
   Eigen::VectorXd modulus_sensitivity_N;     ///< [3k] dlambda_f / dln E
   std::vector<Observability> observability;  ///< [k]
   std::vector<int> unknowns;                 ///< [k] force components that were fitted
 };
 
-/// What the parts of a fit cost, in substitutions of a single right-hand side.
+/// Cost of a factorisation, in substitutions of a single right-hand side.
 inline constexpr double kFactorWork = 8.0;
-inline constexpr double kColumnsWork = 2.0;  ///< of some twenty right-hand sides at once
+/// Cost of the substitution of some twenty right-hand sides at once, in the same unit.
+inline constexpr double kColumnsWork = 2.0;
 
-/// Forces at given sites that bring what is observed of the model to its targets in the
-/// least-squares sense, in equilibrium: the paper's QP (11)-(14), relinearised until nothing
-/// changes. Each step moves forces, tensions and configuration at once (Gauss-Newton), in the loop
-/// of fem/newton_loop.hpp; where that diverges, the model follows the forces in equilibrium for one
-/// step before the loop goes on. A fit's error is the largest of the residual over the size of the
-/// forces, the cable length missed over the cable's rest length, and the change of the forces that
-/// the next step would make, over the largest contact force or 1 N; and a thousandth of the error
-/// of the state at which the tangent was taken, which the optimum and its intervals depend on.
+/// Contact forces at given sites that fit the observed rows by least squares, in static
+/// equilibrium: the paper's QP (11) to (14), relinearised until it converges. Each step updates
+/// forces, tensions and configuration together (Gauss-Newton), in the loop of fem/newton_loop.hpp.
+/// Where that diverges, a continuation step solves for the equilibrium under new forces first.
+///
+/// The error of a fit is relative. It is the largest of
+/// - the residual of the equilibrium, over the size of the forces;
+/// - the length by which a cable misses its displacement, over its rest length;
+/// - the change of the forces in the next step, over the largest contact force, or 1 N;
+/// - a thousandth of the error of the state at which the tangent was taken, because the optimum and
+///   its intervals depend on that tangent. This one is left out with KeepFactor.
 class ForceFitter final : private fem::NewtonProblem {
  public:
-  /// With x, y and z of the robot's markers as rows.
+  /// The observed rows are x, y and z of the robot's markers. `model` must outlive the fitter.
   ForceFitter(robot::RobotModel& model, const Config& config);
 
-  /// Other rows; to be called before Fit.
+  /// Observes other rows; to be called before Fit.
   void SetRows(std::vector<robot::ObservationRow> rows);
   const std::vector<robot::ObservationRow>& rows() const { return compliance_.effectors(); }
 
-  /// The last linearisation's factor serves for the next fits as long as they converge with it
-  /// (newton_loop.hpp): for large bodies, of which it is most of the cost.
+  /// Whether the factor of the last linearisation is used in the next fits while they converge with
+  /// it (newton_loop.hpp). For large bodies, whose cost is mostly the factorisation.
   void KeepFactor(bool keep);
 
   void SetSites(const std::vector<FitSite>& sites);
-  /// Prior knowledge about lambda_f: mean zero with this inverse covariance [3k x 3k], 1/N^2. None
-  /// after SetSites.
+  /// Gaussian prior of lambda_f: mean zero, inverse covariance [3k x 3k], 1/N^2. SetSites removes
+  /// it.
   void SetForcePrior(const fem::QpMatrix& information) { prior_information_ = information; }
   const fem::QpMatrix& force_prior() const { return prior_information_; }
-  /// A cable that is about to become slack can come out neither taut nor slack where noisy rows
-  /// pull either way: the fit then stands as long as the cable pushes no more than this; at first
-  /// 0.
+  /// Largest compression of a cable with which a fit is accepted; initially 0. Near the transition
+  /// between taut and slack, noise may leave a cable in neither state.
   void TolerateCablesThatPush(double most_N) { most_push_N_ = most_N; }
-  /// No exact step changes a contact's force by more, which keeps Newton's steps where they
-  /// converge; at first there is no limit.
+  /// Largest change of a contact force in one exact step, which keeps Newton's method in the region
+  /// where it converges; initially unlimited.
   void LimitForceStep(double most_N) { longest_step_N_ = most_N; }
-  /// A budget that counts work instead of seconds, in substitutions of a single right-hand side, so
-  /// that the same input gives the same result: for this fitter's fits from now on. It must outlive
-  /// the budget. Infinite: no limit.
+  /// A budget of work instead of seconds for the fits from now on, in substitutions of a single
+  /// right-hand side: the same input then gives the same result. The fitter must outlive it.
+  /// Infinite: no limit.
   fem::TimeBudget BudgetOfWork(double work) {
     counts_work_ = true;
     return fem::TimeBudget(work, [this] { return work_; });
   }
-  /// What others do for the same frame.
+  /// Adds work that others do for the same frame.
   void AddWork(double work) { work_ += work; }
-  /// In place of Config::frame_tolerance, for the fits from now on.
+  /// Replaces Config::frame_tolerance for the fits from now on.
   void SetTolerance(double relative) { config_.frame_tolerance = relative; }
-  /// Static solves that a fit may try where Newton's steps diverge; at first 8.
+  /// Continuation steps that a fit may try where Newton's method diverges; initially 8.
   void LimitContinuationSteps(int most) { most_continuation_steps_ = most; }
-  /// Whether fits tell modulus_sensitivity_N, which costs a substitution each; at first they do.
+  /// Whether fits compute modulus_sensitivity_N, which costs a substitution each; initially true.
   void TellModulusSensitivity(bool tell) { tell_modulus_sensitivity_ = tell; }
-  /// A factor at `state`, where a fit ended, for the fits that begin there. Where there is none,
-  /// the next fit makes one.
+  /// Factorises at `state`, where a fit ended, for the fits that begin there. Where that fails, the
+  /// next fit factorises.
   void RenewFactor(const ModelState& state) {
     static_cast<void>(Linearise(state, /*allow_shift=*/false));
   }
-  bool has_factor() const { return factor_known_; }
-  /// Somebody else has used the model's linearisation.
-  void ForgetFactor() { factor_known_ = evaluated_.valid = false; }
+  bool has_factor() const { return factor_.known; }
+  /// To be called after other code has used the model's linearisation.
+  void ForgetFactor() { factor_.known = factor_.evaluated.valid = false; }
   int SiteCount() const { return static_cast<int>(sites_.size()); }
 
-  /// Moves `state` (which must be near an equilibrium) to the fit; without sites to the equilibrium
-  /// that the cables ask for. The result stays valid until the next call. Where the status is
-  /// neither kOk nor kBudgetReached, `state` is a sound one from before. After the first frame
-  /// nothing is allocated as long as no restoration is needed.
+  /// Moves `state`, which must be near an equilibrium, to the fit; without sites to the equilibrium
+  /// under the cable inputs. The result stays valid until the next call. Where the status is
+  /// neither kOk nor kBudgetReached, `state` is one from before that may be used. After the first
+  /// frame nothing is allocated unless a continuation step is needed.
   const ForceFit& Fit(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                       ModelState* state, const fem::TimeBudget& budget = {});
 
   const ForceFit& fit() const { return fit_; }  ///< of the last Fit
 
-  /// Where the last converged fit of these sites ended; `valid` is false where there is none.
+  /// End of the last converged fit of these sites; not `valid` where there is none.
   const ModelState& last_good() const { return last_good_; }
 
-  /// Response of the rows to lambda_f with the cable inputs imposed, about the last fit [rows x
-  /// 3k], m/N.
-  const Eigen::MatrixXd& Response() const { return elimination_.G(); }
-  /// How the rows answer to nodal forces, a column each [3n x m], with the cable inputs imposed
-  /// [rows x m], m.
+  /// Response G of the rows to lambda_f under the cable inputs, about the last fit [rows x 3k],
+  /// m/N.
+  const Eigen::MatrixXd& Response() const { return condensation_.G(); }
+  /// Displacements of the rows [rows x m], m, under nodal forces [3n x m], one case in each column,
+  /// and the cable inputs.
   void RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N, const Eigen::VectorXd& x_m,
                  Eigen::MatrixXd* row_motions_m);
   /// G' S^-1 G and the prior about the last fit [3k x 3k], 1/N^2.
   fem::QpMatrix Information(const RowTargets& targets) const;
 
-  /// Weighted residual that would be left if a force at one more site joined in, to first order
-  /// about `state`; one value for each of `candidates`, infinite for one that cannot be told from
-  /// the sites before. Not ok where the state cannot be linearised.
+  /// Weighted residual with a force at one more site, to first order about `state`: one value for
+  /// each of `candidates`, infinite where its force cannot be told from those at the present sites.
+  /// Not ok where the state cannot be linearised.
   Status Screen(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                 const ModelState& state, const std::vector<FitSite>& candidates,
                 std::vector<double>* chi_squared);
 
-  /// Weighted residual of the rows at `state` [and `residual_m` itself, one for each row].
+  /// Weighted residual of the rows at `state`; sets `residual_m` [rows].
   double ChiSquared(const RowTargets& targets, const ModelState& state,
                     Eigen::VectorXd* residual_m) const;
 
  private:
-  /// What the present Fit works on.
+  /// Arguments and progress of the present Fit.
   struct Frame {
     const RowTargets* targets = nullptr;
     const std::vector<robot::CableCommand>* cables = nullptr;
     const fem::TimeBudget* budget = nullptr;
     ModelState* state = nullptr;
-    bool observability_known = false;
+    bool observability_known = false;  ///< the observable subspace is that of this frame
+    double start_error = 0.0;          ///< of a start with a frozen factor
+  };
+  /// What the factor of the last linearisation may still be used for.
+  struct FactorState {
+    /// The linearisation has a factor of K itself, not of a shifted K: fits may freeze it.
+    bool known = false;
+    /// The compliance has the columns of the present sites by this factor; else they cost
+    /// kColumnsWork.
+    bool columns_current = false;
+    /// State at which linearisation and compliance were last evaluated with this factor. A fit that
+    /// starts there (`valid`, and equal) needs no substitution for its first step.
+    ModelState evaluated;
+    /// Relative error of the state at which the tangent was taken.
+    double tangent_error = 0.0;
+    /// Chord steps beyond one a fit since the factor was made: the cost that a new factor would
+    /// have saved. Once they cost as much as a factor, one is made.
+    double excess_work = 0.0;
+  };
+  /// Result of Try.
+  struct Trial {
+    ModelState state;
+    double error = 0.0;
+    bool was_cut = false;  ///< shorter than asked for, by LimitForceStep
   };
 
   Status PrepareExactStep() override;
   Status PrepareChordStep() override { return Status::Ok(); }  // Try has solved for it
   Status PrepareFrozenFactorStep() override;
-  double StartError() const override { return start_error_; }
+  double StartError() const override { return frame_.start_error; }
   Status Try(double length, bool last) override;
-  double TrialError() const override { return trial_error_; }
-  bool StepWasCut() const override { return step_was_cut_; }
+  double TrialError() const override { return trial_.error; }
+  bool StepWasCut() const override { return trial_.was_cut; }
   void AcceptTrial() override;
   void Accelerate();
 
-  Status RunLoop(bool careful);
   Status FitWithContinuation();
-  Status Restore();
+  Status RunNewton(bool exact_only);
+  Status ContinueAlongEquilibria();
   Status StepToEquilibrium(double fraction);
   Status Linearise(const ModelState& state, bool allow_shift);
   bool IsEvaluated(const ModelState& state) const;
@@ -174,10 +200,10 @@ class ForceFitter final : private fem::NewtonProblem {
   Status SolveQp(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                  const ModelState& state);
   double Error(const ModelState& state) const;
-  double BalanceError(const ModelState& state) const;
+  double EquilibriumError(const ModelState& state) const;
   double CableError(const ModelState& state) const;
-  double LargestChange(const ModelState& state) const;
-  double StepShare(const ModelState& state) const;
+  double ForceChangeError(const ModelState& state) const;
+  double StepFraction(const ModelState& state) const;
   void UpdateWeight();
   void UpdateExternalForce(const Eigen::VectorXd& lambda_f_N);
 
@@ -188,33 +214,26 @@ class ForceFitter final : private fem::NewtonProblem {
   robot::RobotModel& model_;
   Config config_;
   robot::Compliance compliance_;
-  fem::StaticSolver equilibrium_;  ///< for restorations
-  ActuatorCondensation elimination_;
+  fem::StaticSolver static_solver_;  ///< for continuation steps
+  ActuatorCondensation condensation_;
   std::vector<FitSite> sites_;
-  ObservableSubspace directions_;
+  ObservableSubspace observable_;
   fem::QpMatrix prior_information_;
   bool keep_factor_ = false;
   bool tell_modulus_sensitivity_ = true;
   int most_continuation_steps_ = 8;
   double most_push_N_ = 0.0;
   double longest_step_N_ = 0.0;  ///< 0: no limit
+  bool counts_work_ = false;     ///< budgets are of work, not of seconds
   double work_ = 0.0;
-  bool counts_work_ = false;
-  /// Steps that a new factor would have spared, since the last one was made.
-  double factor_age_cost_ = 0.0;
-  bool factor_known_ = false;     ///< the linearisation has a factor that may be kept
-  bool columns_current_ = false;  ///< the compliance has the columns of the present sites
-  double start_error_ = 0.0;
-  fem::QpVector qp_start_;
+  FactorState factor_;
+  AndersonAccelerator accelerator_;  ///< of the present factor
+  FitVariables from_, step_, correction_;
   ForceFit fit_;
   Frame frame_;
-  ModelState start_, trial_, last_good_;
-  AndersonAccelerator secants_;  ///< with the present factor
-  FitVariables from_, step_, correction_;
-  ModelState evaluated_;  ///< where linearisation and compliance have the residual of
-  double trial_error_ = 0.0;
-  bool step_was_cut_ = false;
-  double linearised_error_ = 0.0;     ///< of the state at which the tangent was taken
+  Trial trial_;
+  ModelState start_, last_good_;
+  fem::QpVector qp_start_;
   Eigen::VectorXd weight_N_;          ///< [3n] gravity
   Eigen::VectorXd external_force_N_;  ///< [3n]
   Eigen::VectorXd new_lambda_f_, new_lambda_a_;

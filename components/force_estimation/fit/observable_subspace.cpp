@@ -9,7 +9,18 @@
 
 namespace palpate::force_estimation {
 
-void ObservableSubspace::AskForEverything(const std::vector<FitSite>& sites) {
+namespace {
+
+struct ObservableTuning {
+  /// Least information of a direction, in units of 1 / largest_sigma_N^2. Any value far below 1
+  /// removes the direction; one near rounding would make the covariance of the others inexact.
+  double least_information = 1e-9;
+};
+constexpr ObservableTuning kObservableTuning;
+
+}  // namespace
+
+void ObservableSubspace::IncludeAll(const std::vector<FitSite>& sites) {
   observability_.assign(sites.size(), Observability::kFull);
   directions_.assign(sites.size(), Eigen::Matrix3d::Identity());
   unknowns_.assign(sites.size(), 3);
@@ -39,8 +50,9 @@ void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,
   const double limit = largest_sigma_N * largest_sigma_N;
   const fem::QpMatrix reduced = basis_.transpose() * information * basis_;
   const linalg::SmallSymmetricEigen eigen = linalg::DecomposeSymmetric(reduced);
-  // What the markers do not see at all gets a variance that is large, yet a number.
-  const fem::QpVector variances = eigen.values.cwiseMax(1e-9 / limit).cwiseInverse();
+  // Directions without any information get a variance that is large, yet finite.
+  const fem::QpVector variances =
+      eigen.values.cwiseMax(kObservableTuning.least_information / limit).cwiseInverse();
   const fem::QpMatrix covariance = basis_ * eigen.vectors * variances.asDiagonal() *
                                    eigen.vectors.transpose() * basis_.transpose();
   for (size_t s = 0; s < sites.size(); ++s) {
@@ -68,8 +80,8 @@ void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,
   BuildBasis();
 }
 
-/// The normal itself and, where it is certain enough, the better known tangent: the force along the
-/// other counts as zero, which leaves a force along the normal what it is.
+/// Keeps the normal and, where it is certain enough, the better known tangent. The force along the
+/// other is set to zero, which does not change a force along the normal.
 void ObservableSubspace::KeepNormal(const FitSite& site, size_t index,
                                     const Eigen::Matrix3d& covariance_N2, double limit_N2) {
   const Eigen::Vector3d normal = site.patch.normal;

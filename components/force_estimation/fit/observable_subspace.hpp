@@ -11,28 +11,28 @@
 
 namespace palpate::force_estimation {
 
-/// A place where a force is fitted.
+/// A contact location at which a force is fitted.
 struct FitSite {
   fem::SurfacePatch patch;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit; zero: any
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, robot frame; zero: any
 };
 
-/// Which part of a contact's force the markers determine.
+/// Which part of a contact's force the observed rows determine.
 enum class Observability {
-  kFull,    ///< all that was asked for
-  kNormal,  ///< some directions are uncertain, but not the surface normal; those are left at zero
-  kNone,    ///< the normal direction, or the given one, is uncertain
+  kFull,    ///< all components
+  kNormal,  ///< the component along the surface normal; uncertain tangential ones are set to zero
+  kNone,    ///< not even that along the normal, or along the given direction
 };
 
-/// The components of the contact forces that are fitted, lambda_f = basis q: all that are asked
-/// for, less those that the markers do not determine.
+/// The subspace in which contact forces are fitted, lambda_f = basis q: the components of all sites
+/// without those that the observed rows do not determine.
 class ObservableSubspace {
  public:
   /// Every direction, or the given one, of every site.
-  void AskForEverything(const std::vector<FitSite>& sites);
+  void IncludeAll(const std::vector<FitSite>& sites);
 
-  /// Leaves out the directions in which a force is uncertain by more than `largest_sigma_N`, taking
-  /// the other contacts' uncertainty into account. `information` [3k x 3k]: inverse covariance of
+  /// Removes the directions in which the standard deviation of a force is above `largest_sigma_N`,
+  /// the other contacts' forces being unknown, too. `information` [3k x 3k]: inverse covariance of
   /// lambda_f, 1/N^2.
   void KeepObservable(const std::vector<FitSite>& sites, const fem::QpMatrix& information,
                       double largest_sigma_N);

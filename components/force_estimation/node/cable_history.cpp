@@ -33,7 +33,7 @@ void CableHistory::Add(CableReading reading) {
 }
 
 void CableHistory::BeginSequence(bool time_went_back) {
-  // Cable inputs of the new sequence may have come before its first markers, or may come after.
+  // Cable inputs of the new sequence may come before its first frame, or after.
   if (time_went_back && !went_back_) readings_.clear();
   went_back_ = false;
 }

@@ -15,25 +15,25 @@
 
 namespace palpate::force_estimation {
 
-/// The last cable inputs, to find those of the time of a marker frame.
+/// The last cable inputs, to interpolate those of a frame's time.
 class CableHistory {
  public:
   CableHistory(size_t cable_count, robot::CableInput preferred)
       : cable_count_(cable_count), preferred_(preferred), drives_(cable_count) {}
 
-  /// How displacements are read, from now on; at first as they are.
+  /// Calibration of the actuators by which displacements are corrected from now on; initially none.
   void SetDrives(const std::vector<robot::DriveCalibration>& drives) { drives_ = drives; }
 
-  /// A stamp below the last one says that time went back: what was before is forgotten.
+  /// A stamp below the last one means that time went back: earlier readings are dropped.
   void Add(CableReading reading);
-  /// A marker sequence began. `time_went_back`: before the end of the one before.
+  /// A sequence of frames began. `time_went_back`: before the end of the one before.
   void BeginSequence(bool time_went_back);
 
-  /// Commands at `stamp_ns`: those of that very stamp, or linear between the neighbours; nothing
-  /// where the time is not covered (yet).
+  /// Commands at `stamp_ns`: those of that stamp, or interpolated linearly; nullopt where the
+  /// readings do not cover the time (yet).
   std::optional<std::vector<robot::CableCommand>> At(int64_t stamp_ns) const;
-  /// The last commands at or before `stamp_ns`, where they are not older than `max_age_s`; else a
-  /// kStale status that says how old they are.
+  /// The last commands at or before `stamp_ns`; kStale, with their age, where they are older than
+  /// `max_age_s`.
   Status LastBefore(int64_t stamp_ns, double max_age_s,
                     std::vector<robot::CableCommand>* commands) const;
 

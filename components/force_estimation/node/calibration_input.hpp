@@ -13,12 +13,12 @@
 
 namespace palpate::force_estimation {
 
-/// What comes on /calibration, and whether it may be taken.
+/// Calibrations on /calibration, and whether they may be used.
 class CalibrationInput {
  public:
   struct Verdict {
-    /// kInvalidInput: numbers that are none, or another robot's, mesh's, element's or material's.
-    /// kStale: older than the one in use.
+    /// kInvalidInput: not finite, or of another robot, mesh, element or material. kStale: older
+    /// than the one in use.
     Status status;
     robot::CalibrationFile calibration;
   };
@@ -28,7 +28,8 @@ class CalibrationInput {
 
   dds::Reader<idl::palpate_msgs::Calibration>& reader() { return reader_; }
   void SetInUse(const robot::CalibrationFile& calibration);
-  /// What waits, without the one in use come again. What is ok counts as in use.
+  /// Calibrations that came since the last call, without repetitions of the one in use. One that is
+  /// ok is in use from now on.
   std::vector<Verdict> Take();
 
  private:
@@ -41,7 +42,7 @@ class CalibrationInput {
 };
 
 /// The message as a calibration file. kInvalidInput for numbers that are not finite, standard
-/// errors below 0, moduli that are not above 0, a pose that is none.
+/// errors below 0, moduli not above 0, and a pose that is no rigid motion.
 Status FromCalibration(const idl::palpate_msgs::Calibration& message,
                        robot::CalibrationFile* calibration);
 

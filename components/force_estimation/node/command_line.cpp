@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/force_estimation/node/make_pipeline.hpp"
 #include "libs/app/log.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -18,7 +19,7 @@ namespace palpate::force_estimation {
 
 namespace {
 
-/// As large as the calibration (nullptr: none) found it.
+/// The robot, with the geometry of the calibration (nullptr: none).
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
                                              const fem::SolverSettings& solver,
                                              const robot::CalibrationFile* calibration) {
@@ -28,8 +29,8 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }
 
-/// Gives the model what was calibrated, and source=shape the camera's pose where the settings have
-/// none. Where they have one, that of the calibration and its depth bias do not count.
+/// Applies the calibration to the model, and for source=shape its camera pose to the settings. A
+/// pose in the settings overrides that of the calibration and its depth bias.
 void Calibrate(robot::CalibrationFile* calibration, robot::RobotModel* model, NodeConfig* config) {
   robot::ApplyCalibration(*calibration, model);
   if (!calibration->pose) return;

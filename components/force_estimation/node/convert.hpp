@@ -16,23 +16,22 @@ namespace palpate::force_estimation {
 FrameHead HeadOf(const idl::palpate_msgs::MarkerArray3& message,
                  std::chrono::steady_clock::time_point taken);
 
-/// Markers in the order of `names`, those that the message does not hold as not seen; the cables
+/// Markers in the order of `names`; those that the message does not hold are not valid. The cables
 /// stay empty. kInvalidInput, with the reason, for another frame than the robot's, a marker that
-/// is not among `names` (with "did you mean") or comes twice, a position that is not finite, an
-/// unknown reference shape.
+/// is not among `names` (with "did you mean") or is named twice, a position that is not finite, and
+/// an unknown reference shape.
 Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
                        const std::vector<std::string>& names, MarkerFrame* frame);
 
-/// What perception says about a frame of the camera.
-Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message);
+/// Perception's status of a frame of the camera.
+Status StatusOfPerception(const idl::palpate_msgs::PerceptionReport& message);
 
-/// Contacts of the camera's frame, in the robot's. kInvalidInput for numbers that are not finite.
+/// Contacts of the camera frame, in the robot frame. kInvalidInput for numbers that are not finite.
 Status FromContactArray(const idl::palpate_msgs::ContactArray& message,
                         const Eigen::Isometry3d& T_robot_camera,
                         std::vector<SeenContact>* contacts);
 
-/// Counters, age and latency are left to whoever sends it. The numbers of an unobservable force are
-/// NaN.
+/// Without counter, age and latency. The numbers of an unobservable force are NaN.
 dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
                                                          const Status& status,
                                                          const std::vector<ContactForce>& contacts);
@@ -41,7 +40,7 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
 dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
                                                          const ContactForce& contact);
 
-/// Without positions where the state is not known.
+/// Without positions where the state is unknown.
 dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
                                                        const std::string& mesh_hash);
 
@@ -52,8 +51,5 @@ dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result);
 /// Without positions: the answer to a frame that was not estimated.
 dds::Message<idl::palpate_msgs::MeshState> NoMeshState(const FrameHead& head, const Status& status,
                                                        const std::string& mesh_hash);
-
-/// Whether an estimate may be used: forces were found, or none were needed.
-bool IsUsable(const Status& status);
 
 }  // namespace palpate::force_estimation

@@ -55,7 +55,7 @@ Status FromMarkerArray(const idl::palpate_msgs::MarkerArray3& message,
   return Status::Ok();
 }
 
-Status LookedFrom(const idl::palpate_msgs::PerceptionReport& message) {
+Status StatusOfPerception(const idl::palpate_msgs::PerceptionReport& message) {
   const std::string_view word = dds::Text(message.status);
   if (word == ToString(StatusCode::kOk)) return Status::Ok();
   for (const StatusCode code : {StatusCode::kStale, StatusCode::kNoCalibration,

@@ -34,10 +34,6 @@ void Fill(const std::vector<ModelGapPart>& parts, Sequence& target) {
 
 }  // namespace
 
-bool IsUsable(const Status& status) {
-  return status.ok() || status.code() == StatusCode::kNoContact;
-}
-
 dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(
     const FrameHead& head, const Status& status, const std::vector<ContactForce>& contacts) {
   dds::Message<idl::palpate_msgs::ForceArray> message;

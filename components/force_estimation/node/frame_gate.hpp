@@ -11,20 +11,20 @@
 
 namespace palpate::force_estimation {
 
-/// Watches the order of the marker frames.
+/// Checks the order and the age of marker frames.
 class FrameGate {
  public:
   enum class Verdict {
     kNext,
     kRepeated,      ///< the last frame once more: its answer was lost
-    kNewSequence,   ///< the first of a sequence that goes on in time
-    kTimeWentBack,  ///< the first of a sequence that starts before the last one's end
-    kStale,         ///< not newer than what was there before
+    kNewSequence,   ///< the first of a sequence that begins after the last one's end
+    kTimeWentBack,  ///< the first of a sequence that begins before the last one's end
+    kStale,         ///< not newer than the last frame
   };
 
   Verdict Judge(const FrameHead& head);
 
-  /// kStale where `head` is older than `max_age_s` at `now_ns`; 0: any age will do.
+  /// kStale where `head` is older than `max_age_s` at `now_ns`; 0: no limit.
   static Status CheckAge(const FrameHead& head, int64_t now_ns, double max_age_s);
 
   uint64_t lost() const { return gaps_.lost(); }

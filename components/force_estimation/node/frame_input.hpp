@@ -10,15 +10,12 @@
 #include <variant>
 #include <vector>
 
-#include "components/force_estimation/marker_force_estimator.hpp"
-#include "components/force_estimation/monitor/extrinsics_drift_monitor.hpp"
-#include "components/force_estimation/monitor/model_gap.hpp"
-#include "components/force_estimation/monitor/model_residual_monitor.hpp"
-#include "components/force_estimation/shape/shape_frame.hpp"
+#include "components/force_estimation/pipeline/pipeline.hpp"
+#include "libs/robot/calibration_file.hpp"
 
 namespace palpate::force_estimation {
 
-/// Which frame something belongs to.
+/// Identifies a frame.
 struct FrameHead {
   int64_t stamp_ns = 0;
   uint64_t counter = 0;
@@ -26,42 +23,34 @@ struct FrameHead {
   std::chrono::steady_clock::time_point taken;  ///< when it was taken from DDS
 };
 
-/// What a depth camera sees of the robot.
-struct SeenShape {
-  ShapeFrame frame;
-  Status looked;  ///< what perception says about the frame
+/// Changes the model between two frames.
+struct NewCalibration {
+  robot::CalibrationFile calibration;  ///< CheckCalibration is ok
+  PipelineMaker maker;                 ///< of pipelines from now on; empty: as before
 };
 
-struct NewCalibration;  // frame_estimator.hpp
-
-/// A frame on its way to the estimator.
+/// A frame on its way to the pipeline.
 struct FrameInput {
   FrameHead head;
-  bool new_sequence = false;  ///< what was learnt from earlier frames is void
-  std::variant<MarkerFrame, SeenShape> frame;
+  bool new_sequence = false;  ///< the state of earlier frames is void
+  PipelineFrame frame;
   /// Holds from this frame on; nullptr: as before.
   std::shared_ptr<const NewCalibration> calibration = nullptr;
 
   std::vector<robot::CableCommand>& cables() {
-    if (auto* shape = std::get_if<SeenShape>(&frame)) return shape->frame.cables;
+    if (auto* shape = std::get_if<PerceivedShape>(&frame)) return shape->frame.cables;
     return std::get<MarkerFrame>(frame).cables;
   }
-  /// Whether a newer frame may take its place.
+  /// Whether a newer frame may take its place in the queue.
   bool overtakable() const {
     const auto* markers = std::get_if<MarkerFrame>(&frame);
     return !new_sequence && (!markers || markers->reference == ReferenceShape::kNone);
   }
 };
 
-/// What came of it.
-struct FrameResult {
+/// What the pipeline made of a frame.
+struct FrameResult : PipelineResult {
   FrameHead head;
-  ForceEstimate estimate;
-  ModelGapReport gap;
-  bool state_is_known = false;  ///< estimate.x_m may be shown to others
-  Status state;                 ///< ok: x_m is where the robot is believed to be
-  DriftReport drift = {};       ///< of the camera, before this frame
-  GapReport gap_so_far = {};    ///< of the sequence, before this frame
 };
 
 }  // namespace palpate::force_estimation

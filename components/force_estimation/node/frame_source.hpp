@@ -3,49 +3,64 @@
 
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
+#include <variant>
 
 #include "components/force_estimation/node/frame_input.hpp"
-
+#include "libs/core/status.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::force_estimation {
 
-/// Whom a source tells what came.
-struct FrameEvents {
-  std::function<void()> came;  ///< a frame, whatever may be wrong with it
-  /// What comes next goes back in time, or has nothing to do with what came before.
-  std::function<void(bool time_went_back, bool anew)> sequence;
-  std::function<void(FrameInput)> accepted;
-  std::function<void(const FrameHead&, const Status&)> refused;
-  std::function<void(const FrameHead&)> repeated;  ///< the last frame once more
+/// A frame that is not estimated, with the reason.
+struct RefusedFrame {
+  FrameHead head;
+  Status status;
+};
+
+/// The last frame once more.
+struct RepeatedFrame {
+  FrameHead head;
+};
+
+/// How a sequence of frames relates to the one before it.
+struct SequenceStart {
+  bool time_went_back = false;
+  bool unrelated = false;  ///< the state of earlier frames does not hold
+};
+
+/// One frame as it comes from DDS.
+struct FrameArrival {
+  std::variant<FrameInput, RefusedFrame, RepeatedFrame> frame;
+  std::optional<SequenceStart> sequence = std::nullopt;  ///< which the frame begins
+  bool counts = true;  ///< as received; false for a repeated part of a frame
 };
 
 /// Takes frames from DDS, in the thread of the node's loop.
 class FrameSource {
  public:
-  explicit FrameSource(FrameEvents events) : events_(std::move(events)) {}
+  using TakeArrival = std::function<void(FrameArrival)>;
+
+  explicit FrameSource(TakeArrival take) : take_(std::move(take)) {}
   virtual ~FrameSource() = default;
 
-  /// What holds from now on: where the depth camera stands, and which images its depth bias is
-  /// for.
+  /// Uses the camera pose of a calibration, and checks images by its depth bias, from now on.
   virtual void SetCalibration(const robot::CalibrationFile&) {}
 
-  virtual std::string name() const = 0;  ///< of what comes, for a person: "markers"
-  virtual uint64_t dropped() const = 0;  ///< frames that were lost or overtaken on the way here
-  virtual uint32_t writers() const = 0;  ///< whose frames it takes
+  virtual std::string name() const = 0;  ///< of the frames, for messages: "markers"
+  virtual uint64_t dropped() const = 0;  ///< frames that were lost or overtaken before they came
+  virtual uint32_t writers() const = 0;  ///< that match its readers
   virtual uint32_t incompatible_qos() const = 0;
 
  protected:
-  const FrameEvents& events() const { return events_; }
+  void HandOver(FrameArrival arrival) const { take_(std::move(arrival)); }
 
  private:
-  FrameEvents events_;
+  TakeArrival take_;
 };
 
 }  // namespace palpate::force_estimation

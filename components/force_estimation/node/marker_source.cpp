@@ -10,29 +10,35 @@
 namespace palpate::force_estimation {
 
 MarkerSource::MarkerSource(dds::Participant& participant, dds::WaitSet& loop,
-                           std::vector<std::string> names, FrameEvents events)
-    : FrameSource(std::move(events)),
+                           std::vector<std::string> names, TakeArrival take)
+    : FrameSource(std::move(take)),
       names_(std::move(names)),
       markers_(participant.CreateReader(dds::kMarkersTopic)) {
   loop.Attach(markers_, [this] {
-    for (const auto& message : markers_.Take()) Accept(message);
+    for (const auto& message : markers_.Take()) HandOver(ArrivalOf(message));
   });
 }
 
-void MarkerSource::Accept(const idl::palpate_msgs::MarkerArray3& message) {
-  events().came();
-  FrameInput input{HeadOf(message, dds::WaitSet::Clock::now()), false, MarkerFrame()};
+FrameArrival MarkerSource::ArrivalOf(const idl::palpate_msgs::MarkerArray3& message) {
   using Verdict = FrameGate::Verdict;
+  FrameInput input{HeadOf(message, dds::WaitSet::Clock::now()), false, MarkerFrame()};
   const Verdict verdict = gate_.Judge(input.head);
-  if (verdict == Verdict::kRepeated) return events().repeated(input.head);
+  if (verdict == Verdict::kRepeated) return {RepeatedFrame{input.head}};
   if (verdict == Verdict::kStale) {
-    return events().refused(input.head,
-                            {StatusCode::kStale, "the stamp is not newer than the last one's"});
+    return {RefusedFrame{input.head,
+                         {StatusCode::kStale, "the stamp is not newer than the last one's"}}};
   }
-  if (verdict != Verdict::kNext) events().sequence(verdict == Verdict::kTimeWentBack, true);
+  FrameArrival arrival;
+  if (verdict != Verdict::kNext) {
+    arrival.sequence = SequenceStart{verdict == Verdict::kTimeWentBack, /*unrelated=*/true};
+  }
   const Status status = FromMarkerArray(message, names_, &std::get<MarkerFrame>(input.frame));
-  if (!status.ok()) return events().refused(input.head, status);
-  events().accepted(std::move(input));
+  if (status.ok()) {
+    arrival.frame = std::move(input);
+  } else {
+    arrival.frame = RefusedFrame{input.head, status};
+  }
+  return arrival;
 }
 
 }  // namespace palpate::force_estimation

@@ -13,12 +13,12 @@
 
 namespace palpate::force_estimation {
 
-/// Frames from /perception/markers.
+/// Frames of /perception/markers.
 class MarkerSource : public FrameSource {
  public:
   /// `names`: of the robot's markers.
   MarkerSource(dds::Participant& participant, dds::WaitSet& loop, std::vector<std::string> names,
-               FrameEvents events);
+               TakeArrival take);
 
   std::string name() const override { return "markers"; }
   uint64_t dropped() const override { return gate_.lost(); }
@@ -26,7 +26,7 @@ class MarkerSource : public FrameSource {
   uint32_t incompatible_qos() const override { return markers_.counters().incompatible_qos; }
 
  private:
-  void Accept(const idl::palpate_msgs::MarkerArray3& message);
+  FrameArrival ArrivalOf(const idl::palpate_msgs::MarkerArray3& message);
 
   std::vector<std::string> names_;
   dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;

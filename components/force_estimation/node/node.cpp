@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/node/convert.hpp"
 #include "components/force_estimation/node/frame_gate.hpp"
+#include "components/force_estimation/node/make_pipeline.hpp"
 #include "components/force_estimation/node/marker_source.hpp"
 #include "components/force_estimation/node/shape_source.hpp"
 #include "libs/app/yaml.hpp"
@@ -49,8 +50,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
                                          std::unique_ptr<robot::RobotModel> model,
                                          const robot::CalibrationFile& calibration, int domain_id,
                                          dds::TopicTable table,
-                                         dds::NodeLog::ProcessLog process_log,
-                                         FrameEstimatorMaker maker)
+                                         dds::NodeLog::ProcessLog process_log, PipelineMaker maker)
     : config_(config),
       participant_(dds::ParticipantOf(config.dds, "palpate_force_estimation", domain_id),
                    std::move(table)),
@@ -58,7 +58,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       cables_overdue_(loop_.AddAlarm([this] { MatchWithCables(); })),
       log_(participant_, std::move(process_log)),
       health_(participant_, "force_estimation", Clock::now()),
-      worker_(std::move(model), maker ? maker : EstimatorMakerOf(config, calibration),
+      worker_(std::move(model), maker ? maker : PipelineMakerOf(config, calibration),
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
@@ -84,24 +84,31 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
 }
 
 std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
-  FrameEvents events;
-  events.came = [this] {
+  const auto take = [this](FrameArrival arrival) { Take(std::move(arrival)); };
+  if (IsFromShape(config_)) {
+    return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_), take);
+  }
+  return std::make_unique<MarkerSource>(participant_, loop_, worker_.model().MarkerNames(), take);
+}
+
+void ForceEstimationNode::Take(FrameArrival arrival) {
+  if (arrival.counts) {
     ++counts_.received;
     last_frame_ = Clock::now();
-  };
-  events.sequence = [this](bool time_went_back, bool anew) {
-    cables_.BeginSequence(time_went_back);
-    sequence_pending_ = sequence_pending_ || anew;
-  };
-  events.accepted = [this](FrameInput input) { Accept(std::move(input)); };
-  events.refused = [this](const FrameHead& head, const Status& status) { Refuse(head, status); };
-  events.repeated = [this](const FrameHead& head) { outputs_.Repeat(head); };
-  if (IsFromShape(config_)) {
-    return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_),
-                                         std::move(events));
   }
-  return std::make_unique<MarkerSource>(participant_, loop_, worker_.model().MarkerNames(),
-                                        std::move(events));
+  if (arrival.sequence) BeginSequence(*arrival.sequence);
+  if (auto* input = std::get_if<FrameInput>(&arrival.frame)) {
+    Accept(std::move(*input));
+  } else if (const auto* refused = std::get_if<RefusedFrame>(&arrival.frame)) {
+    Refuse(refused->head, refused->status);
+  } else {
+    outputs_.Repeat(std::get<RepeatedFrame>(arrival.frame).head);
+  }
+}
+
+void ForceEstimationNode::BeginSequence(const SequenceStart& start) {
+  cables_.BeginSequence(start.time_went_back);
+  sequence_pending_ = sequence_pending_ || start.unrelated;
 }
 
 void ForceEstimationNode::TakeJointStates() {
@@ -129,11 +136,11 @@ void ForceEstimationNode::TakeCalibration() {
   }
 }
 
-/// From the next frame on. Frames that wait were seen, and their cables would be read, by the old
-/// one.
+/// Holds from the next frame on. Frames that wait are refused: they were measured, and their cable
+/// inputs would be read, with the old calibration.
 void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   for (; !pending_.empty(); pending_.pop_front()) {
-    PassOnWhatBegins(pending_.front());
+    PassOnStart(pending_.front());
     Refuse(pending_.front().head, {StatusCode::kStale, "a new calibration came after the frame"});
   }
   for (const robot::CalibratedDrive& drive : calibration.drives) {
@@ -148,7 +155,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   }
   if (!calibration.moduli.empty()) in_use_.moduli = calibration.moduli;
   calibration_pending_ = std::make_shared<NewCalibration>(
-      calibration, maker_is_given_ ? FrameEstimatorMaker() : EstimatorMakerOf(config_, in_use_));
+      calibration, maker_is_given_ ? PipelineMaker() : PipelineMakerOf(config_, in_use_));
   sequence_pending_ = true;
   log_.Write(Severity::kInfo, "takes the calibration of " + calibration.date_utc + " (" +
                                   calibration.data + ") from the next frame on");
@@ -188,14 +195,14 @@ void ForceEstimationNode::MatchWithCables() {
     if (status.ok()) {
       worker_.Push(std::move(input));
     } else {
-      PassOnWhatBegins(input);
+      PassOnStart(input);
       Refuse(input.head, status);
     }
   }
 }
 
-/// Where a frame that began a sequence was refused the next one begins it.
-void ForceEstimationNode::PassOnWhatBegins(const FrameInput& refused) {
+/// The frame after a refused one that began a sequence begins it, with its calibration.
+void ForceEstimationNode::PassOnStart(const FrameInput& refused) {
   if (!refused.new_sequence) return;
   const bool last = pending_.empty();
   (last ? sequence_pending_ : pending_.front().new_sequence) = true;
@@ -209,7 +216,7 @@ ForceEstimationNode::Clock::time_point ForceEstimationNode::CablesOverdue(
   return input.head.taken + std::chrono::duration_cast<Clock::duration>(wait);
 }
 
-/// False: they may still come.
+/// False: they may still come. True: found, or `status` says why there are none.
 bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
   if (auto commands = cables_.At(input.head.stamp_ns)) {
     input.cables() = std::move(*commands);
@@ -223,9 +230,9 @@ bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
 void ForceEstimationNode::PublishResults() {
   while (const std::optional<FrameResult> result = worker_.TakeResult()) {
     last_status_ = result->estimate.status;
-    if (ToString(result->drift.state) != ToString(drift_.state)) SayDrift(result->drift);
+    if (ToString(result->drift.state) != ToString(drift_.state)) LogDrift(result->drift);
     drift_ = result->drift;
-    if (result->gap_so_far.state != gap_.state) SayGap(result->gap_so_far);
+    if (result->gap_so_far.state != gap_.state) LogGap(result->gap_so_far);
     gap_ = result->gap_so_far;
     outputs_.Publish(*result);
   }
@@ -247,14 +254,14 @@ void ForceEstimationNode::ReportHealth() {
   health_.Report(status, counts, values, Clock::now());
 }
 
-void ForceEstimationNode::SayDrift(const DriftReport& drift) {
+void ForceEstimationNode::LogDrift(const DriftReport& drift) {
   const bool moved = drift.state == DriftReport::State::kMoved;
   log_.Write(moved ? Severity::kWarning : Severity::kInfo,
              "calibration of the camera: " + ToString(drift.state) +
                  (moved ? ": " + drift.advice : std::string()));
 }
 
-void ForceEstimationNode::SayGap(const GapReport& gap) {
+void ForceEstimationNode::LogGap(const GapReport& gap) {
   const bool grown = gap.state == GapReport::State::kGrown;
   log_.Write(grown ? Severity::kWarning : Severity::kInfo,
              "model gap: " + ToString(gap.state) + (grown ? ": " + gap.advice : std::string()));
@@ -269,7 +276,7 @@ Status ForceEstimationNode::CurrentStatus() const {
     return {StatusCode::kStale, "no " + source_->name() + " for " +
                                     FormatNumber(std::round(SecondsSince(last_frame_))) + " s"};
   }
-  // It explains what estimates make of the frames, too.
+  // A moved camera also explains the status of the estimates.
   if (drift_.state == DriftReport::State::kMoved) {
     return {StatusCode::kNoCalibration, drift_.advice};
   }

@@ -20,20 +20,20 @@
 
 namespace palpate::force_estimation {
 
-/// Takes frames (of markers, or of the robot's shape) and cable inputs, runs the estimator,
-/// publishes forces and the model's state. Each frame that the estimator took, or that was refused,
-/// is answered on /forces.
+/// Takes frames (of markers, or of the robot's shape) and cable inputs, runs the pipeline, and
+/// publishes forces and the model's state. Each frame that was estimated or refused is answered on
+/// /forces.
 class ForceEstimationNode {
  public:
-  /// `calibration`: what `model` has been given; older ones on /calibration are stale. One without
-  /// a date: none. `maker`: what estimates; empty: what the settings say. Throws InputError for bad
-  /// settings, RunError where DDS refuses.
+  /// `calibration`: was applied to `model`; older ones on /calibration are stale. Without a date:
+  /// none. `maker`: of the pipelines; empty: by the settings. Throws InputError for bad settings,
+  /// RunError where DDS fails.
   ForceEstimationNode(const NodeConfig& config, std::unique_ptr<robot::RobotModel> model,
                       const robot::CalibrationFile& calibration, int domain_id,
                       dds::TopicTable table, dds::NodeLog::ProcessLog process_log,
-                      FrameEstimatorMaker maker = {});
+                      PipelineMaker maker = {});
 
-  /// Works until Stop().
+  /// Returns after Stop().
   void Run() { loop_.Run(); }
   /// From any thread.
   void Stop() { loop_.Stop(); }
@@ -45,23 +45,25 @@ class ForceEstimationNode {
   void TakeCalibration();
   void Adopt(const robot::CalibrationFile& calibration);
   std::unique_ptr<FrameSource> MakeSource();
+  void Take(FrameArrival arrival);
+  void BeginSequence(const SequenceStart& start);
   void Accept(FrameInput input);
   void Refuse(const FrameHead& head, const Status& status);
   void MatchWithCables();
-  void PassOnWhatBegins(const FrameInput& refused);
+  void PassOnStart(const FrameInput& refused);
   Clock::time_point CablesOverdue(const FrameInput& input) const;
   bool FindCables(FrameInput& input, Status* status) const;
   void PublishResults();
   void ReportHealth();
   bool IsSilent() const;
   Status CurrentStatus() const;
-  void SayDrift(const DriftReport& drift);
-  void SayGap(const GapReport& gap);
+  void LogDrift(const DriftReport& drift);
+  void LogGap(const GapReport& gap);
 
   NodeConfig config_;
   dds::Participant participant_;
   dds::WaitSet loop_;
-  dds::Alarm& cables_overdue_;  ///< of the first frame that waits for them
+  dds::Alarm& cables_overdue_;  ///< of the first frame in pending_
   dds::NodeLog log_;
   dds::HealthReporter health_;
   Worker worker_;
@@ -71,8 +73,8 @@ class ForceEstimationNode {
   Outputs outputs_;
   dds::Reader<idl::sensor_msgs::JointState> joint_states_;
   CalibrationInput calibration_;
-  robot::CalibrationFile in_use_;   ///< moduli, pose and depth bias that hold
-  std::deque<FrameInput> pending_;  ///< wait for the cable inputs of their time
+  robot::CalibrationFile in_use_;   ///< its moduli, pose and depth bias
+  std::deque<FrameInput> pending_;  ///< frames that wait for the cable inputs of their time
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
   std::shared_ptr<const NewCalibration> calibration_pending_;  ///< for that frame
   bool maker_is_given_;

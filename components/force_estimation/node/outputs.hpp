@@ -15,24 +15,24 @@ namespace palpate::force_estimation {
 /// The writers of the node. All calls come from the node's loop.
 class Outputs {
  public:
-  /// Sends the mesh, which stays there for late joiners. `body` must outlive this. `answer_always`:
-  /// every frame is answered on /robot/mesh_state, too, without positions if need be; else only
-  /// those that an estimate was tried for.
+  /// Publishes the mesh, which is latched. `body` must outlive this. `answer_always`: every frame
+  /// is answered on /robot/mesh_state, too, if need be without positions; else only those that were
+  /// estimated.
   Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always);
 
   void Publish(const FrameResult& result);
-  /// Says on /forces why there is no estimate for a frame.
+  /// Publishes on /forces why a frame has no estimate.
   void PublishRefusal(const FrameHead& head, const Status& status);
-  /// Says on /forces that nothing has come since the last answer.
+  /// Publishes on /forces that no frame has come since the last answer.
   void PublishSilence(const Status& status);
-  /// Sends the last answer again where it is the one to `head`.
+  /// Publishes the last answer again where it is that of `head`.
   void Repeat(const FrameHead& head);
 
   uint64_t published() const { return forces_.sent_count(); }
-  /// Messages that DDS did not take, and wrenches of contacts beyond the first 64 names.
+  /// Messages that DDS refused, and wrenches of contacts beyond the first 64 names.
   uint64_t failed() const;
   uint32_t readers() const { return forces_.matched(); }
-  /// From taking a frame to publishing, s; the list starts anew with each call.
+  /// Times from taking a frame to publishing since the last call, s.
   std::vector<double> TakeLatencies();
 
  private:

@@ -21,8 +21,8 @@ constexpr double kNsPerSecond = 1e9;
 }  // namespace
 
 ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-                         const std::optional<Eigen::Isometry3d>& T_robot_camera, FrameEvents events)
-    : FrameSource(std::move(events)),
+                         const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take)
+    : FrameSource(std::move(take)),
       T_robot_camera_(T_robot_camera),
       clouds_(participant.CreateReader(dds::kRobotCloudTopic)),
       reports_(participant.CreateReader(dds::kPerceptionReportTopic)),
@@ -32,7 +32,7 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(contacts_, [this] { TakeContacts(); });
 }
 
-/// Parts of frames that are not whole yet were seen from the old place.
+/// Incomplete frames are dropped: they were taken from the old camera pose.
 void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
   if (!calibration.pose) return;
   T_robot_camera_ = calibration.pose->T_robot_camera;
@@ -41,7 +41,7 @@ void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
   pending_.clear();
 }
 
-/// nullptr for the parts of a frame that was passed on already.
+/// nullptr for parts of the last frame that was handed over.
 ShapeSource::Parts* ShapeSource::PartsAt(int64_t stamp_ns) {
   if (last_ && stamp_ns == last_->stamp_ns) return nullptr;
   const auto found = std::find_if(pending_.begin(), pending_.end(),
@@ -66,7 +66,7 @@ void ShapeSource::TakeClouds() {
       parts->status = {status.code(), "/perception/robot_cloud: " + status.message()};
     }
   }
-  PassOn();
+  HandOverComplete();
 }
 
 void ShapeSource::TakeReports() {
@@ -77,16 +77,16 @@ void ShapeSource::TakeReports() {
     parts->report = Report{{stamp_ns, message.epoch, std::string(dds::Text(message.device)),
                             dds::ToPicture(message.picture)},
                            message.frame_counter,
-                           LookedFrom(message)};
+                           StatusOfPerception(message)};
   }
-  PassOn();
+  HandOverComplete();
 }
 
 void ShapeSource::TakeContacts() {
   for (const auto& message : contacts_.Take()) {
     Parts* parts = PartsAt(dds::StampNs(message.header.stamp));
     if (!parts) {
-      events().repeated(last_head_);
+      HandOver({.frame = RepeatedFrame{last_head_}, .counts = false});
       continue;
     }
     Status status = dds::CheckFrameId(message.header, geometry::kCameraDepthOpticalFrame);
@@ -99,59 +99,71 @@ void ShapeSource::TakeContacts() {
       parts->status = {status.code(), "/perception/contacts: " + status.message()};
     }
   }
-  PassOn();
+  HandOverComplete();
 }
 
-/// Whole frames, in the order of their coming. Those before one that is whole lost a part.
-void ShapeSource::PassOn() {
+/// Hands over complete frames in the order in which they came. Those before a complete one lost a
+/// part.
+void ShapeSource::HandOverComplete() {
   for (size_t i = 0; i < pending_.size(); ++i) {
     Parts& parts = pending_[i];
     if (!parts.cloud || !parts.report || !parts.contacts) continue;
-    Parts whole = std::move(parts);
+    Parts complete = std::move(parts);
     dropped_ += i;
     pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    Accept(std::move(whole));
+    HandOver(ArrivalOf(std::move(complete)));
     i = static_cast<size_t>(-1);
   }
 }
 
-void ShapeSource::Accept(Parts parts) {
-  events().came();
+FrameArrival ShapeSource::ArrivalOf(Parts parts) {
   const Report& report = *parts.report;
-  Judge(report.origin);
+  FrameArrival arrival;
+  arrival.sequence = SequenceOf(report.origin);
   last_head_ = {parts.stamp_ns, report.frame_counter, report.origin.device,
                 dds::WaitSet::Clock::now()};
-  if (!parts.status.ok()) return events().refused(last_head_, parts.status);
-  if (!T_robot_camera_) {
-    return events().refused(
-        last_head_, {StatusCode::kNoCalibration,
-                     "where the camera stands is not known: no camera_pose is set, and nothing has "
-                     "come on /calibration"});
+  const Status status = Check(parts);
+  if (status.ok()) {
+    arrival.frame = InputOf(std::move(parts));
+  } else {
+    arrival.frame = RefusedFrame{last_head_, status};
   }
-  if (depth_bias_ && report.looked.ok()) {
-    const Status status = robot::CheckDepthPicture(*depth_bias_, report.origin.picture);
-    if (!status.ok()) return events().refused(last_head_, status);
-  }
-  FrameInput input;
-  input.head = last_head_;
-  auto& [frame, looked] = input.frame.emplace<SeenShape>();
-  looked = report.looked;
-  frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
-  frame.cloud = std::move(*parts.cloud);
-  frame.T_robot_camera = *T_robot_camera_;
-  frame.epoch = report.origin.epoch;
-  frame.contacts = std::move(*parts.contacts);
-  events().accepted(std::move(input));
+  return arrival;
 }
 
-/// Another camera, or one that was started again from the beginning, has nothing to do with what
-/// was learnt before; one that was only opened anew (its epoch rose) has.
-void ShapeSource::Judge(const Origin& origin) {
+/// State does not hold for another camera, or for one that was started again from the beginning. It
+/// holds for one that was reopened: its epoch rises.
+std::optional<SequenceStart> ShapeSource::SequenceOf(const Origin& origin) {
   const bool back = last_ && origin.stamp_ns <= last_->stamp_ns;
-  const bool anew =
+  const bool unrelated =
       !last_ || origin.device != last_->device || (back && origin.epoch <= last_->epoch);
-  if (back || anew) events().sequence(back, anew);
   last_ = origin;
+  if (!back && !unrelated) return std::nullopt;
+  return SequenceStart{back, unrelated};
+}
+
+Status ShapeSource::Check(const Parts& parts) const {
+  if (!parts.status.ok()) return parts.status;
+  if (!T_robot_camera_) {
+    return {StatusCode::kNoCalibration,
+            "where the camera stands is not known: no camera_pose is set, and nothing has come on "
+            "/calibration"};
+  }
+  if (!depth_bias_ || !parts.report->perception.ok()) return Status::Ok();
+  return robot::CheckDepthPicture(*depth_bias_, parts.report->origin.picture);
+}
+
+FrameInput ShapeSource::InputOf(Parts parts) const {
+  FrameInput input;
+  input.head = last_head_;
+  auto& shape = input.frame.emplace<PerceivedShape>();
+  shape.perception = parts.report->perception;
+  shape.frame.t_s = static_cast<double>(parts.stamp_ns) / kNsPerSecond;
+  shape.frame.cloud = std::move(*parts.cloud);
+  shape.frame.T_robot_camera = *T_robot_camera_;
+  shape.frame.epoch = parts.report->origin.epoch;
+  shape.frame.contacts = std::move(*parts.contacts);
+  return input;
 }
 
 }  // namespace palpate::force_estimation

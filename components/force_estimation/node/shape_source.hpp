@@ -16,14 +16,14 @@
 
 namespace palpate::force_estimation {
 
-/// Frames from /perception/robot_cloud, /perception/report and /perception/contacts of one stamp.
+/// Frames of /perception/robot_cloud, /perception/report and /perception/contacts of one stamp.
 class ShapeSource : public FrameSource {
  public:
-  /// `T_robot_camera`: nullopt: not known yet, frames are refused until it is set.
+  /// `T_robot_camera`: nullopt: unknown, and frames are refused until SetCalibration gives it.
   ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
-              const std::optional<Eigen::Isometry3d>& T_robot_camera, FrameEvents events);
+              const std::optional<Eigen::Isometry3d>& T_robot_camera, TakeArrival take);
 
-  /// Frames of other images than its depth bias is for are refused.
+  /// Frames of other images than the calibration's depth bias is for are refused.
   void SetCalibration(const robot::CalibrationFile& calibration) override;
 
   std::string name() const override { return "clouds"; }
@@ -35,7 +35,7 @@ class ShapeSource : public FrameSource {
   }
 
  private:
-  /// Where a frame came from.
+  /// Camera and time of a frame.
   struct Origin {
     int64_t stamp_ns = 0;
     uint32_t epoch = 0;
@@ -45,12 +45,12 @@ class ShapeSource : public FrameSource {
   struct Report {
     Origin origin;
     uint64_t frame_counter = 0;
-    Status looked;
+    Status perception;
   };
-  /// The parts of a frame, as far as they have come.
+  /// The parts of a frame that have come so far.
   struct Parts {
     int64_t stamp_ns = 0;
-    Status status = Status::Ok();  ///< the first thing that is wrong with one
+    Status status = Status::Ok();  ///< of the last part that is invalid
     std::optional<rgbd::SensedCloud> cloud;
     std::optional<Report> report;
     std::optional<std::vector<SeenContact>> contacts;
@@ -60,11 +60,13 @@ class ShapeSource : public FrameSource {
   void TakeReports();
   void TakeContacts();
   Parts* PartsAt(int64_t stamp_ns);
-  void PassOn();
-  void Accept(Parts parts);
-  void Judge(const Origin& origin);
+  void HandOverComplete();
+  FrameArrival ArrivalOf(Parts parts);
+  std::optional<SequenceStart> SequenceOf(const Origin& origin);
+  Status Check(const Parts& parts) const;
+  FrameInput InputOf(Parts parts) const;
 
-  /// More than all readers hold at once: what came whole is never pushed out by what lost a part.
+  /// More than all readers hold at once: frames that lost a part never push out complete ones.
   static constexpr size_t kMostPending = 32;
 
   std::optional<Eigen::Isometry3d> T_robot_camera_;
@@ -72,7 +74,7 @@ class ShapeSource : public FrameSource {
   dds::Reader<idl::sensor_msgs::PointCloud2> clouds_;
   dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
   dds::Reader<idl::palpate_msgs::ContactArray> contacts_;
-  std::deque<Parts> pending_;  ///< in the order of their first part's coming
+  std::deque<Parts> pending_;  ///< in the order in which their first part came
   std::optional<Origin> last_;
   FrameHead last_head_;
   uint64_t dropped_ = 0;

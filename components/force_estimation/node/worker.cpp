@@ -12,14 +12,18 @@ constexpr size_t kMostFrames = 1024;
 constexpr size_t kMostResults = 128;
 }  // namespace
 
-Worker::Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker maker,
+Worker::Worker(std::unique_ptr<robot::RobotModel> model, PipelineMaker maker,
                std::function<void()> on_result)
     : model_(std::move(model)),
       maker_(std::move(maker)),
-      estimator_(maker_(*model_)),
+      pipeline_(maker_(*model_)),
       worker_({.run = [this](FrameInput& input) { return Estimate(input); },
                .on_result = std::move(on_result),
-               .afterwards = [this](const FrameInput& input) { estimator_->AfterUpdate(input); }},
+               .afterwards =
+                   [this](const FrameInput&) {
+                     pipeline_->PrepareNext();
+                     pipeline_->Monitor();
+                   }},
               {.jobs = kMostFrames, .results = kMostResults}) {}
 
 void Worker::Push(FrameInput input) {
@@ -29,13 +33,13 @@ void Worker::Push(FrameInput input) {
 
 FrameResult Worker::Estimate(FrameInput& input) {
   if (input.calibration) Adopt(*input.calibration);
-  if (input.new_sequence) estimator_ = maker_(*model_);
-  return estimator_->Update(input);
+  if (input.new_sequence) pipeline_ = maker_(*model_);
+  return {pipeline_->Update(std::move(input.frame)), input.head};
 }
 
-void Worker::Adopt(const NewCalibration& found) {
-  robot::ApplyCalibration(found.calibration, model_.get());
-  if (found.maker) maker_ = found.maker;
+void Worker::Adopt(const NewCalibration& change) {
+  robot::ApplyCalibration(change.calibration, model_.get());
+  if (change.maker) maker_ = change.maker;
 }
 
 }  // namespace palpate::force_estimation

@@ -7,18 +7,17 @@
 #include <memory>
 #include <optional>
 
-#include "components/force_estimation/node/frame_estimator.hpp"
 #include "components/force_estimation/node/frame_input.hpp"
 #include "libs/core/worker.hpp"
 
 namespace palpate::force_estimation {
 
-/// Runs the estimator in a thread of its own. Frames wait in a bounded queue in which a newer frame
-/// overtakes older ones, except those with a reference shape.
+/// Runs the pipeline in a thread of its own. Frames wait in a bounded queue. A newer frame replaces
+/// older ones there, except those with a reference shape and those that begin a sequence.
 class Worker {
  public:
   /// `on_result` is called from that thread when a result waits. Throws what `maker` throws.
-  Worker(std::unique_ptr<robot::RobotModel> model, FrameEstimatorMaker maker,
+  Worker(std::unique_ptr<robot::RobotModel> model, PipelineMaker maker,
          std::function<void()> on_result);
 
   const robot::RobotModel& model() const { return *model_; }
@@ -28,11 +27,11 @@ class Worker {
 
  private:
   FrameResult Estimate(FrameInput& input);
-  void Adopt(const NewCalibration& found);
+  void Adopt(const NewCalibration& change);
 
   std::unique_ptr<robot::RobotModel> model_;
-  FrameEstimatorMaker maker_;
-  std::unique_ptr<FrameEstimator> estimator_;
+  PipelineMaker maker_;
+  std::unique_ptr<Pipeline> pipeline_;
   palpate::Worker<FrameInput, FrameResult> worker_;
 };
 

@@ -89,7 +89,7 @@ void PrintPass(const Pass& pass) {
         "{}: {} of {} points on the surface, residual {:.3f} mm RMS; {:.0f} % of the visible "
         "surface has points\n",
         pass.frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
-        100.0 * match.skin_covered);
+        100.0 * match.surface_covered);
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} rounds\n",
              pass.fit.joint.chi_squared, pass.fit.joint.degrees_of_freedom, pass.fit.rounds);
@@ -123,8 +123,8 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   }
   calibration::CloudSettings clouds;
   clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
-  clouds.request = {.drive_offset_sigma_m = options.drive_offset_sigma_m,
-                    .drive_gains = options.drive_gains,
+  clouds.request = {.actuator_offset_sigma_m = options.actuator_offset_sigma_m,
+                    .actuator_gains = options.actuator_gains,
                     .moduli = materials};
   const calibration::ModelSnapshot kept(*model);
   // An approximate pose misplaces the predicted surface; a known robot colour does not depend on

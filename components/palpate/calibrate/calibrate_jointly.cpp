@@ -103,8 +103,8 @@ calibration::JointRequest RequestOf(const CalibrateOptions& options,
                                     const std::vector<int>& materials, bool camera) {
   constexpr double kRadians = 0.017453292519943295;
   return {.pose = camera,
-          .drive_offset_sigma_m = options.drive_offset_sigma_m,
-          .drive_gains = options.drive_gains,
+          .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
+          .actuator_gains = options.actuator_gains,
           .moduli = materials,
           .poissons_ratio_sigma = options.poissons_ratio_sigma,
           .gravity_tilt_sigma_rad = kRadians * options.gravity_tilt_sigma_deg,

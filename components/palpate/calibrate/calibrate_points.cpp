@@ -37,7 +37,7 @@ void PrintAssignment(const UnlabelledCalibration& found, const PointsWithoutName
   if (found.choices > 1) {
     fmt::print(
         "the points alone allow {} assignments to markers; {} decides\n", found.choices,
-        found.told_by_last_pose ? "the earlier calibration's pose" : "the cable displacements");
+        found.decided_by_last_pose ? "the earlier calibration's pose" : "the cable displacements");
   }
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n",
              found.joint.chi_squared, found.joint.degrees_of_freedom, found.joint.iterations);

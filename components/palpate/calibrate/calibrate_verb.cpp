@@ -114,9 +114,9 @@ void DeclarePriors(app::Arguments& arguments, CalibrateOptions* options) {
   arguments.Option("--marker-bias-m M", &options->marker_bias_m,
                    "Standard deviation of each marker's constant error, which averaging does not "
                    "remove, m");
-  arguments.Option("--actuator-offset-sigma-m M", &options->drive_offset_sigma_m,
+  arguments.Option("--actuator-offset-sigma-m M", &options->actuator_offset_sigma_m,
                    "Prior standard deviation of the zero offset of each cable actuator, m");
-  arguments.Flag("--actuator-gains", &options->drive_gains,
+  arguments.Flag("--actuator-gains", &options->actuator_gains,
                  "Also estimate the gain of each actuator's displacement");
   for (const PriorOption& prior : kPriorOptions) {
     arguments.Option(

@@ -24,11 +24,11 @@ struct CalibrateOptions {
   std::vector<std::string> parts;       ///< "body" or names of regions; empty: the body
   std::string cable_input = "displacement";
   fem::SolverSettings solver;
-  double marker_bias_m = 0.0;          ///< standard deviation of a marker's constant error
-  double drive_offset_sigma_m = 2e-3;  ///< prior standard deviation of an actuator's offset
-  bool drive_gains = false;            ///< estimate the actuators' gains, too
-  bool fit_depth_bias = false;         ///< the default, said explicitly
-  bool no_depth_bias = false;          ///< do not estimate the depth bias
+  double marker_bias_m = 0.0;             ///< standard deviation of a marker's constant error
+  double actuator_offset_sigma_m = 2e-3;  ///< prior standard deviation of an actuator's offset
+  bool actuator_gains = false;            ///< estimate the actuators' gains, too
+  bool fit_depth_bias = false;            ///< the default, said explicitly
+  bool no_depth_bias = false;             ///< do not estimate the depth bias
   // Prior standard deviations; 0: not estimated.
   double marker_offset_sigma_m = 0.0;
   double gravity_tilt_sigma_deg = 0.0;

@@ -60,7 +60,7 @@ void PlotConvergence(const std::vector<CalibrationFrame>& frames, robot::RobotMo
   model->SetGravity(frame.gravity_m_s2);
   const calibration::PoseAndInputs paper = calibration::RunAlgorithm1(*model, frame.markers);
   const calibration::JointCalibration joint = calibration::CalibrateFrames(
-      *model, {frame}, nullptr, {.drive_offsets = false, .moduli = {}});
+      *model, {frame}, nullptr, {.actuator_offsets = false, .moduli = {}});
   kept.Restore();
   if (!paper.status.ok() && !joint.status.ok()) {
     throw RunError("--convergence: neither Algorithm 1 (" + paper.status.message() +

@@ -10,6 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "components/force_estimation/contact_site.hpp"
+#include "components/force_estimation/pipeline/shape_pipeline.hpp"
+#include "components/palpate/estimate/marker_replay.hpp"
+#include "components/palpate/estimate/replay_perception.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
@@ -53,21 +57,21 @@ void EstimateRun::Say(const std::string& note) {
   fmt::print(stderr, "palpate estimate: {}\n", note);
 }
 
-ShapePipeline& EstimateRun::Shape() {
-  if (!shape_) {
-    const ShapePipeline::Inputs inputs{
-        .experiment = experiment_,
-        .model = &model_,
-        .cable_input = ParseCableInput(options_.cable_input),
-        .sites = force_estimation::ParseContactSites(settings_.forces.contacts),
-        .first_untouched = options_.bias_frames == "first" ? settings_.shape.untouched_frames : 0};
-    for (const force_estimation::ContactSite& site : inputs.sites) {
-      if (site.direction.isZero(0.0)) continue;
-      Say("the direction of contact '" + site.name + "' is used with markers only");
-    }
-    shape_ =
-        std::make_unique<ShapePipeline>(inputs, MakeShapeSenses(settings_, &model_, calibration_));
+ShapeReplay& EstimateRun::Shape() {
+  if (shape_) return *shape_;
+  for (const auto& site : force_estimation::ParseContactSites(settings_.forces.contacts)) {
+    if (site.direction.isZero(0.0)) continue;
+    Say("the direction of contact '" + site.name + "' is used with markers only");
   }
+  ReplayPerception perception = MakeReplayPerception(settings_.perception, calibration_.depth_bias);
+  force_estimation::ShapeConfig shape = settings_.shape;
+  if (options_.bias_frames != "first") shape.untouched_frames = 0;
+  auto pipeline = std::make_unique<force_estimation::ShapePipeline>(model_, settings_.forces, shape,
+                                                                    calibration_);
+  const ShapeReplay::Inputs inputs{.experiment = experiment_,
+                                   .model = &model_,
+                                   .cable_input = ParseCableInput(options_.cable_input)};
+  shape_ = std::make_unique<ShapeReplay>(inputs, std::move(perception), std::move(pipeline));
   return *shape_;
 }
 
@@ -78,7 +82,7 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
   if (!from_shape || options_.bias_frames != "recordings") return;
   int frames = 0;
   for (const experiment::Recording* recording : BiasRecordings(experiment_)) {
-    frames += Shape().Teach(*recording);
+    frames += Shape().EstimateDepthBias(*recording);
   }
   Say(frames > 0 ? fmt::format("depth bias estimated from {} contact-free frames", frames)
                  : "no contact-free recording (kind rest, ramp, hold, ...) has images and a camera "
@@ -96,9 +100,10 @@ void EstimateRun::Estimate(const PlannedRecording& planned) {
   if (planned.from == EstimateFrom::kShape) {
     Shape().Estimate(recording, take);
   } else {
-    MarkerPipeline(settings_.forces, ParseCableInput(options_.cable_input), experiment_, &model_,
-                   robot::RelativeModulusError(calibration_))
-        .Estimate(recording, take);
+    const MarkerReplay::Inputs inputs{.experiment = experiment_,
+                                      .model = &model_,
+                                      .cable_input = ParseCableInput(options_.cable_input)};
+    MarkerReplay(inputs, settings_.forces, calibration_).Estimate(recording, take);
   }
   nlohmann::ordered_json json = summary.ToJson();
   json["from"] = ToString(planned.from);

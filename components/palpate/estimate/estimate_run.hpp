@@ -13,8 +13,8 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/estimate/force_summary.hpp"
 #include "components/palpate/estimate/forces_table.hpp"
-#include "components/palpate/estimate/marker_pipeline.hpp"
-#include "components/palpate/estimate/shape_pipeline.hpp"
+#include "components/palpate/estimate/shape_replay.hpp"
+#include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
 
@@ -29,21 +29,21 @@ class EstimateRun {
 
   /// Processes the contact-free recordings, where one of `plan` is estimated from its shape.
   void EstimateDepthBias(const std::vector<PlannedRecording>& plan);
-  /// Throws InputError, as the pipelines do.
+  /// Throws InputError, as the replays do.
   void Estimate(const PlannedRecording& planned);
   /// Writes forces.csv; returns the exit code. Throws RunError.
   int Finish();
 
  private:
-  ShapePipeline& Shape();
+  ShapeReplay& Shape();
   void Say(const std::string& note);
 
   const EstimateOptions& options_;
   const EstimateSettings& settings_;
   const experiment::Experiment& experiment_;
   robot::RobotModel& model_;
-  robot::CalibrationFile calibration_;    ///< empty where none is given
-  std::unique_ptr<ShapePipeline> shape_;  ///< created when first needed
+  robot::CalibrationFile calibration_;  ///< empty where none is given
+  std::unique_ptr<ShapeReplay> shape_;  ///< created when first needed
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   int with_result_ = 0;

@@ -56,6 +56,24 @@ class NumberSource {
     for (double i = 0.0; i < count; ++i) Next(property.scalar);
   }
 
+  /// A line of text holds no more than its item. What is left would be read as something else where
+  /// the properties do not describe the data.
+  void EndItem() {
+    if (format_ != PlyFormat::kAscii || TakeWord(&line_).empty()) return;
+    throw InputError(SourceLocation{file_, line_number_},
+                     "the line has more values than the header has properties");
+  }
+
+  /// After the last item. Throws InputError where data are left.
+  void CheckEnd() const {
+    const bool blank = rest_.find_first_not_of(" \t\r\n") == std::string_view::npos;
+    if (rest_.empty() || (format_ == PlyFormat::kAscii && blank)) return;
+    throw InputError(SourceLocation{file_},
+                     std::to_string(rest_.size()) +
+                         " bytes are left after the last element: the properties in the header "
+                         "do not describe the data; export the file again, or as PCD");
+  }
+
   /// Each number takes at least one byte: refuses counts that cannot be before memory is taken.
   void CheckHolds(std::uint64_t numbers) const {
     if (rest_.size() < numbers) RefuseShort();
@@ -131,6 +149,7 @@ PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const 
         source->SkipProperty(property);
       }
     }
+    source->EndItem();
     builder.Add({numbers[0], numbers[1], numbers[2]});
     if (!colored) continue;
     const auto byte = [&](std::size_t channel) {
@@ -141,6 +160,14 @@ PointCloud ReadVertices(const std::string& file, const PlyHeader& header, const 
   return builder.Take();
 }
 
+void SkipElement(const PlyElement& element, NumberSource* source) {
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    source->BeginItem();
+    for (const PlyProperty& property : element.properties) source->SkipProperty(property);
+    source->EndItem();
+  }
+}
+
 }  // namespace
 
 PointCloud ReadPly(const std::filesystem::path& path) {
@@ -149,14 +176,17 @@ PointCloud ReadPly(const std::filesystem::path& path) {
   std::string_view rest = bytes;
   const PlyHeader header = TakePlyHeader(file, &rest);
   NumberSource source(file, header, rest);
+  std::optional<PointCloud> cloud;
   for (const PlyElement& element : header.elements) {
-    if (element.name == "vertex") return ReadVertices(file, header, element, &source);
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      source.BeginItem();
-      for (const PlyProperty& property : element.properties) source.SkipProperty(property);
+    if (element.name == "vertex" && !cloud) {
+      cloud = ReadVertices(file, header, element, &source);
+    } else {
+      SkipElement(element, &source);
     }
   }
-  throw InputError(SourceLocation{file}, "has no element 'vertex'");
+  if (!cloud) throw InputError(SourceLocation{file}, "has no element 'vertex'");
+  source.CheckEnd();
+  return *std::move(cloud);
 }
 
 void WritePly(const PointCloud& cloud, const std::filesystem::path& file) {

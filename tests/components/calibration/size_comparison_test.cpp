@@ -34,7 +34,7 @@ TEST(SizeComparison, DoesNotDependOnWherePointsAreButOnHowFarTheyAreApart) {
   larger.Add(1.3 * Corners(), Moved(Corners()));  // the pictures' middles differ
   EXPECT_TRUE(larger.Disagrees());
   EXPECT_THAT(larger.Text(),
-              HasSubstr("22.52 mm from their middle (RMS), those of the model 17.32"));
+              HasSubstr("22.52 mm from their centre (RMS), those of the model 17.32"));
   EXPECT_THAT(larger.Text(), HasSubstr("one 1.30 times"));
 }
 

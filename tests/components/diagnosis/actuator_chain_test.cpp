@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kOff = std::numeric_limits<double>::quiet_NaN();
 
-/// Two cables that are told what the columns of `told` say at `t_s`; a sample of one frame at each
-/// of `frames_s`.
+/// Two cables with the commands `commanded`, one column for each of `t_s`; a sample of one frame at
+/// each of `frames_s`.
 ObservedExperiment Commanded(const std::vector<double>& t_s, const Eigen::Matrix2Xd& commanded,
                              const std::vector<double>& frames_s) {
   ObservedExperiment observed;

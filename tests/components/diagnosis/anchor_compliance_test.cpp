@@ -23,7 +23,7 @@ class AnchorCompliance : public HiddenFaults {
     hypotheses_ = HypothesisSet(MakeFaultModels({.body = body_, .observed = observed_}, {}), {});
   }
 
-  /// By how many sigmas the gain that is told lies off the hidden one.
+  /// Error of the estimated gain against the hidden one, in standard deviations.
   double Off(const HypothesisSet& hypotheses) const {
     const Fitter fitter(observed_, body_, hypotheses, {}, 1);
     int gain = 0;

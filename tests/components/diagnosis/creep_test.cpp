@@ -68,8 +68,8 @@ TEST(Creep, OfASmallLoadIsThatOfALinearBody) {
 
 TEST(Creep, RestsAsTheRobotIsWithItsDrivesAtZero) {
   robot::RobotBody body = SmallRobot();
-  // Hanging upwards it would be held by the lower cable, which nobody actuators: it holds nothing,
-  // in the rests either.
+  // Hanging upwards it would be held by the lower cable, which no actuator pulls: it holds
+  // nothing, in the rests either.
   body.gravity_m_s2 *= -1.0;
   experiment::Experiment experiment;
   experiment.recordings = {MakeRecording("still", body, {{0.0, {0.0}}, {5.0, {0.0}}}, 0.5)};

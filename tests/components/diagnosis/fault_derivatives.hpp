@@ -176,7 +176,7 @@ class FaultDerivatives : public testing::Test {
     for (const FaultModelPtr& cause : causes_) {
       const std::string& id = cause->name().id;
       if (id == "stiffening") continue;       // begins with another material
-      if (id == "hidden_obstacle") continue;  // ways to move it are told of one that is there
+      if (id == "hidden_obstacle") continue;  // its directions exist only once it is there
       ExpectDerivative(*cause, Eigen::VectorXd::Zero(std::ssize(cause->parameters())),
                        id == "mullins" ? kToleranceOfDamage : kTolerance, LeastShare(id));
     }

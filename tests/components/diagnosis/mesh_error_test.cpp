@@ -71,7 +71,7 @@ TEST_F(MeshErrorTest, TellsWhatCoarseCellsErrByInTheMotionsItWasFoundFrom) {
   }
 }
 
-/// So far that the mesh is told from other faults; what it does exactly the finer mesh says then.
+/// Far enough to separate the mesh error from other faults; the finer mesh gives its exact effect.
 TEST_F(MeshErrorTest, TellsMostOfItForOtherPullsOfTheSameCables) {
   std::vector<std::vector<double>> pulls = each_;
   for (const std::vector<double>& pull : each_) {

@@ -203,7 +203,7 @@ TEST_F(NextExperiment, OfAHealthyRobotAsksForWhatHasSomeEvidence) {
   EXPECT_EQ(question_.rivals.front().name.id, "density");
 }
 
-/// No tilt tells these two apart, however well it told either from none.
+/// No tilt separates these two, however well it separates either from none.
 TEST_F(NextExperiment, WhereAFaultIsLikelierThanNoneAsksForWhichOfThem) {
   Rank("payload", 2e-3, "plastic_set");
   NameNone({{.fault = NumberOf("density"), .ln_bayes_factor = 8.0},

@@ -103,7 +103,7 @@ TEST_F(OtherPlaces, AreAllLeftOpenByDataThatDoNotTellThemApart) {
   const Eigen::MatrixXd all = CovarianceOverPlaces(fitter, fit, near);
   EXPECT_LT(std::sqrt(own(kAlong, kAlong)),
             1.01 * hypotheses_.model(near).parameters()[kAlong].fault)
-      << "as it is believed to be near its place";
+      << "its prior is near its place";
   EXPECT_GT(std::sqrt(all(kAlong, kAlong)), 0.02) << "seed " << kSeed;
   EXPECT_GT(linalg::SymmetricEigenvalues(all).minCoeff(), 0.0);
 }

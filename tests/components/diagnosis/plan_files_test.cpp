@@ -36,7 +36,7 @@ class PlanFiles : public testing::Test {
 
   const test_support::TestFolder own_folder_;
   const fs::path folder_ = own_folder_.path();
-  robot::RobotBody body_;
+  const robot::RobotBody body_ = SmallRobot();
 };
 
 TEST_F(PlanFiles, AreReadBackAsTheRecordingThatWasPlanned) {

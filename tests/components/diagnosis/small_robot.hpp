@@ -38,7 +38,7 @@ experiment::Recording MakeRecording(const std::string& name, const robot::RobotB
 /// Everything that faults act on: a ramp up and down, a long hold under a hanging weight and a side
 /// load, a tilted base seen by a camera that rides on it, the camera at another place.
 experiment::Experiment SmallExperiment(const robot::RobotBody& body);
-/// That and each cable pulled by itself: what one of them does is told from what all do.
+/// That and each cable pulled by itself: separates the effect of one from that of all.
 experiment::Experiment SmallExperimentOfEachCable(const robot::RobotBody& body);
 /// What is known of the camera of its last two recordings.
 std::map<std::string, rgbd::CameraModel> SmallCameras();

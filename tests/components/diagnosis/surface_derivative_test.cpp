@@ -85,7 +85,7 @@ TEST_F(FaultDerivativesOfSkin, AreThoseOfApplyBehindABadCamera) {
   }
 }
 
-/// No place of a marker matters where nobody saw one.
+/// Without measured markers, places of markers do not matter.
 TEST_F(FaultDerivativesOfSkin, NeedNoMarkers) {
   for (Sample& sample : observed_.samples) sample.count.setZero();
   const std::vector<FaultModelPtr> causes =

@@ -45,7 +45,7 @@ TEST(Timebase, ShiftsAllOfARecordingWhoseClockBeganAnew) {
   EXPECT_EQ(second.loads[0].t_s, 12.0);
   given.rest_between_s.reset();
   EXPECT_GT(OnOneTimebase(given).recordings[1].markers->frames.front().t_s, 1000.0)
-      << "nobody says how long it rested";
+      << "the duration of the rest is unknown";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class WrongSteps {
     if (memory != nullptr) memory->BeginFit();
     for (int k = 0; k < steps; ++k) {
       step.x_m = matrix_ * (solution - at.x_m);
-      const bool improved = memory != nullptr && memory->Improve(at, step, &correction);
+      const bool improved = memory != nullptr && memory->Correct(at, step, &correction);
       at.x_m += step.x_m;
       if (improved) at.x_m += correction.x_m;
       errors.push_back((at.x_m - solution).norm());

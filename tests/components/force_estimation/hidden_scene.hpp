@@ -46,7 +46,7 @@ class HiddenScene {
     LookForHiddenPlaces();
   }
 
-  /// The search looks at the body as nobody touches it.
+  /// The search starts from the body without contacts.
   Status Respond() { return RespondAbout(free, {}); }
 
   /// The first of the feature points, from all sides.

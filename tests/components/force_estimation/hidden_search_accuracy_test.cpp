@@ -89,8 +89,8 @@ class HiddenSearchOnFourLeg : public testing::Test {
     return scene_.search->Find(data, 2, 1e-6, {}, 0.0);
   }
 
-  /// Solves for the equilibrium with `found` and finds anew about it. Less is left each time, or it
-  /// ends.
+  /// Solves for the equilibrium with `found` and searches again about it, as long as the residual
+  /// falls.
   std::vector<HiddenContact> FindAgain(const Unexplained& data, std::vector<HiddenContact> found,
                                        int rounds) {
     double left_m = data.residual_m.norm();

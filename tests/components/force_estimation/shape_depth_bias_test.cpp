@@ -14,7 +14,7 @@
 namespace palpate::force_estimation {
 namespace {
 
-/// The camera is 1 mm and 2 mrad from where it is believed to be.
+/// The camera is 1 mm and 2 mrad off its assumed pose.
 Eigen::Isometry3d TruePose() {
   Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
   error.rotate(Eigen::AngleAxisd(2e-3, Eigen::Vector3d(1, -2, 2) / 3.0));
@@ -234,8 +234,8 @@ TEST(DepthBias, IsAsWrongAsItSaysWhetherFramesErrAlikeOrNot) {
   }
 }
 
-/// What a bias does to features all over the image is learnt from every other one of them and told
-/// of the rest. `bias_m`: change of a cloud point (camera frame) at a position.
+/// The effect of a bias on surface points all over the image is estimated from every other one and
+/// predicted for the rest. `bias_m`: change of a cloud point (camera frame) at a position.
 template <typename Bias>
 void ExpectToldFromHalf(const ShapeConfig& config, const Bias& bias_m) {
   constexpr int kFeatures = 60;

@@ -114,7 +114,7 @@ TEST_F(ShapeEstimatorCases, WhatIsPreparedBetweenFramesNeedNotBeDoneInThem) {
   int linearisations[2] = {};
   ForceEstimate last[2];
   for (const bool prepares : {false, true}) {
-    ShapeScene scene(51);  // nobody else uses its factor
+    ShapeScene scene(51);  // its factor is used here only
     ShapeForceEstimator estimator(*scene.model, Config(), shape_);
     for (const ShapeFrame& frame : frames) {
       last[prepares] = estimator.Update(frame);

@@ -19,7 +19,7 @@ const std::string kCamera = R"(camera:
   rate_hz: 10
   noise: {sensor: stereo}
 )";
-/// And one frame in which nobody says what happens.
+/// And one frame of kind free.
 const std::string kRecordings = kTwoHolds + "  - {name: c_free, kind: free, duration_s: 0.1}\n";
 
 class CalibrateImages : public LookTest {

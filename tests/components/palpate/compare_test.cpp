@@ -83,7 +83,7 @@ TEST(TruthTimeline, IsSteadyWhereTheForceStays) {
   EXPECT_TRUE(truth.IsSteady("ball", 1.31, 0.3, 0.05));
   EXPECT_TRUE(truth.IsSteady("ball", 1.28, 0.3, 0.05));  // 2 % is within the share
   EXPECT_FALSE(truth.IsSteady("other", 1.5, 0.3, 0.05));
-  EXPECT_FALSE(truth.IsSteady("ball", 2.2, 0.3, 0.05));  // nobody knows
+  EXPECT_FALSE(truth.IsSteady("ball", 2.2, 0.3, 0.05));  // unknown
 }
 
 TEST(CompareFrame, GivesEachTrueForceTheNearestEstimate) {
@@ -205,7 +205,7 @@ TEST(LiveLine, SaysWhatIsFoundAndWhatIsTrue) {
   const std::string line = LiveLine(estimate, CompareFrame(estimate, truth, {}));
   EXPECT_EQ(line,
             "   0.7 s  ok              ball 0.512 +- 0.031 N at (20, 0, 100) mm, true 0.500 N | "
-            "other not found, true 0.700 N");
+            "other not detected, true 0.700 N");
   EXPECT_THAT(LiveLine(estimate, {}), HasSubstr("contact_1 0.512 +- 0.031 N"));
   const ForceEstimate hidden = Frame(0.7, {Found({-0.1, 0.0, 0.0}, 0.2, 0.1, StatusCode::kHidden)});
   EXPECT_THAT(LiveLine(hidden, CompareFrame(hidden, truth, {})), HasSubstr("out of view, true 0"));

@@ -79,7 +79,7 @@ TEST(Demo, AnInterruptEndsAllProcesses) {
   ChildProcess demo(PALPATE_BINARY_DIR "/bin/palpate",
                     {"demo", "--out", (folder / "demo").string(), "--seconds", "600"}, {},
                     folder / "log");
-  // The domain, once it is told; then until all four of the sensing side run.
+  // The domain, once it is printed; then until all four of the sensing side run.
   std::string domain;
   const auto all_run = [&] {
     const std::string text = ReadFile(folder / "log");

@@ -11,7 +11,7 @@
 
 namespace palpate::command {
 
-/// What the bench was told, and what it is to do.
+/// Inputs that the bench received, and what it is to do.
 struct FakeBenchLog {
   struct Step {
     double t_s = 0.0;
@@ -26,7 +26,7 @@ struct FakeBenchLog {
 };
 
 /// Stands in for robot and camera: markers sit still where the robot file has them, but for the
-/// first, which the first cable lifts; the drives believe what they are told; an image's first
+/// first, which the first cable lifts; the actuators report their commands; an image's first
 /// pixel counts the frames.
 class FakeBench : public SimulatedBench {
  public:

@@ -74,7 +74,7 @@ TEST_F(LiveComparisonTest, WithoutTruthForLongAFrameGoesUncompared) {
   EXPECT_THAT(times_s_, ElementsAre(100.0));
   EXPECT_THAT(compared_[0], SizeIs(0));
   EXPECT_EQ(comparison_.summary().frames(), 0);
-  EXPECT_EQ(comparison_.summary().false_alarms(), 0);  // nobody knows
+  EXPECT_EQ(comparison_.summary().false_alarms(), 0);  // unknown
 }
 
 TEST_F(LiveComparisonTest, KeepsTheMomentOfMostSteadyForceForThePicture) {

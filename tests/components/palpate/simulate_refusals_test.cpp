@@ -43,7 +43,7 @@ TEST_F(SimulateTest, RefusesAScenarioThatMeasuresNothing) {
   const std::size_t markers = robot.find("markers:");
   folder_.Write("bar.yaml", robot.substr(0, markers) + robot.substr(robot.find("feature_points")));
   Scenario(kMarkers + kRecordings);
-  EXPECT_THAT(Refusal(), HasSubstr("has no 'markers'"));
+  EXPECT_THAT(Refusal(), HasSubstr("has no key 'markers'"));
 }
 
 TEST_F(SimulateTest, SaysWhichArgumentIsMissing) {

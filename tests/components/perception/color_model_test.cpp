@@ -51,8 +51,8 @@ TEST(ColorModel, LearnsSlowlyWhatIsNew) {
 TEST(ColorModel, FindsAnotherLightUnlike) {
   ColorModel model;
   model.Update(Of(model, kRed, 900.0f), Of(model, kBrown, 5000.0f), 0.1);
-  EXPECT_GT(model.CanonicalCorrelation(Of(model, kRed, 10.0f)), 0.99);
-  EXPECT_LT(model.CanonicalCorrelation(Of(model, kDimRed, 10.0f)), 0.5);
+  EXPECT_GT(model.Similarity(Of(model, kRed, 10.0f)), 0.99);
+  EXPECT_LT(model.Similarity(Of(model, kDimRed, 10.0f)), 0.5);
   model.Forget();
   EXPECT_FALSE(model.initialised());
 }

@@ -274,7 +274,7 @@ TEST(ContactLocator, ABallThatHoversIsNoContact) {
     const ContactView view{.tilt_rad = 1.2};
     const Clouds clouds = Look(scene, view, &random, &unused);
     EXPECT_EQ(Locate(clouds).size(), gap_m > 0.0 ? 0u : 1u);
-    // Where the plate is known, less air is told from none.
+    // With a known plate, a smaller gap is distinguished from none.
     const PredictedSurface plate = test::PlateSeenBy(view, scene.plate_half_m);
     const Clouds nearer = Look({.radius_m = 0.01, .touch_m = {{0.0, 0.0}}, .gap_m = 0.6 * gap_m},
                                view, &random, &unused);

@@ -64,7 +64,7 @@ struct ReadySegmenter : ModelSegmenter {
 PredictedSurface Predict(const scenario::Scenario& scenario, const Eigen::Matrix3Xd& nodes_m,
                          const Eigen::Vector3d& off_m = Eigen::Vector3d::Zero());
 
-/// How well pixels were told, of those that tell.
+/// How well pixels were classified, of those with a known class.
 struct Score {
   double robot_recall = 0.0;
   double robot_precision = 0.0;

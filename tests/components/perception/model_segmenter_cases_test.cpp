@@ -87,7 +87,7 @@ View LeaningView(const scenario::Scenario& scenario, const Eigen::Vector3d& asid
   return view;
 }
 
-/// A recording may begin with a robot that something has bent; nobody saw how it came there.
+/// A recording may begin with a robot that is bent already.
 TEST(ModelSegmenter, FindsARobotThatIsBentFarFromItsPredictionWhereASequenceBegins) {
   const scenario::Scenario scenario = PushScenario();
   for (const Eigen::Vector3d& aside_m :

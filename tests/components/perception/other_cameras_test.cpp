@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The same pushes before other cameras and in other surroundings, nothing tuned to any of them:
-// pixels told, contacts found where the balls touch.
+// pixels classified, contacts found where the balls touch.
 
 #include <gtest/gtest.h>
 

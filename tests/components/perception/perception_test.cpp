@@ -68,7 +68,7 @@ TEST(Perception, ContactsAreLocatedNamedAndGoneAgain) {
     EXPECT_EQ(perception.Update({}, nullptr).contacts.size(), frame < 3 ? 0u : 1u);
   }
   EXPECT_EQ(perception.Update({}, nullptr).contacts.at(0).name, "contact_2");
-  // Opened anew: places of before mean nothing.
+  // Opened again: earlier locations mean nothing.
   perception.SetCamera({});
   EXPECT_EQ(perception.Update({}, nullptr).contacts.at(0).name, "contact_3");
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr double kFocalBaseline = 525.0 * 0.075;
 
 // A scene like those of the real clouds, seen by a camera with the Kinect's figures: sigma 1/16 px
-// of disparity, which is told in eighths (Khoshelham and Elberink, Sensors 2012), windows of 9 px
+// of disparity, which has steps of 1/8 px (Khoshelham and Elberink, Sensors 2012), windows of 9 px
 // across, whose middle weighs most, which make noise alike over 3.5 px.
 struct KinectBench {
   scenario::Scenario scenario = NoisyScenario();

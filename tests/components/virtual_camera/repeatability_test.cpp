@@ -145,7 +145,7 @@ TEST(Refusals, SayWhatIsWrong) {
   EXPECT_THAT(Making([](Scenario*, RobotSurface* k) { k->triangles(0, 0) = 1 << 20; }),
               ThrowsMessage<InputError>(HasSubstr("nodes that it does not have")));
   EXPECT_THAT(Making([](Scenario*, RobotSurface* k) { k->rest_m(0, 0) = std::nan(""); }),
-              ThrowsMessage<InputError>(HasSubstr("no numbers")));
+              ThrowsMessage<InputError>(HasSubstr("not numbers")));
 }
 
 TEST(Refusals, AToolThatTheScenarioDoesNotHave) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The laws of a stereo camera's noise (CAPTURE, "Virtual camera").
+// The laws of a stereo camera's noise (docs/architecture.md, "Depth noise").
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

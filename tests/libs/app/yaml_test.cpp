@@ -146,7 +146,7 @@ TEST(LoadYaml, SaysThatAFileOfAnotherKindIsNone) {
 
 TEST(LoadYaml, NamesTheTabThatIndents) {
   EXPECT_EQ(LoadRefusal("a.yaml", "mesh:\n\tfile: a.msh\n\tunit: mm\n"),
-            "a.yaml:2:1: not valid YAML: the line is indented by a tab; YAML wants blanks");
+            "a.yaml:2:1: not valid YAML: the line is indented by a tab; use spaces");
   EXPECT_EQ(LoadRefusal("a.yaml", "a: 1\t# a tab that does no harm\n"), "");
 }
 

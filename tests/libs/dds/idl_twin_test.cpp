@@ -31,7 +31,7 @@ Lines CodeLines(const std::filesystem::path& file, const std::string& comment) {
   return lines;
 }
 
-/// IDL's word for a type of a .msg file, after the mapping of DDS.md.
+/// IDL type of a .msg type, after the mapping of ROS 2 (docs/architecture.md, "DDS conventions").
 std::string IdlType(const std::string& type) {
   static const std::map<std::string, std::string> kPrimitive{
       {"bool", "boolean"},         {"byte", "octet"},    {"uint8", "octet"},

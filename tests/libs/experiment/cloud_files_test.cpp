@@ -256,6 +256,20 @@ TEST(Ply, RefusesBrokenHeaders) {
               HasSubstr("no properties x, y and z"));
 }
 
+TEST(Ply, RefusesDataThatTheHeaderDoesNotDescribe) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const std::string header = "element vertex 2\n" + xyz + colors + "end_header\n";
+  EXPECT_THAT(Refusal("a.ply",
+                      "ply\nformat binary_little_endian 1.0\n" + header + std::string(2 * 16, 'x')),
+              HasSubstr("2 bytes are left after the last element"))
+      << "a colour packed into four bytes, as PCL writes it";
+  const std::string text = "ply\nformat ascii 1.0\n" + header + "1 2 3 10 20 30\n4 5 6 7 8 9";
+  EXPECT_EQ(ReadText("a.ply", text + "\n\n").points_m.cols(), 2);
+  EXPECT_THAT(Refusal("a.ply", text + " 7\n"), HasSubstr("a.ply:12: the line has more values"));
+  EXPECT_THAT(Refusal("a.ply", text + "\n1 2 3\n"), HasSubstr("left after the last element"));
+}
+
 TEST(Ply, RefusesPointsThatAreNot) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "

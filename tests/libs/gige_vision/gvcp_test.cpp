@@ -202,7 +202,7 @@ TEST_F(Gvcp, ForceIpIsForThisMacAddressOnly) {
   body[7] ^= 1;
   client->Send(
       RawClient::Packet(static_cast<std::uint16_t>(Command::kForceIp), body, 6, kAcknowledgeFlag));
-  // Nobody answers for another device: the first answer is the next command's.
+  // No device answers for another: the first answer is the next command's.
   client->Send(
       RawClient::Packet(static_cast<std::uint16_t>(Command::kDiscovery), {}, 7, kAcknowledgeFlag));
   const auto next = client->Receive();

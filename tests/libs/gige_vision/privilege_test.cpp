@@ -20,7 +20,7 @@ TEST_F(Privilege, OneClientControlsOthersOnlyRead) {
   MakeDevice();
   RawClient first(TestAddress());
   RawClient second(TestAddress());
-  EXPECT_EQ(first.Write(boot::kMessageRetries, 5), ErrorCode::kAccessDenied);  // nobody's yet
+  EXPECT_EQ(first.Write(boot::kMessageRetries, 5), ErrorCode::kAccessDenied);  // not held yet
   ASSERT_EQ(Take(&first, kPrivilegeControl), ErrorCode::kSuccess);
   EXPECT_EQ(Take(&second, kPrivilegeControl), ErrorCode::kAccessDenied);
   EXPECT_EQ(Take(&second, 0), ErrorCode::kAccessDenied);

@@ -36,7 +36,7 @@ struct RawStreamPacket {
   std::size_t header_size = 0;
 };
 
-/// A client that says what it is told to, right or wrong: a control socket and a stream socket.
+/// A client that sends given packets, valid or not: a control socket and a stream socket.
 class RawClient {
  public:
   explicit RawClient(const std::string& device_address, const std::string& own = "127.0.0.1");

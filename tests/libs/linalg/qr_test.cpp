@@ -48,12 +48,17 @@ TEST(LeastSquares, LeavesAResidualNormalToTheColumns) {
 }
 
 TEST(LeastSquares, OfDependentColumnsIsStillTheLeast) {
-  Eigen::MatrixXd A = RandomMatrix(20, 4, 6);
-  A.col(3) = A.col(0) + A.col(1);
-  const Eigen::VectorXd b = RandomMatrix(20, 1, 7);
-  const Eigen::VectorXd x = LeastSquares(A, b);
-  EXPECT_LE((A.transpose() * (A * x - b)).norm(), 1e-12 * b.norm());
-  EXPECT_EQ((x.array() == 0.0).count(), 1);
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Eigen::MatrixXd A = RandomMatrix(20, 4, 2 * seed);
+    A.col(3) = A.col(0) + A.col(1);
+    const Eigen::MatrixXd B = RandomMatrix(20, 2, 2 * seed + 1);
+    const Eigen::VectorXd x = LeastSquares(A, Eigen::VectorXd(B.col(0)));
+    EXPECT_LE((A.transpose() * (A * x - B.col(0))).norm(), 1e-12 * B.norm());
+    EXPECT_EQ((x.array() == 0.0).count(), 1);
+    EXPECT_LE(x.norm(), 10.0);
+    EXPECT_LE((LeastSquares(A, B).col(0) - x).norm(), 1e-12);
+  }
 }
 
 TEST(LeastSquares, OfWhatIsNotFiniteIsNot) {

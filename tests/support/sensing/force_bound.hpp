@@ -33,7 +33,7 @@ class ForceBounds {
   /// `model` must outlive this.
   ForceBounds(robot::RobotModel& model, const force_estimation::ShapeConfig& shape);
 
-  /// Frames of a robot that nobody touches, with all cables alike, which tell the depth bias.
+  /// Contact-free frames with equal cable inputs, from which the depth bias is estimated.
   /// Throws RunError where the model has no equilibrium or nothing is seen.
   void Learn(const std::vector<force_estimation::ShapeFrame>& frames);
   /// Of a force that is held in `frames` frames like `frame`. Throws RunError.

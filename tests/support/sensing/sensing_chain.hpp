@@ -50,11 +50,11 @@ class SensingChain {
   SensingChain(const robot::RobotDescription& robot, SensingScene& scene,
                const ChainSettings& settings, std::uint64_t seed);
 
-  /// Frames of a robot that nobody touches: at the scene's commands zero, then at `postures`
+  /// Contact-free frames: at the scene's commands zero, then at `postures`
   /// others, with each cable pulled in by 0 to `largest_cable_m`. The scene ends at zero.
   void Learn(int frames, int postures = 0, double largest_cable_m = 0.0);
 
-  /// The camera is opened anew, as for another recording: nobody knows what touches.
+  /// The camera is opened again, as for another recording: contacts are unknown.
   void Open();
 
   /// Takes a frame of the scene as it is. The estimate holds until the next call.

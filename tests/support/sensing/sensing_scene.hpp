@@ -37,8 +37,8 @@ struct SceneState {
   std::vector<virtual_robot::CableReading> cables;
 };
 
-/// The virtual robot and the camera in front of it, with everything that an estimator is told and
-/// everything that it is to find out. The same arguments and calls give the same bits.
+/// The virtual robot and the camera in front of it, with all inputs of an estimator and the
+/// truth that it is to estimate. The same arguments and calls give the same bits.
 class SensingScene {
  public:
   /// `scenario` needs a camera; its effects and clutter are drawn from the seed. The robot hangs
@@ -59,7 +59,7 @@ class SensingScene {
   /// robot is: for states that were kept.
   void Show(const SceneState& state) { state_ = state; }
 
-  /// The camera looks elsewhere from now on, turned about itself, and nobody is told.
+  /// From now on the camera is rotated about itself, and the estimator does not know.
   void TurnCamera(const Eigen::Quaterniond& turn) { unknown_turn_ = turn; }
 
   /// The next of the frames that the camera takes of what is there, 1/rate_hz later each, with
@@ -75,7 +75,7 @@ class SensingScene {
   const virtual_robot::VirtualRobot& robot() const { return robot_; }
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] of the true surface
   Eigen::Matrix3Xd NodesInCamera_m() const;                         ///< [3 x nodes] camera frame
-  /// What the estimator is told of the cables: their displacement.
+  /// The cable inputs of the estimator: displacements.
   std::vector<robot::CableCommand> Cables() const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace palpate::blind {
 
-/// What a set of cases is to reach (DIAGNOSIS, "Acceptance"): the one place of these numbers.
+/// Figures that a set of cases must reach: the one place of these numbers.
 struct Acceptance {
   double top1_at_least = 0.95;
   double top3_at_least = 0.99;

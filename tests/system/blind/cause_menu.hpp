@@ -18,8 +18,8 @@ using Parameters = std::map<std::string, double>;
 /// A cause that the blind tests hide, and how large.
 struct MenuItem {
   std::string_view id;
-  /// In the fault range of DIAGNOSIS, "Catalogue"; sizes logarithmically, so that small ones are as
-  /// frequent as large ones.
+  /// Within the fault range of the catalogue (components/diagnosis/faults). Sizes are uniform in
+  /// the logarithm, so that small ones are as frequent as large ones.
   Parameters (*draw)(scenario::Random* random, const robot::RobotDescription& robot);
 };
 

@@ -15,8 +15,8 @@ namespace palpate::blind {
 
 /// How a verdict's parameters of a cause that is there compare with the truth.
 struct ParameterErrors {
-  Share covered;  ///< of those that are told: the truth is inside the 95 % interval
-  Share told;     ///< of the true ones
+  Share covered;  ///< of those in the verdict: the truth is inside the 95 % interval
+  Share told;     ///< in the verdict, of the true ones
   // Components of a vector (a force, a direction, ...) are one parameter here; those that are 0, or
   // that the verdict does not tell, are left out.
   std::vector<double> of_value;    ///< |error| / |truth|
@@ -27,8 +27,8 @@ struct ParameterErrors {
 /// What of a true parameter a verdict can tell: of what goes where the seed says its size.
 double WhatIsToTell(const std::string& parameter, double drawn);
 
-/// `told`: by name, as in verdict.json. The truth's directions that the seed draws have no
-/// parameter.
+/// `told`: estimates by name, as in verdict.json. The truth's directions that the seed draws have
+/// no parameter.
 ParameterErrors CompareParameters(const scenario::ActiveEffect& truth,
                                   const std::map<std::string, Estimate>& told);
 

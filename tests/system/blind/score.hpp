@@ -13,7 +13,7 @@
 
 namespace palpate::blind {
 
-/// What is large enough to be found (DIAGNOSIS, "Acceptance"). `sigma_m` is that of diagnose.yaml.
+/// Smallest effects that must be found. `sigma_m` is that of diagnose.yaml.
 struct Limits {
   double sigma_m = 4e-4;
   double single_m = 3e-4;      ///< at least this,
@@ -45,7 +45,7 @@ struct Score {
   Share wrongly_unfit;
   // Causes that were named rightly, of whatever size.
   Share covered;                         ///< parameters inside their 95 % intervals
-  Share told;                            ///< parameters of which the verdict says anything
+  Share told;                            ///< parameters that the verdict has
   std::vector<double> parameter_errors;  ///< |error| / |truth|, vectors as a whole
   std::vector<double> fault_errors;      ///< |error| / |truth - nominal|
   std::vector<double> place_errors_m;    ///< of loads

@@ -40,7 +40,7 @@ struct Residuals {
   double noise = 0.0;
 };
 
-/// verdict.json, as far as the judge reads it (ARCHITECTURE, "The command").
+/// verdict.json (docs/experiment.md), as far as the judge reads it.
 struct Verdict {
   std::string verdict = {};
   std::vector<Suspect> causes = {};
@@ -50,9 +50,9 @@ struct Verdict {
 
   /// There is a gap that the catalogue does not explain.
   bool IsFlagged() const { return verdict == "unexplained" || verdict == "partly_explained"; }
-  /// Somebody is accused.
+  /// The verdict accuses.
   bool Accuses() const;
-  /// The most probable ones, no two alike: causes, then those that cannot be told from the first,
+  /// The most probable ones, no two equal: causes, then those not identifiable from the first,
   /// then alternatives.
   std::vector<const Suspect*> First(std::size_t count) const;
 };

@@ -19,8 +19,8 @@
 #include "tests/system/calibration/calibration_listener.hpp"
 #include "tests/system/virtual_bench.hpp"
 
-/// palpate-calibration beside the running virtual bench, as its README has it: nobody knows where
-/// the camera stands but roughly, until it says so.
+/// palpate-calibration beside the running virtual bench, as its README has it: the
+/// camera pose is known approximately only, until it is published.
 namespace palpate::system_test {
 namespace {
 

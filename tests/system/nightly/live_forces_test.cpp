@@ -183,8 +183,8 @@ class LiveForces : public testing::Test {
                                             folder_ / "perception.log");
   }
 
-  /// A topic table by which the robot's joint states reach nobody: readers ask for more than it
-  /// offers.
+  /// A topic table by which the robot's joint states have no matching reader: readers request more
+  /// than it offers.
   std::string DeafTopics() {
     std::string text = ReadFile(std::filesystem::path(PALPATE_SOURCE_DIR) / "config/topics.yaml");
     const std::string reliable = "reliability: reliable";

@@ -25,7 +25,7 @@ namespace {
 using force_estimation::ForceEstimate;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-/// A right force is so near to the truth: three sigmas, as many frames are looked at.
+/// Largest error of a right force over its interval: three sigmas, since many frames are evaluated.
 constexpr double kOfInterval = 1.53;
 /// Frames from the end of the trouble to the first right one, itself counted.
 constexpr int kFramesToRecover = 5;

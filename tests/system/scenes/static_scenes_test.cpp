@@ -10,8 +10,7 @@
 #include "tests/support/sensing/contact_generator.hpp"
 #include "tests/support/sensing/sensing_chain.hpp"
 
-/// Recordings of a robot that is touched already: one picture of each, and nobody saw how the
-/// contact came.
+/// Recordings that begin with a contact: one image of each.
 namespace palpate::test_support {
 namespace {
 

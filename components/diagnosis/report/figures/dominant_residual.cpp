@@ -97,7 +97,7 @@ std::string DescribeDominant(const DominantResidual& dominant, const DiagnosisRe
   for (const double part : dominant.direction) {
     direction += (direction.empty() ? "" : ", ") + plot::FixedText(part, 1);
   }
-  const std::string what = name.starts_with("skin ") ? "" : "marker ";
+  const std::string what = name.starts_with("surface point ") ? "" : "marker ";
   return what + plot::Shortened(name, 11.0, 140.0) + ", along (" + direction + ")";
 }
 

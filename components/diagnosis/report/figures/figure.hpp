@@ -24,7 +24,7 @@ struct Figure {
 inline constexpr int kFigureWidth_px = 720;
 inline constexpr double kLabelSize_px = 12.0;
 
-/// After Okabe and Ito: told apart with any colour vision; light and dark alternate.
+/// After Okabe and Ito: distinguishable with any colour vision; light and dark alternate.
 namespace ink {
 inline constexpr plot::Color kBefore = plot::FromHex(0xD55E00);
 inline constexpr plot::Color kNominal = plot::FromHex(0xE69F00);

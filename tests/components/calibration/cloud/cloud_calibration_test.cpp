@@ -21,10 +21,10 @@ const std::vector<double> kPulls_m = {0.004, 0.0, 0.008, 0.002};
 
 CloudSettings PoseAlone() {
   CloudSettings settings;
-  settings.request.drive_offsets = false;
+  settings.request.actuator_offsets = false;
   settings.facet_error_share = 0.0;  // the clouds are of the model's own facets
   settings.depth_bias_sigma = 0.0;   // and err by their noise alone
-  settings.skin_errors = NoSkinErrors();
+  settings.surface_errors = NoSurfaceErrors();
   return settings;
 }
 
@@ -55,14 +55,14 @@ TEST_F(CloudCalibrationTest, FindsThePoseFromStartsFarOffAmongOtherThings) {
     ExpectPose(fit.joint.T_robot_camera, truth_, 0.5 * kDegree, 1.5e-3);
     worst_m = std::max(worst_m,
                        (fit.joint.T_robot_camera.translation_m() - truth_.translation_m()).norm());
-    EXPECT_GT(fit.matches.front().skin_covered, 0.95);
+    EXPECT_GT(fit.matches.front().surface_covered, 0.95);
     EXPECT_LT(fit.matches.front().rms_m, 1.5 * kDepthSigma_m);
     EXPECT_GT(fit.matches.front().outlier_share, 0.1);
   }
   RecordProperty("worst_shift_m", FormatNumber(worst_m));
 }
 
-TEST_F(CloudCalibrationTest, FindsOffsetsOfTheDrivesFromThreeFrames) {
+TEST_F(CloudCalibrationTest, FindsOffsetsOfTheActuatorsFromThreeFrames) {
   constexpr double kOffset_m = 1e-3;
   std::vector<CloudFrame> frames;
   for (const std::vector<double>& told_m :
@@ -75,7 +75,7 @@ TEST_F(CloudCalibrationTest, FindsOffsetsOfTheDrivesFromThreeFrames) {
                               truth_m, kOthers, random_));
   }
   CloudSettings settings = PoseAlone();
-  settings.request.drive_offsets = true;
+  settings.request.actuator_offsets = true;
   const CloudCalibration fit =
       CalibrateFromClouds(*model_, frames, Start(20.0 * kDegree, 0.05), settings);
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
@@ -159,7 +159,7 @@ TEST_F(CloudCalibrationTest, RefusesARobotOfAnotherSizeAndNamesBoth) {
         CalibrateFromClouds(*model_, {frame}, Start(10.0 * kDegree, 0.02), PoseAlone());
     EXPECT_EQ(fit.status.code(), StatusCode::kInvalidInput);
     const std::string& said = fit.status.message();
-    EXPECT_THAT(said, testing::HasSubstr("the sizes disagree: points of the skin lie "));
+    EXPECT_THAT(said, testing::HasSubstr("the sizes disagree: points of the surface are "));
     const std::size_t at = said.find("or one ");
     ASSERT_NE(at, std::string::npos) << said;
     EXPECT_NEAR(std::stod(said.substr(at + 7)), scale, 0.02 * scale) << said;
@@ -191,7 +191,7 @@ TEST_F(CloudCalibrationTest, RefusesAPoseFartherFromTheStartThanItMayBe) {
   EXPECT_EQ(fit.status.code(), StatusCode::kNotConverged);
 }
 
-TEST_F(CloudCalibrationTest, RefusesPointsThatLieTooFarOffTheSkin) {
+TEST_F(CloudCalibrationTest, RefusesPointsThatLieTooFarOffTheSurface) {
   CloudSettings settings = PoseAlone();
   settings.most_rms_m = 0.1 * kDepthSigma_m;
   const CloudCalibration fit = CalibrateFromClouds(*model_, {See(0.0)}, truth_, settings);

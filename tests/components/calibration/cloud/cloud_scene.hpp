@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "components/calibration/cloud/cloud_frame.hpp"
-#include "components/calibration/cloud/skin_errors.hpp"
+#include "components/calibration/cloud/surface_errors.hpp"
 #include "libs/rgbd/surface_view.hpp"
 #include "tests/components/calibration/joint/joint_scene.hpp"
 
@@ -30,8 +30,8 @@ inline const rgbd::CameraModel kCamera{.width_px = 424,
 inline constexpr double kDegree = std::numbers::pi / 180.0;  ///< in radians
 inline constexpr double kDepthSigma_m = 0.8e-3;
 
-/// The model's skin is the robot's.
-inline SkinErrorSettings NoSkinErrors() {
+/// The model's surface is the robot's.
+inline SurfaceErrorSettings NoSurfaceErrors() {
   return {.whole_sigma_m = 0.0,
           .patch_sigma_m = 0.0,
           .region_sigma_m = 0.0,
@@ -110,7 +110,7 @@ inline rgbd::SensedCloud Render(const robot::RobotModel& model, const fem::Stati
   return cloud;
 }
 
-/// `told_m`: what the drives say that the cables were pulled in by; `truth_m`: what they were.
+/// `told_m`: what the actuators say that the cables were pulled in by; `truth_m`: what they were.
 inline CloudFrame SeeCloud(robot::RobotModel& truth, const geometry::RigidTransform& T_robot_camera,
                            const std::string& name, const std::vector<double>& told_m,
                            const std::vector<double>& truth_m, double others,

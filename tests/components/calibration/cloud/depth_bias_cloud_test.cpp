@@ -19,9 +19,9 @@ class DepthBiasOfClouds : public ::testing::Test {
  protected:
   DepthBiasOfClouds() {
     settings_.fit_depth_bias = true;
-    settings_.request.drive_offsets = false;
-    settings_.facet_error_share = 0.0;  // the clouds are of the model's own skin
-    settings_.skin_errors = NoSkinErrors();
+    settings_.request.actuator_offsets = false;
+    settings_.facet_error_share = 0.0;  // the clouds are of the model's own surface
+    settings_.surface_errors = NoSurfaceErrors();
     settings_.depth_bias_sigma = kSigma;
   }
 
@@ -126,8 +126,8 @@ TEST_F(DepthBiasOfClouds, ErrsAsItsCovarianceSays) {
   EXPECT_LT(sum / kDraws, 18.0);
 }
 
-/// What a cloud does not tell stays where it was believed and is named; the pose errs by it, and
-/// its standard error says so.
+/// What a cloud does not determine keeps its prior and is named; the standard error of the pose
+/// includes it.
 TEST_F(DepthBiasOfClouds, WhatIsNotToldIsNamedAndCountsInTheErrorOfThePose) {
   true_bias_.coefficients = Eigen::VectorXd::Unit(6, 1) * 1e-4;
   settings_.depth_bias_sigma = 1e-4;  // a tenth of what clouds tell

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "components/calibration/cloud/cloud_calibration.hpp"
-#include "components/calibration/cloud/skin_in_view.hpp"
+#include "components/calibration/cloud/surface_in_view.hpp"
 #include "libs/core/text.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "tests/components/calibration/cloud/cloud_scene.hpp"
@@ -85,19 +85,19 @@ class DepthBiasOfAnotherRobot : public ::testing::Test {
     return difference;
   }
 
-  /// RMS distance of the model's skin from the robot's as these clouds, which have no noise, show
-  /// it with this calibration.
-  double SkinsApart_m(const JointCalibration& fit, const std::vector<CloudFrame>& noiseless) {
+  /// RMS distance of the model's surface from the robot's as these clouds, which have no noise,
+  /// show it with this calibration.
+  double SurfacesApart_m(const JointCalibration& fit, const std::vector<CloudFrame>& noiseless) {
     double squares_m2 = 0.0;
     int count = 0;
     for (std::size_t f = 0; f < noiseless.size(); ++f) {
-      SkinInView skin(model_->body());
-      skin.TakeShape(fit.x_m[f]);
-      skin.LookFrom(fit.T_robot_camera);
+      SurfaceInView surface(model_->body());
+      surface.TakeShape(fit.x_m[f]);
+      surface.LookFrom(fit.T_robot_camera);
       for (const auto& seen_m : noiseless[f].cloud.points_m.colwise()) {
         const Eigen::Vector3d p_m = seen_m.cast<double>();
         const double bias = fit.depth_bias ? fit.depth_bias->At(p_m) : 0.0;
-        const auto foot = skin.FootOf(fit.T_robot_camera * Eigen::Vector3d((1.0 + bias) * p_m));
+        const auto foot = surface.FootOf(fit.T_robot_camera * Eigen::Vector3d((1.0 + bias) * p_m));
         if (!foot || foot->openness < 1.0 || foot->distance_m > 5e-3) continue;
         squares_m2 += foot->distance_m * foot->distance_m;
         ++count;
@@ -130,14 +130,14 @@ TEST_F(DepthBiasOfAnotherRobot, PoseAndMapErrAsTheirCovarianceSays) {
     without += error.dot(linalg::SolveSymmetric(fit.depth_bias->covariance, error)) / kSeeds;
   }
   RecordProperty("mean_squared_error", FormatNumber(sum));
-  RecordProperty("mean_squared_error_without_the_skins", FormatNumber(without));
+  RecordProperty("mean_squared_error_without_surface_errors", FormatNumber(without));
   EXPECT_GT(sum, 1.0);
   EXPECT_LT(sum, 24.0);
   EXPECT_GT(without, 48.0);
 }
 
 /// Two calibrations of one robot from other settings and noise differ as the covariances say that
-/// go into the file: what the model's skin is wrong by is in both.
+/// go into the file: what the model's surface is wrong by is in both.
 TEST_F(DepthBiasOfAnotherRobot, CalibrationsDifferAsTheFilesSay) {
   double sum = 0.0;
   for (std::uint64_t seed = 11; seed < 11 + kSeeds; ++seed) {
@@ -163,9 +163,9 @@ TEST_F(DepthBiasOfAnotherRobot, TheMapLaysTheModelOnTheRobot) {
     const std::vector<CloudFrame> frames = See(0);
     const std::vector<CloudFrame> noiseless = See(0, kNoNoise_m);
     settings_.fit_depth_bias = true;
-    const double with_map_m = SkinsApart_m(Fit(frames).joint, noiseless);
+    const double with_map_m = SurfacesApart_m(Fit(frames).joint, noiseless);
     settings_.fit_depth_bias = false;
-    const double without_m = SkinsApart_m(Fit(frames).joint, noiseless);
+    const double without_m = SurfacesApart_m(Fit(frames).joint, noiseless);
     RecordProperty("with_map_m_" + std::to_string(seed), FormatNumber(with_map_m));
     RecordProperty("without_m_" + std::to_string(seed), FormatNumber(without_m));
     EXPECT_LT(with_map_m, without_m);

@@ -61,7 +61,7 @@ class GeometryOfOurRobot : public testing::Test {
 TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
   const JointCalibration fit = CalibrateFrames(
       *model_, See(*truth_, 1.02), nullptr,
-      {.drive_offsets = false, .geometry_scale_sigma = 0.01, .marker_placement_sigma_m = 0.0});
+      {.actuator_offsets = false, .geometry_scale_sigma = 0.01, .marker_placement_sigma_m = 0.0});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   ExpectFound(fit, "geometry_scale", 1.02, 1e-3);
   ExpectPose(fit.T_robot_camera, TableOnePose(), 1e-3, 5e-4);
@@ -70,7 +70,7 @@ TEST_F(GeometryOfOurRobot, ItsSizeShowsInMarkers) {
   ASSERT_TRUE(file.geometry_scale);
   EXPECT_EQ(file.geometry_scale->scale, ValueNamed(fit, "geometry_scale")->value);
   EXPECT_EQ(file.geometry_scale->standard_error, ValueNamed(fit, "geometry_scale")->standard_error);
-  EXPECT_TRUE(file.cable_routes.empty()) << "nobody looked for them";
+  EXPECT_TRUE(file.cable_routes.empty()) << "they were not to be estimated";
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
 }
 
@@ -96,7 +96,7 @@ TEST_F(GeometryOfOurRobot, LoadsStayWhereTheyAreAsItsSizeChanges) {
   }
   const JointCalibration fit = CalibrateFrames(
       *model_, frames, nullptr,
-      {.drive_offsets = false, .geometry_scale_sigma = 0.02, .marker_placement_sigma_m = 0.0});
+      {.actuator_offsets = false, .geometry_scale_sigma = 0.02, .marker_placement_sigma_m = 0.0});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   ExpectFound(fit, "geometry_scale", kScale, 1e-3);
   EXPECT_LT(fit.residual_rms_m, 3.0 * kNoise_m);
@@ -105,7 +105,7 @@ TEST_F(GeometryOfOurRobot, LoadsStayWhereTheyAreAsItsSizeChanges) {
 /// A robot that is larger and a depth that is too short look alike but for what the cables say.
 TEST_F(GeometryOfOurRobot, SizeAndDepthAreToldByTheCablesAloneAndNamedWhereTheyAreNot) {
   std::vector<CalibrationFrame> frames = See(*truth_, 1.02);
-  JointRequest request{.drive_offsets = false,
+  JointRequest request{.actuator_offsets = false,
                        .geometry_scale_sigma = 0.01,
                        .depth_scale_sigma = 0.01,
                        .marker_placement_sigma_m = 0.0};
@@ -140,7 +140,7 @@ TEST_F(GeometryOfOurRobot, GuidesOfItsCablesShow) {
   truth_->SetPullPoint(1, guide_m + 1.5e-3 * across[0].direction - 1e-3 * across[1].direction);
   const JointCalibration fit = CalibrateFrames(
       *model_, See(*truth_), nullptr,
-      {.drive_offsets = false, .cable_route_sigma_m = 2e-3, .marker_placement_sigma_m = 0.0});
+      {.actuator_offsets = false, .cable_route_sigma_m = 2e-3, .marker_placement_sigma_m = 0.0});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   const std::string name = "cable_route:" + model_->CableNames()[1] + ":";
   ExpectFound(fit, name + across[0].name, 1.5e-3, 5e-4);
@@ -172,7 +172,7 @@ TEST_F(GeometryOfOurRobot, EyeletsOfItsCablesShow) {
   const auto with_room = BuildWithRoom(QuickFourLegRobot(), 4e-3);
   const JointCalibration fit = CalibrateFrames(
       *with_room, See(truth), nullptr,
-      {.drive_offsets = false, .cable_eyelet_sigma_m = 1e-3, .marker_placement_sigma_m = 0.0});
+      {.actuator_offsets = false, .cable_eyelet_sigma_m = 1e-3, .marker_placement_sigma_m = 0.0});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   ExpectFound(fit, RouteName(moved.cable_routes[0].cable, 1, across[0].name), 1.5e-3, 3e-4);
   ExpectFound(fit, RouteName(moved.cable_routes[0].cable, 1, across[1].name), -1e-3, 3e-4);

@@ -37,7 +37,7 @@ class ApproachToTheSolution : public testing::Test {
     return setup;
   }
 
-  /// Moduli and drives of two loaded frames, whose inputs were recorded.
+  /// Moduli and actuators of two loaded frames, whose inputs were recorded.
   JointSetup Moduli() {
     std::mt19937_64 random(8);
     const fem::InterpolationWeights hub = model_->body().markers.front().point.weights;

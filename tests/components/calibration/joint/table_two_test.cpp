@@ -32,14 +32,14 @@ robot::RobotDescription BenchBody() {
 }
 
 /// The paper's Table II: camera pose and cable displacements from what a noisy camera sees of
-/// markers, at several settings whose drives have unknown zeros.
+/// markers, at several settings whose actuators have unknown offsets.
 class TableTwo : public testing::Test {
  protected:
   static double Pulled_m(int setting, int cable) {
     return 1e-3 * (3.0 + (5 * setting + 3 * cable) % 7);
   }
 
-  /// What the camera would see without noise, with these zeros of the drives.
+  /// What the camera would see without noise, with these offsets of the actuators.
   std::vector<CalibrationFrame> FramesWith(const std::array<double, 4>& offset_m) {
     std::vector<CalibrationFrame> frames;
     for (int k = 0; k < kSettings; ++k) {
@@ -179,20 +179,20 @@ TEST_F(TableTwo, WhatCountsAsPlacementIsWhatTheMeshesDifferBy) {
     alike_m.push_back(error.alike_m);
     EXPECT_LT(error.varying_m, error.alike_m);
   }
-  const double believed_m = JointRequest().marker_placement_sigma_m;
-  EXPECT_LT(alike_m[1], believed_m);
-  EXPECT_GT(alike_m[1], 0.5 * believed_m);
+  const double assumed_m = JointRequest().marker_placement_sigma_m;
+  EXPECT_LT(alike_m[1], assumed_m);
+  EXPECT_GT(alike_m[1], 0.5 * assumed_m);
   EXPECT_GT(alike_m[0], 1.25 * alike_m[1]);
   EXPECT_LT(alike_m[2], 0.75 * alike_m[1]);
   const MeshError linear =
       Differ(*with(QuickFourLegRobot(), 0.0015), *with(FourLegRobot(), 0.0015), Pulled_m);
   std::printf("linear elements: %.3f mm alike, %.3f mm varying\n", 1e3 * linear.alike_m,
               1e3 * linear.varying_m);
-  EXPECT_GT(linear.alike_m, 2.0 * believed_m);
+  EXPECT_GT(linear.alike_m, 2.0 * assumed_m);
 }
 
 /// Without noise the zeros are off by what the meshes differ by, and by no more than they say.
-TEST_F(TableTwo, TheMeshesAloneShiftTheZerosOfTheDrives) {
+TEST_F(TableTwo, TheMeshesAloneShiftTheOffsetsOfTheActuators) {
   const JointCalibration fit = CalibrateFrames(*model_, FramesWith({}), nullptr, {.moduli = {}});
   ASSERT_TRUE(fit.status.ok()) << fit.status.message();
   for (const FittedValue& zero : fit.values) {

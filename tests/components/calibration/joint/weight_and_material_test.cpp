@@ -23,8 +23,8 @@ const JointRequest kEverything{.pose = false,
                                .gravity_tilt_sigma_rad = 0.2,
                                .mass_relative_sigma = 0.2};
 
-/// A beam that is heavier, stiffer and bulges less than its robot file says, on a base that nobody
-/// levelled: under its own weight, with a known load, and lying on its side.
+/// A beam that is heavier, stiffer and bulges less than its robot file says, on a base that is not
+/// level: under its own weight, with a known load, and lying on its side.
 class WeightAndMaterial : public testing::Test {
  protected:
   CalibrationFrame FrameOf(const std::string& name, const Eigen::Vector3d& gravity_m_s2,

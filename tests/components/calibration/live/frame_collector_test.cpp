@@ -94,7 +94,7 @@ TEST_F(FrameCollectorTest, MarkersWithoutNamesAreKeptApartAndNotMixedWithOthers)
   EXPECT_NEAR(collector_.points()[0].frame.cables.at(0).value, 1e-3, 1e-15);
   for (const int k : {0, 1, 2, 3}) SeeMarker(600 + k, 0.1);
   EXPECT_EQ(collector_.taken(), 1);
-  EXPECT_NE(collector_.waits_for().find("those of the frames before had none"), std::string::npos);
+  EXPECT_NE(collector_.waits_for().find("those of earlier frames had none"), std::string::npos);
   for (const int k : {4, 5, 6, 7}) SeeMarker(600 + k, 0.1, 1e-3, -1);
   EXPECT_TRUE(collector_.IsComplete());
   EXPECT_TRUE(collector_.markers().empty());

@@ -14,34 +14,34 @@ namespace {
 using Kind = robot::CableCommand::Kind;
 
 const Eigen::Vector3d kGravity_m_s2(1.5, -0.5, -9.0);
-const robot::DriveCalibration kEarlierDrive{.offset_m = 4e-4, .gain = 0.05};
-const robot::DriveCalibration kTrueDrive{.offset_m = 9e-4, .gain = 0.05};
+const robot::DriveCalibration kEarlierActuator{.offset_m = 4e-4, .gain = 0.05};
+const robot::DriveCalibration kTrueActuator{.offset_m = 9e-4, .gain = 0.05};
 
 Eigen::Isometry3d TruePose() {
   return Eigen::Translation3d(0.3, -0.2, 0.4) *
          Eigen::AngleAxisd(2.0, Eigen::Vector3d(0.3, -0.8, 0.5).normalized());
 }
 
-/// Of another material, gravity and drive than the robot file's.
+/// Of another material, gravity and actuator than the robot file's.
 robot::CalibrationFile Earlier(const robot::RobotModel& robot) {
   robot::CalibrationFile before = robot::DescribeForCalibration(robot);
   before.date_utc = before.data = before.data_hash = "some";
   before.moduli = {{"body", 123e3, 4e3}};
   before.poissons_ratios = {{"body", 0.35, 0.01}};
   before.gravity = robot::CalibratedGravity{kGravity_m_s2, {0.1, 0.2, 0.3}};
-  before.drives = {{"top", kEarlierDrive, {1e-4, 0.02}}};
+  before.drives = {{"top", kEarlierActuator, {1e-4, 0.02}}};
   return before;
 }
 
-/// What the camera sees of a robot as `before` has it but for the zero of its drive, as its drive
-/// tells it.
+/// What the camera sees of a robot as `before` has it but for the zero of its actuator, as its
+/// actuator tells it.
 CalibrationFrame Frame(
     const robot::CalibrationFile& before, double told_m,
     const std::unique_ptr<robot::RobotModel>& robot = force_estimation::NodeTestRobot()) {
   robot::ApplyCalibration(before, robot.get());
   fem::StaticState state = robot->RestState();
   const auto result =
-      robot->Solve({{Kind::kDisplacement, kTrueDrive.TakenIn_m(told_m)}}, {}, &state);
+      robot->Solve({{Kind::kDisplacement, kTrueActuator.TakenIn_m(told_m)}}, {}, &state);
   EXPECT_TRUE(result.status.ok()) << result.status.message();
   CalibrationFrame frame{.name = "frame", .cables = {{Kind::kDisplacement, told_m}}};
   frame.gravity_m_s2 = robot->body().gravity_m_s2;  // nominal, as the collector has it
@@ -77,8 +77,8 @@ TEST(LiveCalibration, KeepsWhatItDoesNotFindAnewAndFitsWithIt) {
   EXPECT_EQ(file.gravity->gravity_m_s2, kGravity_m_s2);
   EXPECT_EQ(file.gravity->standard_error_m_s2, Eigen::Vector3d(0.1, 0.2, 0.3));
   ASSERT_EQ(file.drives.size(), 1u);
-  EXPECT_NEAR(file.drives[0].drive.offset_m, kTrueDrive.offset_m, 1e-6);
-  EXPECT_NEAR(file.drives[0].drive.gain, kTrueDrive.gain, 1e-12);
+  EXPECT_NEAR(file.drives[0].drive.offset_m, kTrueActuator.offset_m, 1e-6);
+  EXPECT_NEAR(file.drives[0].drive.gain, kTrueActuator.gain, 1e-12);
   EXPECT_EQ(file.drives[0].standard_error.gain, 0.02);
   EXPECT_NE(file.drives[0].standard_error.offset_m, 1e-4);
   // The model is as the robot file has it.
@@ -164,7 +164,7 @@ TEST(LiveCalibration, WhatIsFoundAnewReplacesWhatWas) {
   ASSERT_EQ(found.drives.size(), 2u);
   EXPECT_EQ(found.drives[1].cable, "a");
   EXPECT_EQ(found.drives[1].drive.offset_m, 1e-3);
-  // Told u, it takes in 1.1 (1.2 u + 2 mm) + 0.1 mm.
+  // Commanded u, it takes in 1.1 (1.2 u + 2 mm) + 0.1 mm.
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(0.0), 2.3e-3, 1e-15);
   EXPECT_NEAR(found.drives[0].drive.TakenIn_m(1e-2), 1.32e-2 + 2.3e-3, 1e-15);
   EXPECT_EQ(found.drives[0].standard_error.offset_m, 3e-4);

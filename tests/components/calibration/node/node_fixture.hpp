@@ -147,7 +147,7 @@ class CalibrationNodeTest : public testing::Test {
     }
     ASSERT_TRUE(requests_.Write(message));
   }
-  /// The first thing that is told of it with this state, from now on.
+  /// The next status message about the request with this state.
   Told WaitForState(const std::string& id, const std::string& state) {
     Told found;
     EXPECT_TRUE(test_.WaitFor([&] {
@@ -162,7 +162,7 @@ class CalibrationNodeTest : public testing::Test {
     return found;
   }
 
-  /// The robot's markers with a drive that counts from kOffset_m, as the camera sees them.
+  /// The robot's markers with an actuator that counts from kOffset_m, as the camera sees them.
   Eigen::Matrix3Xd MarkersSeen(double told_m) {
     fem::StaticState state = robot_->RestState();
     const auto result =

@@ -16,7 +16,7 @@ constexpr auto kPose = "{translation_m: [0, 0, 0.5], rotation_xyzw: [1, 0, 0, 0]
 /// Anything; the fit is scripted.
 Eigen::Matrix3Xd SomeMarkers() { return Eigen::Matrix3Xd::Identity(3, 3); }
 
-TEST_F(CalibrationNodeTest, FindsPoseAndDriveWritesThemAndKeepsThemForLateJoiners) {
+TEST_F(CalibrationNodeTest, FindsPoseAndActuatorWritesThemAndKeepsThemForLateJoiners) {
   StartNode(TestConfig(), CalibrateLive);
   Ask({.id = "first", .frames = 3});
   EXPECT_EQ(WaitForState("first", "collecting").wanted, 3u);
@@ -61,7 +61,7 @@ TEST_F(CalibrationNodeTest, AnotherRobotsMarkersAreNoCalibration) {
   }
   const Told failed = WaitForState("one", "failed");
   EXPECT_EQ(failed.status, "invalid_input");
-  EXPECT_THAT(failed.reason, HasSubstr("the sizes disagree: markers lie "));
+  EXPECT_THAT(failed.reason, HasSubstr("the sizes disagree: markers are "));
   EXPECT_TRUE(found_.empty());
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "calibration.yaml"));
 }
@@ -104,11 +104,11 @@ TEST_F(CalibrationNodeTest, TakesCloudsOfTheUntouchedRobotAndStartsFromThePoseTh
   Told told;
   do {
     told = WaitForState("one", "collecting");
-  } while (told.reason != "something touches the robot" && !HasFailure());
+  } while (told.reason != "perception detects a contact" && !HasFailure());
   SendCloud({.stamp_ns = 1 * kSecond_ns - 1, .points = 4, .status = "no_robot_seen"});
   do {
     told = WaitForState("one", "collecting");
-  } while (told.reason.find("perception says") == std::string::npos && !HasFailure());
+  } while (told.reason.find("perception reports") == std::string::npos && !HasFailure());
   EXPECT_EQ(told.taken, 0u);
   SendCloud({.stamp_ns = 1 * kSecond_ns - 2, .points = 5});
   EXPECT_EQ(WaitForState("one", "collecting").taken, 1u);
@@ -175,7 +175,7 @@ TEST_F(CalibrationNodeTest, WorksOnOneRequestAtATimeWhichStaysTheLastWord) {
   WaitForState("one", "done");
 }
 
-/// A fit that nobody lets end of itself.
+/// A fit that does not end by itself.
 class HeldFit : public CalibrationNodeTest {
  protected:
   /// Two settings from this time on, of a request that is taken.
@@ -233,7 +233,7 @@ TEST_F(CalibrationNodeTest, GivesUpAndSaysWhatDidNotCome) {
   Ask({});
   Told told = WaitForState("one", "failed");
   EXPECT_EQ(told.status, "stale");
-  EXPECT_THAT(told.reason, HasSubstr("nothing of the robot has been seen"));
+  EXPECT_THAT(told.reason, HasSubstr("no cloud or markers of the robot yet"));
   Ask({.id = "two"});
   WaitForState("two", "collecting");
   SendMarkers(kSecond_ns, SomeMarkers(), "robot");

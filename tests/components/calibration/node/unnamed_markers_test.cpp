@@ -130,7 +130,7 @@ class MarkersThatLookAlike : public UnnamedMarkers {
 TEST_F(MarkersThatLookAlike, AreRefusedWithTheReason) {
   Begin(TestConfig());
   SendThree();
-  ExpectFailure("ambiguous: two ways to tell which marker is which");
+  ExpectFailure("ambiguous: two assignments of the markers");
 }
 
 TEST_F(MarkersThatLookAlike, AreToldByThePoseOfTheLastCalibration) {
@@ -158,7 +158,7 @@ TEST_F(MarkersThatLookAlike, AreToldByARoughPoseOfTheCamera) {
   SendThree();
   WaitForState("one", "done");
   ASSERT_TRUE(test_.WaitFor([&] { return !found_.empty(); }));
-  // They do not tell the drive's zero, and the pose goes with it: not by a quarter turn.
+  // They do not tell the actuator's zero, and the pose goes with it: not by a quarter turn.
   const Eigen::Isometry3d& found = found_.back().pose->T_robot_camera;
   EXPECT_LT(Eigen::AngleAxisd(found.linear() * TruePose().linear().transpose()).angle(), 0.1);
 }

@@ -53,7 +53,7 @@ TEST_F(Algorithm1Refusals, WhatIsNoSighting) {
   sightings[3].marker = 7;
   ExpectRefusal(sightings, PoseFinding::kInvalidInput, "marker 7 is sighted twice");
   sightings[3].marker = 9;
-  ExpectRefusal(sightings, PoseFinding::kInvalidInput, "marker 9 is none of the robot's 9");
+  ExpectRefusal(sightings, PoseFinding::kInvalidInput, "marker 9 is not one of the robot's 9");
 }
 
 TEST_F(Algorithm1Refusals, TooFewMarkers) {
@@ -97,13 +97,13 @@ TEST_F(Algorithm1Refusals, MirroredMarkersThatOnlyTheirDeformationTells) {
   truth_ = SolveTensions(*model_, Eigen::Vector4d(4.0, 0.0, 0.0, 0.0));
   std::vector<MarkerSighting> sightings = Seen({5, 6, 7, 8});
   for (MarkerSighting& sighting : sightings) sighting.position_m.x() *= -1.0;
-  ExpectRefusal(sightings, PoseFinding::kMirroredMarkers, "they fit as a mirror shows them");
+  ExpectRefusal(sightings, PoseFinding::kMirroredMarkers, "a reflection fits them");
 }
 
 TEST_F(Algorithm1Refusals, AnotherRobotWhichIsLarger) {
   std::vector<MarkerSighting> sightings = Seen();
   for (MarkerSighting& sighting : sightings) sighting.position_m *= 1.1;
-  ExpectRefusal(sightings, PoseFinding::kWrongRobot, "the sizes disagree: markers lie ");
+  ExpectRefusal(sightings, PoseFinding::kWrongRobot, "the sizes disagree: markers are ");
 }
 
 TEST_F(Algorithm1Refusals, AMarkerTakenForSomethingElse) {
@@ -122,7 +122,7 @@ TEST_F(Algorithm1Refusals, TwoMarkersTakenForEachOther) {
 /// Those of the hub move with it nearly as one body.
 TEST_F(Algorithm1Refusals, MarkersThatMoveAsOneBody) {
   ExpectRefusal(Seen({0, 1, 2, 3, 4}, 5e-4), PoseFinding::kUnknownInputs,
-                "do not tell from a motion of the camera");
+                "do not distinguish from a camera motion");
 }
 
 TEST_F(Algorithm1Refusals, LimitsThatCross) {
@@ -162,7 +162,7 @@ TEST_F(Algorithm1Refusals, IterationsUsedUp) {
   EXPECT_NEAR(pose.rms_m, found.residual_rms_m, 1e-12);
 }
 
-/// No cable pulls: nothing to learn of inputs but that they are none; the pose is told.
+/// No cable pulls: the inputs are estimated as zero, and the pose is estimated.
 TEST_F(Algorithm1Refusals, ZeroMotionIsSaid) {
   const fem::StaticState rest = SolveTensions(*model_, Eigen::VectorXd::Zero(4));
   std::vector<MarkerSighting> sightings = Sight(*model_, rest, TableOnePose(), kNineMarkers);

@@ -67,7 +67,7 @@ class FourLegsWithoutNames : public testing::Test {
 };
 
 TEST_F(FourLegsWithoutNames, WhatTheCablesWereSetToTellsTheQuarterTurn) {
-  settings_.request.drive_offset_sigma_m = 5e-4;
+  settings_.request.actuator_offset_sigma_m = 5e-4;
   const UnlabelledCalibration found =
       Calibrate({Take("a", {0.009, 0.002, 0.002, 0.002}), Take("b", {0.002, 0.009, 0.002, 0.004}),
                  Take("c", {0.003, 0.003, 0.008, 0.008})});
@@ -100,7 +100,7 @@ TEST_F(FourLegsWithoutNames, TheLastPoseTellsWhatIsLeftAmbiguousIfTheCameraStand
   settings_.T_robot_camera_last = TurnedPose(0.1);
   const UnlabelledCalibration told = Calibrate(frames);
   ASSERT_TRUE(told.status.ok()) << told.status.message();
-  EXPECT_TRUE(told.told_by_last_pose);
+  EXPECT_TRUE(told.decided_by_last_pose);
   EXPECT_EQ(told.labels.marker_of_point, truth_);
   ExpectPose(told, TableOnePose());
   settings_.T_robot_camera_last = TurnedPose(std::numbers::pi / 4.0);  // between two of them
@@ -108,13 +108,13 @@ TEST_F(FourLegsWithoutNames, TheLastPoseTellsWhatIsLeftAmbiguousIfTheCameraStand
 }
 
 TEST_F(FourLegsWithoutNames, WhatTheCablesTellGoesBeforeTheLastPose) {
-  settings_.request.drive_offset_sigma_m = 5e-4;
+  settings_.request.actuator_offset_sigma_m = 5e-4;
   settings_.T_robot_camera_last = TurnedPose(std::numbers::pi / 2.0);
   const UnlabelledCalibration found =
       Calibrate({Take("a", {0.009, 0.002, 0.002, 0.002}), Take("b", {0.002, 0.009, 0.002, 0.004}),
                  Take("c", {0.003, 0.003, 0.008, 0.008})});
   ASSERT_TRUE(found.status.ok()) << found.status.message();
-  EXPECT_FALSE(found.told_by_last_pose);
+  EXPECT_FALSE(found.decided_by_last_pose);
   EXPECT_EQ(found.labels.marker_of_point, truth_);
 }
 

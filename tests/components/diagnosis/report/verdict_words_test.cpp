@@ -70,7 +70,7 @@ TEST(VerdictWords, DoNotRuleOutWhatFitsAlike) {
   DiagnosisResult result = IndistinguishableExample();
   result.rivals[0].probability = 0.04;
   EXPECT_EQ(VerdictHeadline(result),
-            "There is a fault, and these data fit 2 causes alike: friction of cable north and "
+            "There is a fault, and 2 causes are not identifiable: friction of cable north and "
             "backlash of cable north.");
   const std::string all = VerdictParagraph(result);
   EXPECT_THAT(all, HasSubstr("Not identifiable from: backlash of cable north."));
@@ -84,9 +84,10 @@ TEST(VerdictWords, SayWhereNoCauseIsNamed) {
               HasSubstr("no fault of the catalogue explains"));
   EXPECT_THAT(VerdictHeadline(HealthyExample()),
               HasSubstr("within noise and manufacturing tolerances, p = 0.96."));
-  EXPECT_EQ(VerdictHeadline(DataUnfitExample()),
-            "These data cannot tell: the markers of recording 04_ramp_south stand still while its "
-            "cable moves 8 mm.");
+  EXPECT_EQ(
+      VerdictHeadline(DataUnfitExample()),
+      "The data are unfit for a diagnosis: the markers of recording 04_ramp_south stand still "
+      "while its cable moves 8 mm.");
   for (const DiagnosisResult& result : {HealthyExample(), UnexplainedExample()}) {
     EXPECT_THAT(VerdictParagraph(result), HasSubstr("as the robot file has it"));
     EXPECT_THAT(VerdictParagraph(result), Not(HasSubstr("not known")));

@@ -161,7 +161,7 @@ TEST_F(DriftWatchTest, SaysWithinSecondsThatTheCameraMovedAndThatItIsBack) {
     watch_ = ExtrinsicsDriftMonitor();
     EXPECT_FALSE(Watch(Look(rest_, T_robot_camera_), rest_, 7.0));
     EXPECT_TRUE(Watch(Look(rest_, Moved(shift_m, turn_rad)), rest_, 6.0));
-    EXPECT_THAT(watch_.report().advice, testing::HasSubstr("calibrate anew"));
+    EXPECT_THAT(watch_.report().advice, testing::HasSubstr("calibrate again"));
     Watch(Look(rest_, T_robot_camera_), rest_, 6.0);
     EXPECT_EQ(watch_.report().state, State::kHolds);
   }

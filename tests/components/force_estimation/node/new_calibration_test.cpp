@@ -12,7 +12,7 @@
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/stamp.hpp"
-#include "tests/components/force_estimation/node/scripted_estimator.hpp"
+#include "tests/components/force_estimation/node/scripted_pipeline.hpp"
 #include "tests/components/force_estimation/node/test_robot.hpp"
 #include "tests/support/perception_sender.hpp"
 
@@ -135,7 +135,7 @@ class NewCalibrationTest : public testing::Test {
     });
   }
   double LastCameraZ_m() const {
-    return script_.calls().back().seen.frame.T_robot_camera.translation().z();
+    return script_.calls().back().shape.frame.T_robot_camera.translation().z();
   }
 
   Script script_;
@@ -156,18 +156,18 @@ TEST_F(NewCalibrationTest, HoldsFromTheNextFrameOnWhichBeginsASequence) {
   Start(Config());
   Ask(10);
   EXPECT_EQ(LastCameraZ_m(), 0.5);
-  EXPECT_EQ(script_.calls().back().seen.frame.cables.at(0).value, kTold_m);
+  EXPECT_EQ(script_.calls().back().shape.frame.cables.at(0).value, kTold_m);
   EXPECT_EQ(script_.calls().back().youngs_modulus_Pa, 250e3);
   Send({});
   ASSERT_TRUE(WaitUntilSaid("takes the calibration of 2026-01-31"));
   Ask(20);
   const Script::Call call = script_.calls().back();
-  EXPECT_EQ(call.seen.frame.T_robot_camera.translation().z(), 0.75);
-  EXPECT_NEAR(call.seen.frame.cables.at(0).value, kTold_m + 1e-3, 1e-15);
+  EXPECT_EQ(call.shape.frame.T_robot_camera.translation().z(), 0.75);
+  EXPECT_NEAR(call.shape.frame.cables.at(0).value, kTold_m + 1e-3, 1e-15);
   EXPECT_EQ(call.youngs_modulus_Pa, 321e3);
-  EXPECT_EQ(call.estimator, script_.calls().front().estimator + 1);
+  EXPECT_EQ(call.pipeline, script_.calls().front().pipeline + 1);
   Ask(30);
-  EXPECT_EQ(script_.calls().back().estimator, call.estimator);
+  EXPECT_EQ(script_.calls().back().pipeline, call.pipeline);
 }
 
 TEST_F(NewCalibrationTest, IsRefusedWhereItIsForeignAndThatIsSaid) {

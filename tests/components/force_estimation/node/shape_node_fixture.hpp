@@ -12,7 +12,7 @@
 
 #include "components/force_estimation/node/node.hpp"
 #include "diagnostic_msgs/msg/DiagnosticStatus.hpp"
-#include "tests/components/force_estimation/node/scripted_estimator.hpp"
+#include "tests/components/force_estimation/node/scripted_pipeline.hpp"
 #include "tests/components/force_estimation/node/test_robot.hpp"
 #include "tests/support/perception_sender.hpp"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/force_estimation/node/make_pipeline.hpp"
 #include "libs/core/error.hpp"
 #include "tests/components/force_estimation/node/shape_node_fixture.hpp"
 
@@ -33,7 +34,7 @@ TEST_F(ShapeNodeTest, AnswersAFrameUnderItsStampWithAgeAndLatency) {
 
 TEST_F(ShapeNodeTest, TheEstimatorSeesCloudCablesAndContactsInTheRobotsFrame) {
   Ask({.stamp_ns = 1'500'000'000});
-  const ShapeFrame frame = script_.calls().at(0).seen.frame;
+  const ShapeFrame frame = script_.calls().at(0).shape.frame;
   EXPECT_EQ(frame.t_s, 1.5);
   EXPECT_EQ(frame.cloud.points_m(1, 0), 0.25f);
   EXPECT_EQ(frame.T_robot_camera.translation().z(), 0.5);
@@ -59,11 +60,11 @@ TEST_F(ShapeNodeTest, AFrameThatLostAPartIsLeftOutAndTheNextOneAnswered) {
 
 TEST_F(ShapeNodeTest, PassesOnWhatPerceptionSays) {
   Ask({.stamp_ns = 10, .points = 0, .status = "stale"});
-  const Status looked = script_.calls().at(0).seen.looked;
-  EXPECT_EQ(looked.code(), StatusCode::kStale);
-  EXPECT_EQ(looked.message(), "as perception says");
+  const Status status = script_.calls().at(0).shape.perception;
+  EXPECT_EQ(status.code(), StatusCode::kStale);
+  EXPECT_EQ(status.message(), "as perception says");
   Ask({.stamp_ns = 20});
-  EXPECT_TRUE(script_.calls().at(1).seen.looked.ok());
+  EXPECT_TRUE(script_.calls().at(1).shape.perception.ok());
 }
 
 TEST_F(ShapeNodeTest, WithoutCableInputsOfItsTimeAFrameIsStaleAndTheNextRecovers) {
@@ -88,8 +89,8 @@ TEST_F(ShapeNodeTest, OfTheFramesThatWaitTheNewestWins) {
   script_.Hold(false);
   ASSERT_TRUE(test_.WaitFor([&] { return answers_.back().stamp_ns == 29; }));
   ASSERT_EQ(script_.calls().size(), 3u);
-  EXPECT_EQ(script_.calls()[1].seen.frame.t_s, 20e-9);
-  EXPECT_EQ(script_.calls().back().seen.frame.t_s, 29e-9);
+  EXPECT_EQ(script_.calls()[1].shape.frame.t_s, 20e-9);
+  EXPECT_EQ(script_.calls().back().shape.frame.t_s, 29e-9);
 }
 
 TEST_F(ShapeNodeTest, SaysStaleOnceASecondWhenTheCloudsStopAndGoesOnWhenTheyComeAgain) {
@@ -107,16 +108,16 @@ TEST_F(ShapeNodeTest, SaysStaleOnceASecondWhenTheCloudsStopAndGoesOnWhenTheyCome
 
 TEST_F(ShapeNodeTest, ANewEpochKeepsWhatWasLearntAndAnotherCameraDoesNot) {
   Ask({.stamp_ns = 100, .epoch = 1});
-  Ask({.stamp_ns = 200, .epoch = 2});                        // opened anew
+  Ask({.stamp_ns = 200, .epoch = 2});                        // opened again
   Ask({.stamp_ns = 50, .epoch = 3});                         // the next recording
   Ask({.stamp_ns = 60, .device = "Palpate-2", .epoch = 3});  // another camera
   Ask({.stamp_ns = 50, .device = "Palpate-2", .epoch = 1});  // played again from the start
   const auto calls = script_.calls();
   ASSERT_EQ(calls.size(), 5u);
-  EXPECT_EQ(calls[1].estimator, calls[0].estimator);
-  EXPECT_EQ(calls[2].estimator, calls[0].estimator);
-  EXPECT_NE(calls[3].estimator, calls[0].estimator);
-  EXPECT_NE(calls[4].estimator, calls[3].estimator);
+  EXPECT_EQ(calls[1].pipeline, calls[0].pipeline);
+  EXPECT_EQ(calls[2].pipeline, calls[0].pipeline);
+  EXPECT_NE(calls[3].pipeline, calls[0].pipeline);
+  EXPECT_NE(calls[4].pipeline, calls[3].pipeline);
 }
 
 TEST_F(ShapeNodeTest, AnswersARepeatedFrameAgainWithoutWorkingOnIt) {
@@ -165,11 +166,11 @@ TEST_F(ShapeNodeTest, SaysWhereTheCalibrationNoLongerHoldsAndHowFarTheCameraMove
   moved.state = DriftReport::State::kMoved;
   moved.motion << 0.001, 0.002, 0.003, 0.004, 0.005, 0.006;
   moved.standard_error << 0.01, 0.02, 0.03, 0.04, 0.05, 0.06;
-  moved.advice = "calibrate anew";
+  moved.advice = "calibrate again";
   script_.SetDrift(moved);
   ASSERT_TRUE(said_of_frames("moved"));
   EXPECT_EQ(values_["status"], "no_calibration");
-  EXPECT_THAT(said_, HasSubstr("calibrate anew"));
+  EXPECT_THAT(said_, HasSubstr("calibrate again"));
   EXPECT_EQ(values_["drift_turn_rad"], "0.001 0.002 0.003");
   EXPECT_EQ(values_["drift_turn_error_rad"], "0.01 0.02 0.03");
   EXPECT_EQ(values_["drift_shift_m"], "0.004 0.005 0.006");

@@ -17,20 +17,20 @@ namespace {
 
 constexpr std::chrono::seconds kLong(20);  ///< nothing is asserted of it
 
-/// What an estimator and whoever takes its results tell one another.
+/// Shared between a pipeline and the thread that takes its results.
 struct Exchange {
   std::mutex mutex;
   std::condition_variable changed;
   bool came = false;
   bool taken = false;
-  std::optional<bool> taken_before;  ///< whether the result was out when AfterUpdate was called
+  std::optional<bool> taken_before;  ///< whether the result was out when PrepareNext was called
 };
 
-class Watching : public FrameEstimator {
+class Watching : public Pipeline {
  public:
   explicit Watching(Exchange& exchange) : exchange_(exchange) {}
-  FrameResult Update(FrameInput& input) override { return {input.head, {}, {}, false, {}}; }
-  void AfterUpdate(const FrameInput&) override {
+  const PipelineResult& Update(PipelineFrame) override { return result_; }
+  void PrepareNext() override {
     std::unique_lock lock(exchange_.mutex);
     exchange_.taken_before =
         exchange_.changed.wait_for(lock, kLong, [this] { return exchange_.taken; });
@@ -39,6 +39,7 @@ class Watching : public FrameEstimator {
 
  private:
   Exchange& exchange_;
+  PipelineResult result_;
 };
 
 TEST(Worker, GivesTheResultOutBeforeWhatCanWait) {

@@ -54,8 +54,8 @@ TEST_F(BarOfAnotherSize, IsSaidWithBothSizesWhereItIsRefused) {
   for (const bool names : {true, false}) {
     RecordThree({.names = names});
     const ProgramRun run = Calibrate();
-    ExpectFailure(run, "the sizes disagree: markers lie ");
-    const double seen_mm = NumberAfter("disagree: markers lie ", run.output);
+    ExpectFailure(run, "the sizes disagree: markers are ");
+    const double seen_mm = NumberAfter("disagree: markers are ", run.output);
     const double model_mm = NumberAfter("those of the model ", run.output);
     EXPECT_NEAR(seen_mm, 1.3 * Spread_mm(), 0.05 * Spread_mm());
     EXPECT_NEAR(model_mm, Spread_mm(), 0.05 * Spread_mm());

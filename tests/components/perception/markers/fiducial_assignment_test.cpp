@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Markers without hands, from the picture to the pose: discs of one colour on the robot under its
-// cables are found, told apart by where they are, and the camera's pose follows.
+// From the image to the pose without manual input: discs of one colour on the actuated robot are
+// detected and assigned by their positions, and the camera pose follows.
 
 #include <gtest/gtest.h>
 
@@ -131,7 +131,7 @@ TEST(FiducialAssignment, FromThePictureToLabelsAndPose) {
   EXPECT_LT(WorstPose_m(scenario, config), 1.5e-3);
 }
 
-/// A depth image that is bent by 0.3 % of z, 1.35 mm here, and nobody knows how.
+/// A depth image that is bent by 0.3 % of z, 1.35 mm here, in an unknown shape.
 TEST(FiducialAssignment, LabelsStandABentDepthImage) {
   const scenario::Scenario scenario = MarkedScenario();
   EXPECT_LT(WorstPose_m(scenario, ConfigOf(scenario)), 3.0 * 1.35e-3);

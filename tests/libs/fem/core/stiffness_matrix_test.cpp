@@ -206,7 +206,7 @@ TEST(EliminationOrder, IsAPermutationWithLessFillThanTheNaturalOrder) {
   EXPECT_LT(FactorEntries(343, pairs, order), 0.7 * FactorEntries(343, pairs, natural));
 }
 
-/// As one by one: the same order, and the process still ends where it is told to.
+/// The same order as one by one, and the process still ends at SIGTERM.
 TEST(EliminationOrder, IsFoundOnSeveralThreadsAtOnce) {
   const NodePairs pairs = GridPairs(9);
   const std::vector<int> alone = FindEliminationOrder(729, pairs).nodes;

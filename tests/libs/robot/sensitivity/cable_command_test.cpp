@@ -91,7 +91,7 @@ TEST_P(CableCommands, ComplianceOfACable) {
   }
 }
 
-/// More that gives way, and less than the mesh does.
+/// A compliance below zero reduces that of the mesh.
 TEST_P(CableCommands, OffsetOfCablesThatStretch) {
   robot_.compliance_m_N << 2e-3, -2e-4, 5e-4;
   for (const double mu : {0.0, 0.3}) {

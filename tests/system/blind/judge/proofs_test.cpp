@@ -34,7 +34,7 @@ double FourSigma(double share, int count) { return 4.0 * std::sqrt(share * (1.0 
 
 TEST(BlindProofs, WhoKnowsTheAnswersReachesEverything) {
   const Score score = Judge(RightRecords(kProofSeed, kProofCases));
-  // One 95 % interval that never misses is too wide by definition, and is told so.
+  // A 95 % interval that always covers the truth is too wide by definition, and is judged so.
   Acceptance acceptance;
   acceptance.covered_at_most = 1.0;
   EXPECT_THAT(Missed(score, acceptance), IsEmpty());

@@ -7,7 +7,7 @@
 #include "tests/support/test_folder.hpp"
 #include "tests/system/blind/verdict.hpp"
 
-/// verdict.json as ARCHITECTURE has it.
+/// verdict.json as docs/experiment.md describes it.
 namespace palpate::blind {
 namespace {
 

@@ -8,14 +8,13 @@
 #include "tests/system/blind/acceptance.hpp"
 #include "tests/system/blind/blind_set.hpp"
 
-/// Virtual robots with something hidden in them, drawn anew in each run, and what palpate diagnose
-/// makes of them.
+/// Virtual robots with hidden faults, drawn again in each run, and their verdicts by palpate
+/// diagnose.
 namespace palpate::blind {
 namespace {
 
-/// Some three minutes of two cores, and up to six, with what making them takes: half the moments
-/// that a person's diagnosis has. So few condemn nobody by chance; what is found in all of them
-/// does.
+/// Takes about three minutes of two cores, at most six, simulation included. Samples are half of
+/// the command's default. So few cases fail no figure by chance; a fault in all of them does.
 constexpr int kFewCases = 4;
 constexpr int kFewSamples = 60;
 constexpr int kFewMinutes = 5;

@@ -161,7 +161,7 @@ TEST_F(DiagnosePictures, NameADepthScale) {
   ExpectFirst(Diagnose(), "depth_scale", "s", 0.02, 0.006);
 }
 
-/// The robot bends to the side that nobody told it to: little of its skin is where it is expected.
+/// The robot bends to a side that was not commanded: little of its surface is where it is expected.
 TEST_F(DiagnosePictures, NameExchangedCables) {
   Make("{id: swapped_cables, where: [cable:north, cable:west]}", 25);
   const Json verdict = Diagnose();

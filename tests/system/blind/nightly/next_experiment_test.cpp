@@ -51,7 +51,8 @@ class NextExperimentLoop : public testing::Test {
   const fs::path folder_ = own_folder_.path();
 };
 
-/// Of rho g / E displacements of cables tell the ratio alone (DIAGNOSIS, "Identities").
+/// Without a known load, displacements of cables determine rho g / E only
+/// (components/diagnosis/explain/identities.hpp).
 TEST_F(NextExperimentLoop, NamesADensityOnceTheWeightHungThatItAskedFor) {
   const Json before = Diagnose("", "before");
   if (HasFatalFailure()) return;

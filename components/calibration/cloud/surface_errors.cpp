@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/calibration/cloud/skin_errors.hpp"
+#include "components/calibration/cloud/surface_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,17 @@ namespace palpate::calibration {
 
 namespace {
 
-/// Of a region's length, the sigma of its bell; beyond three of them it has no part.
-constexpr double kBell = 0.5;
-constexpr double kSkinReach = 3.0;
-constexpr int kFaces = 6;
-constexpr int kMostMiddles = 1000;
+/// Wider bells make errors smoother, and each point has shares in more regions.
+struct SurfaceErrorTuning {
+  double bell = 0.5;        ///< standard deviation of a region's Gaussian weight, in region lengths
+  double reach = 3.0;       ///< standard deviations beyond which a region has no share
+  int most_centres = 1000;  ///< of patches or regions; bounds the cost of large robots
+};
+constexpr SurfaceErrorTuning kSurfaceErrorTuning;
+constexpr int kFaces = 6;  // of a cube
 
-/// Nodes of the skin, each once.
-Eigen::Matrix3Xd SkinNodes(const robot::RobotBody& body) {
+/// Nodes of the surface, each once.
+Eigen::Matrix3Xd SurfaceNodes(const robot::RobotBody& body) {
   const Eigen::MatrixXi& faces = body.boundary.faces;
   std::vector<int> nodes(faces.data(), faces.data() + faces.size());
   std::sort(nodes.begin(), nodes.end());
@@ -30,9 +33,9 @@ Eigen::Matrix3Xd SkinNodes(const robot::RobotBody& body) {
   return body.mesh.nodes_m(Eigen::all, nodes);
 }
 
-/// Some of the points, no two nearer than `spacing_m`, none farther than that from all of them.
+/// Subset with a spacing of at least `spacing_m` that leaves no point farther away than that.
 Eigen::Matrix3Xd Spread(const Eigen::Matrix3Xd& points_m, double spacing_m) {
-  const int most = std::min(kMostMiddles, static_cast<int>(points_m.cols()));
+  const int most = std::min(kSurfaceErrorTuning.most_centres, static_cast<int>(points_m.cols()));
   const std::vector<int> order = geometry::FarthestPoints(points_m, most);
   Eigen::Matrix3Xd middles_m = points_m(Eigen::all, order);
   Eigen::Index count = 1;
@@ -44,7 +47,7 @@ Eigen::Matrix3Xd Spread(const Eigen::Matrix3Xd& points_m, double spacing_m) {
   return middles_m.leftCols(count);
 }
 
-/// Of a cube's six faces, the one that looks there.
+/// The face of a cube whose normal is nearest.
 int FaceTowards(const Eigen::Vector3d& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
@@ -58,22 +61,22 @@ int PatchAt(const Eigen::Matrix3Xd& patches_m, const Eigen::Vector3d& place_m,
   return kFaces * static_cast<int>(patch) + FaceTowards(normal);
 }
 
-/// A region's part in the error of a point.
+/// Weight of a region in the error of a point.
 struct Part {
   int region = 0;
   double weight = 0.0;
 };
 
-/// Their squares add up to 1, so that the error is as large everywhere.
+/// The squares add up to 1, so that the error has the same variance everywhere.
 std::vector<Part> PartsAt(const Eigen::Matrix3Xd& regions_m, double region_m,
                           const Eigen::Vector3d& place_m) {
   const Eigen::VectorXd away =
-      (regions_m.colwise() - place_m).colwise().norm() / (kBell * region_m);
+      (regions_m.colwise() - place_m).colwise().norm() / (kSurfaceErrorTuning.bell * region_m);
   const double nearest = away.minCoeff();
   std::vector<Part> parts;
   double squares = 0.0;
   for (Eigen::Index r = 0; r < away.size(); ++r) {
-    if (away[r] > std::max(kSkinReach, nearest)) continue;
+    if (away[r] > std::max(kSurfaceErrorTuning.reach, nearest)) continue;
     const double weight = std::exp(0.5 * (nearest * nearest - away[r] * away[r]));
     parts.push_back({static_cast<int>(r), weight});
     squares += weight * weight;
@@ -84,7 +87,7 @@ std::vector<Part> PartsAt(const Eigen::Matrix3Xd& regions_m, double region_m,
 
 enum class Kind { kWhole, kPatch, kRegion, kMotion, kRegionMotion };
 
-/// Numbers of the errors, as they are first met.
+/// Numbers the parameters of the errors in the order of their first use.
 class Numbers {
  public:
   void Add(SurfaceSighting* sighting, Kind kind, int place, int which, double per_unit_m) {
@@ -103,16 +106,16 @@ class Numbers {
 
 }  // namespace
 
-SkinErrors::SkinErrors(const robot::RobotBody& body, Eigen::VectorXd rest_m,
-                       const SkinErrorSettings& settings)
+SurfaceErrors::SurfaceErrors(const robot::RobotBody& body, Eigen::VectorXd rest_m,
+                             const SurfaceErrorSettings& settings)
     : settings_(settings), undeformed_m_(body.mesh.nodes_m.reshaped()), rest_m_(std::move(rest_m)) {
-  const Eigen::Matrix3Xd skin_m = SkinNodes(body);
-  patches_m_ = Spread(skin_m, settings.patch_m);
-  regions_m_ = Spread(skin_m, settings.region_m);
+  const Eigen::Matrix3Xd surface_m = SurfaceNodes(body);
+  patches_m_ = Spread(surface_m, settings.patch_m);
+  regions_m_ = Spread(surface_m, settings.region_m);
 }
 
-std::vector<bool> SkinErrors::Share(const std::vector<Eigen::VectorXd>& shapes_m,
-                                    std::vector<CalibrationFrame>* frames) const {
+std::vector<bool> SurfaceErrors::Share(const std::vector<Eigen::VectorXd>& shapes_m,
+                                       std::vector<CalibrationFrame>* frames) const {
   Numbers numbers;
   for (std::size_t f = 0; f < frames->size(); ++f) {
     for (SurfaceSighting& sighting : (*frames)[f].surface) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/estimate/shape_pipeline.hpp"
+#include "components/palpate/estimate/shape_replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,6 +21,7 @@ using experiment::Recording;
 using experiment::RecordingKind;
 using force_estimation::ForceEstimate;
 using force_estimation::ShapeFrame;
+using force_estimation::ShapePipeline;
 using testing::Each;
 using testing::ElementsAre;
 using testing::SizeIs;
@@ -32,41 +33,52 @@ Eigen::Isometry3d LookingDown() {
   return T_robot_camera;
 }
 
-// Senses that note what they are shown and answer what they are told.
-struct FakeSenses {
+// A perception and an estimator that record their inputs and return given results.
+struct Fakes {
   int cameras_opened = 0;
   std::vector<std::int64_t> stamps_ns;
   std::vector<std::optional<perception::PredictedSurface>> predictions;
   std::vector<ShapeFrame> frames;
   std::vector<Eigen::Vector3d> gravity_m_s2;
+  std::vector<force_estimation::FeatureReport> features;
+  int prepared = 0;
   perception::Observation observation;
   ForceEstimate estimate;
   std::function<void(ForceEstimate*)> answer = [](ForceEstimate*) {};
 
-  ShapeSenses Senses(const robot::RobotModel& model) {
-    ShapeSenses senses;
-    senses.open_camera = [this](const rgbd::RgbdCamera&) { ++cameras_opened; };
-    senses.look =
+  ReplayPerception Perception() {
+    ReplayPerception fake;
+    fake.set_camera = [this](const rgbd::RgbdCamera&) { ++cameras_opened; };
+    fake.update =
         [this](const rgbd::RgbdFrame& frame,
                const perception::PredictedSurface* predicted) -> const perception::Observation& {
       stamps_ns.push_back(frame.stamp_ns);
       predictions.emplace_back(predicted ? std::optional(*predicted) : std::nullopt);
       return observation;
     };
-    senses.feel = [this, &model](const ShapeFrame& frame) -> const ForceEstimate& {
+    return fake;
+  }
+  ShapePipeline::Estimator Estimator(const robot::RobotModel& model) {
+    features.resize(model.body().feature_points.size());
+    ShapePipeline::Estimator fake;
+    fake.update = [this, &model](const ShapeFrame& frame) -> const ForceEstimate& {
       frames.push_back(frame);
       gravity_m_s2.push_back(model.gravity_m_s2());
       estimate.t_s = frame.t_s;
       answer(&estimate);
       return estimate;
     };
-    return senses;
+    fake.features = [this]() -> const std::vector<force_estimation::FeatureReport>& {
+      return features;
+    };
+    fake.prepare_next = [this] { ++prepared; };
+    return fake;
   }
 };
 
-class ShapeWayTest : public testing::Test {
+class ShapeReplayTest : public testing::Test {
  protected:
-  ShapeWayTest() : model_(LoadRobot(WriteBarRobot(folder_))) {
+  ShapeReplayTest() : model_(LoadRobot(WriteBarRobot(folder_))) {
     experiment_.T_robot_camera = LookingDown();
     fake_.observation.frame.status = Status::Ok();
     fake_.estimate.status = Status(StatusCode::kNoContact, "");
@@ -95,15 +107,16 @@ class ShapeWayTest : public testing::Test {
     }
     return recording;
   }
-  ShapePipeline Way(int first_untouched = 0) {
-    return ShapePipeline({.experiment = experiment_,
-                          .model = model_.get(),
-                          .cable_input = robot::CableInput::kDisplacement,
-                          .sites = {},
-                          .first_untouched = first_untouched},
-                         fake_.Senses(*model_));
+  ShapeReplay Replay(int contact_free_frames = 0) {
+    return ShapeReplay({.experiment = experiment_,
+                        .model = model_.get(),
+                        .cable_input = robot::CableInput::kDisplacement},
+                       fake_.Perception(),
+                       std::make_unique<ShapePipeline>(
+                           model_->body(), std::vector<force_estimation::ContactSite>(),
+                           contact_free_frames, fake_.Estimator(*model_)));
   }
-  std::vector<bool> Untouched() const {
+  std::vector<bool> ContactFree() const {
     std::vector<bool> flags;
     for (const ShapeFrame& frame : fake_.frames) flags.push_back(frame.untouched);
     return flags;
@@ -112,12 +125,12 @@ class ShapeWayTest : public testing::Test {
   TestFolder folder_;
   std::unique_ptr<robot::RobotModel> model_;
   experiment::Experiment experiment_;
-  FakeSenses fake_;
+  Fakes fake_;
   const TakeEstimate ignore_ = [](const ForceEstimate&) {};
 };
 
-TEST_F(ShapeWayTest, PredictsFromTheLastEstimateAsItTravels) {
-  Way().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
+TEST_F(ShapeReplayTest, PredictsFromTheLastEstimateAsItTravels) {
+  Replay().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
   ASSERT_THAT(fake_.predictions, SizeIs(2));
   EXPECT_FALSE(fake_.predictions[0]);
   ASSERT_TRUE(fake_.predictions[1]);
@@ -130,47 +143,48 @@ TEST_F(ShapeWayTest, PredictsFromTheLastEstimateAsItTravels) {
   EXPECT_EQ(fake_.predictions[1]->triangles, expected.triangles);
 }
 
-TEST_F(ShapeWayTest, AnEstimateThatDoesNotStandPredictsNothing) {
+TEST_F(ShapeReplayTest, AFailedEstimatePredictsNothing) {
   int frame = 0;
   fake_.answer = [&](ForceEstimate* estimate) {
     estimate->x_m = Nodes(0.1 * ++frame);
     estimate->status = Status(frame == 2 ? StatusCode::kNotConverged : StatusCode::kOk, "");
     if (frame == 3) estimate->x_m[4] = std::nan("");
   };
-  Way().Estimate(Images("r", RecordingKind::kFree, 4), ignore_);
+  Replay().Estimate(Images("r", RecordingKind::kFree, 4), ignore_);
   ASSERT_TRUE(fake_.predictions[1] && fake_.predictions[2] && fake_.predictions[3]);
   EXPECT_EQ(fake_.predictions[2]->vertices_m, fake_.predictions[1]->vertices_m);
   EXPECT_EQ(fake_.predictions[3]->vertices_m, fake_.predictions[1]->vertices_m);
 }
 
-TEST_F(ShapeWayTest, ARobotThatIsNotSeenIsLookedForWhereItWouldBe) {
+TEST_F(ShapeReplayTest, ARobotThatIsNotSeenIsLookedForWhereItWouldBe) {
   fake_.estimate.status = Status(StatusCode::kNoRobotSeen, "");
-  Way().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
+  Replay().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
   EXPECT_TRUE(fake_.predictions[1]);
 }
 
-TEST_F(ShapeWayTest, OnlyTeachersAreUntouched) {
-  ShapePipeline way = Way();
-  EXPECT_EQ(way.Teach(Images("a", RecordingKind::kRest, 2)), 2);
+TEST_F(ShapeReplayTest, OnlyFramesForTheDepthBiasAreContactFree) {
+  ShapeReplay replay = Replay();
+  EXPECT_EQ(replay.EstimateDepthBias(Images("a", RecordingKind::kRest, 2)), 2);
   int taken = 0;
-  way.Estimate(Images("b", RecordingKind::kRest, 1), [&](const ForceEstimate&) { ++taken; });
-  EXPECT_THAT(Untouched(), ElementsAre(true, true, false));
+  replay.Estimate(Images("b", RecordingKind::kRest, 1), [&](const ForceEstimate&) { ++taken; });
+  EXPECT_THAT(ContactFree(), ElementsAre(true, true, false));
   EXPECT_EQ(taken, 1);
   EXPECT_EQ(fake_.cameras_opened, 2);
-  EXPECT_TRUE(fake_.predictions[2]);  // the senses go on from one recording to the next
+  EXPECT_TRUE(fake_.predictions[2]);  // the pipeline goes on from one recording to the next
+  EXPECT_EQ(fake_.prepared, 3);
 }
 
-TEST_F(ShapeWayTest, TheFirstFramesTeachAsInTheProcess) {
-  ShapePipeline way = Way(2);
-  way.Estimate(Images("a", RecordingKind::kFree, 1), ignore_);
+TEST_F(ShapeReplayTest, TheFirstFramesAreContactFreeAsInTheProcess) {
+  ShapeReplay replay = Replay(2);
+  replay.Estimate(Images("a", RecordingKind::kFree, 1), ignore_);
   fake_.observation.frame.status = Status(StatusCode::kNoRobotSeen, "too dark");
-  way.Estimate(Images("dark", RecordingKind::kFree, 1), ignore_);  // does not count
+  replay.Estimate(Images("dark", RecordingKind::kFree, 1), ignore_);  // does not count
   fake_.observation.frame.status = Status::Ok();
-  way.Estimate(Images("b", RecordingKind::kFree, 2), ignore_);
-  EXPECT_THAT(Untouched(), ElementsAre(true, true, true, false));
+  replay.Estimate(Images("b", RecordingKind::kFree, 2), ignore_);
+  EXPECT_THAT(ContactFree(), ElementsAre(true, true, true, false));
 }
 
-TEST_F(ShapeWayTest, CableInputsAreThoseOfTheFramesTime) {
+TEST_F(ShapeReplayTest, CableInputsAreThoseOfTheFramesTime) {
   Recording recording = Images("r", RecordingKind::kFree, 2, 1.0);
   experiment::Actuation actuation;
   actuation.t_s = {0.9, 1.1};
@@ -179,7 +193,7 @@ TEST_F(ShapeWayTest, CableInputsAreThoseOfTheFramesTime) {
                                .samples = {0.0, 0.004},
                                .where = {}});
   recording.actuation = actuation;
-  Way().Estimate(recording, ignore_);
+  Replay().Estimate(recording, ignore_);
   ASSERT_THAT(fake_.frames, SizeIs(2));
   EXPECT_DOUBLE_EQ(fake_.frames[0].t_s, 1.0);
   EXPECT_EQ(fake_.stamps_ns[1], 1100000000);
@@ -188,7 +202,7 @@ TEST_F(ShapeWayTest, CableInputsAreThoseOfTheFramesTime) {
   EXPECT_NEAR(fake_.frames[1].cables[0].value, 0.004, 1e-12);
 }
 
-TEST_F(ShapeWayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
+TEST_F(ShapeReplayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
   perception::DetectedContact contact;
   contact.name = "contact_7";
   contact.position_m = {0.01, 0.02, 0.3};
@@ -198,7 +212,7 @@ TEST_F(ShapeWayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
   contact.point_count = 12;
   fake_.observation.contacts = {contact};
   fake_.observation.frame.robot.points_m = Eigen::Matrix3Xf::Ones(3, 5);
-  Way().Estimate(Images("r", RecordingKind::kFree, 1), ignore_);
+  Replay().Estimate(Images("r", RecordingKind::kFree, 1), ignore_);
   const ShapeFrame& frame = fake_.frames.at(0);
   EXPECT_EQ(frame.cloud.Count(), 5);
   EXPECT_TRUE(frame.T_robot_camera.isApprox(LookingDown()));
@@ -211,14 +225,14 @@ TEST_F(ShapeWayTest, AContactGoesFromTheCamerasFrameIntoTheRobots) {
   EXPECT_EQ(frame.contacts[0].point_count, 12);
 }
 
-TEST_F(ShapeWayTest, AKnownLoadIsAContactWhileItActs) {
+TEST_F(ShapeReplayTest, AKnownLoadIsAContactWhileItActs) {
   Recording recording = Images("r", RecordingKind::kKnownLoad, 3);
   recording.loads.resize(2);
   recording.loads[0].t_s = 1.0;
   recording.loads[1].t_s = 1.15;
   recording.loads[0].position_m = recording.loads[1].position_m = {0.075, 0.01, 0.02};
   recording.loads[1].force_N = {0.0, 0.0, -0.5};
-  Way().Estimate(recording, ignore_);
+  Replay().Estimate(recording, ignore_);
   EXPECT_THAT(fake_.frames[1].contacts, SizeIs(0));
   ASSERT_THAT(fake_.frames[2].contacts, SizeIs(1));
   EXPECT_EQ(fake_.frames[2].contacts[0].name, "load_1");
@@ -226,13 +240,13 @@ TEST_F(ShapeWayTest, AKnownLoadIsAContactWhileItActs) {
   EXPECT_TRUE(fake_.frames[2].contacts[0].position_m.isApprox(there_m, 1e-6));
 }
 
-TEST_F(ShapeWayTest, WithoutACameraPoseEachFrameSaysSo) {
+TEST_F(ShapeReplayTest, WithoutACameraPoseEachFrameSaysSo) {
   experiment_.T_robot_camera.reset();
-  ShapePipeline way = Way();
+  ShapeReplay replay = Replay();
   const Recording recording = Images("r", RecordingKind::kRest, 3);
-  EXPECT_EQ(way.Teach(recording), 0);
+  EXPECT_EQ(replay.EstimateDepthBias(recording), 0);
   std::vector<StatusCode> codes;
-  way.Estimate(recording, [&](const ForceEstimate& estimate) {
+  replay.Estimate(recording, [&](const ForceEstimate& estimate) {
     codes.push_back(estimate.status.code());
     EXPECT_THAT(estimate.status.message(), testing::HasSubstr("no T_robot_camera is given"));
     EXPECT_GE(estimate.t_s, 1.0);
@@ -242,21 +256,21 @@ TEST_F(ShapeWayTest, WithoutACameraPoseEachFrameSaysSo) {
   EXPECT_THAT(fake_.frames, SizeIs(0));
 }
 
-TEST_F(ShapeWayTest, AFrameThatPerceptionRefusesKeepsItsReason) {
+TEST_F(ShapeReplayTest, AFrameThatPerceptionRefusesKeepsItsReason) {
   fake_.observation.frame.status = Status(StatusCode::kInvalidInput, "all depth is invalid");
   fake_.estimate.status = Status(StatusCode::kNoRobotSeen, "only 0 points");
-  Way().Estimate(Images("r", RecordingKind::kFree, 1), [&](const ForceEstimate& estimate) {
+  Replay().Estimate(Images("r", RecordingKind::kFree, 1), [&](const ForceEstimate& estimate) {
     EXPECT_EQ(estimate.status.code(), StatusCode::kInvalidInput);
     EXPECT_EQ(estimate.status.message(), "all depth is invalid");
   });
 }
 
-TEST_F(ShapeWayTest, ATiltedBaseTiltsGravityForItsRecordingOnly) {
+TEST_F(ShapeReplayTest, ATiltedBaseTiltsGravityForItsRecordingOnly) {
   Recording tilted = Images("a", RecordingKind::kBaseTilted, 1);
   tilted.base_tilt_deg = Eigen::Vector2d(90.0, 0.0);
-  ShapePipeline way = Way();
-  way.Estimate(tilted, ignore_);
-  way.Estimate(Images("b", RecordingKind::kFree, 1), ignore_);
+  ShapeReplay replay = Replay();
+  replay.Estimate(tilted, ignore_);
+  replay.Estimate(Images("b", RecordingKind::kFree, 1), ignore_);
   EXPECT_NEAR(fake_.gravity_m_s2[0].y(), -9.81, 1e-9);
   EXPECT_NEAR(fake_.gravity_m_s2[1].z(), -9.81, 1e-9);
 }

@@ -8,16 +8,16 @@
 #include <mutex>
 #include <vector>
 
-#include "components/force_estimation/node/frame_estimator.hpp"
+#include "components/force_estimation/pipeline/pipeline.hpp"
 
 namespace palpate::force_estimation {
 
-/// What the stand-in for the estimator was asked, shared between it and the test.
+/// Inputs and outputs of a scripted pipeline, shared between it and the test.
 class Script {
  public:
   struct Call {
-    int estimator = 0;  ///< which one, from 1
-    SeenShape seen;
+    int pipeline = 0;  ///< which one, from 1
+    PerceivedShape shape;
     double youngs_modulus_Pa = 0.0;  ///< of the model's body
   };
 
@@ -36,38 +36,41 @@ class Script {
     const std::lock_guard lock(mutex_);
     drift_ = drift;
   }
-  FrameEstimatorMaker Maker() {
+  PipelineMaker Maker() {
     return [this](robot::RobotModel& model) { return std::make_unique<Scripted>(*this, model); };
   }
 
  private:
   /// One force of as many newtons as the cloud has points.
-  class Scripted : public FrameEstimator {
+  class Scripted : public Pipeline {
    public:
     Scripted(Script& script, robot::RobotModel& model) : script_(script), model_(model) {
       const std::lock_guard lock(script_.mutex_);
       number_ = ++script_.made_;
     }
-    FrameResult Update(FrameInput& input) override {
+    const PipelineResult& Update(PipelineFrame frame) override {
       std::unique_lock lock(script_.mutex_);
-      const auto& seen = std::get<SeenShape>(input.frame);
-      script_.calls_.push_back({number_, seen, model_.body().materials.front().youngs_modulus_Pa});
+      const auto& shape = std::get<PerceivedShape>(frame);
+      script_.calls_.push_back({number_, shape, model_.body().materials.front().youngs_modulus_Pa});
       script_.changed_.wait(lock, [this] { return !script_.hold_; });
-      FrameResult result{input.head, {}, {}, true, Status::Ok(), script_.drift_};
-      result.estimate.status = Status::Ok();
-      result.estimate.x_m = model_.RestState().x_m;
+      result_.state_is_known = true;
+      result_.state = Status::Ok();
+      result_.drift = script_.drift_;
+      result_.estimate.status = Status::Ok();
+      result_.estimate.x_m = model_.RestState().x_m;
       ContactForce contact;
       contact.status = Status::Ok();
       contact.name = "contact_1";
-      contact.force_N.z() = static_cast<double>(seen.frame.cloud.Count());
-      result.estimate.contacts = {contact};
-      return result;
+      contact.force_N.z() = static_cast<double>(shape.frame.cloud.Count());
+      result_.estimate.contacts = {contact};
+      return result_;
     }
 
    private:
     Script& script_;
     robot::RobotModel& model_;
     int number_ = 0;
+    PipelineResult result_;
   };
 
   mutable std::mutex mutex_;

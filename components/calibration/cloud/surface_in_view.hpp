@@ -16,38 +16,38 @@
 
 namespace palpate::calibration {
 
-/// Where a cloud point meets the skin.
-struct SkinFoot {
-  int triangle = -1;  ///< of the drawn skin
+/// Nearest visible surface point of a cloud point.
+struct SurfaceFoot {
+  int triangle = -1;  ///< of the surface triangles
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< robot frame
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();      ///< unit, outward, robot frame
   double distance_m = 0.0;                               ///< >= 0
-  double openness = 0.0;  ///< to the camera: 0 where it is seen at a grazing angle, up to 1
+  double openness = 0.0;  ///< weight by angle of view: 0 grazing, up to 1
 };
 
-/// The part of a robot's skin that a camera sees of it in one shape: what faces the camera and is
-/// not hidden behind other parts, by a z-buffer from the camera's centre. Which camera it is does
-/// not matter for that. The skin is the drawn one (four triangles for each face of tet10).
-class SkinInView {
+/// Visible part of a robot's surface in one shape: triangles that face the camera and are not
+/// hidden, by a z-buffer from the camera's centre. Lens and image size do not matter. A face of
+/// tet10 is four triangles.
+class SurfaceInView {
  public:
-  explicit SkinInView(const robot::RobotBody& body);
+  explicit SurfaceInView(const robot::RobotBody& body);
 
   /// `x_m` [3n] nodes, robot frame.
   void TakeShape(const Eigen::VectorXd& x_m);
-  /// From the camera's centre. Needs TakeShape before it.
+  /// Computes visibility from the camera's centre. Needs TakeShape before it.
   void LookFrom(const geometry::RigidTransform& T_robot_camera);
 
-  /// Triangles of which something is seen.
+  /// Number of visible triangles.
   int SeenCount() const { return static_cast<int>(seen_.size()); }
-  /// The nearest place of what is seen, for a point in the robot frame; none where nothing is seen,
-  /// or that place itself is hidden behind another part of the skin, or is seen at a grazing angle.
-  std::optional<SkinFoot> FootOf(const Eigen::Vector3d& point_robot_m) const;
-  fem::InterpolationWeights WeightsOf(const SkinFoot& foot) const;
-  /// How far the skin may lie off this triangle, as its neighbours turn away from it, m: the height
-  /// of an arc over its longest edge, edge * angle / 8.
+  /// The nearest visible surface point of a point in the robot frame. nullopt: nothing is visible,
+  /// or that surface point is hidden or at a grazing angle.
+  std::optional<SurfaceFoot> FootOf(const Eigen::Vector3d& point_robot_m) const;
+  fem::InterpolationWeights WeightsOf(const SurfaceFoot& foot) const;
+  /// Distance of the smooth surface from this triangle, m: largest arc height over an edge, edge *
+  /// angle between the vertex normals / 8.
   double FacetError_m(int triangle) const { return facet_error_m_[triangle]; }
-  /// [3 x n] places in the middle of those pixels of the z-buffer that show the skin, robot frame.
+  /// [3 x n] surface points at the centres of the z-buffer's pixels, robot frame.
   const Eigen::Matrix3Xd& seen_places_m() const { return seen_places_m_; }
   /// Unit, outward, robot frame.
   Eigen::Vector3d NormalAtSeenPlace(Eigen::Index place) const {
@@ -59,7 +59,7 @@ class SkinInView {
   void CollectSeen();
   bool IsHidden(const Eigen::Vector3d& place_robot_m) const;
 
-  std::vector<int> nodes_;             ///< [vertices] of the mesh, rising
+  std::vector<int> nodes_;             ///< [vertices] of the mesh, ascending
   geometry::TriangleSurface surface_;  ///< robot frame, of the vertices
   Eigen::Matrix3Xd normals_;           ///< [3 x triangles]
   Eigen::VectorXd facet_error_m_;      ///< [triangles]

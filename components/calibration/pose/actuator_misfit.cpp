@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/calibration/pose/drive_misfit.hpp"
+#include "components/calibration/pose/actuator_misfit.hpp"
 
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ using Kind = robot::CableCommand::Kind;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// [a] NaN without an equilibrium.
+/// [a] NaN: no equilibrium.
 Eigen::VectorXd Displacements_m(robot::RobotModel& model, const CalibrationFrame& frame,
                                 const std::vector<robot::CableCommand>& cables) {
   const ModelSnapshot kept(model);
@@ -33,8 +33,8 @@ Eigen::VectorXd Displacements_m(robot::RobotModel& model, const CalibrationFrame
   return displacement_m;
 }
 
-/// Of one cable over the frames.
-double MisfitOf(const Eigen::RowVectorXd& off_m, bool has_offset, const DriveErrors& errors) {
+/// Chi-squared of one cable over the frames, its offset marginalised.
+double MisfitOf(const Eigen::RowVectorXd& off_m, bool has_offset, const ActuatorErrors& errors) {
   const double weight = 1.0 / (errors.displacement_m * errors.displacement_m);
   double count = 0.0, sum_m = 0.0, squares_m2 = 0.0;
   for (const double one_m : off_m) {
@@ -63,9 +63,9 @@ Eigen::MatrixXd CommandedDisplacements_m(robot::RobotModel& model,
   return commanded_m;
 }
 
-double DriveMisfit(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
-                   const std::vector<Eigen::VectorXd>& tension_N,
-                   const Eigen::MatrixXd& commanded_m, const DriveErrors& errors) {
+double ActuatorMisfit(robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
+                      const std::vector<Eigen::VectorXd>& tension_N,
+                      const Eigen::MatrixXd& commanded_m, const ActuatorErrors& errors) {
   Eigen::MatrixXd off_m(commanded_m.rows(), commanded_m.cols());
   for (std::size_t f = 0; f < frames.size(); ++f) {
     std::vector<robot::CableCommand> cables;

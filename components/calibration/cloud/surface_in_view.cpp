@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/calibration/cloud/skin_in_view.hpp"
+#include "components/calibration/cloud/surface_in_view.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,20 +14,21 @@ namespace palpate::calibration {
 
 namespace {
 
-constexpr int kSide_px = 192;
+/// A finer z-buffer costs time. Stricter angles lose points at the outline.
+struct SurfaceInViewTuning {
+  int side_px = 192;       ///< width and height of the z-buffer
+  double widest = 3.0;     ///< tangent of the widest view; beyond, the camera is inside the robot
+  double hidden_m = 4e-3;  ///< depth behind the nearest surface; less may be rounding on a slope
+  double grazing = 0.15;   ///< cosine below which a pose error moves the point along the surface
+  double open = 0.4;       ///< cosine above which a point has its full weight
+};
+constexpr SurfaceInViewTuning kInViewTuning;
+constexpr int kSide_px = kInViewTuning.side_px;
 constexpr double kCentre_px = 0.5 * (kSide_px - 1);
-/// A wider view than this, as tangent, is of a camera within the robot.
-constexpr double kWidest = 3.0;
-/// What lies deeper than this behind the nearest surface is hidden; less is rounding of a pixel on
-/// a slope.
-constexpr double kHidden_m = 4e-3;
-/// Cosine to the line of sight below which an error of the pose moves the point along the skin.
-constexpr double kGrazing = 0.15;
-constexpr double kOpen = 0.4;  ///< above, it counts in full
 
 }  // namespace
 
-SkinInView::SkinInView(const robot::RobotBody& body)
+SurfaceInView::SurfaceInView(const robot::RobotBody& body)
     : view_(rgbd::CameraModel{.width_px = kSide_px,
                               .height_px = kSide_px,
                               .fx_px = 1.0,
@@ -44,7 +45,7 @@ SkinInView::SkinInView(const robot::RobotBody& body)
   }
 }
 
-void SkinInView::TakeShape(const Eigen::VectorXd& x_m) {
+void SurfaceInView::TakeShape(const Eigen::VectorXd& x_m) {
   surface_.vertices_m.resize(3, ToIndex(nodes_.size()));
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
     surface_.vertices_m.col(ToIndex(v)) = x_m.segment<3>(3 * nodes_[v]);
@@ -68,7 +69,7 @@ void SkinInView::TakeShape(const Eigen::VectorXd& x_m) {
   }
 }
 
-void SkinInView::LookFrom(const geometry::RigidTransform& T_robot_camera) {
+void SurfaceInView::LookFrom(const geometry::RigidTransform& T_robot_camera) {
   eye_m_ = T_robot_camera.translation_m();
   seen_.clear();
   seen_index_.reset();
@@ -79,8 +80,8 @@ void SkinInView::LookFrom(const geometry::RigidTransform& T_robot_camera) {
   CollectSeen();
 }
 
-/// Towards the middle of the skin, and as near as keeps it in the picture.
-bool SkinInView::Aim() {
+/// Turns the view to the centre of the surface, with the largest focal length that holds all of it.
+bool SurfaceInView::Aim() {
   const Eigen::Vector3d middle_m =
       0.5 * (surface_.vertices_m.rowwise().minCoeff() + surface_.vertices_m.rowwise().maxCoeff()) -
       eye_m_;
@@ -93,12 +94,12 @@ bool SkinInView::Aim() {
     widest = std::max(widest, vertex.head<2>().cwiseAbs().maxCoeff() / vertex.z());
   }
   if (!(widest > 0.0)) return false;
-  focal_px_ = (kCentre_px - 1.0) / std::min(widest, kWidest);
+  focal_px_ = (kCentre_px - 1.0) / std::min(widest, kInViewTuning.widest);
   aimed_m_.topRows<2>() *= focal_px_;
   return true;
 }
 
-void SkinInView::CollectSeen() {
+void SurfaceInView::CollectSeen() {
   std::vector<bool> is_seen(static_cast<size_t>(surface_.TriangleCount()), false);
   std::vector<Eigen::Vector3d> places_m;
   const rgbd::SurfaceView::Bounds& bounds = view_.bounds();
@@ -130,39 +131,40 @@ void SkinInView::CollectSeen() {
   seen_index_ = std::make_unique<geometry::SurfaceIndex>(std::move(part));
 }
 
-bool SkinInView::IsHidden(const Eigen::Vector3d& place_robot_m) const {
+bool SurfaceInView::IsHidden(const Eigen::Vector3d& place_robot_m) const {
   const Eigen::Vector3d aimed_m = turn_ * (place_robot_m - eye_m_);
   if (aimed_m.z() < rgbd::SurfaceView::kNearest_m) return true;
   const double scale_px = focal_px_ / aimed_m.z();
   const int u_px = static_cast<int>(std::lround(kCentre_px + scale_px * aimed_m.x()));
   const int v_px = static_cast<int>(std::lround(kCentre_px + scale_px * aimed_m.y()));
-  // At an outline a pixel beside says it: what lies there is seen by chance.
+  // At an outline the neighbouring pixels count, too: visibility there is random.
   for (int v = std::max(0, v_px - 1); v <= std::min(kSide_px - 1, v_px + 1); ++v) {
     for (int u = std::max(0, u_px - 1); u <= std::min(kSide_px - 1, u_px + 1); ++u) {
       const auto nearest_m = static_cast<double>(view_.Z_m(u, v));
-      if (nearest_m > 0.0 && nearest_m < aimed_m.z() - kHidden_m) return true;
+      if (nearest_m > 0.0 && nearest_m < aimed_m.z() - kInViewTuning.hidden_m) return true;
     }
   }
   return false;
 }
 
-std::optional<SkinFoot> SkinInView::FootOf(const Eigen::Vector3d& point_robot_m) const {
+std::optional<SurfaceFoot> SurfaceInView::FootOf(const Eigen::Vector3d& point_robot_m) const {
   if (!seen_index_) return std::nullopt;
   const geometry::SurfacePoint nearest = seen_index_->Closest(point_robot_m);
   const int triangle = seen_[At(nearest.triangle)];
   const Eigen::Vector3d normal = normals_.col(triangle);
   const Eigen::Vector3d sight = (eye_m_ - nearest.position_m).normalized();
   const double cosine = normal.dot(sight);
-  if (cosine < kGrazing || IsHidden(nearest.position_m)) return std::nullopt;
-  return SkinFoot{.triangle = triangle,
-                  .barycentric = nearest.barycentric,
-                  .position_m = nearest.position_m,
-                  .normal = normal,
-                  .distance_m = nearest.distance_m,
-                  .openness = std::min(1.0, (cosine - kGrazing) / (kOpen - kGrazing))};
+  if (cosine < kInViewTuning.grazing || IsHidden(nearest.position_m)) return std::nullopt;
+  return SurfaceFoot{.triangle = triangle,
+                     .barycentric = nearest.barycentric,
+                     .position_m = nearest.position_m,
+                     .normal = normal,
+                     .distance_m = nearest.distance_m,
+                     .openness = std::min(1.0, (cosine - kInViewTuning.grazing) /
+                                                   (kInViewTuning.open - kInViewTuning.grazing))};
 }
 
-fem::InterpolationWeights SkinInView::WeightsOf(const SkinFoot& foot) const {
+fem::InterpolationWeights SurfaceInView::WeightsOf(const SurfaceFoot& foot) const {
   fem::InterpolationWeights weights;
   for (int k = 0; k < 3; ++k) {
     const int vertex = surface_.triangles(k, foot.triangle);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/calibration/cloud/skin_errors.hpp"
+#include "components/calibration/cloud/surface_errors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 namespace palpate::calibration {
 namespace {
 
-/// Two settings of the cables, in which the camera sees the same places of the skin.
-class SkinErrorsTest : public ::testing::Test {
+/// Two settings of the cables, in which the camera sees the same places of the surface.
+class SurfaceErrorsTest : public ::testing::Test {
  protected:
-  SkinErrorsTest() {
+  SurfaceErrorsTest() {
     const fem::BoundarySurface& boundary = model_->body().boundary;
     const auto rest = fem::RestSurface(model_->body().mesh, boundary);
     const geometry::SurfaceSamples places = geometry::SampleByArea(rest, 400);
@@ -37,8 +37,8 @@ class SkinErrorsTest : public ::testing::Test {
     }
   }
 
-  std::vector<bool> Share(const SkinErrorSettings& settings) {
-    return SkinErrors(model_->body(), rest_m_, settings).Share(shapes_m_, &frames_);
+  std::vector<bool> Share(const SurfaceErrorSettings& settings) {
+    return SurfaceErrors(model_->body(), rest_m_, settings).Share(shapes_m_, &frames_);
   }
 
   Eigen::Vector3d PlaceOf(const SurfaceSighting& sighting) const {
@@ -67,8 +67,8 @@ class SkinErrorsTest : public ::testing::Test {
   std::mt19937_64 random_{20261124};
 };
 
-TEST_F(SkinErrorsTest, AreAsLargeEverywhereAsTheSettingsSay) {
-  const SkinErrorSettings s;
+TEST_F(SurfaceErrorsTest, AreAsLargeEverywhereAsTheSettingsSay) {
+  const SurfaceErrorSettings s;
   Share(s);
   const double resting_m2 = s.whole_sigma_m * s.whole_sigma_m + s.patch_sigma_m * s.patch_sigma_m +
                             s.region_sigma_m * s.region_sigma_m;
@@ -83,7 +83,7 @@ TEST_F(SkinErrorsTest, AreAsLargeEverywhereAsTheSettingsSay) {
   }
 }
 
-TEST_F(SkinErrorsTest, AreThoseOfTheSamePlaceInAllSettingsButForWhatMoves) {
+TEST_F(SurfaceErrorsTest, AreThoseOfTheSamePlaceInAllSettingsButForWhatMoves) {
   const std::vector<bool> are_models_own =
       Share({.motion_sigma = 0.0, .region_motion_sigma = 0.02});
   for (std::size_t k = 0; k < frames_[0].surface.size(); ++k) {
@@ -101,8 +101,8 @@ TEST_F(SkinErrorsTest, AreThoseOfTheSamePlaceInAllSettingsButForWhatMoves) {
   }
 }
 
-TEST_F(SkinErrorsTest, AreAlikeNearbyAndTheirOwnFarAway) {
-  const SkinErrorSettings regions{
+TEST_F(SurfaceErrorsTest, AreAlikeNearbyAndTheirOwnFarAway) {
+  const SurfaceErrorSettings regions{
       .whole_sigma_m = 0.0, .patch_sigma_m = 0.0, .motion_sigma = 0.0, .region_motion_sigma = 0.0};
   Share(regions);
   const double variance_m2 = regions.region_sigma_m * regions.region_sigma_m;
@@ -124,7 +124,7 @@ TEST_F(SkinErrorsTest, AreAlikeNearbyAndTheirOwnFarAway) {
   EXPECT_GT(far, 400);
 }
 
-TEST_F(SkinErrorsTest, SidesOfALegHavePatchesOfTheirOwn) {
+TEST_F(SurfaceErrorsTest, SidesOfALegHavePatchesOfTheirOwn) {
   Share({.whole_sigma_m = 0.0,
          .region_sigma_m = 0.0,
          .motion_sigma = 0.0,
@@ -138,8 +138,8 @@ TEST_F(SkinErrorsTest, SidesOfALegHavePatchesOfTheirOwn) {
   }
 }
 
-TEST_F(SkinErrorsTest, AreNoneWhereTheModelCountsAsRight) {
-  EXPECT_TRUE(Share(NoSkinErrors()).empty());
+TEST_F(SurfaceErrorsTest, AreNoneWhereTheModelCountsAsRight) {
+  EXPECT_TRUE(Share(NoSurfaceErrors()).empty());
   EXPECT_TRUE(frames_[1].surface.front().shared.empty());
 }
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/node/make_pipeline.hpp"
+
+#include <memory>
+
+#include "components/force_estimation/pipeline/marker_pipeline.hpp"
+#include "components/force_estimation/pipeline/shape_pipeline.hpp"
+
+namespace palpate::force_estimation {
+
+bool IsFromShape(const NodeConfig& config) {
+  return config.source == "shape" || (config.source == "auto" && !config.camera_pose.empty());
+}
+
+PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration) {
+  if (IsFromShape(config)) {
+    return [config, calibration](robot::RobotModel& model) {
+      return std::make_unique<ShapePipeline>(model, config, config.shape, calibration);
+    };
+  }
+  return [config, calibration](robot::RobotModel& model) {
+    return std::make_unique<MarkerPipeline>(model, config, calibration);
+  };
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/force_estimation/pipeline/shape_pipeline.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace palpate::force_estimation {
+
+namespace {
+
+struct ShapePipelineTuning {
+  /// Least time between two frames of the drift monitor. Drift is slow, and a frame costs as much
+  /// as a chord step of the model: a shorter time finds drift no sooner and delays the next frame.
+  double drift_period_s = 0.1;
+};
+constexpr ShapePipelineTuning kShapePipelineTuning;
+
+ShapePipeline::Estimator MakeEstimator(robot::RobotModel& model, const Config& config,
+                                       const ShapeConfig& shape,
+                                       const robot::CalibrationFile& calibration) {
+  const auto estimator = std::make_shared<ShapeForceEstimator>(
+      model, config, shape, robot::RelativeModulusError(calibration));
+  if (calibration.depth_bias) {
+    estimator->TakeDepthBias(calibration.depth_bias->map, calibration.pose->T_robot_camera);
+  }
+  return {.update = [estimator](const ShapeFrame& frame) -> const ForceEstimate& {
+            return estimator->Update(frame);
+          },
+          .features = [estimator]() -> const std::vector<FeatureReport>& {
+            return estimator->features();
+          },
+          .prepare_next = [estimator] { estimator->PrepareNext(); }};
+}
+
+}  // namespace
+
+ShapePipeline::ShapePipeline(robot::RobotModel& model, const Config& config,
+                             const ShapeConfig& shape, const robot::CalibrationFile& calibration)
+    : ShapePipeline(model.body(), ParseContactSites(config.contacts), shape.untouched_frames,
+                    MakeEstimator(model, config, shape, calibration)) {}
+
+ShapePipeline::ShapePipeline(const robot::RobotBody& body, std::vector<ContactSite> contacts,
+                             int contact_free_frames, Estimator estimator)
+    : contacts_(std::move(contacts)),
+      contact_free_frames_(contact_free_frames),
+      estimator_(std::move(estimator)),
+      known_contacts_(body),
+      gap_(body),
+      fixed_region_(body),
+      drift_measured_s_(-kShapePipelineTuning.drift_period_s) {}
+
+const PipelineResult& ShapePipeline::Update(PipelineFrame frame) {
+  shape_ = std::get<PerceivedShape>(std::move(frame));
+  MarkContactFree();
+  AddKnownContacts();
+  result_.estimate = estimator_.update(shape_.frame);
+  result_.gap = gap_.Measure(estimator_.features(), result_.estimate.status);
+  PredictShape();
+  KeepReasonOfPerception();
+  result_.drift = drift_monitor_.report();
+  result_.gap_so_far = residual_monitor_.report();
+  return result_;
+}
+
+void ShapePipeline::MarkContactFree() {
+  if (frames_with_robot_ < contact_free_frames_) shape_.frame.untouched = true;
+  if (shape_.perception.ok()) ++frames_with_robot_;
+}
+
+void ShapePipeline::AddKnownContacts() {
+  const std::vector<ContactSite>& sites = contacts_.empty() ? shape_.loads : contacts_;
+  shape_.frame.contacts =
+      KnownBeforeSeen(known_contacts_.At(sites, nodes_m_), shape_.frame.contacts);
+}
+
+void ShapePipeline::PredictShape() {
+  const ForceEstimate& estimate = result_.estimate;
+  result_.state_is_known = PredictsShape(estimate);
+  if (result_.state_is_known) nodes_m_ = estimate.x_m.cast<float>().cast<double>();
+  // Without a depth bias there are no forces, but the model is where the robot is.
+  const bool holds =
+      IsUsable(estimate.status) || estimate.status.code() == StatusCode::kNoCalibration;
+  result_.state = result_.state_is_known && holds ? Status::Ok() : estimate.status;
+}
+
+void ShapePipeline::KeepReasonOfPerception() {
+  Status& status = result_.estimate.status;
+  const bool not_seen = status.code() == StatusCode::kNoRobotSeen;
+  if (not_seen && !shape_.perception.ok()) status = shape_.perception;
+}
+
+void ShapePipeline::Monitor() {
+  const ShapeFrame& frame = shape_.frame;
+  residual_monitor_.Add(frame.t_s, result_.gap);
+  const double since_s = frame.t_s - drift_measured_s_;
+  if (since_s >= 0.0 && since_s < kShapePipelineTuning.drift_period_s) return;
+  drift_measured_s_ = frame.t_s;
+  drift_monitor_.Add(frame.t_s,
+                     SeeMotion(fixed_region_, frame.cloud, frame.T_robot_camera, nodes_m_));
+}
+
+Eigen::Matrix3Xf ShapePipeline::PredictedNodes_m() const {
+  return Eigen::Map<const Eigen::Matrix3Xd>(nodes_m_.data(), 3, nodes_m_.size() / 3).cast<float>();
+}
+
+}  // namespace palpate::force_estimation

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/estimate/shape_replay.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "components/force_estimation/recording_frames.hpp"
+#include "components/palpate/progress_line.hpp"
+#include "components/perception/predicted_surface.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/experiment/recording_inputs.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+using experiment::Recording;
+using force_estimation::ForceEstimate;
+
+constexpr double kNsPerSecond = 1e9;
+
+void RefuseEach(const experiment::RgbdSequence& images, const std::string& reason,
+                const TakeEstimate& take) {
+  ForceEstimate refused;
+  refused.status = Status(StatusCode::kNoCalibration, reason);
+  for (const experiment::FrameFiles& frame : images.frames) {
+    refused.t_s = static_cast<double>(frame.t_ns) / kNsPerSecond;
+    take(refused);
+  }
+}
+
+}  // namespace
+
+/// A recording and its camera's pose.
+struct ShapeReplay::Scene {
+  const Recording& recording;
+  experiment::RgbdSequence images;
+  Eigen::Isometry3d T_robot_camera;
+};
+
+ShapeReplay::ShapeReplay(const Inputs& inputs, ReplayPerception perception,
+                         std::unique_ptr<force_estimation::ShapePipeline> pipeline)
+    : inputs_(inputs),
+      perception_(std::move(perception)),
+      pipeline_(std::move(pipeline)),
+      triangles_(inputs.model->body().boundary.DrawnTriangles()),
+      gravity_m_s2_(inputs.model->gravity_m_s2()) {}
+
+int ShapeReplay::EstimateDepthBias(const Recording& recording) {
+  const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
+  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return 0;
+  int frames = 0;
+  Run({recording, experiment::OpenRecordingImages(recording, app::LoadYaml),
+       std::get<Eigen::Isometry3d>(pose)},
+      /*contact_free=*/true, [&](const ForceEstimate&) { ++frames; });
+  return frames;
+}
+
+void ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
+  auto images = experiment::OpenRecordingImages(recording, app::LoadYaml);
+  const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
+  if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
+    RefuseEach(images, missing->reason, take);
+    return;
+  }
+  Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)}, /*contact_free=*/false,
+      take);
+}
+
+void ShapeReplay::Run(const Scene& scene, bool contact_free, const TakeEstimate& take) {
+  experiment::CheckCables(scene.recording, inputs_.model->CableNames());
+  const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
+  inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
+  perception_.set_camera(scene.images.camera);
+  ++epoch_;
+  ProgressLine progress("frames", static_cast<int>(scene.images.frames.size()));
+  rgbd::RgbdFrame frame;
+  for (std::size_t i = 0; i < scene.images.frames.size(); ++i) {
+    scene.images.Read(i, &frame);
+    frame.stamp_ns = scene.images.frames[i].t_ns;
+    take(Step(scene, frame, contact_free));
+    progress.Update(static_cast<int>(i) + 1);
+  }
+  inputs_.model->SetGravity(gravity_m_s2_);
+}
+
+const ForceEstimate& ShapeReplay::Step(const Scene& scene, const rgbd::RgbdFrame& frame,
+                                       bool contact_free) {
+  const perception::Observation& observation = Perceive(scene, frame);
+  const double t_s = static_cast<double>(frame.stamp_ns) / kNsPerSecond;
+  force_estimation::PerceivedShape shape;
+  shape.frame = MakeShapeFrame(observation, scene.T_robot_camera);
+  shape.frame.t_s = t_s;
+  shape.frame.cables =
+      force_estimation::CablesAt(scene.recording, *inputs_.model, inputs_.cable_input, t_s);
+  shape.frame.epoch = epoch_;
+  shape.frame.untouched = contact_free;
+  shape.perception = observation.frame.status;
+  shape.loads = force_estimation::SitesOfLoads(scene.recording.loads, t_s);
+  const ForceEstimate& estimate = pipeline_->Update(std::move(shape)).estimate;
+  pipeline_->PrepareNext();
+  return estimate;
+}
+
+const perception::Observation& ShapeReplay::Perceive(const Scene& scene,
+                                                     const rgbd::RgbdFrame& frame) {
+  const Eigen::Matrix3Xf nodes_m = pipeline_->PredictedNodes_m();
+  std::optional<perception::PredictedSurface> predicted;
+  if (nodes_m.cols() > 0) {
+    predicted = perception::MakePredictedSurface(nodes_m, triangles_, scene.T_robot_camera);
+  }
+  return perception_.update(frame, predicted ? &*predicted : nullptr);
+}
+
+force_estimation::ShapeFrame MakeShapeFrame(const perception::Observation& observation,
+                                            const Eigen::Isometry3d& T_robot_camera) {
+  force_estimation::ShapeFrame frame;
+  frame.cloud = observation.frame.robot;
+  frame.T_robot_camera = T_robot_camera;
+  for (const perception::DetectedContact& contact : observation.contacts) {
+    frame.contacts.push_back(
+        force_estimation::InRobotFrame({contact.name, contact.position_m, contact.covariance_m2,
+                                        contact.extent_m, contact.point_count},
+                                       T_robot_camera));
+  }
+  return frame;
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+
+#include "components/force_estimation/pipeline/shape_pipeline.hpp"
+#include "components/palpate/estimate/marker_replay.hpp"
+#include "components/palpate/estimate/replay_perception.hpp"
+#include "libs/experiment/experiment.hpp"
+#include "libs/experiment/images/rgbd_sequence.hpp"
+#include "libs/robot/robot_model.hpp"
+
+namespace palpate::command {
+
+/// Passes depth and colour images of recordings through perception and
+/// force_estimation::ShapePipeline, as palpate-perception and palpate-force-estimation do. All
+/// recordings share one perception and one pipeline: the depth bias of one holds for the next.
+class ShapeReplay {
+ public:
+  struct Inputs {
+    const experiment::Experiment& experiment;  ///< must outlive the replay, as the model
+    robot::RobotModel* model = nullptr;        ///< of the pipeline
+    robot::CableInput cable_input = robot::CableInput::kDisplacement;
+  };
+
+  ShapeReplay(const Inputs& inputs, ReplayPerception perception,
+              std::unique_ptr<force_estimation::ShapePipeline> pipeline);
+
+  /// Processes the frames of a contact-free recording for the depth bias. Returns their number; 0
+  /// where the camera pose is unknown. Throws InputError as Estimate does.
+  int EstimateDepthBias(const experiment::Recording& recording);
+
+  /// Hands the estimate of each frame to `take`; kNoCalibration, with the reason, where the camera
+  /// pose is unknown. Throws InputError for images that cannot be read, and for a cable that the
+  /// robot does not have.
+  void Estimate(const experiment::Recording& recording, const TakeEstimate& take);
+
+ private:
+  struct Scene;
+
+  void Run(const Scene& scene, bool contact_free, const TakeEstimate& take);
+  const force_estimation::ForceEstimate& Step(const Scene& scene, const rgbd::RgbdFrame& frame,
+                                              bool contact_free);
+  const perception::Observation& Perceive(const Scene& scene, const rgbd::RgbdFrame& frame);
+
+  Inputs inputs_;
+  ReplayPerception perception_;
+  std::unique_ptr<force_estimation::ShapePipeline> pipeline_;
+  Eigen::Matrix3Xi triangles_;
+  Eigen::Vector3d gravity_m_s2_;
+  std::uint32_t epoch_ = 0;  ///< recordings that were opened
+};
+
+/// The observation in the robot's frame, without cables and time.
+force_estimation::ShapeFrame MakeShapeFrame(const perception::Observation& observation,
+                                            const Eigen::Isometry3d& T_robot_camera);
+
+}  // namespace palpate::command
