@@ -45,26 +45,26 @@ double HiddenBy_m(const geometry::TriangleSurface& surface, int own, const Eigen
 class SurfaceInViewTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    surface_.TakeShape(model_->RestState().x_m);
-    surface_.LookFrom(truth_);
+    in_view_.TakeShape(model_->RestState().x_m);
+    in_view_.LookFrom(truth_);
   }
 
   std::unique_ptr<robot::RobotModel> model_ = Build(QuickFourLegRobot());
   geometry::RigidTransform truth_ = TruePose();
   geometry::TriangleSurface surface_ = SurfaceOf(model_->body());
-  SurfaceInView surface_{model_->body()};
+  SurfaceInView in_view_{model_->body()};
 };
 
 TEST_F(SurfaceInViewTest, PlacesInViewAreTheirOwnFeet) {
-  const Eigen::Matrix3Xd& places_m = surface_.seen_places_m();
+  const Eigen::Matrix3Xd& places_m = in_view_.seen_places_m();
   ASSERT_GT(places_m.cols(), 5000);
   int found = 0;
   for (Eigen::Index k = 0; k < places_m.cols(); k += 23) {
-    const std::optional<SurfaceFoot> foot = surface_.FootOf(places_m.col(k));
+    const std::optional<SurfaceFoot> foot = in_view_.FootOf(places_m.col(k));
     if (!foot) continue;  // grazing
     ++found;
     EXPECT_LT(foot->distance_m, 1e-6);
-    const fem::InterpolationWeights weights = surface_.WeightsOf(*foot);
+    const fem::InterpolationWeights weights = in_view_.WeightsOf(*foot);
     EXPECT_LT((weights.Position(model_->RestState().x_m) - foot->position_m).norm(), 1e-12);
   }
   EXPECT_GT(found, static_cast<int>(0.9 * static_cast<double>(places_m.cols()) / 23));
@@ -78,7 +78,7 @@ TEST_F(SurfaceInViewTest, NoPointIsMatchedToSurfaceThatIsTurnedAwayOrHidden) {
     const bool faces = geometry::TriangleNormal(surface_, t).dot(eye_m - centroid_m) > 0.0;
     if (faces && HiddenBy_m(surface_, t, eye_m, centroid_m) < 0.01) continue;
     ++(faces ? hidden : turned_away);
-    const std::optional<SurfaceFoot> foot = surface_.FootOf(centroid_m);
+    const std::optional<SurfaceFoot> foot = in_view_.FootOf(centroid_m);
     if (!foot) continue;
     EXPECT_GT(foot->distance_m, 1e-6) << t;
     EXPECT_GT(foot->normal.dot(eye_m - foot->position_m), 0.0) << t;
@@ -88,9 +88,9 @@ TEST_F(SurfaceInViewTest, NoPointIsMatchedToSurfaceThatIsTurnedAwayOrHidden) {
 }
 
 TEST_F(SurfaceInViewTest, MatchesNothingUntilItLooks) {
-  SurfaceInView surface(model_->body());
-  surface.TakeShape(model_->RestState().x_m);
-  EXPECT_FALSE(surface.FootOf(Eigen::Vector3d::Zero()).has_value());
+  SurfaceInView in_view(model_->body());
+  in_view.TakeShape(model_->RestState().x_m);
+  EXPECT_FALSE(in_view.FootOf(Eigen::Vector3d::Zero()).has_value());
 }
 
 /// Cells are chosen by direction, so that no noise of the depth is preferred.
