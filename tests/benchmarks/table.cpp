@@ -44,7 +44,7 @@ void Table::PrintHead() {
   out_ << R"(
 One call a repetition. Median and minimum of wall-clock time, minimum of the calling thread's CPU time.
 Ratio: to the first line of the same block, of the fastest runs, by CPU time with one thread and by the
-wall clock with two. HistoryOperator: what the sparse solver holds. GFLOP/s: each solver's own count of
+wall clock with two. Memory: what the sparse solver holds. GFLOP/s: each solver's own count of
 operations over that same time (multifrontal counts zeros that it stores, too); peak: that of dgemm in
 this run, twice that for two threads. No core free: other programs held up even the fastest run, and a
 row with two threads says little.

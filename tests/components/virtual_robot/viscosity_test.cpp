@@ -14,7 +14,7 @@
 namespace palpate::virtual_robot::test {
 namespace {
 
-class HistoryOperator : public ::testing::Test {
+class ViscoelasticLaw : public ::testing::Test {
  protected:
   Viscosity Remembering(const std::vector<scenario::PronyTerm>& prony, double damping_s) const {
     return {body_.mesh, body_.material_of_cell, prony, damping_s};
@@ -40,7 +40,7 @@ class HistoryOperator : public ::testing::Test {
   Eigen::VectorXd rest_m_ = body_.rest_m();
 };
 
-TEST_F(HistoryOperator, StressOfAHeldStretchRelaxesAsTheClosedForm) {
+TEST_F(ViscoelasticLaw, StressOfAHeldStretchRelaxesAsTheClosedForm) {
   Viscosity memory = Remembering({{0.3, 2.0}, {0.2, 0.5}}, 0.0);
   const Eigen::VectorXd stretched_m = Mapped(Eigen::Vector3d(1.3, 0.9, 0.95).asDiagonal());
   memory.Reset(body_.materials, ones_, rest_m_);
@@ -59,7 +59,7 @@ TEST_F(HistoryOperator, StressOfAHeldStretchRelaxesAsTheClosedForm) {
   }
 }
 
-TEST_F(HistoryOperator, OfASteadyStretchingFollowsTheConvolutionIntegral) {
+TEST_F(ViscoelasticLaw, OfASteadyStretchingFollowsTheConvolutionIntegral) {
   Viscosity memory = Remembering({{0.5, 0.4}}, 0.0);
   memory.Reset(body_.materials, ones_, rest_m_);
   constexpr double kRate_1_s = 1e-5;  // small: S grows in proportion
@@ -77,7 +77,7 @@ TEST_F(HistoryOperator, OfASteadyStretchingFollowsTheConvolutionIntegral) {
   }
 }
 
-TEST_F(HistoryOperator, FeelsNoRotation) {
+TEST_F(ViscoelasticLaw, FeelsNoRotation) {
   Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
   memory.Reset(body_.materials, ones_, rest_m_);
   const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 2.0, -0.5).normalized();
@@ -90,7 +90,7 @@ TEST_F(HistoryOperator, FeelsNoRotation) {
   }
 }
 
-TEST_F(HistoryOperator, OfAStretchTurnsWithTheBody) {
+TEST_F(ViscoelasticLaw, OfAStretchTurnsWithTheBody) {
   Viscosity memory = Remembering({{0.5, 0.4}}, 1e-2);
   memory.Reset(body_.materials, ones_, rest_m_);
   const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 0.95, 1.0).asDiagonal();
@@ -104,7 +104,7 @@ TEST_F(HistoryOperator, OfAStretchTurnsWithTheBody) {
   EXPECT_LE((turned_N - expected_N).norm(), 1e-12 * straight_N.norm());
 }
 
-TEST_F(HistoryOperator, OfDampingIsTheRateOfTheElasticForceForSmallStrains) {
+TEST_F(ViscoelasticLaw, OfDampingIsTheRateOfTheElasticForceForSmallStrains) {
   constexpr double kDamping_s = 0.02;
   constexpr double kStep_s = 0.01;
   Viscosity memory = Remembering({}, kDamping_s);
