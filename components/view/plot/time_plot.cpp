@@ -12,6 +12,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/plot/plot_area.hpp"
+#include "libs/plot/text_width.hpp"
 
 namespace palpate::view {
 
@@ -30,6 +31,9 @@ constexpr double kBetween_px = 30.0;  // panels; holds the lower one's title
 constexpr double kSmallestPanel_px = 60.0;
 constexpr double kTickDistance_px = 90.0;
 constexpr double kValueTickDistance_px = 38.0;
+constexpr double kTitleSize_px = 15.0;
+constexpr double kSmallestTitle_px = 11.0;
+constexpr double kBeforeLegend_px = 16.0;
 constexpr double kLineWidth_px = 1.6;
 constexpr double kBandOpacity = 0.18;
 
@@ -70,8 +74,8 @@ AxisRange TimeRange(const TimePlot& plot) {
   return range;
 }
 
-// Names that several panels share stand there once.
-void DrawPlotLegend(const TimePlot& plot, SvgDocument* svg) {
+// Names that several panels share stand there once. Returns its left edge, px.
+double DrawPlotLegend(const TimePlot& plot, SvgDocument* svg) {
   std::vector<const TimeSeries*> entries;
   for (const PlotPanel& panel : plot.panels) {
     for (const TimeSeries& series : panel.series) {
@@ -90,13 +94,27 @@ void DrawPlotLegend(const TimePlot& plot, SvgDocument* svg) {
     svg->Text({line_px + 32.0, 24.0}, (*entry)->name, {});
     right_px = line_px - 18.0;
   }
+  return right_px + 18.0;
+}
+
+// As large as the room in front of the legend allows.
+void DrawTitle(const std::string& title, double room_px, SvgDocument* svg) {
+  const double width_px = plot::TextWidth_px(title, kTitleSize_px, true);
+  const double fitting_px = kTitleSize_px * std::min(1.0, room_px / std::max(1.0, width_px));
+  const double size_px = std::max(kSmallestTitle_px, fitting_px);
+  std::string shown = title;
+  if (fitting_px < size_px) {
+    const double bold =
+        plot::TextWidth_px(title, size_px, true) / plot::TextWidth_px(title, size_px);
+    shown = plot::Shortened(title, size_px, room_px / bold);
+  }
+  svg->Text({kLeft_px, 25.0}, shown, {.size_px = size_px, .bold = true});
 }
 
 void DrawPlotHeading(const TimePlot& plot, SvgDocument* svg) {
   svg->Rectangle({0.0, 0.0}, plot.width_px, plot.height_px, palette::kPaper);
-  svg->Text({kLeft_px, 25.0}, plot.title, {.size_px = 15.0, .bold = true});
   svg->Text({kLeft_px, 43.0}, plot.caption, {.size_px = 11.0, .color = palette::kMutedInk});
-  DrawPlotLegend(plot, svg);
+  DrawTitle(plot.title, DrawPlotLegend(plot, svg) - kBeforeLegend_px - kLeft_px, svg);
 }
 
 void DrawSeries(const TimeSeries& series, const PlotArea& area, SvgDocument* svg) {

@@ -14,6 +14,7 @@
 #include "components/view/plot/series_shapes.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/plot/text_width.hpp"
 #include "tests/support/not_a_number.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -173,6 +174,24 @@ TEST(TimePlot, NamesASeriesOfSeveralPanelsOnceInTheLegend) {
   const std::vector<std::string> texts = Drawn(plot).Texts();
   EXPECT_EQ(std::count(texts.begin(), texts.end(), "ramp"), 1);
   EXPECT_EQ(std::count(texts.begin(), texts.end(), "time (s)"), 1);
+}
+
+TEST(TimePlot, ATitleOfAnyLengthEndsBeforeTheLegend) {
+  for (const std::size_t length : {10, 60, 90, 400}) {
+    TimePlot plot = OnePanel(kRamp);
+    plot.title = std::string(length, 'm');
+    const Drawn drawn(plot);
+    const auto text = [&](std::string_view begin) {
+      const std::vector<const XMLElement*> all = drawn.All("text");
+      return *std::find_if(all.begin(), all.end(), [&](const XMLElement* element) {
+        return std::string_view(element->GetText()).starts_with(begin);
+      });
+    };
+    const XMLElement& title = *text("mmm");
+    const double width_px =
+        plot::TextWidth_px(title.GetText(), title.DoubleAttribute("font-size"), true);
+    EXPECT_LT(title.DoubleAttribute("x") + width_px, text("ramp")->DoubleAttribute("x")) << length;
+  }
 }
 
 TEST(ForcePlot, HasAPanelForEachContactThatGrowsWithThem) {

@@ -174,8 +174,7 @@ int Conclude(const DemoPlace& place, const std::filesystem::path& robot, bool wi
     WriteFile(place.folder / "latency.csv", run->stages().ToCsv());
     fmt::print("  {:<18} {}\n", "latency", (place.folder / "latency.csv").string());
   }
-  WriteDemoResults(place.folder, robot, "Forces on a soft robot, estimated from depth images",
-                   comparison);
+  WriteDemoResults(place.folder, robot, "Forces estimated from depth images", comparison);
   const bool worked = with_truth ? comparison.summary().found() > 0 : comparison.results() > 0;
   if (worked) return app::kExitDone;
   fmt::print("  failed: no {}\n{}  logs: {}\n",
