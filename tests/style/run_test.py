@@ -16,6 +16,7 @@ NOTE = '#!/bin/sh\necho "${0##*/} $*" >>"$NOTES"\n'
 CTEST = NOTE + """
 echo ' 1/2 Test #1: core.Slow.One .......   Passed   12.50 sec'
 echo ' 2/2 Test #2: core.Quick.One ......   Passed    0.02 sec'
+for k in $(seq "${MORE:-0}"); do echo " 3/3 Test #$k: core.More.Case$k ...... Passed 0.01 sec"; done
 echo "${CLOSING:-100% tests passed, 0 tests failed out of 2}"
 exit "${STATUS:-0}"
 """
@@ -116,6 +117,11 @@ class RunTest(unittest.TestCase):
         self.assertEqual(self.call(".ci/run"), 0, self.output)
         self.assertEqual(self.output.splitlines()[-1], "5 passed, 0 failed")
         self.assertIn("12.50 s  core.Slow.One\n0.02 s  core.Quick.One\n", self.output)
+
+    def test_ci_lists_twenty_of_thousands(self):
+        self.assertEqual(self.call(".ci/run", MORE="9000"), 0, self.output[-2000:])
+        self.assertEqual(self.output.splitlines()[-1], "5 passed, 0 failed")
+        self.assertEqual(self.output.count(" s  core."), 20)
 
     def test_ci_fails_where_the_night_does(self):
         self.assertNotEqual(self.call(".ci/run", NIGHT_FAILED="2"), 0)
