@@ -29,8 +29,8 @@ if ! apt-get -y -o Dir::Cache::archives="$work/debs" -o Debug::NoLocking=1 \
   cat apt.log >&2
   exit 1
 fi
-for package in debs/*.deb; do dpkg -x "$package" root; done
-libraries=$PWD/root/usr/lib/x86_64-linux-gnu
+for package in debs/*.deb; do dpkg -x "$package" unpacked; done
+libraries=$PWD/unpacked/usr/lib/x86_64-linux-gnu
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 cat >factorise.c <<'C'
@@ -95,7 +95,7 @@ int main(void) {
   return 0;
 }
 C
-gcc -O1 -isystem root/usr/include/suitesparse factorise.c -o factorise \
+gcc -O1 -isystem unpacked/usr/include/suitesparse factorise.c -o factorise \
   -L"$libraries" -Wl,-rpath-link,"$libraries:$libraries/lapack:$libraries/blas" \
   -l:libcholmod.so.3 -lm
 

@@ -28,10 +28,10 @@ if ! apt-get -y -o Dir::Cache::archives="$work/debs" -o Debug::NoLocking=1 \
   cat apt.log >&2
   exit 1
 fi
-for package in debs/*.deb; do dpkg -x "$package" root; done
-libraries=root/usr/lib/x86_64-linux-gnu
+for package in debs/*.deb; do dpkg -x "$package" unpacked; done
+libraries=unpacked/usr/lib/x86_64-linux-gnu
 export LD_LIBRARY_PATH=$PWD/$libraries:$PWD/$libraries/lapack:$PWD/$libraries/blas
-export PATH=$PWD/root/usr/bin:$PATH
+export PATH=$PWD/unpacked/usr/bin:$PATH
 
 cat >cloud.ply <<'PLY'
 ply
