@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::calibration {
 
 /// A measured marker.
@@ -22,9 +24,9 @@ inline constexpr double kStillMarker_m = 3e-3;
 
 /// [3 x n]
 inline Eigen::Matrix3Xd PositionsOf(const std::vector<MarkerSighting>& sightings) {
-  Eigen::Matrix3Xd positions_m(3, static_cast<Eigen::Index>(sightings.size()));
+  Eigen::Matrix3Xd positions_m(3, ToIndex(sightings.size()));
   for (std::size_t k = 0; k < sightings.size(); ++k) {
-    positions_m.col(static_cast<Eigen::Index>(k)) = sightings[k].position_m;
+    positions_m.col(ToIndex(k)) = sightings[k].position_m;
   }
   return positions_m;
 }

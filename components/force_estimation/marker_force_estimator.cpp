@@ -16,6 +16,7 @@
 #include "components/force_estimation/marker_offset_calibration.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -72,7 +73,7 @@ class MarkerForceEstimator::Impl {
     for (const robot::BodyMarker& marker : model.body().markers) {
       marker_weight_.push_back(StandsOnContact(marker) ? config.contact_marker_weight : 1.0);
     }
-    const auto rows = static_cast<Eigen::Index>(3 * model.body().markers.size());
+    const auto rows = ToIndex(3 * model.body().markers.size());
     targets_.value_m = targets_.weight = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
     estimate_.x_m = free_state_.x_m;
@@ -179,7 +180,7 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
   estimate_.noise_rms_m = 0.0;
   for (size_t m = 0; m < frame.markers.size(); ++m) {
     const MarkerObservation& marker = frame.markers[m];
-    const auto row = static_cast<Eigen::Index>(3 * m);
+    const auto row = ToIndex(3 * m);
     const bool used = marker.valid && marker.position_m.allFinite() && offsets_.Usable(m);
     for (Eigen::Index i = 0; i < 3; ++i) {
       const double given = marker.sigma_m[i];
@@ -280,10 +281,9 @@ void MarkerForceEstimator::Impl::PublishState(const ModelState& state) {
   estimate_.x_m = state.x_m;
   for (int c = 0; c < model_.CableCount(); ++c) {
     const double length = model_.cable(c).Value(state.x_m);
-    estimate_.cables[static_cast<size_t>(c)] = {
-        .length_m = length,
-        .displacement_m = model_.cable(c).rest_length_m() - length,
-        .tension_N = state.lambda_a_N[c]};
+    estimate_.cables[At(c)] = {.length_m = length,
+                               .displacement_m = model_.cable(c).rest_length_m() - length,
+                               .tension_N = state.lambda_a_N[c]};
   }
 }
 
@@ -316,10 +316,10 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
   }
   // The fitter holds the last sites that the search tried, not those that it chose.
   const std::vector<FitSite>& sites = search_->result().fit_sites;
-  const auto count = static_cast<Eigen::Index>(estimate_.contacts.size());
+  const auto count = ToIndex(estimate_.contacts.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
   for (Eigen::Index c = 0; c < count; ++c) {
-    const fem::InterpolationWeights& weights = sites[static_cast<size_t>(c)].patch.weights;
+    const fem::InterpolationWeights& weights = sites[At(c)].patch.weights;
     for (size_t k = 0; k < weights.nodes.size(); ++k) {
       for (Eigen::Index i = 0; i < 3; ++i) {
         forces_N(3 * weights.nodes[k] + i, 3 * c + i) += weights.weights[k];
@@ -353,7 +353,7 @@ void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<
 ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t index,
                                                      double inflation) const {
   const ModelState& state = search_ ? search_->result().state : state_;
-  const auto row = static_cast<Eigen::Index>(3 * index);
+  const auto row = ToIndex(3 * index);
   ContactForce contact;
   contact.force_N = state.lambda_f_N.segment<3>(row);
   const Eigen::Vector3d by_modulus = modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);

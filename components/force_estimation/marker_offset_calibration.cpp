@@ -5,11 +5,13 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 MarkerOffsetCalibration::MarkerOffsetCalibration(robot::RobotModel& model)
     : model_(model),
-      sum_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * model.body().markers.size()))),
+      sum_(Eigen::VectorXd::Zero(ToIndex(3 * model.body().markers.size()))),
       offset_(sum_),
       counts_(model.body().markers.size(), 0) {}
 
@@ -22,7 +24,7 @@ void MarkerOffsetCalibration::Add(const MarkerFrame& frame) {
   last_ = frame;
   for (size_t m = 0; m < counts_.size(); ++m) {
     if (!frame.markers[m].valid || !frame.markers[m].position_m.allFinite()) continue;
-    sum_.segment<3>(static_cast<Eigen::Index>(3 * m)) += frame.markers[m].position_m;
+    sum_.segment<3>(ToIndex(3 * m)) += frame.markers[m].position_m;
     ++counts_[m];
   }
 }
@@ -34,7 +36,7 @@ Status MarkerOffsetCalibration::Finish() {
   offset_.setZero();
   for (size_t m = 0; m < counts_.size(); ++m) {
     if (counts_[m] == 0) continue;
-    const auto row = static_cast<Eigen::Index>(3 * m);
+    const auto row = ToIndex(3 * m);
     offset_.segment<3>(row) = sum_.segment<3>(row) / counts_[m] - model_positions.segment<3>(row);
   }
   open_ = false;
@@ -50,8 +52,7 @@ Status MarkerOffsetCalibration::ModelPositions(Eigen::VectorXd* positions_m) {
   }
   const auto& markers = model_.body().markers;
   for (size_t m = 0; m < markers.size(); ++m) {
-    positions_m->segment<3>(static_cast<Eigen::Index>(3 * m)) =
-        markers[m].point.weights.Position(state.x_m);
+    positions_m->segment<3>(ToIndex(3 * m)) = markers[m].point.weights.Position(state.x_m);
   }
   return Status::Ok();
 }

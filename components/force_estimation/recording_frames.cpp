@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "libs/core/index.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::force_estimation {
@@ -35,7 +36,7 @@ std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording
   using Quantity = experiment::CableQuantity;
   std::vector<robot::CableCommand> commands;
   for (int c = 0; c < model.CableCount(); ++c) {
-    const std::string& cable = model.body().cables[static_cast<size_t>(c)].name;
+    const std::string& cable = model.body().cables[At(c)].name;
     commands.push_back(model.CommandFor(
         c, experiment::CableInputAt(recording, cable, Quantity::kDisplacement, t_s),
         experiment::CableInputAt(recording, cable, Quantity::kTension, t_s), preferred));

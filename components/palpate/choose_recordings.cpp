@@ -8,6 +8,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/sha256.hpp"
 #include "libs/core/text.hpp"
 
@@ -43,7 +44,7 @@ std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& exp
       throw InputError("--recording " + name + ": the experiment has no such recording" +
                        DidYouMean(name, known) + "; it has " + Listed(known));
     }
-    chosen.push_back(&experiment.recordings[static_cast<std::size_t>(found - known.begin())]);
+    chosen.push_back(&experiment.recordings[At(found - known.begin())]);
   }
   return chosen;
 }

@@ -15,6 +15,7 @@
 #include "components/palpate/robot_scene.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::command {
@@ -46,11 +47,11 @@ Eigen::Matrix3Xd ObservedMarkers(const DemoData& data, const robot::RobotModel& 
       *ChooseRecordings(experiment, {data.hung_weight}).front();
   const auto observation = calibration::ObserveRecording(experiment, recording, model,
                                                          robot::CableInput::kDisplacement, 0.0);
-  const auto count = static_cast<Eigen::Index>(model.body().markers.size());
+  const auto count = ToIndex(model.body().markers.size());
   PALPATE_CHECK(observation.reference_position_m.size() == 3 * count, data.hung_weight);
   Eigen::Matrix3Xd markers_m(3, count);
   for (Eigen::Index m = 0; m < count; ++m) {
-    const Eigen::Vector3d rest_m = model.body().markers[static_cast<std::size_t>(m)].point.rest_m;
+    const Eigen::Vector3d rest_m = model.body().markers[At(m)].point.rest_m;
     markers_m.col(m) = rest_m + observation.position_m.segment<3>(3 * m) -
                        observation.reference_position_m.segment<3>(3 * m);
   }
@@ -58,10 +59,9 @@ Eigen::Matrix3Xd ObservedMarkers(const DemoData& data, const robot::RobotModel& 
 }
 
 Eigen::Matrix3Xd ModelMarkers(const robot::RobotModel& model, const Eigen::VectorXd& x_m) {
-  Eigen::Matrix3Xd markers_m(3, static_cast<Eigen::Index>(model.body().markers.size()));
+  Eigen::Matrix3Xd markers_m(3, ToIndex(model.body().markers.size()));
   for (Eigen::Index m = 0; m < markers_m.cols(); ++m) {
-    markers_m.col(m) =
-        model.body().markers[static_cast<std::size_t>(m)].point.weights.Position(x_m);
+    markers_m.col(m) = model.body().markers[At(m)].point.weights.Position(x_m);
   }
   return markers_m;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::command {
 
 namespace {
@@ -29,9 +31,9 @@ Eigen::Matrix3Xd FixedNodes(const robot::RobotBody& body) {
       fixed.push_back(node);
     }
   }
-  Eigen::Matrix3Xd points_m(3, static_cast<Eigen::Index>(fixed.size()));
+  Eigen::Matrix3Xd points_m(3, ToIndex(fixed.size()));
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    points_m.col(static_cast<Eigen::Index>(i)) = body.mesh.nodes_m.col(fixed[i]);
+    points_m.col(ToIndex(i)) = body.mesh.nodes_m.col(fixed[i]);
   }
   return points_m;
 }

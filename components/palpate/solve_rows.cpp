@@ -13,6 +13,7 @@
 
 #include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::command {
 
@@ -95,7 +96,7 @@ void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
   double largest_gap_m = 1e-6;
   std::string culprit;
   for (int c = 0; c < model.CableCount(); ++c) {
-    const CableCommand& command = row.cables[static_cast<std::size_t>(c)];
+    const CableCommand& command = row.cables[At(c)];
     const double reached_m = model.StateOfCable(c, state).displacement_m;
     if (command.kind == CableCommand::Kind::kDisplacement &&
         command.value - reached_m > largest_gap_m) {
@@ -103,7 +104,7 @@ void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
       culprit = fmt::format(
           "cable {}: no equilibrium found beyond a displacement of {:.6g} m of "
           "the {:.6g} m prescribed: ",
-          model.body().cables[static_cast<std::size_t>(c)].name, reached_m, command.value);
+          model.body().cables[At(c)].name, reached_m, command.value);
     }
   }
   result->status = Status(result->status.code(), culprit + result->status.message());
@@ -112,14 +113,13 @@ void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
 // A cable cannot be shortened by more than its length; nullopt where no cable is.
 std::optional<Status> RefuseImpossible(const LoadCase& row, const robot::RobotModel& model) {
   for (int c = 0; c < model.CableCount(); ++c) {
-    const CableCommand& command = row.cables[static_cast<std::size_t>(c)];
+    const CableCommand& command = row.cables[At(c)];
     const double length_m = model.cable(c).rest_length_m();
     if (command.kind == CableCommand::Kind::kDisplacement && command.value >= length_m) {
       return Status(StatusCode::kNotConverged,
                     fmt::format("cable {}: no equilibrium reaches a displacement of {:.6g} m: the "
                                 "cable is {:.6g} m long at rest",
-                                model.body().cables[static_cast<std::size_t>(c)].name,
-                                command.value, length_m));
+                                model.body().cables[At(c)].name, command.value, length_m));
     }
   }
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/core/status.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
@@ -59,7 +60,7 @@ class Registration {
 
   /// (x, y, 1) that is the ray of the depth pixel; NaN where the lens model has no inverse.
   Eigen::Vector3f Ray(int u_px, int v_px) const {
-    return rays_.col(static_cast<Eigen::Index>(v_px) * camera_.depth.width_px + u_px);
+    return rays_.col(ToIndex(v_px) * camera_.depth.width_px + u_px);
   }
   const rgbd::RgbdCamera& camera() const { return camera_; }
 

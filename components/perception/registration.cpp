@@ -136,7 +136,7 @@ void Registration::RegisterColor(const rgbd::RgbdFrame& frame, const Window& win
     } else {
       std::fill_n(to, values, std::uint8_t{0});
     }
-    const auto first = static_cast<std::ptrdiff_t>(v) * camera_.depth.width_px;
+    const auto first = ToIndex(v) * camera_.depth.width_px;
     std::fill(registered->color_known.begin() + first + window.u_begin,
               registered->color_known.begin() + first + window.u_end, known);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/virtual_robot/effects.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::virtual_robot {
 
@@ -30,9 +31,7 @@ class ActuatorChain {
   /// [cables] m of cable that was taken in, counted from the undeformed body.
   const Eigen::VectorXd& pulled_in_m() const { return proposed_.pulled_in_m; }
   /// The cable that this actuator pulls.
-  int CableOfActuator(int actuator) const {
-    return cable_of_actuator_[static_cast<size_t>(actuator)];
-  }
+  int CableOfActuator(int actuator) const { return cable_of_actuator_[At(actuator)]; }
 
  private:
   struct Commanded {

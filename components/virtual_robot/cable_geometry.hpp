@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/interpolation_weights.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 
@@ -25,7 +26,7 @@ class CableGeometry {
 
   /// At the node positions `x_m` [3n]; what follows is of them.
   void Evaluate(const Eigen::VectorXd& x_m);
-  double Length_m(int piece) const { return pieces_[static_cast<size_t>(piece)].length_m; }
+  double Length_m(int piece) const { return pieces_[At(piece)].length_m; }
   double TotalLength_m() const;
   /// Angle by which the cable turns before piece `piece` >= 1, rad.
   double TurningAngle_rad(int piece) const;

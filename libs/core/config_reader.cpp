@@ -10,6 +10,7 @@
 #include <set>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate {
@@ -143,7 +144,7 @@ std::string ReadChoice(const ConfigNode& node, const std::vector<std::string>& c
 Eigen::Vector3d ReadVector3(const ConfigNode& node, const NumberRule& rule) {
   if (node.kind != Kind::kList || node.items.size() != 3) RefuseType(node, "a list of 3 numbers");
   Eigen::Vector3d vector;
-  for (int i = 0; i < 3; ++i) vector(i) = ReadNumber(node.items[static_cast<size_t>(i)], rule);
+  for (int i = 0; i < 3; ++i) vector(i) = ReadNumber(node.items[At(i)], rule);
   return vector;
 }
 
@@ -156,9 +157,9 @@ std::vector<double> ReadNumbers(const ConfigNode& node, const NumberRule& rule) 
 
 Eigen::Matrix3Xd ReadPoints(const ConfigNode& node) {
   if (node.kind != Kind::kList) RefuseType(node, "a list of points [x, y, z]");
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(node.items.size()));
+  Eigen::Matrix3Xd points(3, ToIndex(node.items.size()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    points.col(i) = ReadVector3(node.items[static_cast<size_t>(i)]);
+    points.col(i) = ReadVector3(node.items[At(i)]);
   }
   return points;
 }

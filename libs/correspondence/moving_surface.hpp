@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::correspondence {
 
 /// Where the normal projection of a point meets a surface.
@@ -30,7 +32,7 @@ class MovingSurface {
 
   const Eigen::Matrix3Xd& vertices_m() const { return vertices_m_; }  ///< [3 x v] camera frame
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }    ///< [3 x t] vertex numbers
-  int NodeOfVertex(int vertex) const { return nodes_[static_cast<size_t>(vertex)]; }  ///< rising
+  int NodeOfVertex(int vertex) const { return nodes_[At(vertex)]; }   ///< rising
 
   /// Foot of `point_m` (camera frame), searched from triangle `start` on over the edges that the
   /// projection lies beyond. Beyond a ridge, where both triangles send it to the other, it is the

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -21,14 +22,10 @@ class SurfaceFeatures {
   explicit SurfaceFeatures(const robot::RobotBody& body);
 
   int Count() const { return static_cast<int>(points_.size()); }
-  const fem::InterpolationWeights& point(int feature) const {
-    return points_[static_cast<size_t>(feature)];
-  }
+  const fem::InterpolationWeights& point(int feature) const { return points_[At(feature)]; }
   const Eigen::Matrix3Xd& rest_m() const { return rest_m_; }        ///< [3 x features]
   const Eigen::Matrix3Xi& triangles() const { return triangles_; }  ///< [3 x t] node numbers
-  int FeatureOfTriangle(int triangle) const {
-    return feature_of_triangle_[static_cast<size_t>(triangle)];
-  }
+  int FeatureOfTriangle(int triangle) const { return feature_of_triangle_[At(triangle)]; }
 
   /// Unit outward normals n_e of the features on the surface in its present shape [3 x features]:
   /// mean over the triangles at the feature, weighted by area and by how near it their common

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/kernels/kernel.hpp"
 #include "libs/fem/material.hpp"
 #include "libs/fem/tet_mesh.hpp"
@@ -26,11 +27,9 @@ class CellBlocks {
   int BlockCount() const { return static_cast<int>(cells_.size()) / kernels::kLanes; }
   int NodesPerCell() const { return nodes_per_cell_; }
   /// The cell in a lane, or -1: the lane is left over, what it gives is to be ignored.
-  int CellAt(int block, int lane) const {
-    return cells_[static_cast<size_t>(block * kernels::kLanes + lane)];
-  }
+  int CellAt(int block, int lane) const { return cells_[At(block * kernels::kLanes + lane)]; }
   int NodeAt(int block, int node, int lane) const {
-    return nodes_[static_cast<size_t>((block * nodes_per_cell_ + node) * kernels::kLanes + lane)];
+    return nodes_[At((block * nodes_per_cell_ + node) * kernels::kLanes + lane)];
   }
 
   /// `factor_of_cell` [cells of the mesh] multiplies the moduli; empty: 1.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::fem {
 
 /// What is asked of one constraint.
@@ -33,10 +35,8 @@ struct LoadState {
   /// [3n]; only entries of fixed directions are used.
   Eigen::VectorXd fixed_position_m;
 
-  Eigen::Index CommandCount() const { return static_cast<Eigen::Index>(commands.size()); }
-  const ConstraintCommand& command(Eigen::Index c) const {
-    return commands[static_cast<size_t>(c)];
-  }
+  Eigen::Index CommandCount() const { return ToIndex(commands.size()); }
+  const ConstraintCommand& command(Eigen::Index c) const { return commands[At(c)]; }
 };
 
 /// A configuration with the loads it was last brought into balance with.

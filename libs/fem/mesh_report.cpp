@@ -14,6 +14,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::fem {
 
@@ -42,7 +43,7 @@ double JacobianDeterminant_m3(const TetMesh& mesh, int cell, const Eigen::Vector
   Eigen::Matrix<double, 3, 4> dx_dL;
   for (int i = 0; i < 4; ++i) dx_dL.col(i) = (4.0 * L(i) - 1.0) * Node(mesh, i, cell);
   for (int edge = 0; edge < 6; ++edge) {
-    const auto [i, j] = kEdges[static_cast<size_t>(edge)];
+    const auto [i, j] = kEdges[At(edge)];
     const Eigen::Vector3d middle = Node(mesh, 4 + edge, cell);
     dx_dL.col(i) += 4.0 * L(j) * middle;
     dx_dL.col(j) += 4.0 * L(i) * middle;
@@ -122,7 +123,7 @@ class DisjointSets {
   }
 
  private:
-  int& At(int k) { return parent_[static_cast<size_t>(k)]; }
+  int& At(int k) { return parent_[palpate::At(k)]; }
   std::vector<int> parent_;
 };
 
@@ -191,13 +192,13 @@ void JudgeUseOfNodes(const TetMesh& mesh, const std::vector<int>& cells, MeshRep
   std::vector<bool> used(static_cast<size_t>(mesh.NodeCount()), false);
   for (const int cell : cells) {
     for (const int node : mesh.cells.col(cell)) {
-      used[static_cast<size_t>(node)] = true;
+      used[At(node)] = true;
       pieces.Join(node, mesh.cells(0, cell));
     }
   }
   std::vector<int> used_nodes;
   for (int node = 0; node < mesh.NodeCount(); ++node) {
-    (used[static_cast<size_t>(node)] ? used_nodes : report->unused_nodes).push_back(node);
+    (used[At(node)] ? used_nodes : report->unused_nodes).push_back(node);
   }
   report->pieces = pieces.CountRoots(used_nodes);
   if (used_nodes.empty()) return;

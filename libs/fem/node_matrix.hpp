@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/stiffness_matrix.hpp"
 #include "libs/fem/tet_mesh.hpp"
 
@@ -24,7 +25,7 @@ class NodeMatrix {
   void AddCell(int cell, const Local& local) {
     const int* entry = entry_of_cell_.data() + static_cast<size_t>(cell * pairs_per_cell_);
     for (int a = 0; a < nodes_per_cell_; ++a) {
-      for (int b = 0; b <= a; ++b) values_[static_cast<size_t>(*entry++)] += local(a, b);
+      for (int b = 0; b <= a; ++b) values_[At(*entry++)] += local(a, b);
     }
   }
   /// Adds `value` to entry (a, b), and to (b, a). The two share a cell, or are one node.

@@ -27,7 +27,7 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
   std::vector<int> node_of_graph;
   for (int node = 0; node < static_cast<int>(fixed.cols()); ++node) {
     if (fixed.col(node).all()) continue;
-    free_index_[static_cast<size_t>(node)] = free_node_count_++;
+    free_index_[At(node)] = free_node_count_++;
     node_of_graph.push_back(node);
   }
   NodePairs free_pairs;
@@ -44,12 +44,12 @@ StiffnessMatrix::StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& f
   std::vector<int> place(order.nodes.size());
   for (size_t k = 0; k < order.nodes.size(); ++k) place[At(order.nodes[k])] = static_cast<int>(k);
   for (int node : node_of_graph) {
-    int& index = free_index_[static_cast<size_t>(node)];
-    index = place[static_cast<size_t>(index)];
+    int& index = free_index_[At(node)];
+    index = place[At(index)];
   }
   for (auto& [a, b] : free_pairs) {
-    const int place_a = place[static_cast<size_t>(a)];
-    const int place_b = place[static_cast<size_t>(b)];
+    const int place_a = place[At(a)];
+    const int place_b = place[At(b)];
     a = std::min(place_a, place_b);
     b = std::max(place_a, place_b);
   }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/elimination_order.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
 
@@ -27,8 +28,8 @@ class StiffnessMatrix {
   /// `fixed` [3 x nodes]: true where a direction is fixed. `pairs`: nodes that are coupled.
   StiffnessMatrix(const Eigen::Matrix<bool, 3, Eigen::Dynamic>& fixed, const NodePairs& pairs);
 
-  int Size() const { return 3 * free_node_count_; }                                 ///< rows
-  int FreeIndex(int node) const { return free_index_[static_cast<size_t>(node)]; }  ///< or -1
+  int Size() const { return 3 * free_node_count_; }                ///< rows
+  int FreeIndex(int node) const { return free_index_[At(node)]; }  ///< or -1
   int NodeCount() const { return static_cast<int>(free_index_.size()); }
   BlockPattern Pattern() const { return {column_start_, row_, supernode_start_}; }
   std::span<const double> Values() const { return values_; }
@@ -64,9 +65,9 @@ class StiffnessMatrix {
 
  private:
   void BuildPattern(const NodePairs& free_pairs);
-  bool IsSingleFixed(int row) const { return is_single_fixed_[static_cast<size_t>(row)]; }
+  bool IsSingleFixed(int row) const { return is_single_fixed_[At(row)]; }
   const double* DiagonalBlock(int column) const {
-    return values_.data() + kBlockEntries * column_start_[static_cast<size_t>(column)];
+    return values_.data() + kBlockEntries * column_start_[At(column)];
   }
 
   int free_node_count_ = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::gige_vision {
 
@@ -80,8 +81,8 @@ ErrorCode RegisterBank::Read(std::uint32_t address, std::size_t size, Bytes* val
     const Bytes shown = Shown(*next);
     const std::size_t skip = address - next->address;
     const std::size_t count = std::min(shown.size() - skip, size - value->size());
-    value->insert(value->end(), shown.begin() + static_cast<std::ptrdiff_t>(skip),
-                  shown.begin() + static_cast<std::ptrdiff_t>(skip + count));
+    value->insert(value->end(), shown.begin() + ToIndex(skip),
+                  shown.begin() + ToIndex(skip + count));
     address += static_cast<std::uint32_t>(count);
   }
   return ErrorCode::kSuccess;
@@ -97,7 +98,7 @@ ErrorCode RegisterBank::Write(std::uint32_t address, ByteView value) {
     Bytes written = found->values[slot];
     const std::size_t skip = address - found->address;
     const std::size_t count = std::min(written.size() - skip, value.size());
-    std::copy_n(value.begin(), count, written.begin() + static_cast<std::ptrdiff_t>(skip));
+    std::copy_n(value.begin(), count, written.begin() + ToIndex(skip));
     const auto writer = writers_.find(found->address);
     const ErrorCode verdict =
         writer == writers_.end() ? ErrorCode::kSuccess : writer->second(&written);
@@ -132,7 +133,7 @@ Bytes RegisterBank::Bootstrap(std::size_t size) const {
     if (address >= size) break;
     const Bytes shown = Shown(piece);
     std::copy_n(shown.begin(), std::min(shown.size(), size - address),
-                memory.begin() + static_cast<std::ptrdiff_t>(address));
+                memory.begin() + ToIndex(address));
   }
   return memory;
 }

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::rgbd {
 
 namespace {
@@ -96,8 +98,8 @@ void SurfaceView::Look(const Eigen::Ref<const Eigen::Matrix3Xd>& vertices_m,
 /// Only what the last Look has drawn.
 void SurfaceView::Clear() {
   for (int v = bounds_.v_begin; v < bounds_.v_end; ++v) {
-    const auto first = static_cast<std::ptrdiff_t>(Index(bounds_.u_begin, v));
-    const auto last = static_cast<std::ptrdiff_t>(Index(bounds_.u_end, v));
+    const auto first = ToIndex(Index(bounds_.u_begin, v));
+    const auto last = ToIndex(Index(bounds_.u_end, v));
     std::fill(triangle_.begin() + first, triangle_.begin() + last, kNothing);
     std::fill(inverse_z_.begin() + first, inverse_z_.begin() + last, 0.0f);
   }

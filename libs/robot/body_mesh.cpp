@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_report.hpp"
 #include "libs/geometry/box.hpp"
@@ -82,15 +83,15 @@ class PieceOfNode {
     std::iota(parent_.begin(), parent_.end(), 0);
     for (int cell = 0; cell < mesh.CellCount(); ++cell) {
       for (Eigen::Index k = 1; k < mesh.cells.rows(); ++k) {
-        parent_[static_cast<size_t>(Root(mesh.cells(k, cell)))] = Root(mesh.cells(0, cell));
+        parent_[At(Root(mesh.cells(k, cell)))] = Root(mesh.cells(0, cell));
       }
     }
   }
 
   int Root(int node) {
-    while (parent_[static_cast<size_t>(node)] != node) {
-      int& parent = parent_[static_cast<size_t>(node)];
-      parent = parent_[static_cast<size_t>(parent)];
+    while (parent_[At(node)] != node) {
+      int& parent = parent_[At(node)];
+      parent = parent_[At(parent)];
       node = parent;
     }
     return node;
@@ -118,13 +119,13 @@ void RefuseLoosePieces(const RobotDescription& robot, const BodyMesh& body,
   PieceOfNode pieces(body.mesh);
   std::vector<std::vector<int>> held_of_piece(held.size());
   for (int node = 0; node < body.mesh.NodeCount(); ++node) {
-    if (held[static_cast<size_t>(node)]) {
-      held_of_piece[static_cast<size_t>(pieces.Root(node))].push_back(node);
+    if (held[At(node)]) {
+      held_of_piece[At(pieces.Root(node))].push_back(node);
     }
   }
   for (int node = 0; node < body.mesh.NodeCount(); ++node) {
-    if (!body.used[static_cast<size_t>(node)] || pieces.Root(node) != node) continue;
-    const std::vector<int>& nodes = held_of_piece[static_cast<size_t>(node)];
+    if (!body.used[At(node)] || pieces.Root(node) != node) continue;
+    const std::vector<int>& nodes = held_of_piece[At(node)];
     if (SpanTriangle(body.mesh.nodes_m(Eigen::all, nodes))) continue;
     throw InputError(robot.fixed_where.front(),
                      "the piece of the mesh that holds node " + std::to_string(node) +
@@ -169,7 +170,7 @@ BodyMesh ReadBodyMesh(const RobotDescription& robot, std::vector<std::string>* n
   body.mesh.nodes_m = ((R * body.mesh.nodes_m).colwise() + robot.mesh.translate_m).eval();
   if (robot.element == fem::ElementType::kTet10) body.mesh = fem::MakeQuadratic(body.mesh);
   body.used.assign(static_cast<size_t>(body.mesh.NodeCount()), false);
-  for (const int node : body.mesh.cells.reshaped()) body.used[static_cast<size_t>(node)] = true;
+  for (const int node : body.mesh.cells.reshaped()) body.used[At(node)] = true;
   return body;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/cable_path.hpp"
 
 namespace palpate::robot {
@@ -110,10 +111,10 @@ Eigen::Matrix3Xd Cable::Path_m(const Eigen::VectorXd& x_m) const {
 }
 
 void Cable::FindPath(const Eigen::VectorXd& x_m, Eigen::Matrix3Xd* path_m) const {
-  path_m->resize(3, static_cast<Eigen::Index>(eyelets_.size()) + 1);
+  path_m->resize(3, ToIndex(eyelets_.size()) + 1);
   path_m->col(0) = pull_point_m_;
   for (size_t e = 0; e < eyelets_.size(); ++e) {
-    path_m->col(static_cast<Eigen::Index>(e) + 1) = eyelets_[e].Position(x_m);
+    path_m->col(ToIndex(e) + 1) = eyelets_[e].Position(x_m);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -122,7 +123,7 @@ void CablePath::ForceAlongFrictionAt(Eigen::Index eyelet, Eigen::Matrix3Xd* forc
 }
 
 void CablePath::Turn(int turn, Eigen::Matrix3Xd* force, Eigen::Matrix3Xd* angle) const {
-  const TurnData& data = turns_.at(static_cast<size_t>(turn));
+  const TurnData& data = turns_.at(At(turn));
   force->setZero(3, PieceCount() + 1);
   angle->setZero(3, PieceCount() + 1);
   for (Eigen::Index j = data.after; j < PieceCount(); ++j) {

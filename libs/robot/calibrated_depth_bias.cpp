@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libs/core/config_reader.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
@@ -73,11 +74,11 @@ Eigen::MatrixXd ReadCovariance(const ConfigNode& node, int rows) {
   }
   Eigen::MatrixXd covariance(rows, rows);
   for (int i = 0; i < rows; ++i) {
-    const ConfigNode& row_node = node.items[static_cast<std::size_t>(i)];
+    const ConfigNode& row_node = node.items[At(i)];
     const std::vector<double> row = ReadNumbers(row_node);
     if (static_cast<int>(row.size()) != i + 1) Refuse(row_node, rule);
     for (int j = 0; j <= i; ++j) {
-      covariance(i, j) = covariance(j, i) = row[static_cast<std::size_t>(j)];
+      covariance(i, j) = covariance(j, i) = row[At(j)];
     }
   }
   if (!IsCovariance(covariance)) Refuse(node, rule + "; it has a variance below 0");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::robot {
 
@@ -39,12 +40,11 @@ void AddNodesOfPoints(const fem::PointLocator& locator, const AxisBox& box, std:
 
 Eigen::Vector3d EyeletMoved_m(const BodyCable& cable, int eyelet) {
   if (cable.eyelets_moved_m.empty()) return Eigen::Vector3d::Zero();
-  return cable.eyelets_moved_m.at(static_cast<size_t>(eyelet));
+  return cable.eyelets_moved_m.at(At(eyelet));
 }
 
 Eigen::Vector3d EyeletPlace_m(const BodyCable& cable, double scale, int eyelet) {
-  return cable.eyelets.at(static_cast<size_t>(eyelet)).rest_m -
-         scale * EyeletMoved_m(cable, eyelet);
+  return cable.eyelets.at(At(eyelet)).rest_m - scale * EyeletMoved_m(cable, eyelet);
 }
 
 void MoveEyelet(const fem::PointLocator& locator, double scale, int eyelet,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "libs/geometry/box.hpp"
@@ -111,7 +112,7 @@ void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
     body->region_names.push_back(region.name);
     for (int cell = 0; cell < body->mesh.CellCount(); ++cell) {
       if (region.box.Contains(Centroid_m(body->mesh, cell))) {
-        body->material_of_cell[static_cast<size_t>(cell)] = index;
+        body->material_of_cell[At(cell)] = index;
       }
     }
   }
@@ -136,7 +137,7 @@ Eigen::VectorXd NodeMass_kg(const MassSettings& mass, const BodyMesh& body) {
   const auto used_count = std::count(body.used.begin(), body.used.end(), true);
   Eigen::VectorXd equal_kg = Eigen::VectorXd::Zero(body.mesh.NodeCount());
   for (int node = 0; node < body.mesh.NodeCount(); ++node) {
-    if (body.used[static_cast<size_t>(node)]) {
+    if (body.used[At(node)]) {
       equal_kg(node) = total_kg / static_cast<double>(used_count);
     }
   }

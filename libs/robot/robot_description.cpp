@@ -8,6 +8,7 @@
 #include <set>
 
 #include "libs/core/config_reader.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/fem/kernels/kernel.hpp"
 #include "libs/robot/robot_file_keys.hpp"
@@ -178,7 +179,7 @@ Eigen::Matrix3Xd ReadCablePath(const ConfigNode& node) {
   }
   for (Eigen::Index k = 1; k < path_m.cols(); ++k) {
     if (path_m.col(k) == path_m.col(k - 1)) {
-      Refuse(node.items[static_cast<size_t>(k)], "is the same point as the one before it");
+      Refuse(node.items[At(k)], "is the same point as the one before it");
     }
   }
   return path_m;

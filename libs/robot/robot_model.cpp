@@ -76,7 +76,7 @@ fem::SurfacePatch RobotModel::Patch(const Eigen::Vector3d& position_m, double ra
 }
 
 void RobotModel::SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m) {
-  Cable& moved = cables_.at(static_cast<size_t>(cable));
+  Cable& moved = cables_.at(At(cable));
   moved.SetPullPoint(pull_point_m, elastic_body_.rest_m());
   cable_rest_length_m_[cable] = moved.rest_length_m();
 }
@@ -84,7 +84,7 @@ void RobotModel::SetPullPoint(int cable, const Eigen::Vector3d& pull_point_m) {
 Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d& moved_m) {
   const auto index = static_cast<size_t>(cable_index);
   BodyCable moved = body_.cables.at(index);
-  fem::BodyPoint& point = moved.eyelets.at(static_cast<size_t>(eyelet));
+  fem::BodyPoint& point = moved.eyelets.at(At(eyelet));
   const fem::InterpolationWeights before = point.weights;
   robot::MoveEyelet(locator_, body_.scale, eyelet, moved_m, &moved);
   point.weights = fem::Combine({point.weights, before}, {1.0, 0.0});
@@ -101,18 +101,18 @@ Status RobotModel::MoveEyelet(int cable_index, int eyelet, const Eigen::Vector3d
 
 void RobotModel::SetYoungsModulus(int material, double youngs_modulus_Pa) {
   elastic_body_.SetYoungsModulus(material, youngs_modulus_Pa);
-  body_.materials.at(static_cast<size_t>(material)).youngs_modulus_Pa = youngs_modulus_Pa;
+  body_.materials.at(At(material)).youngs_modulus_Pa = youngs_modulus_Pa;
 }
 
 void RobotModel::SetPoissonsRatio(int material, double poissons_ratio) {
   elastic_body_.SetPoissonsRatio(material, poissons_ratio);
-  body_.materials.at(static_cast<size_t>(material)).poissons_ratio = poissons_ratio;
+  body_.materials.at(At(material)).poissons_ratio = poissons_ratio;
 }
 
 CableCommand RobotModel::CommandFor(int cable, std::optional<double> displacement_m,
                                     std::optional<double> tension_N, CableInput preferred) const {
   if (displacement_m) {
-    displacement_m = drives_.at(static_cast<size_t>(cable)).TakenIn_m(*displacement_m);
+    displacement_m = drives_.at(At(cable)).TakenIn_m(*displacement_m);
   }
   return ChooseCommand(displacement_m, tension_N, preferred);
 }

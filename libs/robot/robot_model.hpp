@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/fem/linearisation.hpp"
 #include "libs/fem/static_solver.hpp"
@@ -73,7 +74,7 @@ class RobotModel {
   fem::Linearisation& linearisation() { return linearisation_; }
   fem::StaticSolver& static_solver() { return static_solver_; }
   int CableCount() const { return static_cast<int>(cables_.size()); }
-  const Cable& cable(int index) const { return cables_[static_cast<size_t>(index)]; }
+  const Cable& cable(int index) const { return cables_[At(index)]; }
   const Eigen::VectorXd& cable_rest_length_m() const { return cable_rest_length_m_; }  ///< [a]
 
   std::vector<std::string> CableNames() const;
@@ -88,12 +89,12 @@ class RobotModel {
   /// all of them. The static solver then takes more steps. The caller decides which eyelets stick
   /// or slide after a load history.
   void SetCableFriction(int cable, const CableFriction& friction) {
-    cables_.at(static_cast<size_t>(cable)).SetFriction(friction);
+    cables_.at(At(cable)).SetFriction(friction);
   }
   /// Cable::compliance_m_N, which equilibria and their sensitivities know; Compliance (eq. 5) has
   /// cables that do not stretch.
   void SetCableCompliance(int cable, double compliance_m_N) {
-    cables_.at(static_cast<size_t>(cable)).SetCompliance(compliance_m_N);
+    cables_.at(At(cable)).SetCompliance(compliance_m_N);
   }
   /// The point fixed to the ground that a cable is pulled from; at first the robot file's. Its rest
   /// length and displacements count from the undeformed body with the point there.
@@ -104,9 +105,7 @@ class RobotModel {
   Status MoveEyelet(int cable, int eyelet, const Eigen::Vector3d& moved_m);
   const fem::PointLocator& locator() const { return locator_; }
   /// Offset and gain by which measured displacements of a cable are corrected; at first none.
-  void SetDrive(int cable, const DriveCalibration& drive) {
-    drives_.at(static_cast<size_t>(cable)) = drive;
-  }
+  void SetDrive(int cable, const DriveCalibration& drive) { drives_.at(At(cable)) = drive; }
   const std::vector<DriveCalibration>& drives() const { return drives_; }  ///< [cables]
   /// The command for the measured inputs of a cable (ChooseCommand), corrected by its actuator's
   /// offset and gain.

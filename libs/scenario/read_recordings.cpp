@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/scenario/scenario_sections.hpp"
@@ -45,7 +46,7 @@ CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>
   MapReader reader(node, CommandRowKeys());
   CommandRow row;
   row.t_s = ReadTime(reader, duration_s, last_s);
-  row.displacement_m.resize(static_cast<Eigen::Index>(cables.size()));
+  row.displacement_m.resize(ToIndex(cables.size()));
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const std::string key = cables[i] + std::string(kDisplacement);
     const ConfigNode* value = node.Find(key);
@@ -53,7 +54,7 @@ CommandRow ReadCommandRow(const ConfigNode& node, const std::vector<std::string>
       Refuse(node, "'" + key + "' is missing: every row names the cables of the first (a cable " +
                        "that is not driven has the value ~)");
     }
-    double& displacement_m = row.displacement_m[static_cast<Eigen::Index>(i)];
+    double& displacement_m = row.displacement_m[ToIndex(i)];
     displacement_m = kNotDriven;
     reader.Read(key, &displacement_m);
   }

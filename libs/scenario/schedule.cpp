@@ -49,15 +49,15 @@ Schedule::Schedule(Scenario scenario, std::vector<std::string> cables)
 }
 
 double Schedule::Begin_s(int recording) const {
-  return starts_s_.at(static_cast<std::size_t>(recording)) + scenario_.rest_between_s;
+  return starts_s_.at(palpate::At(recording)) + scenario_.rest_between_s;
 }
 
 Moment Schedule::At(double bench_s) const {
   const auto after = std::upper_bound(starts_s_.begin(), starts_s_.end(), bench_s);
-  const auto last = static_cast<std::ptrdiff_t>(scenario_.recordings.size()) - 1;
+  const auto last = ToIndex(scenario_.recordings.size()) - 1;
   const auto recording = std::clamp<std::ptrdiff_t>(after - starts_s_.begin() - 1, 0, last);
   const int index = static_cast<int>(recording);
-  const double end_s = scenario_.recordings[static_cast<std::size_t>(index)].duration_s;
+  const double end_s = scenario_.recordings[palpate::At(index)].duration_s;
   return {index, std::min(bench_s - Begin_s(index), end_s)};
 }
 
@@ -66,7 +66,7 @@ BenchInputs Schedule::InputsAt(double bench_s) const {
   if (moment.t_s < 0.0) {
     return RestBefore(moment.recording, 1.0 + moment.t_s / scenario_.rest_between_s);
   }
-  return During(scenario_.recordings[static_cast<std::size_t>(moment.recording)], moment.t_s);
+  return During(scenario_.recordings[palpate::At(moment.recording)], moment.t_s);
 }
 
 BenchInputs Schedule::RestBefore(int recording, double done) const {

@@ -118,7 +118,7 @@ void SurfaceInView::CollectSeen() {
     const Eigen::Vector3d sight_m = eye_m_ - surface_.Corner(t, 0);
     if (is_seen[At(t)] && normals_.col(t).dot(sight_m) > 0.0) seen_.push_back(t);
   }
-  seen_places_m_.resize(3, static_cast<Eigen::Index>(places_m.size()));
+  seen_places_m_.resize(3, ToIndex(places_m.size()));
   for (std::size_t k = 0; k < places_m.size(); ++k) {
     seen_places_m_.col(ToIndex(k)) = places_m[k];
   }

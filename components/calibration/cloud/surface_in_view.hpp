@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/interpolation_weights.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/rigid_transform.hpp"
@@ -51,7 +52,7 @@ class SurfaceInView {
   const Eigen::Matrix3Xd& seen_places_m() const { return seen_places_m_; }
   /// Unit, outward, robot frame.
   Eigen::Vector3d NormalAtSeenPlace(Eigen::Index place) const {
-    return normals_.col(triangle_of_place_[static_cast<size_t>(place)]);
+    return normals_.col(triangle_of_place_[At(place)]);
   }
 
  private:

@@ -95,13 +95,10 @@ void JointProblem::AddMarkerOffsets() {
   }
 }
 
-double JointProblem::Scale(int variable) const {
-  return ScaleOf(variables_[static_cast<size_t>(variable)].prior);
-}
+double JointProblem::Scale(int variable) const { return ScaleOf(variables_[At(variable)].prior); }
 
 double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) const {
-  return variables_[static_cast<size_t>(variable)].prior.mean +
-         Scale(variable) * variables[variable];
+  return variables_[At(variable)].prior.mean + Scale(variable) * variables[variable];
 }
 
 CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
@@ -161,7 +158,7 @@ double JointProblem::ResidualRms_m() const {
 Eigen::MatrixX2d JointProblem::Bounds() const {
   Eigen::MatrixX2d bounds(start_.size(), 2);
   for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
-    const GaussianPrior& prior = variables_[static_cast<size_t>(v)].prior;
+    const GaussianPrior& prior = variables_[At(v)].prior;
     bounds(v, 0) = IsHeld(v) ? 0.0 : (prior.lower - prior.mean) / Scale(v);
     bounds(v, 1) = IsHeld(v) ? 0.0 : (prior.upper - prior.mean) / Scale(v);
   }
@@ -233,7 +230,7 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
   double squares_m2 = 0.0;
   for (const MarkerSighting& sighting : frame.markers) {
     const fem::InterpolationWeights& weights =
-        model_.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights;
+        model_.body().markers.at(At(sighting.marker)).point.weights;
     const PlaceInFrame seen = PlaceOf(index, weights, variables);
     const Eigen::Vector3d place_m =
         scale_ * seen.place.position_m + OffsetOf(sighting.marker, variables);
@@ -313,7 +310,7 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
 void JointProblem::AddPriors(const Eigen::VectorXd& variables, LeastSquaresPoint* point) const {
   Eigen::Index row = data_rows_;
   for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
-    const double sigma = variables_[static_cast<size_t>(v)].prior.sigma;
+    const double sigma = variables_[At(v)].prior.sigma;
     if (!std::isfinite(sigma)) continue;
     point->residual[row] = Scale(v) * variables[v] / sigma;
     point->jacobian(row, v) = Scale(v) / sigma;

@@ -15,6 +15,7 @@
 #include "components/calibration/joint/least_squares_problem.hpp"
 #include "components/calibration/joint/solved_state.hpp"
 #include "components/calibration/joint/unknown.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/rigid_transform.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -42,8 +43,8 @@ class JointProblem final : public LeastSquaresProblem {
 
   const std::vector<Variable>& variables() const { return variables_; }
   /// Held variables stay at their mean.
-  void Hold(int variable) { held_[static_cast<size_t>(variable)] = true; }
-  bool IsHeld(int variable) const { return held_[static_cast<size_t>(variable)]; }
+  void Hold(int variable) { held_[At(variable)] = true; }
+  bool IsHeld(int variable) const { return held_[At(variable)]; }
   /// Start of the search; by default the prior means.
   void StartAt(const Eigen::VectorXd& variables) { start_ = variables; }
 

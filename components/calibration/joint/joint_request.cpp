@@ -66,7 +66,7 @@ geometry::Registration Register(const robot::RobotModel& model, const JointSetup
   std::vector<Eigen::Vector3d> seen, expected;
   for (std::size_t f = 0; f < setup.frames.size(); ++f) {
     for (const MarkerSighting& sighting : setup.frames[f].markers) {
-      const auto& marker = model.body().markers.at(static_cast<size_t>(sighting.marker));
+      const auto& marker = model.body().markers.at(At(sighting.marker));
       seen.push_back(sighting.position_m);
       expected.push_back(marker.point.weights.Position(x_m[f]));
     }
@@ -224,7 +224,7 @@ SizeComparison CompareSizes(const robot::RobotModel& model,
     const std::vector<MarkerSighting>& seen = frames[f].markers;
     Eigen::Matrix3Xd model_m(3, ToIndex(seen.size()));
     for (std::size_t k = 0; k < seen.size(); ++k) {
-      const auto& marker = model.body().markers.at(static_cast<std::size_t>(seen[k].marker));
+      const auto& marker = model.body().markers.at(At(seen[k].marker));
       model_m.col(ToIndex(k)) = marker.point.weights.Position(x_m[f]);
     }
     sizes.Add(PositionsOf(seen), model_m);

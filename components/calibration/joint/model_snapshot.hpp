@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/eyelets.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -32,7 +33,7 @@ class ModelSnapshot {
       model_.SetPoissonsRatio(static_cast<int>(m), materials_[m].poissons_ratio);
     }
     for (int c = 0; c < model_.CableCount(); ++c) {
-      model_.SetPullPoint(c, pull_points_m_[static_cast<std::size_t>(c)]);
+      model_.SetPullPoint(c, pull_points_m_[At(c)]);
       RestoreEyelets(c);
     }
     RestoreGravity();
@@ -41,8 +42,8 @@ class ModelSnapshot {
 
  private:
   void RestoreEyelets(int cable) const {
-    const robot::BodyCable& before = cables_[static_cast<std::size_t>(cable)];
-    const robot::BodyCable& now = model_.body().cables[static_cast<std::size_t>(cable)];
+    const robot::BodyCable& before = cables_[At(cable)];
+    const robot::BodyCable& now = model_.body().cables[At(cable)];
     for (int e = 0; e < static_cast<int>(before.eyelets.size()); ++e) {
       const Eigen::Vector3d moved_m = robot::EyeletMoved_m(before, e);
       if (robot::EyeletMoved_m(now, e) == moved_m) continue;

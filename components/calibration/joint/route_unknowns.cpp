@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/robot/eyelets.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
@@ -67,7 +68,7 @@ class EyeletUnknown final : public Unknown {
   std::vector<Influence> InfluencesOn(const robot::RobotModel& model, double, int,
                                       const FrameInputs&) const override {
     const robot::BodyCable& cable = CableOf(model);
-    const Eigen::Vector3d& now_m = cable.eyelets.at(static_cast<size_t>(eyelet_)).rest_m;
+    const Eigen::Vector3d& now_m = cable.eyelets.at(At(eyelet_)).rest_m;
     return Influence::One(
         robot::EyeletMove(
             cable_, eyelet_,
@@ -77,7 +78,7 @@ class EyeletUnknown final : public Unknown {
 
  private:
   const robot::BodyCable& CableOf(const robot::RobotModel& model) const {
-    return model.body().cables.at(static_cast<size_t>(cable_));
+    return model.body().cables.at(At(cable_));
   }
 
   int cable_;
@@ -96,7 +97,7 @@ std::array<TiltAxis, 2> Across(const Eigen::Vector3d& along) {
 }  // namespace
 
 std::array<TiltAxis, 2> AcrossCable(const robot::RobotBody& body, int cable, int point) {
-  const robot::BodyCable& path = body.cables.at(static_cast<std::size_t>(cable));
+  const robot::BodyCable& path = body.cables.at(At(cable));
   const auto place_m = [&](int k) -> Eigen::Vector3d {
     return k == 0 ? path.pull_point_m : robot::EyeletPlace_m(path, body.scale, k - 1);
   };
@@ -111,7 +112,7 @@ std::string RouteName(const std::string& cable_name, int point, const std::strin
 
 UnknownPtr RouteOf(const robot::RobotBody& body, int cable, int point, const TiltAxis& direction,
                    const GaussianPrior& prior) {
-  const robot::BodyCable& path = body.cables.at(static_cast<std::size_t>(cable));
+  const robot::BodyCable& path = body.cables.at(At(cable));
   std::string name = RouteName(path.name, point, direction.name);
   if (point == 0) {
     return std::make_unique<GuideUnknown>(cable, std::move(name), path.pull_point_m,

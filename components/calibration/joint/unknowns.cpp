@@ -26,13 +26,13 @@ constexpr const char* kKnownForce =
     "a recording with a known load, or with cables whose tension is measured";
 
 robot::CableCommand& CommandOf(int cable, FrameInputs* inputs) {
-  return inputs->cables.at(static_cast<size_t>(cable));
+  return inputs->cables.at(At(cable));
 }
 
 /// Influence of `per_value` times a cable's command.
 std::vector<Influence> OfCommand(int cable, const FrameInputs& inputs, double per_value) {
   const double s = inputs.scale;
-  switch (inputs.cables.at(static_cast<size_t>(cable)).kind) {
+  switch (inputs.cables.at(At(cable)).kind) {
     case Kind::kDisplacement: return Influence::One(robot::CableOffset(cable), per_value / s);
     case Kind::kTension: return Influence::One(robot::TensionOffset(cable), per_value / (s * s));
     case Kind::kNone: break;
@@ -41,7 +41,7 @@ std::vector<Influence> OfCommand(int cable, const FrameInputs& inputs, double pe
 }
 
 std::vector<Influence> OfDisplacement(int cable, const FrameInputs& inputs, double per_value) {
-  const bool acts = inputs.cables.at(static_cast<size_t>(cable)).kind == Kind::kDisplacement;
+  const bool acts = inputs.cables.at(At(cable)).kind == Kind::kDisplacement;
   return acts ? OfCommand(cable, inputs, per_value) : std::vector<Influence>();
 }
 
@@ -106,7 +106,7 @@ class GainOfCommand final : public Unknown {
   }
 
  private:
-  double MeasuredIn(int frame) const { return measured_.at(static_cast<size_t>(frame)); }
+  double MeasuredIn(int frame) const { return measured_.at(At(frame)); }
 
   int cable_;
   std::vector<double> measured_;

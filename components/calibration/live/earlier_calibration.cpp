@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::calibration {
 
 namespace {
@@ -18,8 +20,7 @@ void ReadFrame(const robot::CalibrationFile& before, const std::vector<std::stri
   for (const robot::CalibratedDrive& actuator : before.drives) {
     const auto name = std::find(cable_names.begin(), cable_names.end(), actuator.cable);
     if (name == cable_names.end()) continue;
-    robot::CableCommand& cable =
-        frame->cables.at(static_cast<std::size_t>(name - cable_names.begin()));
+    robot::CableCommand& cable = frame->cables.at(At(name - cable_names.begin()));
     if (cable.kind == Kind::kDisplacement) cable.value = actuator.drive.TakenIn_m(cable.value);
   }
 }

@@ -23,7 +23,7 @@ std::vector<robot::ObservationRow> RowsOf(const robot::RobotModel& model,
                                           const std::vector<MarkerSighting>& sightings) {
   std::vector<fem::InterpolationWeights> points;
   for (const MarkerSighting& sighting : sightings) {
-    points.push_back(model.body().markers.at(static_cast<size_t>(sighting.marker)).point.weights);
+    points.push_back(model.body().markers.at(At(sighting.marker)).point.weights);
   }
   return robot::RowsOfPoints(points);
 }

@@ -9,6 +9,7 @@
 #include "components/calibration/pose/assignment_hypotheses.hpp"
 #include "components/calibration/recording_phase.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
@@ -42,7 +43,7 @@ struct Means {
   void Add(const Eigen::Matrix3Xd& points_m) {
     const std::vector<int> of_point = MatchNearest(points_m, first_m, kStillMarker_m);
     for (Index p = 0; p < points_m.cols(); ++p) {
-      const int mean = of_point[static_cast<std::size_t>(p)];
+      const int mean = of_point[palpate::At(p)];
       if (mean < 0) continue;
       const Eigen::Vector3d off_m = points_m.col(p) - first_m.col(mean);
       sum_m.col(mean) += off_m;

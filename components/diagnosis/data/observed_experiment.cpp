@@ -12,6 +12,7 @@
 #include "components/diagnosis/data/pieces.hpp"
 #include "components/diagnosis/data/scatter.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::diagnosis {
@@ -98,12 +99,12 @@ Eigen::Matrix3Xd ReferenceOf(const Recording& recording, const std::vector<int>&
                              const Eigen::Isometry3d& T_measurement_robot) {
   if (!CountsFromUndeformed(recording)) return {};
   const auto means = MeanOver(*recording.markers, recording.reference->window_s);
-  Eigen::Matrix3Xd off_m(3, static_cast<Eigen::Index>(columns.size()));
+  Eigen::Matrix3Xd off_m(3, ToIndex(columns.size()));
   for (std::size_t m = 0; m < columns.size(); ++m) {
-    const auto column = static_cast<Eigen::Index>(m);
+    const auto column = ToIndex(m);
     off_m.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     if (columns[m] < 0) continue;
-    const auto& mean = means[static_cast<std::size_t>(columns[m])];
+    const auto& mean = means[At(columns[m])];
     if (mean.count == 0) continue;
     off_m.col(column) = mean.mean_m - T_measurement_robot * body.markers[m].point.rest_m;
   }
@@ -139,9 +140,9 @@ Sample Average(const std::vector<const MarkerFrame*>& frames, const std::vector<
     sample.frame_t_s.push_back(frame->t_s);
     sample.t_s += frame->t_s / static_cast<double>(frames.size());
     for (Eigen::Index m = 0; m < markers; ++m) {
-      const int column = columns[static_cast<std::size_t>(m)];
+      const int column = columns[At(m)];
       if (column < 0) continue;
-      const auto& seen = frame->positions_m[static_cast<std::size_t>(column)];
+      const auto& seen = frame->positions_m[At(column)];
       if (!seen) continue;
       sample.position_m.col(m) += *seen;
       ++sample.count[m];
@@ -187,7 +188,7 @@ class Sampler {
         index_(index),
         timeline_(observed.timeline),
         marker_count_(std::ssize(observed.markers)) {
-    const auto& seen = observed.recordings[static_cast<std::size_t>(index)];
+    const auto& seen = observed.recordings[At(index)];
     if (seen.T_camera_robot) depth_frames_ = DepthFramesOf(recording);
     if (!recording.markers) return;
     columns_ = ColumnsOf(recording, observed.markers);
@@ -247,7 +248,7 @@ void FindDepthCameras(const std::map<std::string, rgbd::CameraModel>& cameras,
     recording.focal_px = Eigen::Vector2d(camera->second.fx_px, camera->second.fy_px);
   }
   for (const Sample& sample : observed->samples) {
-    auto& recording = observed->recordings[static_cast<std::size_t>(sample.recording)];
+    auto& recording = observed->recordings[At(sample.recording)];
     const bool behind = (sample.position_m.row(2).array() <= 0.0).any();  // NaN is not
     recording.by_depth_camera = recording.by_depth_camera && !behind;
   }
@@ -284,13 +285,13 @@ double Measured_m(const Sample& sample, Eigen::Index coordinate) {
   if (!IsMeasured(sample, coordinate)) return std::numeric_limits<double>::quiet_NaN();
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate < of_markers) return sample.position_m.reshaped()[coordinate];
-  return sample.surface[static_cast<std::size_t>(coordinate - of_markers)].measured_m;
+  return sample.surface[At(coordinate - of_markers)].measured_m;
 }
 
 double Sigma_m(const ObservedExperiment& observed, const Sample& sample, Eigen::Index coordinate) {
   const Eigen::Index of_markers = 3 * sample.count.size();
   if (coordinate >= of_markers) {
-    return sample.surface[static_cast<std::size_t>(coordinate - of_markers)].sigma_m;
+    return sample.surface[At(coordinate - of_markers)].sigma_m;
   }
   return observed.sigma_m[coordinate % 3] / std::sqrt(sample.count[coordinate / 3]);
 }

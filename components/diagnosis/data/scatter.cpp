@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 void Scatter::Add(const std::vector<const experiment::MarkerFrame*>& frames) {
@@ -13,14 +15,14 @@ void Scatter::Add(const std::vector<const experiment::MarkerFrame*>& frames) {
   if (frames.size() < kFewest) return;
   for (std::size_t marker = 0; marker < frames.front()->positions_m.size(); ++marker) {
     std::vector<double> t_s;
-    Eigen::Matrix3Xd seen_m(3, static_cast<Eigen::Index>(frames.size()));
+    Eigen::Matrix3Xd seen_m(3, ToIndex(frames.size()));
     for (const experiment::MarkerFrame* frame : frames) {
       const auto& position_m = frame->positions_m[marker];
       if (!position_m) continue;
-      seen_m.col(static_cast<Eigen::Index>(t_s.size())) = *position_m;
+      seen_m.col(ToIndex(t_s.size())) = *position_m;
       t_s.push_back(frame->t_s);
     }
-    const auto count = static_cast<Eigen::Index>(t_s.size());
+    const auto count = ToIndex(t_s.size());
     if (t_s.size() < kFewest) continue;
     Eigen::Map<const Eigen::VectorXd> times_s(t_s.data(), count);
     const Eigen::RowVectorXd along = (times_s.array() - times_s.mean()).matrix().normalized();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -25,10 +27,10 @@ const experiment::CableColumn* ColumnOf(const experiment::Recording& recording,
 
 Eigen::VectorXd CommandOf(const experiment::Recording& recording,
                           const std::vector<std::string>& cables, double t_s) {
-  Eigen::VectorXd command(static_cast<Eigen::Index>(cables.size()));
+  Eigen::VectorXd command(ToIndex(cables.size()));
   for (std::size_t c = 0; c < cables.size(); ++c) {
     const auto* column = ColumnOf(recording, cables[c]);
-    command[static_cast<Eigen::Index>(c)] =
+    command[ToIndex(c)] =
         column == nullptr ? kNotDriven : recording.actuation->ValueAt(*column, t_s);
   }
   return command;

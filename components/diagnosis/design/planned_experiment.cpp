@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -32,7 +34,7 @@ std::vector<bool> SeenMarkers(const ObservedExperiment& observed) {
   std::vector<bool> seen(observed.markers.size(), false);
   for (const Sample& sample : observed.samples) {
     for (std::size_t m = 0; m < seen.size(); ++m) {
-      seen[m] = seen[m] || sample.count[static_cast<Eigen::Index>(m)] > 0;
+      seen[m] = seen[m] || sample.count[ToIndex(m)] > 0;
     }
   }
   return seen;
@@ -87,10 +89,10 @@ void LeaveOutWhatFailed(const ObservedExperiment& planned, Simulation* simulatio
   std::vector<bool> failed(planned.recordings.size(), false);
   for (std::size_t s = 0; s < planned.samples.size(); ++s) {
     if (simulation->samples[s].status.ok()) continue;
-    failed[static_cast<std::size_t>(planned.samples[s].recording)] = true;
+    failed[At(planned.samples[s].recording)] = true;
   }
   for (std::size_t s = 0; s < planned.samples.size(); ++s) {
-    if (!failed[static_cast<std::size_t>(planned.samples[s].recording)]) continue;
+    if (!failed[At(planned.samples[s].recording)]) continue;
     simulation->samples[s].status =
         Status(StatusCode::kNotConverged, "the robot does not get through the recording");
   }
@@ -159,14 +161,14 @@ LinearModel PredictProposals(const ObservedExperiment& planned, const robot::Rob
                              const std::vector<int>& of, const NoiseModel& noise, int threads) {
   const FaultModelList models = hypotheses.All();
   std::vector<bool> wanted(models.size(), false);
-  for (const int k : of) wanted[static_cast<std::size_t>(k)] = true;
+  for (const int k : of) wanted[At(k)] = true;
   const ModelHypothesis nominal = NominalHypothesis(body, planned);
   ModelHypothesis hypothesis = HypothesisWith(nominal, models, fit.z);
   for (std::size_t k = 0; k < planned.recordings.size(); ++k) {
     const int pose_of = planned.recordings[k].pose_of;
     if (pose_of < 0) continue;
-    hypothesis.T_seen[k] = hypothesis.T_seen[static_cast<std::size_t>(pose_of)];
-    hypothesis.T_surface_seen[k] = hypothesis.T_surface_seen[static_cast<std::size_t>(pose_of)];
+    hypothesis.T_seen[k] = hypothesis.T_seen[At(pose_of)];
+    hypothesis.T_surface_seen[k] = hypothesis.T_surface_seen[At(pose_of)];
   }
   const Simulator simulator(planned, threads);
   Simulation simulation = simulator.Run(hypothesis);
@@ -174,7 +176,7 @@ LinearModel PredictProposals(const ObservedExperiment& planned, const robot::Rob
   LeaveOutWhatFailed(planned, &simulation);
   Eigen::Matrix3Xd rest_m(3, std::ssize(body.markers));
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+    rest_m.col(ToIndex(m)) = body.markers[m].point.rest_m;
   }
   return Linearise(planned, simulation, fit.z, rest_m, noise);
 }

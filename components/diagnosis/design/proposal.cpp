@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/diagnosis/design/places_to_hang.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::diagnosis {
@@ -40,7 +41,7 @@ struct Drives {
     std::vector<bool> commanded(cables.size(), false);
     for (const Eigen::VectorXd& command : timeline.command) {
       for (std::size_t c = 0; c < cables.size(); ++c) {
-        const double value = std::abs(command[static_cast<Eigen::Index>(c)]);
+        const double value = std::abs(command[ToIndex(c)]);
         if (std::isnan(value)) continue;
         commanded[c] = true;
         double& largest = by_tension[c] ? largest_N : largest_m;
@@ -51,7 +52,7 @@ struct Drives {
     for (std::size_t c = 0; c < cables.size(); ++c) {
       if (none || commanded[c]) driven.push_back(static_cast<int>(c));
       const double largest = by_tension[c] ? largest_N : largest_m;
-      used[static_cast<Eigen::Index>(c)] = largest > 0.0 ? largest : Default(body, c);
+      used[ToIndex(c)] = largest > 0.0 ? largest : Default(body, c);
     }
   }
 
@@ -66,12 +67,12 @@ struct Drives {
   /// In whole tenths of a millimetre, or hundredths of a newton, not beyond.
   double Rounded(int cable, double command) const {
     constexpr double kRounding = 1e-9;
-    const double step = by_tension[static_cast<std::size_t>(cable)] ? 1e-2 : 1e-4;
+    const double step = by_tension[palpate::At(cable)] ? 1e-2 : 1e-4;
     return std::copysign(step * std::floor(std::abs(command) / step + kRounding), command);
   }
   double At(int cable, double share) const { return Rounded(cable, share * used[cable]); }
   std::string Text(int cable, double share) const {
-    const bool tension = by_tension[static_cast<std::size_t>(cable)];
+    const bool tension = by_tension[palpate::At(cable)];
     const double shown = std::abs(At(cable, share)) * (tension ? 1e2 : 1e4);
     return FormatNumber(std::round(shown) / (tension ? 1e2 : 10.0)) + (tension ? " N" : " mm");
   }
@@ -130,7 +131,7 @@ class Script {
 
 void AddPulls(const Drives& drives, std::vector<Proposal>* proposals) {
   for (const int c : drives.driven) {
-    const std::string& name = drives.cables[static_cast<std::size_t>(c)];
+    const std::string& name = drives.cables[At(c)];
     proposals->push_back(Script(drives)
                              .To({c}, kFarther, kRamp_s)
                              .Stay(kDwell_s)
@@ -168,8 +169,7 @@ void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
   for (std::size_t a = 0; a < driven.size() && driven.size() > 2; ++a) {
     for (std::size_t b = a + 1; b < driven.size() && pairs < kMostPairs; ++b, ++pairs) {
       together({driven[a], driven[b]},
-               "cables " + drives.cables[static_cast<std::size_t>(driven[a])] + " and " +
-                   drives.cables[static_cast<std::size_t>(driven[b])]);
+               "cables " + drives.cables[At(driven[a])] + " and " + drives.cables[At(driven[b])]);
     }
   }
   if (driven.size() > 1) together(driven, "all cables");
@@ -179,7 +179,7 @@ void AddCoContractions(const Drives& drives, std::vector<Proposal>* proposals) {
 void AddSlackening(const Drives& drives, std::vector<Proposal>* proposals) {
   std::vector<int> by_length;
   for (const int c : drives.driven) {
-    if (!drives.by_tension[static_cast<std::size_t>(c)]) by_length.push_back(c);
+    if (!drives.by_tension[At(c)]) by_length.push_back(c);
   }
   if (by_length.empty()) return;
   proposals->push_back(Script(drives)

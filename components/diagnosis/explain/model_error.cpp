@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -51,7 +53,7 @@ Eigen::VectorXd Residual_m(const ObservedExperiment& observed, const Fit& fit, s
 /// marker a constant, at most twice as large as such shapes are off by.
 void TakeOffReference(const ObservedExperiment& observed, int recording, Residuals* residuals_m) {
   constexpr double kAtMost = 2.0;
-  if (!observed.recordings[static_cast<std::size_t>(recording)].held_until_s) return;
+  if (!observed.recordings[At(recording)].held_until_s) return;
   const double most_m = kAtMost * observed.reference_sigma_m;
   for (Eigen::Index k = 0; k < 3 * std::ssize(observed.markers); ++k) {
     double sum_m = 0.0;
@@ -99,8 +101,7 @@ Eigen::VectorXd Noise_m(const ObservedExperiment& observed, std::size_t sample) 
 Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
                         const Eigen::VectorXd& residual_m) {
   const Sample& seen = observed.samples[sample];
-  const ObservedRecording& recording =
-      observed.recordings[static_cast<std::size_t>(seen.recording)];
+  const ObservedRecording& recording = observed.recordings[At(seen.recording)];
   const Eigen::Index markers = std::ssize(observed.markers);
   Eigen::Matrix3Xd on_body_m = Eigen::Matrix3Xd::Constant(
       3, markers + observed.feature_rest_m.cols(), std::numeric_limits<double>::quiet_NaN());
@@ -109,7 +110,7 @@ Eigen::Matrix3Xd OnBody(const ObservedExperiment& observed, std::size_t sample,
       R_robot_measurement * residual_m.head(3 * markers).reshaped(3, markers);
   for (std::size_t f = 0; f < seen.surface.size(); ++f) {
     if (seen.surface[f].count == 0) continue;
-    const auto feature = static_cast<Eigen::Index>(f);
+    const auto feature = ToIndex(f);
     on_body_m.col(markers + feature) =
         residual_m[3 * markers + feature] *
         (recording.T_camera_robot->linear().transpose() * seen.surface[f].normal.normalized());
@@ -184,7 +185,7 @@ void DescribeBody(const ObservedExperiment& observed, const robot::RobotBody& bo
   result->markers = observed.markers;
   result->marker_rest_m.resize(3, std::ssize(body.markers) + observed.feature_rest_m.cols());
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    result->marker_rest_m.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+    result->marker_rest_m.col(ToIndex(m)) = body.markers[m].point.rest_m;
   }
   result->marker_rest_m.rightCols(observed.feature_rest_m.cols()) = observed.feature_rest_m;
   for (Eigen::Index f = 0; f < observed.feature_rest_m.cols(); ++f) {

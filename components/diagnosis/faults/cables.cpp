@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "components/diagnosis/faults/makers.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -20,8 +21,7 @@ class CableFrictionFault final : public FaultModel {
         index_(index) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->body.cables[static_cast<std::size_t>(index_)].friction_coefficient +=
-        std::max(0.0, z[0]);
+    hypothesis->body.cables[At(index_)].friction_coefficient += std::max(0.0, z[0]);
   }
 
   /// More of it sticks for longer, which OnBody leaves out.
@@ -29,7 +29,7 @@ class CableFrictionFault final : public FaultModel {
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot->cables[static_cast<std::size_t>(index_)].friction_coefficient += z[0];
+    robot->cables[At(index_)].friction_coefficient += z[0];
     return true;
   }
 
@@ -117,12 +117,12 @@ class CableRouting final : public FaultModel {
         index_(index) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->body.cables[static_cast<std::size_t>(index_)].pull_point_m += z;
+    hypothesis->body.cables[At(index_)].pull_point_m += z;
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot->cables[static_cast<std::size_t>(index_)].path_m.col(0) += z;
+    robot->cables[At(index_)].path_m.col(0) += z;
     return true;
   }
 
@@ -131,9 +131,9 @@ class CableRouting final : public FaultModel {
     const Eigen::Vector3d direction = Eigen::Vector3d::Unit(parameter);
     auto sum = std::make_unique<SumOfParameters>();
     sum->Add(1.0, robot::PullPointMove(index_, direction, robot::CableZero::kKept));
-    if (at.observed.timeline.by_tension[static_cast<std::size_t>(index_)]) return sum;
+    if (at.observed.timeline.by_tension[At(index_)]) return sum;
     // Zeroed in the shape of that time, which a bent body no longer has.
-    const robot::BodyCable& cable = at.hypothesis.body.cables[static_cast<std::size_t>(index_)];
+    const robot::BodyCable& cable = at.hypothesis.body.cables[At(index_)];
     const Eigen::Vector3d last_m =
         cable.pull_point_m - cable.eyelets.front().weights.Position(at.hypothesis.assembled_m);
     Eigen::VectorXd change_m = Eigen::VectorXd::Zero(std::ssize(at.hypothesis.body.cables));
@@ -181,8 +181,8 @@ class SwappedCables final : public FaultModel {
   /// Each actuator keeps its name and its limits, and pulls what the other one pulled.
   bool Extend(const Eigen::VectorXd& /*z*/, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot::CableSettings& a = robot->cables[static_cast<std::size_t>(a_)];
-    robot::CableSettings& b = robot->cables[static_cast<std::size_t>(b_)];
+    robot::CableSettings& a = robot->cables[At(a_)];
+    robot::CableSettings& b = robot->cables[At(b_)];
     std::swap(a.path_m, b.path_m);
     std::swap(a.guide_radius_m, b.guide_radius_m);
     std::swap(a.friction_coefficient, b.friction_coefficient);
@@ -197,7 +197,7 @@ class SwappedCables final : public FaultModel {
 
  private:
   static const std::string& NameOf(const CatalogueInputs& inputs, int cable) {
-    return inputs.body.cables[static_cast<std::size_t>(cable)].name;
+    return inputs.body.cables[At(cable)].name;
   }
 
   Eigen::Index a_;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "components/diagnosis/faults/view_motion.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -21,7 +22,7 @@ class CameraMoved final : public FaultModel {
                    "camera moved before recording " + NameOf(recordings, from_recording),
                    {Move(), Move(), Move(), Turn(), Turn(), Turn()}),
         from_recording_(from_recording),
-        middle_m_(recordings[static_cast<std::size_t>(from_recording)].T_view_robot() * middle_m) {
+        middle_m_(recordings[At(from_recording)].T_view_robot() * middle_m) {
     for (const ObservedRecording& one : recordings) {
       T_view_robot_.push_back(one.T_view_robot());
       moves_markers_.push_back(one.camera_frame || !one.T_camera_robot);
@@ -71,7 +72,7 @@ class CameraMoved final : public FaultModel {
 
  private:
   static const std::string& NameOf(const std::vector<ObservedRecording>& recordings, int k) {
-    return recordings[static_cast<std::size_t>(k)].name;
+    return recordings[At(k)].name;
   }
   static FaultParameter Move() { return {.name = "translation_m", .fault = 0.01}; }
   static FaultParameter Turn() { return {.name = "rotation_rad", .fault = 0.04}; }

@@ -5,6 +5,7 @@
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/forward/mesh_error.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -46,10 +47,8 @@ class Discretisation final : public FaultModel {
     const Eigen::Matrix3d R_seen =
         (of_skin ? at.hypothesis.T_surface_seen : at.hypothesis.T_seen)[recording].linear();
     for (Eigen::Index k = 0; k < motion_m->cols(); ++k) {
-      motion_m->col(k) +=
-          R_seen * (of_skin
-                        ? at.seen().surface[static_cast<std::size_t>(k)].point.Position(farther_m)
-                        : farther_m.segment<3>(3 * k));
+      motion_m->col(k) += R_seen * (of_skin ? at.seen().surface[At(k)].point.Position(farther_m)
+                                            : farther_m.segment<3>(3 * k));
     }
   }
 

@@ -6,6 +6,7 @@
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/elastic_body.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
@@ -70,8 +71,7 @@ class RegionalStiffness final : public FaultModel {
         material_(material) {}
 
   void Apply(const Eigen::VectorXd& z, ModelHypothesis* hypothesis) const override {
-    hypothesis->body.materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa *=
-        std::exp(z[0]);
+    hypothesis->body.materials[At(material_)].youngs_modulus_Pa *= std::exp(z[0]);
   }
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
@@ -85,8 +85,7 @@ class RegionalStiffness final : public FaultModel {
   robot::ParameterPtr OnBody(int /*parameter*/, const Eigen::VectorXd& /*z*/,
                              const FaultContext& at) const override {
     const auto& materials = at.model.elastic_body().materials();
-    return Scaled(materials[static_cast<std::size_t>(material_)].youngs_modulus_Pa,
-                  robot::YoungsModulus(material_));
+    return Scaled(materials[At(material_)].youngs_modulus_Pa, robot::YoungsModulus(material_));
   }
 
  private:
@@ -187,7 +186,7 @@ class Stiffening final : public FaultModel {
     const auto& materials = at.model.elastic_body().materials();
     const std::scoped_lock lock(mutex_);
     for (int k = 0; k < static_cast<int>(materials.size()); ++k) {
-      const fem::Material& now = materials[static_cast<std::size_t>(k)];
+      const fem::Material& now = materials[At(k)];
       for (fem::ElasticBody* body : {&without_, &with_}) {
         body->SetYoungsModulus(k, now.youngs_modulus_Pa);
         body->SetPoissonsRatio(k, now.poissons_ratio);

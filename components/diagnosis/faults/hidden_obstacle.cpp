@@ -8,6 +8,7 @@
 
 #include "components/diagnosis/faults/candidate_obstacles.hpp"
 #include "components/diagnosis/faults/makers.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -99,7 +100,7 @@ class HiddenObstacle final : public FaultModel {
     const Eigen::Vector4d value = GapAndNormal(z, undeformed_m);
     Eigen::MatrixXd slope(4, z.size());
     for (Eigen::Index p = 0; p < z.size(); ++p) {
-      const double step = kStep * parameters()[static_cast<std::size_t>(p)].fault;
+      const double step = kStep * parameters()[At(p)].fault;
       const Eigen::VectorXd beside = step * Eigen::VectorXd::Unit(z.size(), p);
       slope.col(p) =
           (GapAndNormal(z + beside, undeformed_m) - GapAndNormal(z - beside, undeformed_m)) /

@@ -6,6 +6,7 @@
 
 #include "components/diagnosis/faults/makers.hpp"
 
+#include "libs/core/index.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 
@@ -32,7 +33,7 @@ class MarkerMisplacement final : public FaultModel {
 
   bool Extend(const Eigen::VectorXd& z, robot::RobotDescription* robot,
               std::vector<robot::CalibratedDrive>* /*drives*/) const override {
-    robot->markers[static_cast<std::size_t>(index_)].position_m += z;
+    robot->markers[At(index_)].position_m += z;
     return true;
   }
 
@@ -40,9 +41,8 @@ class MarkerMisplacement final : public FaultModel {
               Eigen::Matrix3Xd* motion_m) const override {
     if (at.target != Target::kMarkers) return;
     const auto recording = static_cast<std::size_t>(at.seen().recording);
-    motion_m->col(index_) +=
-        at.hypothesis.T_seen[recording].linear() *
-        along_[static_cast<std::size_t>(parameter)].Position(at.shape.state.x_m);
+    motion_m->col(index_) += at.hypothesis.T_seen[recording].linear() *
+                             along_[At(parameter)].Position(at.shape.state.x_m);
   }
 
   std::vector<FittedParameter> Report(const Eigen::VectorXd& z, const Eigen::MatrixXd& covariance,

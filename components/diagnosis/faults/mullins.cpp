@@ -7,6 +7,7 @@
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/faults/quantile.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -97,8 +98,7 @@ class Mullins final : public FaultModel {
     Eigen::VectorXd once_N = Eigen::VectorXd::Zero(x_m.size());
     body.SetCellFactors(ones);
     body.AddForces(x_m, once_N);
-    const Eigen::VectorXd& factor =
-        at.simulation.history_variables[static_cast<std::size_t>(at.sample)].cell_factor;
+    const Eigen::VectorXd& factor = at.simulation.history_variables[At(at.sample)].cell_factor;
     if (factor.size() > 0) body.SetCellFactors(factor);
     return more_N - once_N;
   }

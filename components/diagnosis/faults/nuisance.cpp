@@ -6,6 +6,7 @@
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/faults/view_motion.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -32,9 +33,8 @@ double SizeOfCell_m(const fem::TetMesh& mesh, int cell) {
 Eigen::VectorXd AnchorCompliance_m_N(const robot::RobotBody& body) {
   Eigen::VectorXd compliance_m_N(std::ssize(body.cables));
   for (Eigen::Index c = 0; c < compliance_m_N.size(); ++c) {
-    const int cell = body.cables[static_cast<std::size_t>(c)].eyelets.back().cell;
-    const auto material =
-        static_cast<std::size_t>(body.material_of_cell[static_cast<std::size_t>(cell)]);
+    const int cell = body.cables[At(c)].eyelets.back().cell;
+    const auto material = static_cast<std::size_t>(body.material_of_cell[At(cell)]);
     compliance_m_N[c] =
         kShare / (body.materials[material].youngs_modulus_Pa * SizeOfCell_m(body.mesh, cell));
   }
@@ -103,7 +103,7 @@ class Extrinsics final : public FaultModel {
     for (const Viewpoint& eye : eyes_) {
       auto& of_target =
           eye.target == Target::kSurface ? hypothesis->T_surface_seen : hypothesis->T_seen;
-      Eigen::Isometry3d& T_seen = of_target[static_cast<std::size_t>(eye.recording)];
+      Eigen::Isometry3d& T_seen = of_target[At(eye.recording)];
       T_seen = move * T_seen;
     }
   }
@@ -149,7 +149,7 @@ std::vector<View> Views(const CatalogueInputs& inputs) {
   std::vector<View> views;
   const std::vector<ObservedRecording>& recordings = inputs.observed.recordings;
   for (int k = 0; k < std::ssize(recordings); ++k) {
-    const ObservedRecording& one = recordings[static_cast<std::size_t>(k)];
+    const ObservedRecording& one = recordings[At(k)];
     if (one.camera_frame || inputs.extrinsics_m > 0.0)
       views.push_back({{k, Target::kMarkers}, one.T_measurement_robot, one.knows_pose});
     if (one.T_camera_robot) views.push_back({{k, Target::kSurface}, *one.T_camera_robot, true});
@@ -254,7 +254,7 @@ class StereoRipple final : public FaultModel {
                      Eigen::Matrix3Xd* motion_m) const override {
     if (at.target != Target::kSurface) return;
     for (Eigen::Index f = 0; f < motion_m->cols(); ++f) {
-      const SurfaceMeasurement& feature = at.seen().surface[static_cast<std::size_t>(f)];
+      const SurfaceMeasurement& feature = at.seen().surface[At(f)];
       if (feature.count == 0) continue;
       motion_m->col(f) +=
           feature.ripple_m_px[parameter] / feature.normal.squaredNorm() * feature.normal;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/diagnosis/faults/makers.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/embedding.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 
@@ -40,7 +41,7 @@ CandidatePlaces PlacesFor(const CatalogueInputs& inputs) {
   const Eigen::Vector3d middle_m = MiddleOfBase(inputs.body);
   Eigen::VectorXd least_m(std::ssize(inputs.body.feature_points));
   for (Eigen::Index k = 0; k < least_m.size(); ++k) {
-    const auto& rest_m = inputs.body.feature_points[static_cast<std::size_t>(k)].rest_m;
+    const auto& rest_m = inputs.body.feature_points[At(k)].rest_m;
     least_m[k] = std::numeric_limits<double>::infinity();
     for (int node = 0; node < inputs.body.mesh.NodeCount(); ++node) {
       if (!inputs.body.fixed.col(node).all()) continue;
@@ -51,7 +52,7 @@ CandidatePlaces PlacesFor(const CatalogueInputs& inputs) {
       (inputs.body.mesh.nodes_m.colwise() - middle_m).colwise().norm().maxCoeff();
   for (Eigen::Index k = 0; k < least_m.size() && places.point_m.size() < kMost; ++k) {
     if (least_m[k] < kFarFromBase * reach_m) continue;
-    places.point_m.push_back(inputs.body.feature_points[static_cast<std::size_t>(k)].rest_m);
+    places.point_m.push_back(inputs.body.feature_points[At(k)].rest_m);
   }
   return places;
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -67,7 +69,7 @@ void ActuatorChain::GoTo(double t_s, const ActuatorSettings& settings, Place* no
     followed =
         lags ? next[c] - behind + (followed - commanded + behind) * std::exp(-h_s / settings.tau_s)
              : next[c];
-    const bool by_tension = observed_.timeline.by_tension[static_cast<std::size_t>(c)];
+    const bool by_tension = observed_.timeline.by_tension[palpate::At(c)];
     const double geared =
         (1.0 + settings.gain[c]) * followed + (by_tension ? 0.0 : settings.offset_m[c]);
     const double half = by_tension ? 0.0 : 0.5 * settings.play_m[c];
@@ -91,7 +93,7 @@ Eigen::MatrixXd ActuatorChain::Path(const ActuatorSettings& settings) const {
             .taken_in = Eigen::VectorXd::Constant(commanded.size(), kUnknown)};
   auto turn = turns_s.begin();
   for (Eigen::Index k = 0; k < path.cols(); ++k) {
-    const double t_s = t_s_[static_cast<std::size_t>(k)];
+    const double t_s = t_s_[palpate::At(k)];
     // What is delayed turns between these times.
     for (; turn != turns_s.end() && *turn + settings.delay_s < t_s; ++turn) {
       if (*turn + settings.delay_s > now.t_s) GoTo(*turn + settings.delay_s, settings, &now);
@@ -106,7 +108,7 @@ Eigen::MatrixXd ActuatorChain::At(const ActuatorSettings& settings) const {
   const Eigen::MatrixXd path = Path(settings);
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(path.rows(), std::ssize(times_of_));
   for (std::size_t s = 0; s < times_of_.size(); ++s) {
-    const auto column = static_cast<Eigen::Index>(s);
+    const auto column = ToIndex(s);
     for (const int k : times_of_[s]) mean.col(column) += path.col(k);
     mean.col(column) /= static_cast<double>(times_of_[s].size());
   }
@@ -128,7 +130,7 @@ std::vector<std::vector<SamplePart>> ActuatorChain::PartsAt(
       SamplePart part{.taken_in = Eigen::VectorXd::Zero(path.rows()), .times = {}, .sliding = {}};
       for (std::size_t f = first; f < end; ++f) {
         part.taken_in += path.col(times[f]) / static_cast<double>(end - first);
-        part.t_s += t_s_[static_cast<std::size_t>(times[f])] / static_cast<double>(end - first);
+        part.t_s += t_s_[palpate::At(times[f])] / static_cast<double>(end - first);
         part.times.push_back(times[f]);
       }
       part.share = static_cast<double>(end - first) / static_cast<double>(times.size());
@@ -150,7 +152,7 @@ Eigen::MatrixXi ActuatorChain::Sliding(const ActuatorSettings& settings) const {
   }
   Eigen::MatrixXi of_sample(path.rows(), std::ssize(times_of_));
   for (std::size_t s = 0; s < times_of_.size(); ++s) {
-    of_sample.col(static_cast<Eigen::Index>(s)) = way.col(times_of_[s].back());
+    of_sample.col(ToIndex(s)) = way.col(times_of_[s].back());
   }
   return of_sample;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
@@ -32,14 +33,14 @@ Eigen::VectorXd SolveComplementarity(const Eigen::MatrixXd& M, const Eigen::Vect
   const Eigen::Index count = q.size();
   const int most = static_cast<int>(20 * count) + 100;
   std::vector<bool> is_above(static_cast<std::size_t>(count));
-  for (Eigen::Index i = 0; i < count; ++i) is_above[static_cast<std::size_t>(i)] = start[i] > 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) is_above[At(i)] = start[i] > 0.0;
   Eigen::VectorXd x;
   auto fewest_wrong = std::numeric_limits<std::size_t>::max();
   int patience = kPatience;
   for (int round = 0; round < most; ++round) {
     std::vector<Eigen::Index> above;
     for (Eigen::Index i = 0; i < count; ++i) {
-      if (is_above[static_cast<std::size_t>(i)]) above.push_back(i);
+      if (is_above[At(i)]) above.push_back(i);
     }
     x = SolveAbove(M, q, above);
     const Eigen::VectorXd y = M * x + q;

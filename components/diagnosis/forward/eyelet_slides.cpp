@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/forward/eyelet_slides.hpp"
 
+#include "libs/core/index.hpp"
 #include "libs/robot/cable_path.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
@@ -45,7 +46,7 @@ Eigen::VectorXd FrictionAt(const std::vector<RubbingEyelet>& eyelets,
   Eigen::VectorXd coefficient(std::ssize(eyelets));
   for (std::size_t k = 0; k < eyelets.size(); ++k) {
     const auto cable = static_cast<std::size_t>(eyelets[k].cable);
-    coefficient[static_cast<Eigen::Index>(k)] = body.cables[cable].friction_coefficient;
+    coefficient[ToIndex(k)] = body.cables[cable].friction_coefficient;
   }
   return coefficient;
 }
@@ -77,12 +78,12 @@ EyeletSlides SlidesAbout(const std::vector<RubbingEyelet>& eyelets,
   slides.by_command.setZero(count, std::ssize(commands));
   Eigen::MatrixXd beyond_m;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const RubbingEyelet& one = eyelets[static_cast<std::size_t>(k)];
+    const RubbingEyelet& one = eyelets[At(k)];
     if (one.eyelet == 0) beyond_m = LengthsBeyond(model.cable(one.cable), state.x_m, *solver);
     const Eigen::RowVectorXd row = beyond_m.row(one.eyelet);
     slides.by_friction.row(k) = row.head(count);
     for (Eigen::Index d = 0; d < std::ssize(driven); ++d) {
-      slides.by_command(k, driven[static_cast<std::size_t>(d)]) = row[count + d];
+      slides.by_command(k, driven[At(d)]) = row[count + d];
     }
   }
   return slides;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -20,7 +22,7 @@ std::vector<FittedParameter> FaultModel::Report(const Eigen::VectorXd& z,
   std::vector<FittedParameter> report;
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     const FaultParameter& parameter = parameters_[p];
-    const auto i = static_cast<Eigen::Index>(p);
+    const auto i = ToIndex(p);
     const double half = k95 * std::sqrt(covariance(i, i));
     const double a = parameter.ValueOf(std::max(z[i] - half, parameter.least));
     const double b = parameter.ValueOf(std::min(z[i] + half, parameter.most));

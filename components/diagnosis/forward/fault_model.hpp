@@ -18,6 +18,7 @@
 #include "components/diagnosis/forward/simulation.hpp"
 #include "components/diagnosis/forward/sum_of_parameters.hpp"
 #include "components/diagnosis/vocabulary/diagnosis_result.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_description.hpp"
 #include "libs/robot/sensitivity/parameter.hpp"
@@ -74,13 +75,9 @@ struct FaultContext {
   Target target = Target::kMarkers;
   MeasuredPoints measured_points = {};
 
-  const Sample& seen() const { return observed.samples[static_cast<std::size_t>(sample)]; }
-  const SimulatedSample& simulated() const {
-    return simulation.samples[static_cast<std::size_t>(sample)];
-  }
-  const ObservedRecording& recording() const {
-    return observed.recordings[static_cast<std::size_t>(seen().recording)];
-  }
+  const Sample& seen() const { return observed.samples[At(sample)]; }
+  const SimulatedSample& simulated() const { return simulation.samples[At(sample)]; }
+  const ObservedRecording& recording() const { return observed.recordings[At(seen().recording)]; }
   /// From where the target is measured.
   const Eigen::Isometry3d& T_measurement_robot() const {
     return target == Target::kSurface ? *recording().T_camera_robot

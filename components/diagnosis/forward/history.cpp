@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -50,7 +52,7 @@ HistoryOperator::HistoryOperator(const ObservedExperiment& observed) : observed_
 
 Eigen::RowVectorXd HistoryOperator::Only(std::size_t column) const {
   Eigen::RowVectorXd share = Eigen::RowVectorXd::Zero(ColumnCount());
-  share[static_cast<Eigen::Index>(column)] = 1.0;
+  share[ToIndex(column)] = 1.0;
   return share;
 }
 
@@ -66,8 +68,7 @@ Eigen::RowVectorXd HistoryOperator::EndOf(std::size_t last) const {
 bool HistoryOperator::IsAtZero(std::size_t sample, double t_s) const {
   constexpr double kNearlyNothing = 0.1;  // of the largest command
   const Sample& seen = observed_.samples[sample];
-  const ObservedRecording& recording =
-      observed_.recordings[static_cast<std::size_t>(seen.recording)];
+  const ObservedRecording& recording = observed_.recordings[At(seen.recording)];
   const bool as_built = recording.base_rotation.isIdentity() && !recording.held_until_s;
   if (largest_command_.isZero() || !seen.loads.empty() || !as_built) return false;
   const Eigen::ArrayXd command = observed_.timeline.CommandAt(t_s).array();
@@ -159,9 +160,8 @@ Eigen::MatrixXd HistoryOperator::ComputeFading(double tau_s) const {
       if (t_s > to.t_s) break;
       const double share = std::max(0.0, t_s - from.t_s) / (to.t_s - from.t_s);
       const Eigen::RowVectorXd there = from.share + share * (to.share - from.share);
-      weights.row(static_cast<Eigen::Index>(sample)) +=
-          later(from, there, std::max(0.0, t_s - from.t_s)) /
-          static_cast<double>(seen.frame_t_s.size());
+      weights.row(ToIndex(sample)) += later(from, there, std::max(0.0, t_s - from.t_s)) /
+                                      static_cast<double>(seen.frame_t_s.size());
       if (++frame < seen.frame_t_s.size()) continue;
       frame = 0;
       ++sample;
@@ -188,8 +188,7 @@ HistoryOperator::Course HistoryOperator::Follow(const Eigen::MatrixXf& values) c
   Eigen::VectorXf next = before;
   Eigen::VectorXf largest = Eigen::VectorXf::Zero(values.rows());
   for (Eigen::Index look = 0; look < looks; ++look) {
-    const std::vector<double>& frames_s =
-        observed_.samples[static_cast<std::size_t>(look / kTimesPerSample)].frame_t_s;
+    const std::vector<double>& frames_s = observed_.samples[At(look / kTimesPerSample)].frame_t_s;
     const auto frame = static_cast<std::size_t>(2 * (look % kTimesPerSample) + 1) *
                        frames_s.size() / static_cast<std::size_t>(2 * kTimesPerSample);
     const double t_s = frames_s[frame];
@@ -241,7 +240,7 @@ void Soften(const MullinsSoftening& mullins, const HistoryOperator& history,
       const Eigen::Array<double, HistoryOperator::kTimesPerSample, 1> below =
           below_J_m3.row(cell)
               .segment<HistoryOperator::kTimesPerSample>(HistoryOperator::kTimesPerSample *
-                                                         static_cast<Eigen::Index>(s))
+                                                         ToIndex(s))
               .transpose()
               .cast<double>()
               .array() /
@@ -269,7 +268,7 @@ void Creep(const std::vector<CreepTerm>& terms, const HistoryOperator& history,
   for (const CreepTerm& term : terms) {
     const Eigen::MatrixXd& fading = history.Fading(term.tau_s);
     for (Eigen::Index s = 0; s < samples; ++s) {
-      HistoryVariables& left = (*history_variables)[static_cast<std::size_t>(s)];
+      HistoryVariables& left = (*history_variables)[At(s)];
       Eigen::VectorXd weights = fading.row(s).transpose();
       left.scale += term.g * weights[s];
       weights[s] = 0.0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -21,7 +23,7 @@ double MeanOverFrames(const ObservedExperiment& observed, const Sample& sample, 
 
 std::optional<CameraView> ViewOf(const CameraErrors& errors, const ObservedExperiment& observed,
                                  const Sample& sample, Target target) {
-  const auto& recording = observed.recordings[static_cast<std::size_t>(sample.recording)];
+  const auto& recording = observed.recordings[At(sample.recording)];
   const bool seen =
       target == Target::kSurface ? recording.T_camera_robot.has_value() : recording.by_depth_camera;
   if (!seen || sample.frame_t_s.empty()) return std::nullopt;

@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/data/observed_experiment.hpp"
 #include "components/diagnosis/forward/camera_view.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -21,7 +22,7 @@ struct MeasuredPoints {
   std::vector<SeenPoint> points;     ///< [markers] or [features]
   std::optional<CameraView> camera;  ///< nothing: they are measured where they are
 
-  const SeenPoint& point(Eigen::Index k) const { return points[static_cast<std::size_t>(k)]; }
+  const SeenPoint& point(Eigen::Index k) const { return points[At(k)]; }
   Eigen::Vector3d Measured(Eigen::Index k) const {
     return camera ? camera->Measured(point(k)) : point(k).at_m;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/diagnosis/forward/simulator.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
@@ -17,8 +18,7 @@ namespace {
 Eigen::VectorXd MarkersAt(const robot::RobotBody& body, const Eigen::VectorXd& x_m) {
   Eigen::VectorXd markers_m(3 * std::ssize(body.markers));
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    markers_m.segment<3>(3 * static_cast<Eigen::Index>(m)) =
-        body.markers[m].point.weights.Position(x_m);
+    markers_m.segment<3>(3 * ToIndex(m)) = body.markers[m].point.weights.Position(x_m);
   }
   return markers_m;
 }
@@ -39,7 +39,7 @@ std::optional<MeshError> CompareMeshes(const robot::RobotBody& body, const Simul
   for (std::size_t k = 0; k < known.size(); ++k) {
     const Eigen::VectorXd& x_m = simulated.samples[known[k]].middle.state.x_m;
     const Eigen::VectorXd& finer_x_m = on_finer.samples[known[k]].middle.state.x_m;
-    const auto column = static_cast<Eigen::Index>(k);
+    const auto column = ToIndex(k);
     bend_m.col(column) = x_m - rest_m;
     nodes_m.col(column) = finer_x_m.head(rest_m.size()) - x_m;
     markers_m.col(column) = MarkersAt(finer, finer_x_m) - MarkersAt(body, x_m);

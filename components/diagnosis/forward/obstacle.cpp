@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
 
 namespace palpate::diagnosis {
@@ -31,7 +32,7 @@ class ObstacleMotionParameter final : public robot::Parameter {
     const ObstacleSurface& surface = *obstacle_.surface;
     for (Eigen::Index k = 0; k < force_N_.size(); ++k) {
       if (force_N_[k] <= 0.0) continue;
-      const int node = surface.nodes[static_cast<std::size_t>(k)];
+      const int node = surface.nodes[At(k)];
       const double deeper = offset_change_m_ - normal_change_.dot(at.x_m().segment<3>(3 * node));
       column->distributed_force_N().segment<3>(3 * node) +=
           surface.stiffness_N_m * deeper * obstacle_.normal + force_N_[k] * normal_change_;
@@ -81,7 +82,7 @@ Eigen::VectorXd NodalForces_N(const Obstacle& obstacle, const Eigen::VectorXd& f
                               Eigen::Index size) {
   Eigen::VectorXd nodal_N = Eigen::VectorXd::Zero(size);
   for (Eigen::Index k = 0; k < force_N.size(); ++k) {
-    const int node = obstacle.surface->nodes[static_cast<std::size_t>(k)];
+    const int node = obstacle.surface->nodes[At(k)];
     nodal_N.segment<3>(3 * node) = force_N[k] * obstacle.normal;
   }
   return nodal_N;

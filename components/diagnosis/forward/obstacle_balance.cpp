@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "components/diagnosis/forward/complementarity.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -138,7 +139,7 @@ double ObstacleBalance::UpdateDepths(const fem::StaticState& state) {
   const ObstacleSurface& surface = *obstacle_.surface;
   double error_m = 0.0;
   for (Eigen::Index k = 0; k < depth_m_.size(); ++k) {
-    depth_m_[k] = obstacle_.Depth_m(surface.nodes[static_cast<std::size_t>(k)], state.x_m);
+    depth_m_[k] = obstacle_.Depth_m(surface.nodes[At(k)], state.x_m);
     const double missed_m = depth_m_[k] - force_N_[k] / surface.stiffness_N_m;
     error_m = std::max(error_m, force_N_[k] > 0.0 ? std::abs(missed_m) : missed_m);
   }
@@ -166,7 +167,7 @@ Status ObstacleBalance::UpdateCompliance(const std::vector<robot::CableCommand>&
   std::vector<fem::InterpolationWeights> points;
   for (int k = 0; k < std::ssize(depth_m_); ++k) {
     if (!(force_N_[k] > 0.0 || depth_m_[k] > -kNear_m)) continue;
-    const int node = obstacle_.surface->nodes[static_cast<std::size_t>(k)];
+    const int node = obstacle_.surface->nodes[At(k)];
     Eigen::VectorXd push = Eigen::VectorXd::Zero(state.x_m.size());
     push.segment<3>(3 * node) = obstacle_.normal;
     active_.push_back(k);

@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/forward/simulator.hpp"
 #include "components/diagnosis/forward/sum_of_parameters.hpp"
+#include "libs/core/index.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -82,7 +83,7 @@ void SampleDifferentiator::Collect(const FaultContext& at) {
   acting_.clear();
   column_of_.clear();
   for (const WantedParameter& one : parameters_) {
-    const Eigen::MatrixXd& change = actuator_change_[static_cast<std::size_t>(one.column)];
+    const Eigen::MatrixXd& change = actuator_change_[palpate::At(one.column)];
     auto sum = std::make_unique<SumOfParameters>();
     if (change.size() > 0 && !change.col(at.sample).isZero(0.0)) {
       sum->Add(1.0, CommandChange(
@@ -142,8 +143,7 @@ Eigen::MatrixXd SampleDifferentiator::At(const FaultContext& at) {
                      of_rows_.Compute(at.shape.commands, at.shape.state, acting_).ok();
   if (!known) return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < column_of_.size(); ++k) {
-    jacobian_m(coordinate_of_, column_of_[k]) =
-        of_rows_.motion_m().col(static_cast<Eigen::Index>(k));
+    jacobian_m(coordinate_of_, column_of_[k]) = of_rows_.motion_m().col(ToIndex(k));
   }
   if (!AddPushes(at, &jacobian_m).ok()) {
     return jacobian_m.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -159,14 +159,13 @@ void SampleDifferentiator::Observe(const FaultContext& at) {
   rows_.clear();
   coordinate_of_.clear();
   if (markers_seen_) rows_ = marker_rows_;
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    coordinate_of_.push_back(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < rows_.size(); ++k) coordinate_of_.push_back(ToIndex(k));
   const std::vector<SurfaceMeasurement>& surface = at.seen().surface;
   const MeasuredPoints measured_points = solver_.SurfacePointsOf(at.seen(), at.shape.state.x_m);
   const auto recording = static_cast<std::size_t>(at.seen().recording);
   for (std::size_t f = 0; f < surface.size(); ++f) {
     if (surface[f].count == 0) continue;
-    const auto feature = static_cast<Eigen::Index>(f);
+    const auto feature = ToIndex(f);
     const Eigen::Matrix3d R_camera_robot =
         (*at.recording().T_camera_robot * hypothesis_.T_surface_seen[recording]).linear();
     rows_.push_back(robot::RowOfPoint(
@@ -201,7 +200,7 @@ void SampleDifferentiator::ShowTo(const FaultContext& of, Eigen::MatrixXd* jacob
     one.fault->OnView(one.number, one.z, at, &seen_m);
     seen_m = R_measurement * seen_m.eval();
     for (Eigen::Index m = 0; m < std::ssize(slopes); ++m) {
-      seen_m.col(m) = slopes[static_cast<std::size_t>(m)] * seen_m.col(m).eval();
+      seen_m.col(m) = slopes[palpate::At(m)] * seen_m.col(m).eval();
     }
     if (at.measured_points.camera) one.fault->OnMeasurement(one.number, one.z, at, &seen_m);
     column = seen_m.reshaped();
@@ -224,14 +223,14 @@ void SampleDifferentiator::ShowSurfaceTo(const FaultContext& of,
     seen_m = R_camera * seen_m.eval();
     for (std::size_t f = 0; f < surface.size(); ++f) {
       if (surface[f].count == 0) continue;
-      const auto feature = static_cast<Eigen::Index>(f);
+      const auto feature = ToIndex(f);
       seen_m.col(feature) = at.measured_points.camera->Slope(at.measured_points.point(feature)) *
                             seen_m.col(feature).eval();
     }
     one.fault->OnMeasurement(one.number, one.z, at, &seen_m);
     for (std::size_t f = 0; f < surface.size(); ++f) {
       if (surface[f].count == 0) continue;
-      const auto feature = static_cast<Eigen::Index>(f);
+      const auto feature = ToIndex(f);
       (*jacobian_m)(std::ssize(marker_rows_) + feature, one.column) +=
           surface[f].normal.dot(seen_m.col(feature));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "components/diagnosis/forward/history.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/surface_patch.hpp"
 #include "libs/robot/sensitivity/eyelet_gradient.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
@@ -27,7 +28,7 @@ std::vector<fem::InterpolationWeights> MarkerPoints(const ModelHypothesis& hypot
   std::vector<fem::InterpolationWeights> points;
   for (std::size_t m = 0; m < hypothesis.body.markers.size(); ++m) {
     const fem::BodyPoint& point = hypothesis.body.markers[m].point;
-    const Eigen::Vector3d offset_m = hypothesis.marker_offset_m.col(static_cast<Eigen::Index>(m));
+    const Eigen::Vector3d offset_m = hypothesis.marker_offset_m.col(ToIndex(m));
     if (offset_m.isZero()) {
       points.push_back(point.weights);
       continue;
@@ -94,7 +95,7 @@ std::vector<robot::CableCommand> SampleSolver::Commands(const Eigen::VectorXd& t
 
 /// Weights that hang along what gravity was assumed to be hang along what it is.
 std::vector<robot::DeadLoad> SampleSolver::LoadsAt(const Sample& sample) const {
-  const auto& recording = observed_.recordings[static_cast<std::size_t>(sample.recording)];
+  const auto& recording = observed_.recordings[At(sample.recording)];
   const Eigen::Matrix3d& R_tilt = recording.base_rotation;
   const Eigen::Vector3d believed =
       (R_tilt.transpose() * hypothesis_.body.gravity_m_s2).normalized();
@@ -135,8 +136,7 @@ void SampleSolver::Prepare(const Sample& sample, const HistoryVariables& history
                                              : Eigen::VectorXd::Ones(cell_volume_m3_.size()));
   }
   kept_.Set(points_, history_variables.stress_Pa);
-  model_.SetGravity(
-      GravityIn(hypothesis_, observed_.recordings[static_cast<std::size_t>(sample.recording)]));
+  model_.SetGravity(GravityIn(hypothesis_, observed_.recordings[At(sample.recording)]));
 }
 
 void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
@@ -146,12 +146,10 @@ void SampleSolver::SetSliding(const Eigen::VectorXd& sliding) {
     if (sliding.size() > 0) friction.back().sliding.resize(cable.eyelets.size());
   }
   for (std::size_t k = 0; k < eyelets_.size() && sliding.size() > 0; ++k) {
-    friction[static_cast<std::size_t>(eyelets_[k].cable)]
-        .sliding[static_cast<std::size_t>(eyelets_[k].eyelet)] =
-        sliding[static_cast<Eigen::Index>(k)];
+    friction[At(eyelets_[k].cable)].sliding[At(eyelets_[k].eyelet)] = sliding[ToIndex(k)];
   }
   for (int c = 0; c < model_.CableCount(); ++c) {
-    model_.SetCableFriction(c, friction[static_cast<std::size_t>(c)]);
+    model_.SetCableFriction(c, friction[At(c)]);
   }
 }
 
@@ -171,7 +169,7 @@ Status SampleSolver::Balance(const fem::LoadState& loads, HeldShape* shape) {
 fem::LoadState SampleSolver::LoadsOf(const Sample& sample,
                                      const std::vector<robot::CableCommand>& commands) const {
   fem::LoadState loads = model_.Loads(commands, LoadsAt(sample));
-  loads.commands[static_cast<std::size_t>(model_.CableCount())] = kept_.Command();
+  loads.commands[At(model_.CableCount())] = kept_.Command();
   if (obstacle_) {
     loads.commands.back() = {.mode = fem::ConstraintCommand::Mode::kMultiplier,
                              .value = ObstacleContact::kThere_N};
@@ -246,8 +244,7 @@ MeasuredPoints SampleSolver::MeasuredPointsOf(const Sample& sample,
   if (hypothesis_.mesh_error_share != 0.0)
     farther_m = hypothesis_.mesh_error->of_markers * MeshErrorAt(x_m);
   for (std::size_t m = 0; m < markers_.size(); ++m) {
-    const Eigen::Vector3d at_m =
-        markers_[m].Position(x_m) + farther_m.segment<3>(3 * static_cast<Eigen::Index>(m));
+    const Eigen::Vector3d at_m = markers_[m].Position(x_m) + farther_m.segment<3>(3 * ToIndex(m));
     measured_points.points.push_back(
         {T_measurement_robot * at_m, T_measurement_robot.linear() * skin_.Normal(m, x_m)});
   }
@@ -279,7 +276,7 @@ void SampleSolver::See(const Sample& sample, SimulatedSample* solved) const {
   if (sample.surface.empty()) return;
   const MeasuredPoints surface = SurfacePointsOf(sample, x_m);
   for (std::size_t f = 0; f < sample.surface.size(); ++f) {
-    const auto feature = static_cast<Eigen::Index>(f);
+    const auto feature = ToIndex(f);
     if (sample.surface[f].count == 0) continue;
     solved->seen_m[3 * solved->markers + feature] =
         sample.surface[f].normal.dot(surface.Measured(feature)) +
@@ -302,8 +299,8 @@ void SampleSolver::Solve(const Sample& sample, const Eigen::VectorXd& taken_in,
   fem::StaticState& state = solved->middle.state;
   if (state.x_m.size() == 0) state = model_.RestState();
   // It may come from a robot without the obstacle, or with one.
-  state.multipliers_N.conservativeResizeLike(Eigen::VectorXd::Zero(
-      static_cast<Eigen::Index>(model_.linearisation().constraints().size())));
+  state.multipliers_N.conservativeResizeLike(
+      Eigen::VectorXd::Zero(ToIndex(model_.linearisation().constraints().size())));
   solved->middle.commands = Commands(taken_in);
   solved->status = AnchorCompliance_m_N(LoadsOf(sample, solved->middle.commands), &solved->middle);
   if (solved->status.ok()) See(sample, solved);

@@ -5,16 +5,17 @@
 
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 const HistoryInput& HistoryInputOf(const Simulation& simulation, Eigen::Index column) {
   const auto samples = std::ssize(simulation.samples);
   if (column == samples) return simulation.at_rest;
   const Eigen::Index end = column - samples - 1;
-  const SimulatedSample& sample =
-      simulation.samples[static_cast<std::size_t>(end < 0 ? column : end / 2)];
+  const SimulatedSample& sample = simulation.samples[At(end < 0 ? column : end / 2)];
   if (end < 0) return sample.in_the_middle;
-  const HistoryInput& there = sample.at_ends[static_cast<std::size_t>(end % 2)];
+  const HistoryInput& there = sample.at_ends[At(end % 2)];
   return there.elastic_Pa.size() > 0 ? there : sample.in_the_middle;
 }
 

@@ -14,6 +14,7 @@
 #include "components/diagnosis/forward/history.hpp"
 #include "components/diagnosis/forward/sample_differentiator.hpp"
 #include "components/diagnosis/forward/sample_in_parts.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -25,7 +26,7 @@ std::vector<std::vector<std::size_t>> Shares(const ObservedExperiment& observed,
   std::vector<std::vector<std::size_t>> of_recording(observed.recordings.size());
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     if (!is_to_do[s]) continue;
-    of_recording[static_cast<std::size_t>(observed.samples[s].recording)].push_back(s);
+    of_recording[At(observed.samples[s].recording)].push_back(s);
   }
   std::sort(of_recording.begin(), of_recording.end(),
             [](const auto& a, const auto& b) { return a.size() > b.size(); });
@@ -93,8 +94,7 @@ bool Simulator::Sweep(const ModelHypothesis& hypothesis, bool is_near, Detail de
   const auto shares = Shares(observed_, is_to_do, threads_);
   std::atomic<bool> failed = false;
   OnThreads(shares, [&](const std::vector<std::size_t>& share) {
-    std::unique_ptr<SampleSolver>& kept =
-        (*solvers)[static_cast<std::size_t>(&share - shares.data())];
+    std::unique_ptr<SampleSolver>& kept = (*solvers)[At(&share - shares.data())];
     if (!kept) kept = std::make_unique<SampleSolver>(hypothesis, observed_);
     SampleSolver& solver = *kept;
     if (&share == &shares.front() && simulation->at_rest.elastic_Pa.size() == 0) {
@@ -238,7 +238,7 @@ void Simulator::DifferentiateBySimulation(const ModelHypothesis& nominal,
     const auto count = std::ssize(models[k]->parameters());
     const bool by_simulation = models[k]->NeedsSimulation(z.segment(first, count));
     for (Eigen::Index p = 0; p < count && by_simulation; ++p) {
-      const double step = kStep * models[k]->parameters()[static_cast<std::size_t>(p)].fault;
+      const double step = kStep * models[k]->parameters()[At(p)].fault;
       Eigen::VectorXd beside_z = z;
       beside_z[first + p] += step;
       const Simulation beside = Run(HypothesisWith(nominal, models, beside_z), simulation);

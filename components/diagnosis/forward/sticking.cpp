@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/diagnosis/forward/eyelet_slides.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -62,7 +63,7 @@ Eigen::MatrixXd Sticking::ThroughTime(const ModelHypothesis& hypothesis,
   const std::vector<const EyeletSlides*> nearest = NearestSlides(actuators_.t_s(), samples);
   Eigen::MatrixXd sliding = Eigen::MatrixXd::Zero(coefficient.size(), path.cols());
   for (Eigen::Index k = 1; k < path.cols(); ++k) {
-    const EyeletSlides& slides = *nearest[static_cast<std::size_t>(k)];
+    const EyeletSlides& slides = *nearest[At(k)];
     const Eigen::VectorXd step = (path.col(k) - path.col(k - 1)).unaryExpr([](double taken_in) {
       return std::isnan(taken_in) ? 0.0 : taken_in;
     });
@@ -92,7 +93,7 @@ std::vector<bool> Sticking::Follow(const ModelHypothesis& hypothesis,
         if (known) now += in_time.col(k) / static_cast<double>(part.times.size());
       }
       for (std::size_t e = 0; e < eyelets.size() && !known; ++e) {
-        now[static_cast<Eigen::Index>(e)] = way(eyelets[e].cable, static_cast<Eigen::Index>(s));
+        now[ToIndex(e)] = way(eyelets[e].cable, ToIndex(s));
       }
       now = now.cwiseMax(-1.0).cwiseMin(1.0);  // a mean may be beyond by rounding
       const Eigen::VectorXd was =

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/diagnosis/inference/forward_selection.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -98,7 +99,7 @@ void DropTheUnclear(const Fitter& fitter, double clear_evidence, Selection* sele
       Fit without = fitter.Complete(fitter.Refine(others, best));
       if (without.status.ok()) {
         selection->best = std::move(without);
-        selection->named.erase(selection->named.begin() + static_cast<std::ptrdiff_t>(k));
+        selection->named.erase(selection->named.begin() + ToIndex(k));
         continue;
       }
     }

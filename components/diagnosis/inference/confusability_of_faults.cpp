@@ -10,6 +10,7 @@
 #include <string>
 
 #include "components/diagnosis/inference/forward_selection.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
@@ -46,15 +47,14 @@ class BesideTolerances {
     Eigen::MatrixXd H = H_(own, own);
     std::vector<Eigen::Index> tolerated;
     for (std::size_t k = 0; k < own.size(); ++k) {
-      if (tolerance_[own[k]] > 0.0) tolerated.push_back(static_cast<Eigen::Index>(k));
+      if (tolerance_[own[k]] > 0.0) tolerated.push_back(ToIndex(k));
     }
     if (tolerated.empty()) return H;
     const Eigen::MatrixXd cross = H(tolerated, Eigen::all);
     Eigen::MatrixXd left = -H(tolerated, tolerated);
     for (std::size_t k = 0; k < tolerated.size(); ++k) {
-      const double tolerance = tolerance_[own[static_cast<std::size_t>(tolerated[k])]];
-      left(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) +=
-          1.0 / (tolerance * tolerance);
+      const double tolerance = tolerance_[own[At(tolerated[k])]];
+      left(ToIndex(k), ToIndex(k)) += 1.0 / (tolerance * tolerance);
     }
     return H + cross.transpose() * linalg::SolveSymmetric(left, cross);
   }
@@ -133,7 +133,7 @@ std::vector<double> ExplainedByOthers(const HypothesisSet& hypotheses, const Inf
   std::vector<double> most(static_cast<std::size_t>(hypotheses.size()), -1.0);
   for (int k = 0; k < hypotheses.size(); ++k) {
     if (!hypotheses.CanBeFault(k) || beside.Size(k) < kConfusabilityTuning.least_effect) continue;
-    double& explained = most[static_cast<std::size_t>(k)];
+    double& explained = most[At(k)];
     explained = 0.0;
     std::vector<int> named;
     while (named.size() < others) {
@@ -155,7 +155,7 @@ double ShareOfConfusable(const HypothesisSet& hypotheses, const Information& dat
   const std::vector<double> most = ExplainedByOthers(hypotheses, data, others);
   std::map<std::string, OfId> of_id;
   for (int k = 0; k < hypotheses.size(); ++k) {
-    const double by_others = most[static_cast<std::size_t>(k)];
+    const double by_others = most[At(k)];
     if (by_others < 0.0) continue;
     OfId& one = of_id[hypotheses.model(k).name().id];
     one.all += 1.0;

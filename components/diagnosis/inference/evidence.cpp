@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
@@ -36,7 +37,7 @@ Posterior Infer(const Information& data, const GaussianPrior& prior) {
   posterior.ln_evidence = -0.5 * posterior.misfit - 0.5 * factor.LnDeterminant();
   posterior.mean = prior.mean;
   for (std::size_t k = 0; k < free.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = ToIndex(k);
     posterior.mean[free[k]] += sigma[i] * steps[i];
   }
   posterior.covariance = Eigen::MatrixXd::Zero(prior.sigma.size(), prior.sigma.size());

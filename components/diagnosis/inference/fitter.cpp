@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -32,7 +34,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
       marker_rest_m_(3, std::ssize(body.markers)),
       null_prior_(hypotheses.PriorWith({})) {
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    marker_rest_m_.col(static_cast<Eigen::Index>(m)) = body.markers[m].point.rest_m;
+    marker_rest_m_.col(ToIndex(m)) = body.markers[m].point.rest_m;
   }
 }
 
@@ -48,7 +50,7 @@ void Fitter::Differentiate(const std::vector<bool>& wanted, const Simulation* ot
   }
   for (std::size_t s = 0; s < simulation.samples.size() && others != nullptr; ++s) {
     for (int k = 0; k < hypotheses_.size(); ++k) {
-      if (wanted[static_cast<std::size_t>(k)]) continue;
+      if (wanted[At(k)]) continue;
       simulation.samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k)) =
           others->samples[s].jacobian_m.middleCols(hypotheses_.first(k), hypotheses_.count(k));
     }
@@ -74,7 +76,7 @@ Fit Fitter::InAllDetail(Fit fit, const Fit* near) const {
   const Eigen::Index data = fit.model.y.size();
   std::vector<bool> wanted(models_.size(), true);
   for (int k = 0; k < hypotheses_.size() && near != nullptr; ++k) {
-    wanted[static_cast<std::size_t>(k)] = !IsKnownBySimulation(k, *near);
+    wanted[At(k)] = !IsKnownBySimulation(k, *near);
   }
   Differentiate(wanted, near != nullptr ? &near->simulation : nullptr, &fit);
   if (fit.model.y.size() < data) fit.status = FewerData();
@@ -182,8 +184,7 @@ Eigen::VectorXd Fitter::PointFrom(const Fit& about, const std::vector<int>& faul
     if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
     for (Eigen::Index p = 0; p < hypotheses_.count(k); ++p) {
       const Eigen::Index column = hypotheses_.first(k) + p;
-      const bool one_sided =
-          hypotheses_.model(k).parameters()[static_cast<std::size_t>(p)].least == 0.0;
+      const bool one_sided = hypotheses_.model(k).parameters()[At(p)].least == 0.0;
       const bool little =
           all.mean[column] < tuning_.one_sided_tolerances * null_prior_.sigma[column];
       if (one_sided && little) at_zero.push_back(column);
@@ -254,7 +255,7 @@ Fit Fitter::Refine(const std::vector<int>& faults, const Fit& start, int most_ro
   const bool has_kinks = HasKinks(faults);
   const int most_failures = has_kinks ? tuning_.most_failures_over_kinks : most_rounds;
   std::vector<bool> wanted(models_.size(), false);
-  for (const int k : faults) wanted[static_cast<std::size_t>(k)] = !IsKnownBySimulation(k, start);
+  for (const int k : faults) wanted[At(k)] = !IsKnownBySimulation(k, start);
   Fit fit;
   fit.z = FaultStart(faults, start);
   fit.posterior = LinearPosterior(start, faults);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/diagnosis/inference/model_averaging.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "libs/linalg/qr.hpp"
@@ -117,8 +118,7 @@ double SigmasFromNominal(const HypothesisSet& hypotheses, const Posterior& poste
   std::vector<Eigen::Index> others;
   for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
     const Eigen::Index column = hypotheses.first(fault) + p;
-    const FaultParameter& parameter =
-        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)];
+    const FaultParameter& parameter = hypotheses.model(fault).parameters()[At(p)];
     if (!(posterior.covariance(column, column) > 0.0)) continue;  // it is at its bound
     if (const double own = hypotheses.ToleranceOf(fault, static_cast<int>(p)); own > 0.0) {
       tolerated.push_back(column);
@@ -154,7 +154,7 @@ double SizeInTolerances(const HypothesisSet& hypotheses, const Posterior& poster
     const double tolerance = hypotheses.ToleranceOf(fault, static_cast<int>(p));
     if (tolerance <= 0.0) continue;
     const double size = std::abs(posterior.mean[hypotheses.first(fault) + p]) / tolerance;
-    if (hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)].component) {
+    if (hypotheses.model(fault).parameters()[At(p)].component) {
       squares += size * size;
       ++components;
     } else {
@@ -176,8 +176,7 @@ bool MayBeNothing(const HypothesisSet& hypotheses, const Posterior& posterior, i
   std::vector<Eigen::Index> sizes;
   for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
     const Eigen::Index column = hypotheses.first(fault) + p;
-    const bool qualifies =
-        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)].qualifies;
+    const bool qualifies = hypotheses.model(fault).parameters()[At(p)].qualifies;
     if (!qualifies && posterior.covariance(column, column) > 0.0) sizes.push_back(column);
   }
   if (sizes.empty()) return false;
@@ -198,8 +197,7 @@ std::string WhyNoFault(const HypothesisSet& hypotheses, const Posterior& posteri
     return "its size does not differ from zero by two standard deviations";
   }
   for (Eigen::Index p = 0; p < hypotheses.count(fault); ++p) {
-    const FaultParameter& parameter =
-        hypotheses.model(fault).parameters()[static_cast<std::size_t>(p)];
+    const FaultParameter& parameter = hypotheses.model(fault).parameters()[At(p)];
     const double z = posterior.mean[hypotheses.first(fault) + p];
     if (std::abs(z) <= parameter.plausible) continue;
     return "its value is not plausible (" + parameter.name + " = " +
@@ -302,9 +300,9 @@ void ForwardSelectionStep::PutSpecialCasesNext(std::size_t first, std::size_t en
   for (std::size_t k = first; k < end; ++k) {
     for (std::size_t special = k + 1; special < candidates_.size(); ++special) {
       if (!IsSpecialCaseOf(special, k)) continue;
-      const auto next = candidates_.begin() + static_cast<std::ptrdiff_t>(k + 1);
-      std::rotate(next, candidates_.begin() + static_cast<std::ptrdiff_t>(special),
-                  candidates_.begin() + static_cast<std::ptrdiff_t>(special + 1));
+      const auto next = candidates_.begin() + ToIndex(k + 1);
+      std::rotate(next, candidates_.begin() + ToIndex(special),
+                  candidates_.begin() + ToIndex(special + 1));
     }
   }
 }

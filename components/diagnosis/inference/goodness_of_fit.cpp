@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 #include <vector>
+#include "libs/core/index.hpp"
 #include "libs/linalg/qr.hpp"
 
 namespace palpate::diagnosis {
@@ -66,8 +67,7 @@ void ResidualStatistics::PairInTime(const ObservedExperiment& observed, const Li
   for (Eigen::Index row = 0; row < model.y.size(); ++row) {
     const auto k = static_cast<std::size_t>(row);
     const auto sample = static_cast<std::size_t>(model.sample_of_row[k]);
-    Recording& recording =
-        recordings_[static_cast<std::size_t>(observed.samples[sample].recording)];
+    Recording& recording = recordings_[At(observed.samples[sample].recording)];
     recording.rows.push_back(row);
     const bool follows = row > 0 && model.coordinate_of_row[k] == model.coordinate_of_row[k - 1] &&
                          model.sample_of_row[k] == model.sample_of_row[k - 1] + 1;
@@ -93,13 +93,13 @@ void ResidualStatistics::PairOnBody(const Eigen::Matrix3Xd& rest_m,
     const double weight =
         static_cast<double>(places_m.cols()) / static_cast<double>(neighbours.size());
     for (Eigen::Index s = 0; s < row_of.cols(); ++s) {
-      const int recording = observed.samples[static_cast<std::size_t>(s)].recording;
+      const int recording = observed.samples[At(s)].recording;
       for (const auto& [one, other] : neighbours) {
         for (Eigen::Index axis = 0; axis < axes; ++axis) {
           const Eigen::Index row = row_of(first + axes * one + axis, s);
           const Eigen::Index beside = row_of(first + axes * other + axis, s);
           if (row == kNotSeen || beside == kNotSeen) continue;
-          recordings_[static_cast<std::size_t>(recording)].on_body.push_back({row, beside, weight});
+          recordings_[At(recording)].on_body.push_back({row, beside, weight});
         }
       }
     }
@@ -112,12 +112,10 @@ void ResidualStatistics::CutIntoSeries(const ObservedExperiment& observed,
                                        const LinearModel& model) {
   constexpr double kMoment_s = 0.05;
   const auto sample_of = [&](Eigen::Index row) -> const Sample& {
-    const int sample = model.sample_of_row[static_cast<std::size_t>(row)];
-    return observed.samples[static_cast<std::size_t>(sample)];
+    const int sample = model.sample_of_row[At(row)];
+    return observed.samples[At(sample)];
   };
-  const auto coordinate_of = [&](Eigen::Index row) {
-    return model.coordinate_of_row[static_cast<std::size_t>(row)];
-  };
+  const auto coordinate_of = [&](Eigen::Index row) { return model.coordinate_of_row[At(row)]; };
   const auto taken_in = [&](double t_s) -> Eigen::VectorXd {
     if (observed.timeline.cables.empty()) return {};
     const Eigen::VectorXd command = observed.timeline.CommandAt(t_s);
@@ -151,7 +149,7 @@ Eigen::VectorXd ResidualStatistics::Of(const Eigen::VectorXd& residual) const {
     return sum;
   };
   for (Eigen::Index r = 0; r < std::ssize(recordings_); ++r) {
-    const Recording& recording = recordings_[static_cast<std::size_t>(r)];
+    const Recording& recording = recordings_[At(r)];
     tests[IndexOf(kMisfit, r)] = residual(recording.rows).squaredNorm();
     tests[IndexOf(kRuns, r)] = products(recording.in_time);
     tests[IndexOf(kNeighbours, r)] = products(recording.on_body);
@@ -172,7 +170,7 @@ std::string ResidualStatistics::NameOf(Eigen::Index test) const {
                                "residual along with how fast the commands change in"};
   const auto recordings = std::ssize(recordings_);
   return std::string(kinds[(test - 1) / recordings]) + " recording " +
-         recordings_[static_cast<std::size_t>((test - 1) % recordings)].name;
+         recordings_[At((test - 1) % recordings)].name;
 }
 
 Eigen::Index ResidualStatistics::MisfitBeside(Eigen::Index test) const {

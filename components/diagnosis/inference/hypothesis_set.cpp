@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -31,7 +33,7 @@ HypothesisSet::HypothesisSet(std::vector<FaultModelPtr> models,
 
 double HypothesisSet::ToleranceOf(int k, int parameter) const {
   const auto& parameters = model(k).parameters();
-  const double own = parameters[static_cast<std::size_t>(parameter)].tolerance;
+  const double own = parameters[At(parameter)].tolerance;
   const auto given = tolerances_.find(model(k).name().id);
   if (given == tolerances_.end()) return own;
   const double first = FirstTolerance(parameters);
@@ -50,7 +52,7 @@ GaussianPrior HypothesisSet::PriorWith(const std::vector<int>& faults) const {
   for (int k = 0; k < size(); ++k) {
     const bool fault = std::find(faults.begin(), faults.end(), k) != faults.end();
     for (Eigen::Index p = 0; p < count(k); ++p) {
-      const FaultParameter& parameter = model(k).parameters()[static_cast<std::size_t>(p)];
+      const FaultParameter& parameter = model(k).parameters()[At(p)];
       const double tolerance = ToleranceOf(k, static_cast<int>(p));
       prior.sigma[first(k) + p] = fault ? std::max(parameter.fault, tolerance) : tolerance;
       if (fault) prior.mean[first(k) + p] = parameter.fault_at;
@@ -69,7 +71,7 @@ Posterior HypothesisSet::InferWithin(const Information& data, const std::vector<
     bool inside = true;
     for (const int k : faults) {
       for (Eigen::Index p = 0; p < count(k); ++p) {
-        const FaultParameter& parameter = model(k).parameters()[static_cast<std::size_t>(p)];
+        const FaultParameter& parameter = model(k).parameters()[At(p)];
         const Eigen::Index column = first(k) + p;
         const double z = posterior.mean[column];
         const double bounded = std::clamp(z, parameter.least, parameter.most);
@@ -88,7 +90,7 @@ std::vector<Eigen::Index> HypothesisSet::Idle(const std::vector<int>& faults) co
   for (int k = 0; k < size(); ++k) {
     if (std::find(faults.begin(), faults.end(), k) != faults.end()) continue;
     for (Eigen::Index p = 0; p < count(k); ++p) {
-      const bool qualifies = model(k).parameters()[static_cast<std::size_t>(p)].qualifies;
+      const bool qualifies = model(k).parameters()[At(p)].qualifies;
       if (qualifies && ToleranceOf(k, static_cast<int>(p)) == 0.0) idle.push_back(first(k) + p);
     }
   }

@@ -9,6 +9,7 @@
 
 #include "components/diagnosis/forward/fault_model.hpp"
 #include "components/diagnosis/inference/evidence.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -22,9 +23,9 @@ class HypothesisSet {
   HypothesisSet(std::vector<FaultModelPtr> models, std::map<std::string, double> tolerances);
 
   int size() const { return static_cast<int>(models_.size()); }
-  const FaultModel& model(int k) const { return *models_[static_cast<std::size_t>(k)]; }
+  const FaultModel& model(int k) const { return *models_[At(k)]; }
   Eigen::Index parameter_count() const { return first_.back(); }
-  Eigen::Index first(int k) const { return first_[static_cast<std::size_t>(k)]; }
+  Eigen::Index first(int k) const { return first_[At(k)]; }
   Eigen::Index count(int k) const { return first(k + 1) - first(k); }
   double ToleranceOf(int k, int parameter) const;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::diagnosis {
@@ -58,7 +59,7 @@ double SkinError_m(const ObservedExperiment& observed, int recording, const Nois
   const auto first =
       std::find_if(observed.recordings.begin(), observed.recordings.end(),
                    [](const ObservedRecording& one) { return one.T_camera_robot.has_value(); });
-  const ObservedRecording& here = observed.recordings[static_cast<std::size_t>(recording)];
+  const ObservedRecording& here = observed.recordings[At(recording)];
   const bool same = here.T_camera_robot->isApprox(*first->T_camera_robot, 1e-6);
   return same ? noise.skin_error_m : std::hypot(noise.skin_error_m, kFromElsewhere_m);
 }
@@ -71,7 +72,7 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
   const Eigen::Index marker = coordinate / 3;
   const bool of_skin = marker >= rest_m.cols();
   const Eigen::Isometry3d& T_measurement_robot =
-      observed.recordings[static_cast<std::size_t>(recording)].T_measurement_robot;
+      observed.recordings[At(recording)].T_measurement_robot;
   const auto displacement_m = [&](std::size_t s) {
     const SimulatedSample& simulated = simulation.samples[s];
     if (!of_skin) {
@@ -88,8 +89,7 @@ Series SeriesOf(const ObservedExperiment& observed, const Simulation& simulation
     of_mesh_m.push_back(noise.relative_error * displacement_m(s));
   }
   series.sigma_m = Eigen::Map<Eigen::VectorXd>(sigma_m.data(), std::ssize(sigma_m));
-  const bool held =
-      observed.recordings[static_cast<std::size_t>(recording)].held_until_s.has_value();
+  const bool held = observed.recordings[At(recording)].held_until_s.has_value();
   series.common_m.resize(std::ssize(sigma_m), 2);
   series.common_m.col(0) = Eigen::Map<Eigen::VectorXd>(of_mesh_m.data(), std::ssize(of_mesh_m));
   series.common_m.col(1).setConstant(of_skin ? SkinError_m(observed, recording, noise)
@@ -145,7 +145,7 @@ LinearModel Linearise(const ObservedExperiment& observed, const Simulation& simu
       if (count == 0) continue;
       Eigen::MatrixXd both(count, z.size() + 1);
       for (Eigen::Index k = 0; k < count; ++k) {
-        const auto s = static_cast<std::size_t>(series.samples[static_cast<std::size_t>(k)]);
+        const auto s = static_cast<std::size_t>(series.samples[At(k)]);
         const SimulatedSample& simulated = simulation.samples[s];
         both.row(k).head(z.size()) = simulated.jacobian_m.row(coordinate);
         both(k, z.size()) = Measured_m(observed.samples[s], coordinate) -

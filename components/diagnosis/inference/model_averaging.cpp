@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/diagnosis/inference/forward_selection.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -49,9 +50,9 @@ Eigen::VectorXd CountedFrom(const FaultModel& other, const FaultModel& one, Eige
     const FaultParameter& from = one.parameters()[p];
     const FaultParameter& to = other.parameters()[p];
     if (from.nominal == to.nominal) continue;
-    z[static_cast<Eigen::Index>(p)] += from.scale == FaultParameter::Scale::kFactor
-                                           ? std::log(from.nominal / to.nominal)
-                                           : from.nominal - to.nominal;
+    z[ToIndex(p)] += from.scale == FaultParameter::Scale::kFactor
+                         ? std::log(from.nominal / to.nominal)
+                         : from.nominal - to.nominal;
   }
   return z;
 }

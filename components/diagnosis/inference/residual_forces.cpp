@@ -3,6 +3,7 @@
 
 #include "components/diagnosis/inference/residual_forces.hpp"
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::diagnosis {
@@ -26,9 +27,9 @@ std::vector<int> ForcesOf(const HypothesisSet& hypotheses) {
 Eigen::Matrix3Xd PlacesOf(const HypothesisSet& hypotheses, const std::vector<int>& forces) {
   Eigen::Matrix3Xd place_m(3, std::ssize(forces));
   for (Eigen::Index k = 0; k < place_m.cols(); ++k) {
-    const auto& parameters = hypotheses.model(forces[static_cast<std::size_t>(k)]).parameters();
+    const auto& parameters = hypotheses.model(forces[At(k)]).parameters();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      place_m(axis, k) = parameters[static_cast<std::size_t>(kComponents + axis)].nominal;
+      place_m(axis, k) = parameters[At(kComponents + axis)].nominal;
     }
   }
   return place_m;
@@ -78,7 +79,7 @@ Eigen::Matrix3Xd ForcesFor(const HypothesisSet& hypotheses, const Known& known,
   const auto J = known.model.J.middleRows(rows.first, rows.count);
   Eigen::MatrixXd effect(rows.count, kComponents * std::ssize(forces));
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    effect.middleCols<kComponents>(kComponents * static_cast<Eigen::Index>(k)) =
+    effect.middleCols<kComponents>(kComponents * ToIndex(k)) =
         J.middleCols<kComponents>(hypotheses.first(forces[k]));
   }
   Eigen::MatrixXd S = J * known.covariance * J.transpose();

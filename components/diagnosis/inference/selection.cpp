@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "components/diagnosis/inference/backward_elimination.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -36,9 +37,9 @@ void CompareCandidates(const HypothesisSet& hypotheses, Selection* selection) {
   selection->canonical_correlation = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index a = 0; a < count; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
-      const double indistinguishable = CanonicalCorrelation(
-          hypotheses, selection->null_model.model, selection->compared[static_cast<std::size_t>(a)],
-          selection->compared[static_cast<std::size_t>(b)]);
+      const double indistinguishable =
+          CanonicalCorrelation(hypotheses, selection->null_model.model, selection->compared[At(a)],
+                               selection->compared[At(b)]);
       selection->canonical_correlation(a, b) = indistinguishable;
       selection->canonical_correlation(b, a) = indistinguishable;
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::diagnosis {
@@ -138,7 +139,7 @@ Eigen::VectorXd NoiseOfFrames_m2(const ObservedExperiment& observed, std::size_t
     for (std::size_t f = 0; f < sample.surface.size(); ++f) {
       const SurfaceMeasurement& surface = sample.surface[f];
       if (surface.count == 0) continue;
-      const auto feature = static_cast<Eigen::Index>(f);
+      const auto feature = ToIndex(f);
       sum_m2[feature] += surface.count * surface.sigma_m * surface.sigma_m;
       ++samples[feature];
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/diagnosis/forward/simulator.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::diagnosis {
@@ -22,7 +23,7 @@ Status RegisterUnknownPoses(const robot::RobotBody& body, int threads,
     ObservedRecording& recording = observed->recordings[r];
     if (recording.knows_pose) continue;
     const auto shares = [&](const Sample& sample) {
-      const auto& other = observed->recordings[static_cast<std::size_t>(sample.recording)];
+      const auto& other = observed->recordings[At(sample.recording)];
       const bool own = recording.kind == "camera_moved" || other.kind == "camera_moved";
       return own ? static_cast<std::size_t>(sample.recording) == r : !other.knows_pose;
     };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "components/diagnosis/forward/measured_points.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -83,7 +84,7 @@ void SurfaceMatcher::Read(const ObservedExperiment& observed,
   clouds_.assign(observed.samples.size(), {});
   for (std::size_t s = 0; s < observed.samples.size(); ++s) {
     const Sample& sample = observed.samples[s];
-    const auto& recording = observed.recordings[static_cast<std::size_t>(sample.recording)];
+    const auto& recording = observed.recordings[At(sample.recording)];
     for (const DepthFrame& frame : sample.depth_frames) {
       SeenCloud& seen = clouds_[s].emplace_back();
       seen.frame = frame;
@@ -201,13 +202,12 @@ void SurfaceMatcher::MeasureFeatures(const Eigen::VectorXd& measured_m, double s
     if (found[f].state != correspondence::MatchState::kMatched) continue;
     ++matched_;
     const double height_m = HeightOf(found[f], measured_m);
-    seen->height_m[static_cast<Eigen::Index>(f)] = height_m;
+    seen->height_m[ToIndex(f)] = height_m;
     FeatureInFrame& one = (*in_frames)[f].emplace_back();
     one = {height_m, found[f].sigma_m, found[f].row, found[f].normal};
     for (std::size_t k = 0; k < rippled.size(); ++k) {
       if (rippled[k][f].state != correspondence::MatchState::kMatched) continue;
-      one.ripple_m_px[static_cast<Eigen::Index>(k)] =
-          (HeightOf(rippled[k][f], measured_m) - height_m) / kRipple_px;
+      one.ripple_m_px[ToIndex(k)] = (HeightOf(rippled[k][f], measured_m) - height_m) / kRipple_px;
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
@@ -39,7 +40,7 @@ void ActuatorCondensation::Start(const std::vector<robot::CableCommand>& command
   taut_.clear();
   std::fill(changes_.begin(), changes_.end(), 0);
   for (size_t c = 0; c < commands.size(); ++c) {
-    const auto row = static_cast<Eigen::Index>(c);
+    const auto row = ToIndex(c);
     fixed_[row] = commands[c].kind == Kind::kTension ? commands[c].value : 0.0;
     if (commands[c].kind == Kind::kDisplacement && lambda_a_N[row] > 0.0) {
       taut_.push_back(static_cast<int>(c));
@@ -49,7 +50,7 @@ void ActuatorCondensation::Start(const std::vector<robot::CableCommand>& command
 
 Status ActuatorCondensation::Condense(const robot::Compliance& compliance,
                                       const std::vector<robot::CableCommand>& commands) {
-  const auto t = static_cast<Eigen::Index>(taut_.size());
+  const auto t = ToIndex(taut_.size());
   const Eigen::Index f = compliance.W_ef().cols();
   G_ = compliance.W_ef();
   e0_ = compliance.delta_e_free_m();
@@ -61,19 +62,19 @@ Status ActuatorCondensation::Condense(const robot::Compliance& compliance,
 
   fem::QpMatrix W_TT(t, t);
   for (Eigen::Index i = 0; i < t; ++i) {
-    const int cable = taut_[static_cast<size_t>(i)];
+    const int cable = taut_[At(i)];
     for (Eigen::Index j = 0; j < t; ++j) {
-      W_TT(i, j) = compliance.W_aa()(cable, taut_[static_cast<size_t>(j)]);
+      W_TT(i, j) = compliance.W_aa()(cable, taut_[At(j)]);
     }
     T_taut_.row(i) = -compliance.W_af().row(cable);
-    t0_taut_[i] = commands[static_cast<size_t>(cable)].value - compliance.delta_a_free_m()[cable] -
+    t0_taut_[i] = commands[At(cable)].value - compliance.delta_a_free_m()[cable] -
                   compliance.W_aa().row(cable).dot(fixed_);
   }
   if (!linalg::InverseSpd(W_TT, &inverse_TT_)) return {StatusCode::kUnobservable, {}};
   T_taut_ = (inverse_TT_ * T_taut_).eval();
   t0_taut_ = (inverse_TT_ * t0_taut_).eval();
   for (Eigen::Index i = 0; i < t; ++i) {
-    const auto W_e = compliance.W_ea().col(taut_[static_cast<size_t>(i)]);
+    const auto W_e = compliance.W_ea().col(taut_[At(i)]);
     for (Eigen::Index j = 0; j < f; ++j) G_.col(j) += T_taut_(i, j) * W_e;
     e0_ += t0_taut_[i] * W_e;
   }
@@ -84,7 +85,7 @@ void ActuatorCondensation::CableForces(const Eigen::VectorXd& lambda_f_N,
                                        Eigen::VectorXd* lambda_a_N) const {
   *lambda_a_N = fixed_;
   for (size_t i = 0; i < taut_.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = ToIndex(i);
     (*lambda_a_N)[taut_[i]] = t0_taut_[row] + T_taut_.row(row).dot(lambda_f_N);
   }
 }
@@ -99,7 +100,7 @@ bool ActuatorCondensation::Settle(const robot::Compliance& compliance,
     if (commands[c].kind != Kind::kDisplacement ||
         changes_[c] >= kCondensationTuning.most_changes_of_a_cable)
       continue;
-    const auto row = static_cast<Eigen::Index>(c);
+    const auto row = ToIndex(c);
     const auto place = std::find(taut_.begin(), taut_.end(), static_cast<int>(c));
     const bool taut = place != taut_.end();
     const bool pushes = taut && lambda_a_[row] < 0.0;
@@ -121,8 +122,7 @@ void ActuatorCondensation::HoldTautCables(const robot::Compliance& compliance,
   for (size_t i = 0; i < taut_.size(); ++i) {
     double tension = 0.0;
     for (size_t j = 0; j < taut_.size(); ++j) {
-      tension -= inverse_TT_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-                 cable_motion_m[taut_[j]];
+      tension -= inverse_TT_(ToIndex(i), ToIndex(j)) * cable_motion_m[taut_[j]];
     }
     *effector_motion_m += tension * compliance.W_ea().col(taut_[i]);
   }

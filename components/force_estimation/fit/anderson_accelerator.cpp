@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
@@ -63,7 +64,7 @@ bool AndersonAccelerator::Correct(const FitVariables& at, const FitVariables& st
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kDepth, 1>;
   Vector along(count_);
   for (int k = 0; k < count_; ++k) {
-    along[k] = pairs_[static_cast<std::size_t>(k)].changed.x_m.dot(step.x_m);
+    along[k] = pairs_[At(k)].changed.x_m.dot(step.x_m);
   }
   const Vector size = gram_.diagonal().head(count_).cwiseSqrt();
   const linalg::SmallMatrix scaled = size.cwiseInverse().asDiagonal() *
@@ -80,7 +81,7 @@ bool AndersonAccelerator::Correct(const FitVariables& at, const FitVariables& st
   share = share.cwiseQuotient(size);
   double longest_m2 = 0.0;
   for (int k = 0; k < count_; ++k) {
-    const Pair& pair = pairs_[static_cast<std::size_t>(k)];
+    const Pair& pair = pairs_[At(k)];
     longest_m2 = std::max(longest_m2, share[k] * share[k] * pair.moved.x_m.squaredNorm());
   }
   if (!(longest_m2 <= kAccelerationTuning.longest_correction *
@@ -92,7 +93,7 @@ bool AndersonAccelerator::Correct(const FitVariables& at, const FitVariables& st
   correction->lambda_a_N.setZero(step.lambda_a_N.size());
   correction->lambda_f_N.setZero(step.lambda_f_N.size());
   for (int k = 0; k < count_; ++k) {
-    const Pair& pair = pairs_[static_cast<std::size_t>(k)];
+    const Pair& pair = pairs_[At(k)];
     Add(-share[k], pair.moved, correction);
     Add(-share[k], pair.changed, correction);
   }
@@ -102,13 +103,12 @@ bool AndersonAccelerator::Correct(const FitVariables& at, const FitVariables& st
 /// Replaces the oldest pair.
 void AndersonAccelerator::AddPair(const FitVariables& at, const FitVariables& step) {
   if (!((step.x_m - last_step_.x_m).squaredNorm() > 0.0)) return;
-  Pair& pair = pairs_[static_cast<std::size_t>(next_)];
+  Pair& pair = pairs_[At(next_)];
   Subtract(at, last_at_, &pair.moved);
   Subtract(step, last_step_, &pair.changed);
   count_ = std::max(count_, next_ + 1);
   for (int k = 0; k < count_; ++k) {
-    gram_(next_, k) = gram_(k, next_) =
-        pair.changed.x_m.dot(pairs_[static_cast<std::size_t>(k)].changed.x_m);
+    gram_(next_, k) = gram_(k, next_) = pair.changed.x_m.dot(pairs_[At(k)].changed.x_m);
   }
   next_ = (next_ + 1) % kDepth;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
@@ -87,7 +88,7 @@ ForceFitter::ForceFitter(robot::RobotModel& model, const Config& config)
       nodal_(weight_N_),
       gradient_(weight_N_),
       cable_gradient_(weight_N_),
-      effector_motion_(static_cast<Eigen::Index>(3 * model.body().markers.size())),
+      effector_motion_(ToIndex(3 * model.body().markers.size())),
       cable_motion_(model.CableCount()),
       responses_(model.linearisation().Size(), 1) {
   fit_.residual_m = Eigen::VectorXd::Zero(effector_motion_.size());
@@ -100,7 +101,7 @@ void ForceFitter::KeepFactor(bool keep) {
 }
 
 void ForceFitter::SetRows(std::vector<robot::ObservationRow> rows) {
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const auto count = ToIndex(rows.size());
   compliance_.SetEffectors(std::move(rows));
   effector_motion_.resize(count);
   fit_.residual_m = Eigen::VectorXd::Zero(count);
@@ -110,7 +111,7 @@ void ForceFitter::SetSites(const std::vector<FitSite>& sites) {
   PALPATE_CHECK(3 * sites.size() <= static_cast<size_t>(fem::kMaxQpVariables), sites.size());
   sites_ = sites;
   compliance_.SetForces(Directions(sites));
-  const auto forces = static_cast<Eigen::Index>(3 * sites.size());
+  const auto forces = ToIndex(3 * sites.size());
   new_lambda_f_ = Eigen::VectorXd::Zero(forces);
   fit_.covariance_N2 = Eigen::MatrixXd::Zero(forces, forces);
   fit_.modulus_sensitivity_N = Eigen::VectorXd::Zero(forces);
@@ -314,7 +315,7 @@ double ForceFitter::EquilibriumError(const ModelState& state) const {
 double ForceFitter::CableError(const ModelState& state) const {
   double error = 0.0;
   for (int c = 0; c < model_.CableCount(); ++c) {
-    const robot::CableCommand& command = (*frame_.cables)[static_cast<size_t>(c)];
+    const robot::CableCommand& command = (*frame_.cables)[At(c)];
     if (command.kind != Kind::kDisplacement) continue;
     const double missing_m = command.value - model_.cable(c).Displacement_m(state.x_m);
     const bool taut = state.lambda_a_N[c] > 0.0;
@@ -402,7 +403,7 @@ void ForceFitter::UpdateWeight() {
 void ForceFitter::UpdateExternalForce(const Eigen::VectorXd& lambda_f_N) {
   external_force_N_ = weight_N_;
   for (size_t f = 0; f < compliance_.forces().size(); ++f) {
-    compliance_.forces()[f].AddForce(lambda_f_N[static_cast<Eigen::Index>(f)], external_force_N_);
+    compliance_.forces()[f].AddForce(lambda_f_N[ToIndex(f)], external_force_N_);
   }
 }
 
@@ -457,7 +458,7 @@ double ForceFitter::ChiSquared(const RowTargets& targets, const ModelState& stat
                                Eigen::VectorXd* residual_m) const {
   double sum = 0.0;
   for (size_t r = 0; r < rows().size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
+    const auto row = ToIndex(r);
     const bool seen = targets.weight[row] > 0.0;
     const double residual = seen ? targets.value_m[row] - rows()[r].Value(state.x_m) : 0.0;
     (*residual_m)[row] = residual;
@@ -485,7 +486,7 @@ Status ForceFitter::CheckTensions(const ModelState& state) const {
   for (int c = 0; c < model_.CableCount(); ++c) {
     const double tension_N = state.lambda_a_N[c];
     if (tension_N < -most_push_N_) return {StatusCode::kNotConverged, {}};
-    if (tension_N > model_.body().cables[static_cast<size_t>(c)].max_tension_N) {
+    if (tension_N > model_.body().cables[At(c)].max_tension_N) {
       return {StatusCode::kTensionLimit, {}};
     }
   }
@@ -516,12 +517,12 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
   }
   model_.linearisation().SolveSingle(responses_);
   work_ += kColumnsWork;
-  row_motions_m->resize(static_cast<Eigen::Index>(rows().size()), forces_N.cols());
+  row_motions_m->resize(ToIndex(rows().size()), forces_N.cols());
   for (Eigen::Index k = 0; k < forces_N.cols(); ++k) {
     gradient_.setZero();
     matrix.AddExpanded(responses_.col(k), 1.0, gradient_);
     for (size_t r = 0; r < rows().size(); ++r) {
-      effector_motion_[static_cast<Eigen::Index>(r)] = rows()[r].Value(gradient_);
+      effector_motion_[ToIndex(r)] = rows()[r].Value(gradient_);
     }
     for (int c = 0; c < model_.CableCount(); ++c) {
       cable_gradient_.setZero();

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
 namespace palpate::force_estimation {
@@ -35,12 +36,11 @@ void ObservableSubspace::IncludeAll(const std::vector<FitSite>& sites) {
 void ObservableSubspace::BuildBasis() {
   Eigen::Index columns = 0;
   for (const int unknowns : unknowns_) columns += unknowns;
-  basis_ = fem::QpMatrix::Zero(static_cast<Eigen::Index>(3 * directions_.size()), columns);
+  basis_ = fem::QpMatrix::Zero(ToIndex(3 * directions_.size()), columns);
   Eigen::Index column = 0;
   for (size_t s = 0; s < directions_.size(); ++s) {
     const Eigen::Index unknowns = unknowns_[s];
-    basis_.block(static_cast<Eigen::Index>(3 * s), column, 3, unknowns) =
-        directions_[s].leftCols(unknowns);
+    basis_.block(ToIndex(3 * s), column, 3, unknowns) = directions_[s].leftCols(unknowns);
     column += unknowns;
   }
 }
@@ -56,7 +56,7 @@ void ObservableSubspace::KeepObservable(const std::vector<FitSite>& sites,
   const fem::QpMatrix covariance = basis_ * eigen.vectors * variances.asDiagonal() *
                                    eigen.vectors.transpose() * basis_.transpose();
   for (size_t s = 0; s < sites.size(); ++s) {
-    const auto row = static_cast<Eigen::Index>(3 * s);
+    const auto row = ToIndex(3 * s);
     const Eigen::Matrix3d own_covariance = covariance.block<3, 3>(row, row);
     if (!sites[s].direction.isZero()) {
       if (own_covariance.trace() <= limit) continue;

@@ -3,6 +3,8 @@
 
 #include "components/force_estimation/monitor/fixed_surface_region.hpp"
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -17,8 +19,8 @@ std::vector<Eigen::Vector3d> FixedNodes(const robot::RobotBody& body,
   std::vector<bool> taken(static_cast<std::size_t>(surface.vertices_m.cols()), false);
   std::vector<Eigen::Vector3d> fixed_m;
   for (const int node : surface.triangles.reshaped()) {
-    if (taken[static_cast<std::size_t>(node)] || !body.fixed.col(node).all()) continue;
-    taken[static_cast<std::size_t>(node)] = true;
+    if (taken[At(node)] || !body.fixed.col(node).all()) continue;
+    taken[At(node)] = true;
     fixed_m.emplace_back(surface.vertices_m.col(node));
   }
   return fixed_m;
@@ -57,7 +59,7 @@ std::optional<FixedSurfacePoint> FixedSurfaceRegion::PlaceOf(const Eigen::Vector
                                                              const Eigen::VectorXd& x_m) const {
   if (!MayHold(point_m, reach_m)) return std::nullopt;
   const geometry::SurfacePoint nearest = index_.Closest(point_m);
-  if (nearest.distance_m > reach_m || !is_fixed_[static_cast<std::size_t>(nearest.triangle)]) {
+  if (nearest.distance_m > reach_m || !is_fixed_[At(nearest.triangle)]) {
     return std::nullopt;
   }
   const geometry::TriangleSurface& surface = index_.surface();

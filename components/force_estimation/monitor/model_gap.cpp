@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
 
@@ -91,8 +92,7 @@ ModelGapReport ModelGapMeter::Measure(const MarkerFrame& frame,
   for (size_t m = 0; fitted && m < frame.markers.size(); ++m) {
     const MarkerObservation& marker = frame.markers[m];
     if (!marker.valid) continue;
-    const Eigen::Vector3d residual_m =
-        estimate.marker_residual_m.segment<3>(static_cast<Eigen::Index>(3 * m));
+    const Eigen::Vector3d residual_m = estimate.marker_residual_m.segment<3>(ToIndex(3 * m));
     double variances_m2 = 3.0 * bias_m_ * bias_m_;
     for (const double sigma_m : marker.sigma_m) {
       variances_m2 += std::pow(sigma_m > 0.0 ? sigma_m : default_sigma_m_, 2);

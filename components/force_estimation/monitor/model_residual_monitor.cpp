@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::force_estimation {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/geometry_messages.hpp"
 #include "libs/dds/invalid_message.hpp"
@@ -64,8 +65,8 @@ Status ReadDepthBias(const idl::palpate_msgs::Calibration& message, robot::Calib
       Eigen::Map<const Eigen::VectorXd>(source.coefficients._buffer, source.coefficients._length);
   const std::size_t rows = 6 + source.coefficients._length;
   if (source.covariance._length != rows * rows) return Invalid("depth_bias has no covariance");
-  bias.map.covariance = Eigen::Map<const Eigen::MatrixXd>(
-      source.covariance._buffer, static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(rows));
+  bias.map.covariance =
+      Eigen::Map<const Eigen::MatrixXd>(source.covariance._buffer, ToIndex(rows), ToIndex(rows));
   return robot::CheckDepthBias(bias);
 }
 

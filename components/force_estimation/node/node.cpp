@@ -14,6 +14,7 @@
 #include "components/force_estimation/node/shape_source.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/joint_states.hpp"
 #include "libs/dds/stamp.hpp"
@@ -145,7 +146,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
   }
   for (const robot::CalibratedDrive& drive : calibration.drives) {
     const auto cable = std::find(cable_names_.begin(), cable_names_.end(), drive.cable);
-    drives_.at(static_cast<size_t>(cable - cable_names_.begin())) = drive.drive;
+    drives_.at(At(cable - cable_names_.begin())) = drive.drive;
   }
   cables_.SetDrives(drives_);
   source_->SetCalibration(calibration);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/core/index.hpp"
 #include "libs/dds/cloud_messages.hpp"
 #include "libs/dds/depth_picture.hpp"
 #include "libs/dds/stamp.hpp"
@@ -110,7 +111,7 @@ void ShapeSource::HandOverComplete() {
     if (!parts.cloud || !parts.report || !parts.contacts) continue;
     Parts complete = std::move(parts);
     dropped_ += i;
-    pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    pending_.erase(pending_.begin(), pending_.begin() + ToIndex(i) + 1);
     HandOver(ArrivalOf(std::move(complete)));
     i = static_cast<size_t>(-1);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "components/force_estimation/monitor/marker_motion.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
 
@@ -41,9 +42,9 @@ void MarkerPipeline::Monitor() {
 
 /// [3 x markers] of the body at `x_m` [3n], robot frame.
 Eigen::Matrix3Xd MarkerPipeline::MarkersOf(const Eigen::VectorXd& x_m) const {
-  Eigen::Matrix3Xd places_m(3, static_cast<Eigen::Index>(points_.size()));
+  Eigen::Matrix3Xd places_m(3, ToIndex(points_.size()));
   for (std::size_t m = 0; m < points_.size(); ++m) {
-    places_m.col(static_cast<Eigen::Index>(m)) = points_[m].weights.Position(x_m);
+    places_m.col(ToIndex(m)) = points_[m].weights.Position(x_m);
   }
   return places_m;
 }

@@ -10,6 +10,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/closest_point.hpp"
 #include "libs/geometry/surface_sampling.hpp"
 
@@ -31,9 +32,9 @@ geometry::TriangleSurface HeldSurface(const robot::RobotBody& body) {
     }
     if (count == 3) held.emplace_back(corners);
   }
-  surface.triangles.resize(3, static_cast<Eigen::Index>(held.size()));
+  surface.triangles.resize(3, ToIndex(held.size()));
   for (Eigen::Index t = 0; t < surface.triangles.cols(); ++t) {
-    surface.triangles.col(t) = held[static_cast<size_t>(t)];
+    surface.triangles.col(t) = held[At(t)];
   }
   return surface;
 }
@@ -76,8 +77,8 @@ void CandidateLocations::SpreadOver(const robot::RobotModel& model, double clear
   positions_m_ = samples.positions_m(Eigen::all, free);
   barycentric_.resize(3, positions_m_.cols());
   for (const int s : free) {
-    const auto place = static_cast<Eigen::Index>(triangles_.size());
-    const int triangle = samples.triangles[static_cast<size_t>(s)];
+    const auto place = ToIndex(triangles_.size());
+    const int triangle = samples.triangles[At(s)];
     triangles_.push_back(triangle);
     barycentric_.col(place) =
         geometry::ClosestPointOnTriangle(surface.Corner(triangle, 0), surface.Corner(triangle, 1),
@@ -94,13 +95,11 @@ std::array<int, CandidateLocations::kNearest> CandidateLocations::CandidatesNear
   std::vector<int> order(distance_m.size());
   std::iota(order.begin(), order.end(), 0);
   const auto used = std::min<std::ptrdiff_t>(kNearest, std::ssize(order));
-  std::partial_sort(order.begin(), order.begin() + used, order.end(), [&](int a, int b) {
-    return distance_m[static_cast<size_t>(a)] < distance_m[static_cast<size_t>(b)];
-  });
+  std::partial_sort(order.begin(), order.begin() + used, order.end(),
+                    [&](int a, int b) { return distance_m[At(a)] < distance_m[At(b)]; });
   std::array<int, kNearest> nearest{};
   for (int k = 0; k < kNearest; ++k) {
-    nearest[static_cast<size_t>(k)] =
-        order[static_cast<size_t>(std::min<std::ptrdiff_t>(k, used - 1))];
+    nearest[At(k)] = order[At(std::min<std::ptrdiff_t>(k, used - 1))];
   }
   return nearest;
 }
@@ -116,7 +115,7 @@ Eigen::Matrix3Xd CandidateLocations::Normals(const Eigen::VectorXd& x_m) const {
       geometry::VertexNormals({x_m.reshaped(3, x_m.size() / 3), surface_triangles_});
   Eigen::Matrix3Xd normals(3, Count());
   for (Eigen::Index p = 0; p < normals.cols(); ++p) {
-    const auto corners = surface_triangles_.col(triangles_[static_cast<size_t>(p)]);
+    const auto corners = surface_triangles_.col(triangles_[At(p)]);
     normals.col(p) = (at_vertices(Eigen::all, corners) * barycentric_.col(p)).normalized();
   }
   return normals;

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/surface_patch.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -37,17 +38,13 @@ class CandidateLocations {
   int CandidateCount() const { return static_cast<int>(place_of_candidate_.size()); }
   int Count() const { return static_cast<int>(positions_m_.cols()); }
   /// The place that is a candidate.
-  int PlaceOfCandidate(int candidate) const {
-    return place_of_candidate_[static_cast<size_t>(candidate)];
-  }
+  int PlaceOfCandidate(int candidate) const { return place_of_candidate_[At(candidate)]; }
   const Eigen::Matrix3Xd& positions_m() const { return positions_m_; }  ///< [3 x places] at rest
   /// What a contact there pushes on.
-  const fem::InterpolationWeights& Patch(int place) const {
-    return patches_[static_cast<size_t>(place)];
-  }
+  const fem::InterpolationWeights& Patch(int place) const { return patches_[At(place)]; }
   /// Candidates nearest to a place, the nearest first; the last is repeated where there are fewer.
   const std::array<int, kNearest>& NearestCandidates(int place) const {
-    return nearest_candidates_[static_cast<size_t>(place)];
+    return nearest_candidates_[At(place)];
   }
   double spacing_m() const { return spacing_m_; }  ///< root of the area that a place stands for
   int Nearest(const Eigen::Vector3d& rest_position_m) const;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -88,24 +90,23 @@ class Locator {
     std::vector<int> usable;
     for (int c = 0; c < count; ++c) {
       const int place = places_.PlaceOfCandidate(c);
-      if (!usable_[static_cast<size_t>(place)]) continue;
+      if (!usable_[At(place)]) continue;
       candidates.push_back(c);
       usable.push_back(place);
     }
     const std::vector<Evaluation> evaluations = Evaluate(usable);
     std::vector<double> evidence(static_cast<size_t>(count), 0.0);
     for (size_t k = 0; k < evaluations.size(); ++k) {
-      evidence[static_cast<size_t>(candidates[k])] = evaluations[k].evidence();
+      evidence[At(candidates[k])] = evaluations[k].evidence();
     }
     const double best = *std::max_element(evidence.begin(), evidence.end());
     const double least = best - std::max(tuning_.plausible_fall, tuning_.plausible_share * best);
     std::vector<int> plausible;
     for (int place = 0; place < places_.Count(); ++place) {
-      if (!usable_[static_cast<size_t>(place)]) continue;
+      if (!usable_[At(place)]) continue;
       const auto& around = places_.NearestCandidates(place);
-      const bool any = std::any_of(around.begin(), around.end(), [&](int candidate) {
-        return evidence[static_cast<size_t>(candidate)] >= least;
-      });
+      const bool any = std::any_of(around.begin(), around.end(),
+                                   [&](int candidate) { return evidence[At(candidate)] >= least; });
       if (any) plausible.push_back(place);
     }
     return plausible;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/temporal_correlation.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -16,7 +17,7 @@ namespace {
 
 /// At the contact's location.
 Eigen::Matrix3d CovarianceOf(const ShapeFitter& fit, std::size_t site) {
-  const auto row = static_cast<Eigen::Index>(3 * site);
+  const auto row = ToIndex(3 * site);
   return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
@@ -31,7 +32,7 @@ Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
 /// The part of a force's covariance that comes from the depth noise, and so differs from frame to
 /// frame: of the estimator A = C G' S^-1, A N A'.
 Eigen::Matrix3d RandomCovariance(const ShapeFitter& fit, std::size_t site) {
-  const auto row = static_cast<Eigen::Index>(3 * site);
+  const auto row = ToIndex(3 * site);
   const Eigen::MatrixXd estimator = fit.fitter().fit().covariance_N2.middleRows<3>(row) *
                                     fit.fitter().Response().transpose() *
                                     fit.targets().targets().weight.asDiagonal();

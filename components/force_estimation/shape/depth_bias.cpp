@@ -8,6 +8,7 @@
 #include <string>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
@@ -121,7 +122,7 @@ void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
   if (std::none_of(matches.begin(), matches.end(), matched)) return;
   ++frames_;
   for (int feature = 0; feature < feature_count_; ++feature) {
-    const correspondence::FeatureMatch& match = matches[static_cast<size_t>(feature)];
+    const correspondence::FeatureMatch& match = matches[At(feature)];
     if (!matched(match)) continue;
     const Eigen::VectorXd basis = SharedBasis(match, T_robot_camera);
     const double residual_over_sigma =
@@ -141,7 +142,7 @@ void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
 }
 
 void DepthBias::AddToSeries(int feature, double residual_over_sigma) {
-  Series& series = series_[static_cast<size_t>(feature)];
+  Series& series = series_[At(feature)];
   if (series.count > 0 && series.last_frame == frames_ - 1) {
     ++series.neighbours;
     series.sum_products += residual_over_sigma * series.last;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -24,10 +26,7 @@ Eigen::MatrixXd ModelErrors_m(const ShapeFitter& fit, const Eigen::VectorXd& mot
   const auto& features = fit.targets().features();
   Eigen::MatrixXd along(motion_m.size(), 3);
   for (Eigen::Index r = 0; r < along.rows(); ++r) {
-    along.row(r) = fit.features()
-                       .point(features[static_cast<std::size_t>(r)])
-                       .Position(fit.state().x_m)
-                       .transpose();
+    along.row(r) = fit.features().point(features[At(r)]).Position(fit.state().x_m).transpose();
   }
   along.rowwise() -= along.colwise().mean().eval();
   const double size_m = std::sqrt(along.rowwise().squaredNorm().mean());
@@ -166,8 +165,7 @@ void HiddenContacts::AddToAverage() {
   const std::vector<std::size_t> hidden = HiddenSites();
   Eigen::VectorXd motion_m = fit_.fitter().fit().residual_m;
   for (const std::size_t s : hidden) {
-    motion_m +=
-        fit_.fitter().Response().middleCols<3>(static_cast<Eigen::Index>(3 * s)) * fit_.ForceAt(s);
+    motion_m += fit_.fitter().Response().middleCols<3>(ToIndex(3 * s)) * fit_.ForceAt(s);
   }
   if (averaged_about_ != fit_.linearisations() || priors_.size() != hidden.size()) {
     average_.Forget();
@@ -206,7 +204,7 @@ Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
   std::vector<int> features;
   for (std::size_t r = 0; r < fit_.targets().features().size(); ++r) {
     const int feature = fit_.targets().features()[r];
-    if (row_of_feature_[static_cast<std::size_t>(feature)] >= 0) continue;
+    if (row_of_feature_[At(feature)] >= 0) continue;
     rows.push_back(fit_.targets().rows()[r]);
     features.push_back(feature);
   }
@@ -217,14 +215,14 @@ Status HiddenContacts::Respond(const std::vector<robot::CableCommand>& cables) {
   int row = responses_.Count();
   Status status = responses_.Add(model_, rows, state.x_m, cables, state.lambda_a_N);
   if (!status.ok()) return status;
-  for (const int feature : features) row_of_feature_[static_cast<std::size_t>(feature)] = row++;
+  for (const int feature : features) row_of_feature_[At(feature)] = row++;
   return status;
 }
 
 std::vector<int> HiddenContacts::RowsOfTargets() const {
   std::vector<int> rows;
   for (const int feature : fit_.targets().features()) {
-    rows.push_back(row_of_feature_[static_cast<std::size_t>(feature)]);
+    rows.push_back(row_of_feature_[At(feature)]);
   }
   return rows;
 }
@@ -250,8 +248,7 @@ Unexplained HiddenContacts::OfHidden() const {
   for (std::size_t s = 0; s < fit_.sites().size(); ++s) {
     if (fit_.sites()[s].hidden) continue;
     data.known.conservativeResize(Eigen::NoChange, data.known.cols() + 3);
-    data.known.rightCols<3>() =
-        fit_.fitter().Response().middleCols<3>(static_cast<Eigen::Index>(3 * s));
+    data.known.rightCols<3>() = fit_.fitter().Response().middleCols<3>(ToIndex(3 * s));
   }
   return data;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/svd.hpp"
 
 namespace palpate::force_estimation {
@@ -56,10 +57,10 @@ Eigen::MatrixXd HiddenProblem::Whitened(const Eigen::MatrixXd& motion_m) const {
 }
 
 std::vector<PlaceEquations> HiddenProblem::EquationsAt(const std::vector<int>& places) const {
-  const auto count = static_cast<Eigen::Index>(places.size());
+  const auto count = ToIndex(places.size());
   Eigen::MatrixXd motion_m(responses_->Count(), 3 * count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int place = places[static_cast<size_t>(k)];
+    const int place = places[At(k)];
     motion_m.middleCols<3>(3 * k) = responses_->To(places_->Patch(place));
   }
   const Eigen::MatrixXd columns = Whitened(motion_m);
@@ -67,7 +68,7 @@ std::vector<PlaceEquations> HiddenProblem::EquationsAt(const std::vector<int>& p
   std::vector<PlaceEquations> equations(places.size());
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto of_place = columns.middleCols<3>(3 * k);
-    equations[static_cast<size_t>(k)] = {of_place.transpose() * of_place, pull.segment<3>(3 * k)};
+    equations[At(k)] = {of_place.transpose() * of_place, pull.segment<3>(3 * k)};
   }
   return equations;
 }

@@ -10,6 +10,7 @@
 
 #include "components/force_estimation/shape/hidden_problem.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
 
@@ -67,7 +68,7 @@ std::pair<int, int> BestPair(const Tests& tests) {
       const double gain = (t[i] * t[i] + t[j] * t[j] - 2.0 * rho * t[i] * t[j]) / (1.0 - rho * rho);
       if (gain <= best_gain) continue;
       best_gain = gain;
-      best = {tests.candidates[static_cast<size_t>(i)], tests.candidates[static_cast<size_t>(j)]};
+      best = {tests.candidates[At(i)], tests.candidates[At(j)]};
     }
   }
   return best;
@@ -136,7 +137,7 @@ std::vector<bool> HiddenSearch::Parts::Usable(const std::vector<Eigen::Vector3d>
                                               double taken_radius_m) const {
   std::vector<bool> usable(static_cast<size_t>(places.Count()), true);
   for (int place = 0; place < places.Count(); ++place) {
-    usable[static_cast<size_t>(place)] =
+    usable[At(place)] =
         std::none_of(taken.begin(), taken.end(), [&](const Eigen::Vector3d& taken_m) {
           return (places.positions_m().col(place) - taken_m).norm() <= taken_radius_m;
         });

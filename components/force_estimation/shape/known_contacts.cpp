@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
 
@@ -72,8 +73,7 @@ std::vector<SeenContact> KnownBeforeSeen(std::vector<SeenContact> known,
   const std::size_t known_count = known.size();
   for (const SeenContact& contact : seen) {
     const bool is_known = std::any_of(
-        known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known_count),
-        [&](const SeenContact& other) {
+        known.begin(), known.begin() + ToIndex(known_count), [&](const SeenContact& other) {
           const double reach_m = std::max(tuning.same_contact_m, 0.5 * contact.extent_m.maxCoeff());
           return (other.position_m - contact.position_m).norm() <= reach_m;
         });

@@ -3,6 +3,7 @@
 
 #include "components/force_estimation/shape/location_step.hpp"
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
@@ -34,7 +35,7 @@ LocationStep::LocationStep(robot::RobotModel& model, ForceFitter& fitter,
 
 Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTargets& targets,
                              const ModelState& state, std::vector<LocatedForce>* located) {
-  const auto k = static_cast<Eigen::Index>(sites.size());
+  const auto k = ToIndex(sites.size());
   const Eigen::Index rows = targets.value_m.size();
   jacobian_.resize(rows, 5 * k);
   jacobian_.leftCols(3 * k) = fitter_.Response();
@@ -45,7 +46,7 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
   information.topLeftCorner(3 * k, 3 * k) = force_prior;
   right_side.head(3 * k) = -force_prior * state.lambda_f_N;
   for (Eigen::Index s = 0; s < k; ++s) {
-    const ShapeSite& site = sites[static_cast<size_t>(s)];
+    const ShapeSite& site = sites[At(s)];
     AddForces(site, state.lambda_f_N.segment<3>(3 * s), 2 * s);
     const double sigma_m = site.hidden ? tuning_.hidden_sigma_m : site.seen_sigma_m;
     const double weight = 1.0 / (sigma_m * sigma_m);
@@ -65,9 +66,8 @@ Status LocationStep::Compute(const std::vector<ShapeSite>& sites, const RowTarge
   const Eigen::MatrixXd covariance = factor.Inverse();
   located->resize(sites.size());
   for (Eigen::Index s = 0; s < k; ++s) {
-    LocatedForce& one = (*located)[static_cast<size_t>(s)];
-    one.step_rest_m =
-        Tangents(sites[static_cast<size_t>(s)].patch.normal) * step.segment<2>(3 * k + 2 * s);
+    LocatedForce& one = (*located)[At(s)];
+    one.step_rest_m = Tangents(sites[At(s)].patch.normal) * step.segment<2>(3 * k + 2 * s);
     one.location_covariance_m2 = covariance.block<2, 2>(3 * k + 2 * s, 3 * k + 2 * s);
     one.force_covariance_N2 = covariance.block<3, 3>(3 * s, 3 * s);
   }

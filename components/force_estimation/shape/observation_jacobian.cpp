@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
@@ -27,18 +28,17 @@ struct TautCables {
                const Eigen::VectorXd& lambda_a_N) {
     std::vector<int> taut;
     for (int c = 0; c < model.CableCount(); ++c) {
-      const bool driven =
-          commands[static_cast<size_t>(c)].kind == robot::CableCommand::Kind::kDisplacement;
+      const bool driven = commands[At(c)].kind == robot::CableCommand::Kind::kDisplacement;
       if (driven && lambda_a_N[c] > 0.0) taut.push_back(c);
     }
     fem::Linearisation& linearisation = model.linearisation();
-    pull.setZero(linearisation.Size(), static_cast<Eigen::Index>(taut.size()));
+    pull.setZero(linearisation.Size(), ToIndex(taut.size()));
     if (taut.empty()) return Status::Ok();
     Eigen::VectorXd nodal(x_m.size());
     for (size_t t = 0; t < taut.size(); ++t) {
       nodal.setZero();
       model.cable(taut[t]).AddGradient(x_m, -1.0, nodal);
-      linearisation.matrix().Reduce(nodal, pull.col(static_cast<Eigen::Index>(t)));
+      linearisation.matrix().Reduce(nodal, pull.col(ToIndex(t)));
     }
     motion = pull;
     linearisation.SolveSingle(motion);
@@ -90,12 +90,12 @@ Status ObservationJacobian::Add(robot::RobotModel& model,
   TautCables cables;
   Status status = cables.Solve(model, x_m, commands, lambda_a_N);
   if (!status.ok()) return status;
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const auto count = ToIndex(rows.size());
   Eigen::MatrixXd columns(linearisation.Size(), count);
   Eigen::VectorXd nodal(x_m.size());
   const std::vector<size_t> order = OrderOfElimination(rows, matrix);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const robot::ObservationRow& row = rows[order[static_cast<size_t>(i)]];
+    const robot::ObservationRow& row = rows[order[At(i)]];
     nodal.setZero();
     for (size_t k = 0; k < row.nodes.size(); ++k) {
       nodal.segment<3>(3 * row.nodes[k]) += row.coefficients[k];
@@ -107,14 +107,13 @@ Status ObservationJacobian::Add(robot::RobotModel& model,
   if (!columns.allFinite()) return {StatusCode::kInvalidInput, "a response is not finite"};
   free_index_.resize(static_cast<size_t>(matrix.NodeCount()));
   for (int node = 0; node < matrix.NodeCount(); ++node) {
-    free_index_[static_cast<size_t>(node)] = matrix.FreeIndex(node);
+    free_index_[At(node)] = matrix.FreeIndex(node);
   }
   const Eigen::Index before = columns_.cols();
   columns_.conservativeResize(columns.rows(), before + count);
   for (Eigen::Index r = 0; r < columns.rows(); ++r) {
     for (Eigen::Index i = 0; i < count; ++i) {
-      columns_(r, before + static_cast<Eigen::Index>(order[static_cast<size_t>(i)])) =
-          columns(r, i);
+      columns_(r, before + ToIndex(order[At(i)])) = columns(r, i);
     }
   }
   ++version_;
@@ -129,7 +128,7 @@ void ObservationJacobian::Clear() {
 Eigen::MatrixX3d ObservationJacobian::To(const fem::InterpolationWeights& place) const {
   Eigen::MatrixX3d response = Eigen::MatrixX3d::Zero(columns_.cols(), 3);
   for (size_t k = 0; k < place.nodes.size(); ++k) {
-    const int free = free_index_[static_cast<size_t>(place.nodes[k])];
+    const int free = free_index_[At(place.nodes[k])];
     if (free < 0) continue;
     response.noalias() += place.weights[k] * columns_.middleRows<3>(3 * free).transpose();
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -66,7 +68,7 @@ void MatchPoints(const correspondence::SurfaceFeatures& features, const rgbd::Se
   const Eigen::Isometry3d T_camera_robot = T_robot_camera.inverse();
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    correspondence::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    correspondence::FeatureMatch& match = (*matches)[At(feature)];
     const Eigen::Vector3d position_m = features.point(feature).Position(x_m);
     const NormalLine line{T_camera_robot * position_m,
                           T_camera_robot.linear() * normals.col(feature)};

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/force_estimation/shape/temporal_correlation.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
 
@@ -31,9 +32,9 @@ bool ShapeAverage::Fits(const ShapeTargets& targets, const Eigen::VectorXd& moti
   double sum = 0.0;
   int known = 0;
   for (std::size_t r = 0; r < targets.features().size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
+    const auto row = ToIndex(r);
     const int feature = targets.features()[r];
-    const int count = count_[static_cast<std::size_t>(feature)];
+    const int count = count_[At(feature)];
     if (count == 0) continue;
     const double sigma_m = targets.noise_m()[row] * std::sqrt(1.0 + ShareLeft(count));
     sum += std::pow((motion_m[row] - mean_m_[feature]) / sigma_m, 2);
@@ -48,9 +49,9 @@ void ShapeAverage::Add(const ShapeTargets& targets, const Eigen::VectorXd& motio
   motion_m_.resize(motion_m.size());
   weight_.resize(motion_m.size());
   for (std::size_t r = 0; r < targets.features().size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
+    const auto row = ToIndex(r);
     const int feature = targets.features()[r];
-    int& count = count_[static_cast<std::size_t>(feature)];
+    int& count = count_[At(feature)];
     count = std::min(count + 1, tuning_.most_frames);
     mean_m_[feature] += (motion_m[row] - mean_m_[feature]) / count;
     motion_m_[row] = mean_m_[feature];

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::force_estimation {
 
 namespace {
@@ -70,7 +72,7 @@ bool ShapeFitter::SeeAgain(const ShapeFrame& frame) {
 void ShapeFitter::UseSites() {
   const std::vector<ShapeSite>& sites = tracks_.sites();
   std::vector<FitSite> fit_sites;
-  Eigen::VectorXd forces_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * sites.size()));
+  Eigen::VectorXd forces_N = Eigen::VectorXd::Zero(ToIndex(3 * sites.size()));
   std::vector<std::string> names;
   bool others = sites.size() != fitted_names_.size();
   for (std::size_t s = 0; s < sites.size(); ++s) {
@@ -78,10 +80,9 @@ void ShapeFitter::UseSites() {
     names.push_back(sites[s].name);
     const auto old = std::find(fitted_names_.begin(), fitted_names_.end(), sites[s].name);
     const auto index = old - fitted_names_.begin();
-    others = others || index != static_cast<std::ptrdiff_t>(s);
+    others = others || index != ToIndex(s);
     if (old != fitted_names_.end() && 3 * index + 3 <= state_.lambda_f_N.size()) {
-      forces_N.segment<3>(static_cast<Eigen::Index>(3 * s)) =
-          state_.lambda_f_N.segment<3>(3 * index);
+      forces_N.segment<3>(ToIndex(3 * s)) = state_.lambda_f_N.segment<3>(3 * index);
     }
   }
   const bool moved = std::exchange(places_moved_, false);
@@ -95,10 +96,10 @@ void ShapeFitter::UseSites() {
 
 /// Prior of a contact's tangential force: within friction, otherwise unknown.
 void ShapeFitter::SetForcePrior() {
-  const auto size = static_cast<Eigen::Index>(3 * sites().size());
+  const auto size = ToIndex(3 * sites().size());
   fem::QpMatrix information = fem::QpMatrix::Zero(size, size);
   for (std::size_t s = 0; s < sites().size(); ++s) {
-    const auto row = static_cast<Eigen::Index>(3 * s);
+    const auto row = ToIndex(3 * s);
     const Eigen::Vector3d normal = NormalAt(s);
     const double sigma_N = TangentialSigma_N(s);
     const Eigen::Matrix3d along = normal * normal.transpose();
@@ -134,7 +135,7 @@ bool ShapeFitter::FlipAdhesiveContacts() {
   bool moved = false;
   for (std::size_t s = 0; s < sites().size(); ++s) {
     const Eigen::Vector3d normal = NormalAt(s);
-    const auto row = static_cast<Eigen::Index>(3 * s);
+    const auto row = ToIndex(3 * s);
     const Eigen::Matrix3d covariance_N2 = fitter_.fit().covariance_N2.block<3, 3>(row, row);
     const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance_N2 * normal)));
     if (normal.dot(ForceAt(s)) < tuning_.adhesion_sigmas * sigma_N) continue;
@@ -314,7 +315,7 @@ void ShapeFitter::ReplaceHidden(const std::vector<HiddenContact>& found) {
   UseSites();
   for (std::size_t s = 0; s < sites().size(); ++s) {
     if (sites()[s].hidden) {
-      state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * s)).setZero();
+      state_.lambda_f_N.segment<3>(ToIndex(3 * s)).setZero();
     }
   }
 }

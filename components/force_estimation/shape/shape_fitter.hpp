@@ -16,6 +16,7 @@
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/shape_targets.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
+#include "libs/core/index.hpp"
 #include "libs/correspondence/surface_features.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -153,7 +154,7 @@ class ShapeFitter {
   int TakeIterations() { return std::exchange(iterations_, 0); }
 
   Eigen::Vector3d ForceAt(std::size_t site) const {
-    return state_.lambda_f_N.segment<3>(static_cast<Eigen::Index>(3 * site));
+    return state_.lambda_f_N.segment<3>(ToIndex(3 * site));
   }
   /// Unit, outward: mean normal of the contact's patch of surface in its present shape, as a
   /// contact at an edge touches both of its sides.

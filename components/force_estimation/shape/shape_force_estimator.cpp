@@ -14,6 +14,7 @@
 #include "components/force_estimation/shape/hidden_contacts.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -305,10 +306,9 @@ void ShapeForceEstimator::Impl::PublishState() {
   estimate_.x_m = state.x_m;
   for (int c = 0; c < model_.CableCount(); ++c) {
     const double length_m = model_.cable(c).Value(state.x_m);
-    estimate_.cables[static_cast<std::size_t>(c)] = {
-        .length_m = length_m,
-        .displacement_m = model_.cable(c).rest_length_m() - length_m,
-        .tension_N = std::max(0.0, state.lambda_a_N[c])};
+    estimate_.cables[At(c)] = {.length_m = length_m,
+                               .displacement_m = model_.cable(c).rest_length_m() - length_m,
+                               .tension_N = std::max(0.0, state.lambda_a_N[c])};
   }
 }
 
@@ -320,8 +320,8 @@ void ShapeForceEstimator::Impl::ReportFeatures() {
   }
   const ShapeTargets& targets = fit_.targets();
   for (std::size_t r = 0; r < targets.features().size(); ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
-    FeatureReport& feature = features_[static_cast<std::size_t>(targets.features()[r])];
+    const auto row = ToIndex(r);
+    FeatureReport& feature = features_[At(targets.features()[r])];
     feature.residual_m = fit_.fitter().fit().residual_m[row];
     feature.sigma_m = targets.sigma_m()[row];
   }

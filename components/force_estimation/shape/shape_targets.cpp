@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -38,15 +39,15 @@ void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matche
     rows_.push_back(matches[f].row);
     features_.push_back(static_cast<int>(f));
   }
-  const auto count = static_cast<Eigen::Index>(rows_.size());
+  const auto count = ToIndex(rows_.size());
   targets_.rows = static_cast<int>(count);
   targets_.value_m.resize(count);
   targets_.weight.resize(count);
   sigma_m_.resize(count);
   noise_m_.resize(count);
   for (Eigen::Index r = 0; r < count; ++r) {
-    const int feature = features_[static_cast<std::size_t>(r)];
-    const correspondence::FeatureMatch& match = matches[static_cast<std::size_t>(feature)];
+    const int feature = features_[At(r)];
+    const correspondence::FeatureMatch& match = matches[At(feature)];
     targets_.value_m[r] = match.target_m - bias.Correction_m(feature, match, T_robot_camera);
     noise_m_[r] = bias.NoiseScale() * match.sigma_m;
     const double moved_m = match.row.Value(x_m) - match.row.Value(bias_x_m);
@@ -63,7 +64,7 @@ void ShapeTargets::Build(const std::vector<correspondence::FeatureMatch>& matche
 void ShapeTargets::WeighAt(const Eigen::VectorXd& x_m) {
   Eigen::VectorXd residual_m(targets_.value_m.size());
   for (Eigen::Index r = 0; r < residual_m.size(); ++r) {
-    residual_m[r] = targets_.value_m[r] - rows_[static_cast<std::size_t>(r)].Value(x_m);
+    residual_m[r] = targets_.value_m[r] - rows_[At(r)].Value(x_m);
   }
   if (residual_m.cwiseQuotient(sigma_m_).squaredNorm() < tuning_.near_chi_squared * targets_.rows) {
     Reweight(residual_m);

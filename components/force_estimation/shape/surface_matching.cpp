@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/shape/point_matching.hpp"
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/correspondence/moving_surface.hpp"
 #include "libs/correspondence/patch_matching.hpp"
@@ -65,7 +66,7 @@ void MeasureLineDistances(const correspondence::SurfaceFeatures& features, const
                           std::vector<correspondence::FeatureMatch>* matches) {
   const Eigen::Matrix3Xd normals = features.Normals(x_m);
   for (int feature = 0; feature < features.Count(); ++feature) {
-    correspondence::FeatureMatch& match = (*matches)[static_cast<size_t>(feature)];
+    correspondence::FeatureMatch& match = (*matches)[At(feature)];
     if (match.state != correspondence::MatchState::kMatched) continue;
     const Eigen::Vector3d offset_m =
         frame.T_robot_camera * match.position_m - features.point(feature).Position(x_m);

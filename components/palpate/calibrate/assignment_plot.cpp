@@ -12,6 +12,7 @@
 #include "components/palpate/calibrate/plot_projection.hpp"
 #include "components/view/color.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 #include "libs/plot/label_layout.hpp"
 #include "libs/plot/svg_document.hpp"
@@ -123,10 +124,10 @@ class PanelDrawing {
     DrawPicture();
     std::vector<char> seen(names.size(), 0);
     for (const MarkerSighting& point : panel_.points) {
-      if (point.marker >= 0) seen[static_cast<std::size_t>(point.marker)] = 1;
+      if (point.marker >= 0) seen[At(point.marker)] = 1;
     }
     for (std::size_t m = 0; m < names.size(); ++m) {
-      if (seen[m] == 0) DrawMissing(static_cast<Eigen::Index>(m), names[m]);
+      if (seen[m] == 0) DrawMissing(ToIndex(m), names[m]);
     }
     for (const MarkerSighting& point : panel_.points) DrawPoint(point, names);
     DrawScale();
@@ -210,8 +211,7 @@ class PanelDrawing {
     const double ring_px =
         enlargement_ * kSigmas95InPlane * std::sqrt(0.5 * covariance_px2.trace());
     AddNote(at, std::clamp(ring_px - 4.0, 4.0, 14.0),
-            fmt::format("{} {:.2f} mm", names[static_cast<std::size_t>(point.marker)],
-                        1e3 * Residual_m(panel_, point)),
+            fmt::format("{} {:.2f} mm", names[At(point.marker)], 1e3 * Residual_m(panel_, point)),
             view::palette::kInk);
   }
 
@@ -284,9 +284,9 @@ void DrawLegend(double top_px, double enlargement, SvgDocument* svg) {
 Eigen::Matrix3Xd MarkersInCamera(const robot::RobotModel& model, const Eigen::VectorXd& x_m,
                                  const geometry::RigidTransform& T_robot_camera) {
   const auto& markers = model.body().markers;
-  Eigen::Matrix3Xd markers_m(3, static_cast<Eigen::Index>(markers.size()));
+  Eigen::Matrix3Xd markers_m(3, ToIndex(markers.size()));
   for (std::size_t m = 0; m < markers.size(); ++m) {
-    markers_m.col(static_cast<Eigen::Index>(m)) = markers[m].point.weights.Position(x_m);
+    markers_m.col(ToIndex(m)) = markers[m].point.weights.Position(x_m);
   }
   return T_robot_camera.Inverse().Apply(markers_m);
 }
@@ -309,8 +309,7 @@ void DrawAssignment(const std::filesystem::path& file, const std::vector<std::st
   for (int k = 0; k < count; ++k) {
     const view::Rect frame{kGap_px + k % columns * (kWidth_px + kGap_px),
                            kHead_px + k / columns * row_px, kWidth_px, kHeight_px};
-    PanelDrawing(panels[static_cast<std::size_t>(k)], plain, frame, enlargement, &svg)
-        .Draw(marker_names);
+    PanelDrawing(panels[At(k)], plain, frame, enlargement, &svg).Draw(marker_names);
   }
   DrawLegend(legend_px, enlargement, &svg);
   WriteFile(file, svg.Finish());

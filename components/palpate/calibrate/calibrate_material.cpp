@@ -10,6 +10,7 @@
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::command {
 
@@ -47,8 +48,8 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   const std::vector<std::string> parts = calibration::PartNames(model->body());
   for (const calibration::FittedModulus& modulus : fit.moduli) {
-    file.moduli.push_back({parts.at(static_cast<std::size_t>(modulus.material)),
-                           modulus.youngs_modulus_Pa, modulus.standard_error_Pa});
+    file.moduli.push_back(
+        {parts.at(At(modulus.material)), modulus.youngs_modulus_Pa, modulus.standard_error_Pa});
   }
   TakeQuality(fit, &file);
   if (!options.json) PrintMaterialFit(fit, observations);

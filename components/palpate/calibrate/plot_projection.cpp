@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::command {
 
 namespace {
@@ -15,7 +17,7 @@ constexpr double kLeastSide_m = 0.02;
 
 /// Points and model's markers.
 Eigen::Matrix3Xd AllOf(const AssignmentPanel& panel) {
-  Eigen::Matrix3Xd all_m(3, static_cast<Eigen::Index>(panel.points.size()) + panel.model_m.cols());
+  Eigen::Matrix3Xd all_m(3, ToIndex(panel.points.size()) + panel.model_m.cols());
   Eigen::Index next = 0;
   for (const auto& point : panel.points) all_m.col(next++) = point.position_m;
   all_m.rightCols(panel.model_m.cols()) = panel.model_m;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/statistics.hpp"
 
@@ -70,8 +71,8 @@ double StageTimes::Median_s(Milestone milestone) const {
 std::vector<StageTimes::Ages> StageTimes::Slowest() const {
   std::vector<Ages> frames = ages_s_;
   const std::size_t count = std::max<std::size_t>(1, frames.size() / 100);
-  std::partial_sort(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count),
-                    frames.end(), [](const Ages& a, const Ages& b) { return a.back() > b.back(); });
+  std::partial_sort(frames.begin(), frames.begin() + ToIndex(count), frames.end(),
+                    [](const Ages& a, const Ages& b) { return a.back() > b.back(); });
   frames.resize(count);
   return frames;
 }

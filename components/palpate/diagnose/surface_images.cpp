@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "libs/app/yaml.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::command {
 
@@ -39,9 +40,8 @@ const experiment::RgbdSequence& SurfaceImages::SequenceOf(int recording) {
   const auto known = sequences_.find(recording);
   if (known != sequences_.end()) return known->second;
   return sequences_
-      .emplace(recording,
-               experiment::OpenRecordingImages(
-                   experiment_.recordings[static_cast<std::size_t>(recording)], app::LoadYaml))
+      .emplace(recording, experiment::OpenRecordingImages(experiment_.recordings[At(recording)],
+                                                          app::LoadYaml))
       .first->second;
 }
 

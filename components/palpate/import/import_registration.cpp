@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/rigid_registration.hpp"
 
 namespace palpate::command {
@@ -33,11 +34,11 @@ MarkerPairs PairMarkers(const ImportOptions& options, const experiment::Recordin
   MarkerPairs pairs;
   pairs.names =
       options.register_markers.empty() ? tracks.names : SplitNames(options.register_markers, ',');
-  const auto count = static_cast<Eigen::Index>(pairs.names.size());
+  const auto count = ToIndex(pairs.names.size());
   pairs.measured_m.resize(3, count);
   pairs.rest_m.resize(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const std::string& name = pairs.names[static_cast<std::size_t>(i)];
+    const std::string& name = pairs.names[At(i)];
     const std::optional<std::size_t> index = tracks.IndexOf(name);
     const auto marker = std::find_if(robot.markers.begin(), robot.markers.end(),
                                      [&](const auto& entry) { return entry.name == name; });
@@ -79,7 +80,7 @@ Eigen::Isometry3d Register(const ImportOptions& options, const experiment::Recor
   report << fmt::format("registered {} markers to the robot file, RMS {:.3f} mm\n",
                         pairs.names.size(), 1e3 * result.rms_m);
   for (Eigen::Index i = 0; i < mapped_m.cols(); ++i) {
-    report << fmt::format("  {:<16} residual {:.3f} mm\n", pairs.names[static_cast<std::size_t>(i)],
+    report << fmt::format("  {:<16} residual {:.3f} mm\n", pairs.names[At(i)],
                           1e3 * (mapped_m.col(i) - pairs.rest_m.col(i)).norm());
   }
   return Eigen::Translation3d(result.T_target_source.translation_m()) *

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "libs/core/index.hpp"
 #include "libs/geometry/closest_point.hpp"
 
 namespace palpate::command {
@@ -24,7 +25,7 @@ MarkedSurface::MarkedSurface(const fem::TetMesh& mesh, const fem::BoundarySurfac
 Eigen::Matrix3Xd MarkedSurface::Normals(const Eigen::VectorXd& x_m) const {
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, std::ssize(facets_));
   for (Eigen::Index m = 0; m < normals.cols(); ++m) {
-    for (const auto& corners : facets_[static_cast<std::size_t>(m)].colwise()) {
+    for (const auto& corners : facets_[At(m)].colwise()) {
       const auto corner_m = [&](int k) { return x_m.segment<3>(3 * corners[k]); };
       normals.col(m) += (corner_m(1) - corner_m(0)).cross(corner_m(2) - corner_m(0));
     }

@@ -9,6 +9,7 @@
 
 #include "libs/core/check.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/experiment/recording_settings.hpp"
 #include "libs/rgbd/png.hpp"
@@ -76,8 +77,7 @@ void RecordingWriter::AddCables(double t_s,
 
 void RecordingWriter::AddMarkers(double t_s, const Eigen::Matrix3Xd& positions_m,
                                  scenario::Random* noise) {
-  PALPATE_CHECK(positions_m.cols() == static_cast<Eigen::Index>(markers_.names.size()),
-                positions_m.cols());
+  PALPATE_CHECK(positions_m.cols() == ToIndex(markers_.names.size()), positions_m.cols());
   experiment::MarkerFrame frame;
   frame.t_s = t_s;
   for (Eigen::Index i = 0; i < positions_m.cols(); ++i) {

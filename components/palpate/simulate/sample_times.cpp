@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::command {
 
 namespace {
@@ -16,7 +18,7 @@ using scenario::RecordingPlan;
 std::int64_t Nanoseconds(double t_s) { return std::llround(1e9 * t_s); }
 
 const RecordingPlan& PlanOf(const scenario::Schedule& schedule, int recording) {
-  return schedule.scenario().recordings.at(static_cast<std::size_t>(recording));
+  return schedule.scenario().recordings.at(At(recording));
 }
 
 /// The samples of one recording, each once.

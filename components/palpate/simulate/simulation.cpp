@@ -14,6 +14,7 @@
 #include "libs/app/version.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/sha256.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -120,7 +121,7 @@ class Run {
   }
 
   void MakeRecording(int index) {
-    const auto& plan = scenario_.recordings[static_cast<std::size_t>(index)];
+    const auto& plan = scenario_.recordings[At(index)];
     const fs::path folder = folder_ / "recordings" / plan.name;
     RecordingWriter writer(job_.robot, scenario_, plan, folder);
     RecordingTruth truth;
@@ -148,7 +149,7 @@ class Run {
   CameraInput CameraInputAt(int index, double t_s) const {
     CameraInput input{.t_s = t_s, .recording = index};
     if (scenario_.camera) {
-      const auto& plan = scenario_.recordings[static_cast<std::size_t>(index)];
+      const auto& plan = scenario_.recordings[At(index)];
       input.T_robot_camera = plan.T_robot_camera.value_or(scenario_.camera->T_robot_camera);
     }
     return input;

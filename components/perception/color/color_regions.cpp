@@ -7,6 +7,8 @@
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/region_growing_rgb.h>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -18,7 +20,7 @@ Cloud::Ptr ToPcl(const VoxelCloud& cloud) {
   const Cloud::Ptr points(new Cloud);
   points->reserve(static_cast<std::size_t>(cloud.Count()));
   for (int i = 0; i < cloud.Count(); ++i) {
-    const std::uint8_t* rgb = cloud.colors_rgb.data() + 3 * static_cast<std::ptrdiff_t>(i);
+    const std::uint8_t* rgb = cloud.colors_rgb.data() + 3 * ToIndex(i);
     Point point(rgb[0], rgb[1], rgb[2]);
     point.getVector3fMap() = cloud.points_m.col(i);
     points->push_back(point);

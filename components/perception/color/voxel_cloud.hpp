@@ -11,6 +11,7 @@
 #include "components/perception/config.hpp"
 #include "components/perception/observation.hpp"
 #include "components/perception/registered_frame.hpp"
+#include "libs/core/index.hpp"
 #include "libs/geometry/box.hpp"
 
 namespace palpate::perception {
@@ -24,7 +25,7 @@ struct VoxelCloud {
 
   int Count() const { return static_cast<int>(pixels.size()); }
   Eigen::Vector3d Color(int point) const {
-    const std::uint8_t* rgb = colors_rgb.data() + 3 * static_cast<std::ptrdiff_t>(point);
+    const std::uint8_t* rgb = colors_rgb.data() + 3 * ToIndex(point);
     return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
   }
 };

@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 /// Points sorted into the cells of a regular grid, for neighbour search. Rebuilt for each frame in
@@ -60,7 +62,7 @@ void PointGrid::ForEachNear(const Eigen::Vector3f& place_m, float radius_m, Visi
       for (int k = first_[CellOf({begin.x(), y, z})]; k < last; ++k) {
         const float squared_m2 = (sorted_m_.col(k) - place_m).squaredNorm();
         if (squared_m2 > radius_m * radius_m) continue;
-        if (!visit(index_[static_cast<std::size_t>(k)], squared_m2)) return;
+        if (!visit(index_[At(k)], squared_m2)) return;
       }
     }
   }

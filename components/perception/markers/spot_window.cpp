@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::perception {
@@ -124,7 +125,7 @@ bool SpotWindow::Lay(const ColorSpot& spot, int reach_px, const RegisteredFrame&
   const int width = u_end - u_begin, height = v_end - v_begin;
   std::vector<int> distance(static_cast<std::size_t>(width * height), reach_px + 1);
   for (const SpotPixel& pixel : spot.pixels) {
-    distance[static_cast<std::size_t>((pixel.v_px - v_begin) * width + pixel.u_px - u_begin)] = 0;
+    distance[At((pixel.v_px - v_begin) * width + pixel.u_px - u_begin)] = 0;
   }
   Spread(width, height, reach_px, &distance);
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -138,8 +139,7 @@ bool SpotWindow::Lay(const ColorSpot& spot, int reach_px, const RegisteredFrame&
     pixel.z_m = static_cast<double>(*frame.z_m.Pixel(u, v));
     pixel.rgb = {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
                  static_cast<double>(rgb[2])};
-    pixel.color_known =
-        frame.color_known[static_cast<std::size_t>(v * frame.z_m.width_px + u)] != 0;
+    pixel.color_known = frame.color_known[At(v * frame.z_m.width_px + u)] != 0;
     pixel.distance_px = distance[i];
   }
   return true;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 void PixelRegion::Place(int u, int v, int width_px, int height_px) {
@@ -74,14 +76,14 @@ void Patches::Find(const PixelRegion& region) {
   }
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const int root = RootOf(static_cast<int>(i));
-    runs_[static_cast<std::size_t>(root)].pixels += runs_[i].end - runs_[i].begin;
+    runs_[At(root)].pixels += runs_[i].end - runs_[i].begin;
   }
 }
 
 int Patches::RootOf(int run) {
-  while (runs_[static_cast<std::size_t>(run)].parent != run) {
-    Run& here = runs_[static_cast<std::size_t>(run)];
-    here.parent = runs_[static_cast<std::size_t>(here.parent)].parent;
+  while (runs_[At(run)].parent != run) {
+    Run& here = runs_[At(run)];
+    here.parent = runs_[At(here.parent)].parent;
     run = here.parent;
   }
   return run;
@@ -114,14 +116,14 @@ void Patches::Join(const PixelRegion& region, int first_above, int first_here) {
   int above = first_above;
   const int end = static_cast<int>(runs_.size());
   for (int here = first_here; here < end; ++here) {
-    const Run run = runs_[static_cast<std::size_t>(here)];
-    while (above < first_here && runs_[static_cast<std::size_t>(above)].end <= run.begin) ++above;
+    const Run run = runs_[At(here)];
+    while (above < first_here && runs_[At(above)].end <= run.begin) ++above;
     for (int other = above; other < first_here; ++other) {
-      const Run& candidate = runs_[static_cast<std::size_t>(other)];
+      const Run& candidate = runs_[At(other)];
       if (candidate.begin >= run.end) break;
       if (candidate.label != run.label || !Touch(region, candidate, run)) continue;
       const int a = RootOf(other), b = RootOf(here);
-      runs_[static_cast<std::size_t>(std::max(a, b))].parent = std::min(a, b);
+      runs_[At(std::max(a, b))].parent = std::min(a, b);
     }
   }
 }
@@ -140,8 +142,8 @@ std::int64_t Patches::DropSmall(Label of, std::int64_t least, PixelRegion* regio
     const Run& run = runs_[i];
     if (run.label != of) continue;
     const int root = RootOf(static_cast<int>(i));
-    if (runs_[static_cast<std::size_t>(root)].pixels >= least) continue;
-    const auto first = static_cast<std::ptrdiff_t>(region->At(run.begin, run.row));
+    if (runs_[At(root)].pixels >= least) continue;
+    const auto first = ToIndex(region->At(run.begin, run.row));
     std::fill_n(region->label.begin() + first, run.end - run.begin, Label::kSpeck);
     dropped += run.end - run.begin;
   }

@@ -6,6 +6,8 @@
 #include <array>
 #include <limits>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::perception {
 
 namespace {
@@ -58,8 +60,7 @@ class Search {
       if (grid_.nearest[here] == SampleGrid::kNone) grid_.nearest[here] = candidate;
       return;
     }
-    const float squared_m2 =
-        (measured_m - grid_.site_m[static_cast<std::size_t>(candidate)]).squaredNorm();
+    const float squared_m2 = (measured_m - grid_.site_m[At(candidate)]).squaredNorm();
     if (squared_m2 >= squared_m2_[here]) return;
     squared_m2_[here] = squared_m2;
     grid_.nearest[here] = candidate;

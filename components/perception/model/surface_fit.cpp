@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/cholesky.hpp"
 
 namespace palpate::perception {
@@ -36,7 +37,7 @@ void SurfaceFit::Number(const SampleGrid& grid) {
   std::vector<char> used(number_.size(), 0);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (grid.site_m[i].z() <= 0.0f) continue;
-    for (const int node : SharesOf(grid.site_m[i]).node) used[static_cast<std::size_t>(node)] = 1;
+    for (const int node : SharesOf(grid.site_m[i]).node) used[palpate::At(node)] = 1;
   }
   for (std::size_t n = 0; n < used.size(); ++n) {
     number_[n] = used[n] != 0 ? unknowns_++ : SampleGrid::kNone;
@@ -140,7 +141,7 @@ void SurfaceFit::AddSmoothness(float difference) {
   normal_matrix_.diagonal().setConstant(keep);
   const auto number = [this](int x, int y, int z) {
     if (x >= counts_.x() || y >= counts_.y() || z >= counts_.z()) return SampleGrid::kNone;
-    return number_[static_cast<std::size_t>((z * counts_.y() + y) * counts_.x() + x)];
+    return number_[palpate::At((z * counts_.y() + y) * counts_.x() + x)];
   };
   const auto tie = [&](int a, int b) {
     if (a == SampleGrid::kNone || b == SampleGrid::kNone) return;

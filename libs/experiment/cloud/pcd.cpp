@@ -12,6 +12,7 @@
 #include "libs/core/check.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/cloud/cloud_builder.hpp"
 #include "libs/experiment/cloud/lzf.hpp"
 #include "libs/experiment/cloud/scalar.hpp"
@@ -260,8 +261,7 @@ class PcdReader {
       Eigen::Vector3d point;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Field& field = *axes[axis];
-        point[static_cast<Eigen::Index>(axis)] =
-            field.scalar.Load(place(field, i), ByteOrder::kLittle);
+        point[ToIndex(axis)] = field.scalar.Load(place(field, i), ByteOrder::kLittle);
       }
       builder->Add(point);
       if (color != nullptr) {

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <string_view>
 
+#include "libs/core/index.hpp"
+
 // OpenBLAS, where the BLAS in use is OpenBLAS, and the OpenMP that CHOLMOD was built with, if any.
 extern "C" {
 void openblas_set_num_threads(int count) __attribute__((weak));
@@ -81,9 +83,7 @@ class BlockPool {
 
   static int Order(size_t bytes) { return static_cast<int>(std::bit_width(bytes - 1)); }
 
-  Header*& FirstFree(int use, int order) {
-    return free_[static_cast<size_t>(use)][static_cast<size_t>(order)];
-  }
+  Header*& FirstFree(int use, int order) { return free_[At(use)][At(order)]; }
 
   std::mutex mutex_;
   std::array<std::array<Header*, 64>, 2> free_{};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/cholmod_context.hpp"
 #include "libs/fem/sparse/sparse_solver.hpp"
 
@@ -64,8 +65,7 @@ class CholmodSolver final : public SparseSolver {
     has_factor_ = false;
     if (!AllFinite(values)) return {StatusCode::kInvalidInput, "the matrix is not finite"};
     PALPATE_CHECK(values.size() == block_entries_, values.size(), block_entries_);
-    for (size_t k = 0; k < source_.size(); ++k)
-      values_[k] = values[static_cast<size_t>(source_[k])];
+    for (size_t k = 0; k < source_.size(); ++k) values_[k] = values[At(source_[k])];
     cholmod_sparse matrix = View(CHOLMOD_REAL);
     {
       const internal::OneThread one_thread;
@@ -118,7 +118,7 @@ class CholmodSolver final : public SparseSolver {
       const auto node = static_cast<size_t>(column);
       for (int c = 0; c < 3; ++c) {
         for (int k = pattern.column_start[node]; k < pattern.column_start[node + 1]; ++k) {
-          const int row = pattern.row[static_cast<size_t>(k)];
+          const int row = pattern.row[At(k)];
           for (int r = row == column ? c : 0; r < 3; ++r) {
             row_.push_back(3 * row + r);
             source_.push_back(kBlockEntries * k + 3 * c + r);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "libs/core/check.hpp"
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/amalgamation.hpp"
 #include "libs/fem/sparse/cholmod_context.hpp"
 #include "libs/fem/sparse/minimum_fill.hpp"
@@ -30,9 +31,8 @@ cholmod_sparse* ToCholmod(const internal::NodeGraph& graph, cholmod_common* comm
   for (int column = 0; column < graph.NodeCount(); ++column) {
     column_start[column] = next;
     row[next++] = column;
-    for (int e = graph.start[static_cast<size_t>(column)];
-         e < graph.start[static_cast<size_t>(column) + 1]; ++e) {
-      const int neighbour = graph.neighbours[static_cast<size_t>(e)];
+    for (int e = graph.start[At(column)]; e < graph.start[static_cast<size_t>(column) + 1]; ++e) {
+      const int neighbour = graph.neighbours[At(e)];
       if (neighbour > column) row[next++] = neighbour;
     }
   }

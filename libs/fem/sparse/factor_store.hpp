@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/sparse/aligned_buffer.hpp"
 #include "libs/fem/sparse/dense/front_kernels.hpp"
 #include "libs/fem/sparse/front_tree.hpp"
@@ -22,10 +23,10 @@ class FactorStore {
   bool has_room_for_single() const { return rounded_.size() > 0; }
 
   dense::FactorPanel Panel(int front) {
-    return {values_.data() + offset_[static_cast<size_t>(front)], PivotsOf(front), BelowOf(front)};
+    return {values_.data() + offset_[At(front)], PivotsOf(front), BelowOf(front)};
   }
   dense::SinglePrecisionPanel Rounded(int front) {
-    return {rounded_.data() + offset_[static_cast<size_t>(front)], PivotsOf(front), BelowOf(front)};
+    return {rounded_.data() + offset_[At(front)], PivotsOf(front), BelowOf(front)};
   }
   /// [size] Reciprocals of the factor's diagonal.
   double* inverse() { return inverse_.data(); }
@@ -34,8 +35,8 @@ class FactorStore {
   }
 
  private:
-  int PivotsOf(int front) const { return tree_.fronts()[static_cast<size_t>(front)].Pivots(); }
-  int BelowOf(int front) const { return tree_.fronts()[static_cast<size_t>(front)].Below(); }
+  int PivotsOf(int front) const { return tree_.fronts()[At(front)].Pivots(); }
+  int BelowOf(int front) const { return tree_.fronts()[At(front)].Below(); }
 
   const FrontTree& tree_;
   std::vector<size_t> offset_;  ///< [fronts]

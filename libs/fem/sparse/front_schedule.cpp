@@ -70,7 +70,7 @@ Assignment Distribute(std::vector<int> roots, const std::vector<double>& costs, 
   for (const int root : roots) {
     const auto least = std::min_element(load.begin(), load.end());
     *least += costs[At(root)];
-    assignment.roots[static_cast<size_t>(least - load.begin())].push_back(root);
+    assignment.roots[At(least - load.begin())].push_back(root);
   }
   assignment.longest = *std::max_element(load.begin(), load.end());
   return assignment;

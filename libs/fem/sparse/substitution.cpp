@@ -122,7 +122,7 @@ void Substitution::Write(int f, const Block& block, Eigen::Ref<Eigen::MatrixXd> 
 void Substitution::AddShares(const Block& block) const {
   const auto shares = static_cast<long>(plan_.shared_rows.size());
   for (long k = 0; k < shares; ++k) {
-    const long row = plan_.shared_rows[static_cast<size_t>(k)];
+    const long row = plan_.shared_rows[At(k)];
     double* target = block.rows + row * block.width;
     for (int t = 0; t < team_.Size(); ++t) {
       const double* source = block.rows + (size_ + t * shares + k) * block.width;

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "libs/core/index.hpp"
 #include "libs/linalg/lu.hpp"
 
 namespace palpate::robot {
@@ -26,7 +27,7 @@ void CableTerms::Evaluate() {
   lengths_.resize(static_cast<size_t>(model.CableCount()));
   for (int c = 0; c < model.CableCount(); ++c) {
     if (point_.KeepsLength(c)) taut_.push_back(c);
-    FillRow(c, point_.path(c).length_gradient(), &lengths_[static_cast<size_t>(c)]);
+    FillRow(c, point_.path(c).length_gradient(), &lengths_[At(c)]);
     if (!Rubs(c)) continue;
     for (int turn = 0; turn < point_.path(c).TurnCount(); ++turn) {
       point_.path(c).Turn(turn, &turn_force_, &turn_angle_);
@@ -62,8 +63,7 @@ void CableTerms::FillRow(int cable, const Eigen::Matrix3Xd& per_point, NodalRow*
     for (size_t k = 0; k < eyelets[e].nodes.size(); ++k) {
       const int free_node = point_.model().linearisation().matrix().FreeIndex(eyelets[e].nodes[k]);
       if (free_node < 0) continue;
-      row->entries.emplace_back(
-          free_node, eyelets[e].weights[k] * per_point.col(static_cast<Eigen::Index>(e) + 1));
+      row->entries.emplace_back(free_node, eyelets[e].weights[k] * per_point.col(ToIndex(e) + 1));
     }
   }
 }
@@ -75,7 +75,7 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
   if (count == 0) return Status::Ok();
   fem::QpMatrix W(count, count);
   for (Eigen::Index t = 0; t < count; ++t) {
-    const int c = taut_[static_cast<size_t>(t)];
+    const int c = taut_[At(t)];
     W.row(t) = per_tension.row(c);
     W(t, t) -= point_.model().cable(c).compliance_m_N();
   }
@@ -86,13 +86,12 @@ Status CableTerms::HoldLengths(const fem::QpMatrix& per_tension,
   for (Eigen::Index p = 0; p < length_m->cols(); ++p) {
     fem::QpVector wanted(count);
     for (Eigen::Index t = 0; t < count; ++t) {
-      const int c = taut_[static_cast<size_t>(t)];
+      const int c = taut_[At(t)];
       wanted[t] = commanded_length_m(c, p) - (*length_m)(c, p);
     }
     const fem::QpVector tension = lu.Solve(wanted);
     length_m->col(p).noalias() += per_tension.lazyProduct(tension);
-    for (Eigen::Index t = 0; t < count; ++t)
-      (*tension_N)(taut_[static_cast<size_t>(t)], p) = tension[t];
+    for (Eigen::Index t = 0; t < count; ++t) (*tension_N)(taut_[At(t)], p) = tension[t];
   }
   return Status::Ok();
 }

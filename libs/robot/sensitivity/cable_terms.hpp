@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "libs/core/index.hpp"
 #include "libs/core/status.hpp"
 #include "libs/fem/bounded_qp.hpp"
 #include "libs/robot/sensitivity/equilibrium_point.hpp"
@@ -35,8 +36,8 @@ class CableTerms {
 
   /// Those that keep the length that their actuators hold.
   const std::vector<int>& taut() const { return taut_; }
-  Eigen::Index TautCount() const { return static_cast<Eigen::Index>(taut_.size()); }
-  Eigen::Index TurnCount() const { return static_cast<Eigen::Index>(angles_.size()); }
+  Eigen::Index TautCount() const { return ToIndex(taut_.size()); }
+  Eigen::Index TurnCount() const { return ToIndex(angles_.size()); }
   const std::vector<NodalRow>& lengths() const { return lengths_; }  ///< [cables] dlength/dx
   const std::vector<NodalRow>& angles() const { return angles_; }    ///< [turns] B
   /// Fills A [Size x turns].

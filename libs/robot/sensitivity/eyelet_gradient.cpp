@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libs/core/index.hpp"
 #include "libs/fem/shape_functions.hpp"
 #include "libs/geometry/closest_point.hpp"
 
@@ -58,7 +59,7 @@ Expansion NearestInCell(const Eigen::Matrix<double, 3, 4>& corners_m,
   double nearest_m = (corners_m.col(0) - point_m).norm();
   for (const auto& face : kFaces) {
     Eigen::Matrix3d face_m;
-    for (int k = 0; k < 3; ++k) face_m.col(k) = corners_m.col(face[static_cast<size_t>(k)]);
+    for (int k = 0; k < 3; ++k) face_m.col(k) = corners_m.col(face[At(k)]);
     const Eigen::Vector3d barycentric =
         geometry::ClosestPointOnTriangle(face_m.col(0), face_m.col(1), face_m.col(2), point_m);
     const Eigen::Vector3d closest_m = face_m * barycentric;
@@ -84,7 +85,7 @@ Expansion WithinCell(const fem::TetMesh& mesh, const fem::BodyPoint& point) {
       if (a < 4) {
         if (a > 0) expansion.xi[a - 1] += weight;
       } else {
-        for (const int corner : kEdges[static_cast<size_t>(a - 4)]) {
+        for (const int corner : kEdges[At(a - 4)]) {
           if (corner > 0) expansion.xi[corner - 1] += 0.5 * weight;
         }
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/diagnosis/report/figures/figures.hpp"
+#include "libs/core/index.hpp"
 #include "libs/plot/axis_ticks.hpp"
 #include "libs/plot/text_width.hpp"
 
@@ -63,7 +64,7 @@ Figure DrawCorrelations(const DiagnosisResult& result) {
                     "of the rows.",
                 .svg = {},
                 .absent = {}};
-  const auto names = static_cast<Eigen::Index>(result.correlation_names.size());
+  const auto names = ToIndex(result.correlation_names.size());
   const Eigen::Index count =
       std::min({result.correlation.rows(), result.correlation.cols(), names, kMostCauses});
   if (count < 2) {
@@ -76,8 +77,7 @@ Figure DrawCorrelations(const DiagnosisResult& result) {
   std::vector<std::string> rows;
   double name_px = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    rows.push_back(std::to_string(i + 1) + "  " +
-                   result.correlation_names[static_cast<std::size_t>(i)]);
+    rows.push_back(std::to_string(i + 1) + "  " + result.correlation_names[At(i)]);
     name_px = std::max(name_px, plot::TextWidth_px(rows.back(), kLabelSize_px));
   }
   const double left_px = std::clamp(name_px, kScaleTitle_px, kMatrixWidestName_px) + 20.0;
@@ -90,10 +90,9 @@ Figure DrawCorrelations(const DiagnosisResult& result) {
   DrawColorScale(left_px, &svg);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double i_px = static_cast<double>(i) * cell_px;
-    svg.Text(
-        {left_px - 8.0, kMatrixTop_px + i_px + 0.5 * cell_px + 4.0},
-        plot::Shortened(rows[static_cast<std::size_t>(i)], kLabelSize_px, kMatrixWidestName_px),
-        {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
+    svg.Text({left_px - 8.0, kMatrixTop_px + i_px + 0.5 * cell_px + 4.0},
+             plot::Shortened(rows[At(i)], kLabelSize_px, kMatrixWidestName_px),
+             {.anchor = SvgText::Anchor::kEnd, .size_px = kLabelSize_px});
     svg.Text({left_px + i_px + 0.5 * cell_px, kMatrixTop_px - 7.0}, std::to_string(i + 1),
              {.anchor = SvgText::Anchor::kMiddle, .size_px = kLabelSize_px});
     for (Eigen::Index k = 0; k < count; ++k) {

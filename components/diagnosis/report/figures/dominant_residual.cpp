@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libs/core/index.hpp"
 #include "libs/plot/axis_ticks.hpp"
 #include "libs/plot/text_width.hpp"
 
@@ -25,8 +26,8 @@ struct Seen {
 
 Seen SeenOf(Eigen::Index marker, const ComparedSamples& compared_samples,
             const std::vector<double>& x) {
-  Seen seen{Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(compared_samples.size())),
-            Eigen::VectorXd(static_cast<Eigen::Index>(compared_samples.size()))};
+  Seen seen{Eigen::Matrix3Xd(3, ToIndex(compared_samples.size())),
+            Eigen::VectorXd(ToIndex(compared_samples.size()))};
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < compared_samples.size(); ++i) {
     const Eigen::Matrix3Xd& residual_m = compared_samples[i]->before_m;

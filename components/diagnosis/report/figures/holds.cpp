@@ -8,6 +8,7 @@
 #include "components/diagnosis/report/figures/dominant_residual.hpp"
 #include "components/diagnosis/report/figures/figures.hpp"
 #include "components/diagnosis/report/figures/trace_panels.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -70,7 +71,7 @@ std::vector<double> LogTimes(const ComparedSamples& hold) {
 TracePanel MakePanel(const DiagnosisResult& result, const ComparedSamples& hold,
                      const DominantResidual& rise) {
   TracePanel panel;
-  panel.title = result.recordings[static_cast<std::size_t>(hold.front()->recording)].name;
+  panel.title = result.recordings[At(hold.front()->recording)].name;
   panel.note = DescribeDominant(rise, result);
   panel.x_title = "time since the hold began (s), logarithmic";
   panel.x = LogTimes(hold);

@@ -9,6 +9,7 @@
 #include "components/diagnosis/report/figures/dominant_residual.hpp"
 #include "components/diagnosis/report/figures/figures.hpp"
 #include "components/diagnosis/report/figures/trace_panels.hpp"
+#include "libs/core/index.hpp"
 
 namespace palpate::diagnosis {
 
@@ -49,7 +50,7 @@ std::vector<Loop> FindLoops(const DiagnosisResult& result,
                             const std::vector<ComparedSamples>& compared_samples) {
   std::vector<Loop> loops;
   for (std::size_t c = 0; c < result.cables.size(); ++c) {
-    const auto cable = static_cast<Eigen::Index>(c);
+    const auto cable = ToIndex(c);
     Loop best{cable, 0, 0.0};
     double best_score = 0.0;
     for (std::size_t r = 0; r < compared_samples.size(); ++r) {
@@ -57,7 +58,7 @@ std::vector<Loop> FindLoops(const DiagnosisResult& result,
       double all = 0.0;
       for (std::size_t other = 0; other < result.cables.size(); ++other) {
         const bool same_unit = UnitOf(result, other) == UnitOf(result, c);
-        if (same_unit) all += Travel(compared_samples[r], static_cast<Eigen::Index>(other));
+        if (same_unit) all += Travel(compared_samples[r], ToIndex(other));
       }
       const double score = travel > 0.0 ? travel * travel / all : 0.0;
       if (score <= best_score || FindDominant(compared_samples[r]).marker < 0) continue;

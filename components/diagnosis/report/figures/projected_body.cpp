@@ -10,6 +10,8 @@
 #include <set>
 #include <tuple>
 
+#include "libs/core/index.hpp"
+
 namespace palpate::diagnosis {
 
 namespace {
@@ -42,19 +44,17 @@ Surface Coarsened(const Eigen::Matrix3Xd& nodes_m, const Triangles& triangles) {
     const auto [entry, is_new] =
         found.try_emplace({cell.x(), cell.y(), cell.z()}, static_cast<int>(sums.size()));
     if (is_new) sums.emplace_back(Eigen::Vector4d::Zero());
-    sums[static_cast<std::size_t>(entry->second)] += nodes_m.col(n).homogeneous();
-    joined[static_cast<std::size_t>(n)] = entry->second;
+    sums[At(entry->second)] += nodes_m.col(n).homogeneous();
+    joined[At(n)] = entry->second;
   }
   Surface surface;
-  surface.nodes_m.resize(3, static_cast<Eigen::Index>(sums.size()));
+  surface.nodes_m.resize(3, ToIndex(sums.size()));
   for (std::size_t n = 0; n < sums.size(); ++n) {
-    surface.nodes_m.col(static_cast<Eigen::Index>(n)) = sums[n].hnormalized();
+    surface.nodes_m.col(ToIndex(n)) = sums[n].hnormalized();
   }
   std::set<std::array<int, 3>> kept;
   for (const auto& [a, b, c] : triangles) {
-    const std::array<int, 3> corners = {joined[static_cast<std::size_t>(a)],
-                                        joined[static_cast<std::size_t>(b)],
-                                        joined[static_cast<std::size_t>(c)]};
+    const std::array<int, 3> corners = {joined[At(a)], joined[At(b)], joined[At(c)]};
     const bool flat =
         corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
     std::array<int, 3> sorted = corners;
@@ -65,9 +65,7 @@ Surface Coarsened(const Eigen::Matrix3Xd& nodes_m, const Triangles& triangles) {
 }
 
 Eigen::Vector3d DoubledNormal(const Surface& surface, const std::array<int, 3>& corners) {
-  const auto node = [&](int i) {
-    return surface.nodes_m.col(corners[static_cast<std::size_t>(i)]);
-  };
+  const auto node = [&](int i) { return surface.nodes_m.col(corners[At(i)]); };
   return (node(1) - node(0)).cross(node(2) - node(0));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libs/app/yaml.hpp"
+#include "libs/core/index.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/node_settings.hpp"
 #include "libs/dds/stamp.hpp"
@@ -59,7 +60,7 @@ std::vector<TrueContact> ToTruth(const idl::palpate_msgs::ForceArray& message) {
 
 std::optional<Eigen::VectorXd> ToNodes(const idl::palpate_msgs::MeshState& message) {
   const Status status = ParseStatus(dds::Text(message.status), "");
-  const auto count = static_cast<Eigen::Index>(message.positions_m._length);
+  const auto count = ToIndex(message.positions_m._length);
   const bool usable = status.ok() || status.code() == StatusCode::kNoContact;
   if (!usable || count == 0) return std::nullopt;
   return Eigen::Map<const Eigen::VectorXf>(message.positions_m._buffer, count).cast<double>();
