@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "libs/app/log.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
-#include "libs/core/error.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -20,8 +20,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   app::Arguments arguments(
       "palpate-calibration",
       "Calibrate camera pose and cable actuators of the running robot on request");
-  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
-                       app::Need::kOptional);
+  app::DeclareRobotToRun(arguments, &command.robot);
   std::string out, camera_pose;
   arguments.Option("--out FILE", &out,
                    "Calibration file to write; same as --set calibration_file=FILE");
@@ -30,7 +29,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
   if (!out.empty()) command.config.calibration_file = out;
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
-  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  command.robot = app::RobotFileToRun(command.robot);
   return command;
 }
 

@@ -9,8 +9,8 @@
 
 #include "components/force_estimation/node/make_pipeline.hpp"
 #include "libs/app/log.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
-#include "libs/core/error.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_body.hpp"
@@ -50,8 +50,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   app::Arguments arguments(
       "palpate-force-estimation",
       "Estimate contact forces from the robot's shape or markers and its cables");
-  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
-                       app::Need::kOptional);
+  app::DeclareRobotToRun(arguments, &command.robot);
   arguments.Option(
       "--calibration", &command.calibration,
       "Calibration file of palpate calibrate; without it the robot file's moduli hold");
@@ -66,7 +65,7 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   if (!camera_pose.empty()) command.config.camera_pose = camera_pose;
   auto& sites = command.config.contacts;
   sites.insert(sites.end(), contacts.begin(), contacts.end());
-  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  command.robot = app::RobotFileToRun(command.robot);
   return command;
 }
 

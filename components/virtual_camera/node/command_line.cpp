@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libs/app/log.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -41,14 +42,13 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments("palpate-virtual-camera",
                            "Stream RGB-D frames of palpate-virtual-robot as a GigE Vision camera");
-  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
-                       app::Need::kOptional);
+  app::DeclareRobotToRun(arguments, &command.robot);
   arguments.Option("--scenario", &command.scenario,
                    "Scenario file that the virtual robot runs; required to run");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
                    "Random seed of the virtual robot");
   if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
-  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  command.robot = app::RobotFileToRun(command.robot);
   if (command.scenario.empty())
     throw InputError("--scenario is required: give the scenario file of the virtual robot");
   return command;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "libs/app/log.hpp"
+#include "libs/app/project_files.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -38,14 +39,13 @@ std::optional<Command> ReadCommand(int argc, const char* const* argv) {
   Command command;
   app::Arguments arguments("palpate-virtual-robot",
                            "Simulate a soft robot under the commands and loads of a scenario");
-  arguments.Positional("ROBOT", &command.robot, "Robot file; required to run",
-                       app::Need::kOptional);
+  app::DeclareRobotToRun(arguments, &command.robot);
   arguments.Option("--scenario", &command.scenario,
                    "Scenario file: commands, loads and hidden effects; required to run");
   arguments.Option("--seed", &command.seed, 0, std::numeric_limits<int>::max(),
                    "Random seed (noise, manufacturing tolerances, unspecified effects)");
   if (!app::ReadNodeCommand(arguments, argc, argv, &command)) return std::nullopt;
-  if (command.robot.empty()) throw InputError("ROBOT is required: give a robot file");
+  command.robot = app::RobotFileToRun(command.robot);
   if (command.scenario.empty()) throw InputError("--scenario is required: give a scenario file");
   return command;
 }
