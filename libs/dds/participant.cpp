@@ -22,7 +22,9 @@ Entity CreateParticipant(const ParticipantSettings& settings) {
 
 Participant::Participant(const ParticipantSettings& settings, TopicTable table)
     : node_name_(settings.node_name),
+      domain_id_(settings.domain_id),
       table_(std::move(table)),
+      domain_(ApplyDomainSettings(settings.domain_id)),
       entity_(CreateParticipant(settings)),
       graph_(entity_.handle(), settings.node_namespace, settings.node_name, settings.gid_layout) {}
 

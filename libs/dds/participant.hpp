@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
 #include "libs/dds/reader.hpp"
 #include "libs/dds/ros_graph.hpp"
@@ -27,13 +29,14 @@ struct ParticipantSettings {
 /// table. Must outlive them. Not thread-safe.
 class Participant {
  public:
-  /// Throws RunError where DDS refuses (no network interface, too many processes, bad
-  /// CYCLONEDDS_URI).
+  /// Where CYCLONEDDS_URI is not set, config/cyclonedds/default.xml holds. Throws RunError where
+  /// DDS refuses (no network interface, too many processes, bad CYCLONEDDS_URI).
   Participant(const ParticipantSettings& settings, TopicTable table);
 
   dds_entity_t handle() const { return entity_.handle(); }
   const TopicTable& table() const { return table_; }
   const std::string& node_name() const { return node_name_; }
+  uint32_t domain_id() const { return domain_id_; }
 
   /// `name` takes the place of "<name>" in the topic's name. `on_change`: see EndpointCounters.
   /// Throws InputError where the table has no such topic or another type, RunError where DDS
@@ -59,7 +62,9 @@ class Participant {
   static std::string RosName(std::string_view topic_name, const std::string& name);
 
   std::string node_name_;
+  uint32_t domain_id_;
   TopicTable table_;
+  std::shared_ptr<Entity> domain_;  ///< goes after the entities in it
   Entity entity_;
   RosGraph graph_;
 };

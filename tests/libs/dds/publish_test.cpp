@@ -211,6 +211,43 @@ TEST(Publish, TheConfigurationsThatWeShipAreUnderstood) {
   const std::string folder = "file://" PALPATE_SOURCE_DIR "/config/cyclonedds/";
   EXPECT_EQ(StartFailure((folder + "one_host.xml").c_str(), 198), "started");
   EXPECT_EQ(StartFailure((folder + "two_hosts.xml").c_str(), 197), "started");
+  EXPECT_EQ(StartFailure((folder + "default.xml").c_str(), 196), "started");
+}
+
+/// Two participants in one domain, one of which goes first; whose settings the domain has.
+std::string JoinTwice(const char* cyclone_uri, uint32_t domain) {
+  const CycloneUri uri(cyclone_uri);
+  const auto settings = ApplyDomainSettings(domain);
+  Participant first({.domain_id = domain, .node_name = "first"}, BuiltInTable());
+  { Participant second({.domain_id = domain, .node_name = "second"}, BuiltInTable()); }
+  // Works on after the second has gone.
+  auto writer = first.CreateWriter(kForcesTopic);
+  EXPECT_TRUE(writer.Write(Message<idl::palpate_msgs::ForceArray>()));
+  return settings ? "built-in" : "by CYCLONEDDS_URI";
+}
+
+TEST(Publish, BuiltInSettingsHoldWhereTheUserGivesNone) {
+  EXPECT_EQ(JoinTwice("", 195), "built-in");
+  EXPECT_EQ(JoinTwice("file://" PALPATE_SOURCE_DIR "/config/cyclonedds/one_host.xml", 195),
+            "by CYCLONEDDS_URI");
+  EXPECT_EQ(JoinTwice("", 195), "built-in");
+}
+
+TEST(Publish, ADomainThatWasJoinedWithoutThemKeepsItsSettings) {
+  const CycloneUri uri("");
+  const Entity other(dds_create_participant(194, nullptr, nullptr), "a participant");
+  EXPECT_EQ(ApplyDomainSettings(194), nullptr);
+  Participant participant({.domain_id = 194, .node_name = "node"}, BuiltInTable());
+  EXPECT_GT(participant.handle(), 0);
+}
+
+TEST(Publish, BuiltInSettingsLetOtherHostsIn) {
+  const std::string_view settings = BuiltInDomainSettings();
+  EXPECT_THAT(settings, testing::HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
+  EXPECT_THAT(settings, testing::HasSubstr("<NackDelay>10ms</NackDelay>"));
+  for (const char* only_here : {"<Interfaces>", "NetworkInterface", "<Peers>", "MaxMessageSize"}) {
+    EXPECT_THAT(settings, testing::Not(testing::HasSubstr(only_here)));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "libs/dds/entity.hpp"
+
+namespace palpate::dds {
+
+/// Text of config/cyclonedds/default.xml as it was when this program was built.
+std::string_view BuiltInDomainSettings();
+
+/// Applies BuiltInDomainSettings() to a domain of this process, unless CYCLONEDDS_URI names others
+/// or the process has joined the domain already. Keep what it returns as long as anything of the
+/// domain lives; nullptr: nothing was applied. To be called before the first participant of the
+/// domain. Safe from any thread. Throws RunError where DDS refuses.
+std::shared_ptr<Entity> ApplyDomainSettings(uint32_t domain_id);
+
+}  // namespace palpate::dds
