@@ -42,11 +42,14 @@ void PrintQuality(const CapturedMarkers& captured, const experiment::Recording& 
 void PrintFrame(const ImportOptions& options, const experiment::Recording& recording,
                 std::ostream& report) {
   if (recording.frame == MeasurementFrame::kCamera) {
-    report << (recording.T_robot_camera ? "frame: camera, with its pose\n"
-                                        : "frame: camera, its pose in the robot's frame is not "
-                                          "known; give --axes, --register or --pose\n");
+    report << (recording.T_robot_camera
+                   ? "measurement frame: the capture's own, with its pose in the robot's frame\n"
+                   : "measurement frame: the capture's own; its pose in the "
+                     "robot's frame is not known: give --axes, --register "
+                     "or --pose\n");
   } else if (!options.axes.empty()) {
-    report << "frame: robot, axes only; the origin is the file's, so only displacements from a "
+    report << "measurement frame: the robot's axes only; the origin is the file's, so only "
+              "displacements from a "
               "rest window are meaningful\n";
   }
 }
