@@ -27,6 +27,7 @@ int RunNode(const std::string& program, Reader read, Maker make, int argc,
     const auto node = make(*command);
     const StopSignal stop([&] { node->Stop(); });
     node->Run();
+    LogInfo("{}", stop.Requested() ? "stopped by a signal" : "ended");
     return kExitDone;
   });
 }

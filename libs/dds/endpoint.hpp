@@ -14,13 +14,15 @@
 
 namespace palpate::dds {
 
-/// What befell one writer or reader since its start. Written by DDS's own threads.
+/// What befell one writer or reader since its start. Written by DDS's own threads, `taken` by the
+/// one that takes.
 struct EndpointCounters {
   std::atomic<uint32_t> matched{0};           ///< partners now
   std::atomic<uint32_t> matched_ever{0};      ///< partners since the start, each reappearance too
   std::atomic<uint32_t> sample_lost{0};       ///< reader: never came, or overwritten before taken
   std::atomic<uint32_t> incompatible_qos{0};  ///< partners turned away because of their QoS
   std::atomic<uint32_t> deadline_missed{0};
+  std::atomic<uint64_t> taken{0};                     ///< reader: messages that Take() gave
   std::atomic<uint32_t> last_incompatible_policy{0};  ///< dds_qos_policy_id_t
   std::function<void()> on_change;  ///< called from DDS's threads after any of the above
 };
@@ -40,6 +42,9 @@ class Endpoint {
   const std::string& ros_name() const { return ros_name_; }
   const EndpointCounters& counters() const { return *counters_; }
   uint32_t matched() const { return counters_->matched; }
+
+ protected:
+  std::atomic<uint64_t>* taken() { return &counters_->taken; }
 
  private:
   std::string ros_name_;

@@ -16,6 +16,20 @@ NodeLog::NodeLog(Participant& participant, ProcessLog process_log)
 
 void NodeLog::Write(Severity severity, std::string_view text) {
   const std::lock_guard lock(mutex_);
+  WriteLocked(severity, text);
+}
+
+void NodeLog::WarnRepeatedly(const std::string& text, const std::string& latest) {
+  const std::lock_guard lock(mutex_);
+  if (const auto line = repeated_.Add(text, latest)) WriteLocked(Severity::kWarning, *line);
+}
+
+void NodeLog::WriteCounted() {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& line : repeated_.TakeDue()) WriteLocked(Severity::kWarning, line);
+}
+
+void NodeLog::WriteLocked(Severity severity, std::string_view text) {
   if (process_log_) process_log_(severity, text);
   Message<idl::rcl_interfaces::Log> line;
   line->stamp = TimeFromNs(WallClockNs());

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "libs/core/repeated_warning.hpp"
 #include "libs/core/severity.hpp"
 #include "libs/dds/participant.hpp"
 
@@ -24,11 +25,20 @@ class NodeLog {
 
   void Write(Severity severity, std::string_view text);
 
+  /// A warning that may come with each frame: the first at once, further ones counted
+  /// (RepeatedWarning). `latest` tells this one from the others: StampText() of its frame.
+  void WarnRepeatedly(const std::string& text, const std::string& latest = {});
+  /// Writes the lines of the warnings that were counted; to be called about once a second.
+  void WriteCounted();
+
  private:
+  void WriteLocked(Severity severity, std::string_view text);
+
   std::mutex mutex_;
   std::string node_name_;
   ProcessLog process_log_;
   Writer<idl::rcl_interfaces::Log> writer_;
+  RepeatedWarning repeated_;
 };
 
 }  // namespace palpate::dds

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <utility>
 
@@ -18,8 +19,9 @@ class Samples {
  public:
   static constexpr size_t kMaxCount = 32;
 
-  /// Takes what is there now, at most kMaxCount. Failure to take shows as no samples.
-  explicit Samples(dds_entity_t reader) : reader_(reader) {
+  /// Takes what is there now, at most kMaxCount, and adds their number to `taken`. Failure to take
+  /// shows as no samples.
+  explicit Samples(dds_entity_t reader, std::atomic<uint64_t>* taken = nullptr) : reader_(reader) {
     std::array<dds_sample_info_t, kMaxCount> infos;
     taken_ = dds_take(reader_, pointers_.data(), infos.data(), kMaxCount, kMaxCount);
     for (int i = 0; i < taken_; ++i) {
@@ -28,6 +30,7 @@ class Samples {
       sent_ns_[valid_count_] = infos[index].source_timestamp;
       valid_[valid_count_++] = static_cast<T*>(pointers_[index]);
     }
+    if (taken) *taken += valid_count_;
   }
   Samples(const Samples&) = delete;
   Samples& operator=(const Samples&) = delete;
@@ -73,7 +76,7 @@ class Reader : public Endpoint {
                  std::move(on_change)) {}
 
   /// The messages that wait, oldest first: `for (const T& message : reader.Take()) ...`
-  Samples<T> Take() { return Samples<T>(handle()); }
+  Samples<T> Take() { return Samples<T>(handle(), taken()); }
 };
 
 }  // namespace palpate::dds

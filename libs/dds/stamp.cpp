@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "libs/core/utc_text.hpp"
 #include "libs/dds/message.hpp"
 
 namespace palpate::dds {
@@ -28,6 +29,8 @@ idl::builtin_interfaces::Time TimeFromNs(int64_t stamp_ns) {
 }
 
 int64_t WallClockNs() { return dds_time(); }
+
+std::string StampText(int64_t stamp_ns) { return "stamp " + UtcTextOfNs(stamp_ns); }
 
 Status CheckFrameId(const idl::std_msgs::Header& header, std::string_view expected) {
   const std::string_view frame_id = Text(header.frame_id);

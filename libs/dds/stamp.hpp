@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "builtin_interfaces/msg/Time.hpp"
@@ -18,6 +19,9 @@ idl::builtin_interfaces::Time TimeFromNs(int64_t stamp_ns);
 
 /// ns since 1970 by the system clock.
 int64_t WallClockNs();
+
+/// "stamp 2026-01-31T12:00:00.250Z", for messages about one frame.
+std::string StampText(int64_t stamp_ns);
 
 /// kInvalidInput where a message is of another frame.
 Status CheckFrameId(const idl::std_msgs::Header& header, std::string_view expected);

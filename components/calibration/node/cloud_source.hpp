@@ -31,6 +31,8 @@ class CloudSource {
 
   std::uint64_t received() const { return received_; }
   std::uint32_t writers() const { return clouds_.matched(); }
+  const dds::Endpoint& clouds() const { return clouds_; }
+  const dds::Endpoint& reports() const { return reports_; }
 
  private:
   struct Report {

@@ -79,8 +79,10 @@ CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot
       markers_{participant_.CreateReader(dds::kMarkersTopic)},
       calibration_{participant_.CreateWriter(dds::kCalibrationTopic)},
       status_{participant_.CreateWriter(dds::kCalibrationStatusTopic)},
-      clouds_{participant_, loop_, config.allow_contacts, EventsOfClouds()} {
+      clouds_{participant_, loop_, config.allow_contacts, EventsOfClouds()},
+      inputs_{participant_, loop_, log_} {
   ReadLastCalibration();
+  ExpectInputs();
   loop_.Attach(requests_, [this] { TakeRequests(); });
   loop_.Attach(joint_states_, [this] { TakeJointStates(); });
   loop_.Attach(markers_, [this] { TakeMarkers(); });
@@ -88,7 +90,11 @@ CalibrationNode::CalibrationNode(const NodeConfig& config, std::unique_ptr<robot
   loop_.Every(kTickPeriod, [this] { Tick(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
   SendProgress();
-  if (!config_.at_start) return;
+  if (!config_.at_start) {
+    log_.Write(Severity::kInfo,
+               "waiting for a request on /calibration/request (at_start: begin without one)");
+    return;
+  }
   const Request request = Defaults();
   const Status status = Check(request);
   if (!status.ok()) throw InputError("at_start: " + status.message());
@@ -107,6 +113,18 @@ void CalibrationNode::ReadLastCalibration() {
   if (config_.camera_pose.empty()) return;
   T_robot_camera_ =
       ToTransform(geometry::ReadPose(app::ParseYaml(config_.camera_pose, "camera_pose")));
+}
+
+/// While frames are collected.
+void CalibrationNode::ExpectInputs() {
+  const auto collects_clouds = [this] { return Collects("clouds"); };
+  const auto collects_markers = [this] { return Collects("markers"); };
+  const std::string perception = "palpate-perception";
+  inputs_.Expect(joint_states_, "the driver of the actuators or palpate-virtual-robot",
+                 dds::InputKind::kStream, [this] { return progress_.state == "collecting"; });
+  inputs_.Expect(clouds_.clouds(), perception, dds::InputKind::kStream, collects_clouds);
+  inputs_.Expect(clouds_.reports(), perception, dds::InputKind::kStream, collects_clouds);
+  inputs_.Expect(markers_, perception, dds::InputKind::kStream, collects_markers);
 }
 
 CloudEvents CalibrationNode::EventsOfClouds() {
@@ -371,8 +389,10 @@ void CalibrationNode::ReportHealth() {
                  {{"state", progress_.state},
                   {"calibration", last_ ? last_->date_utc : "none"},
                   {"readers_of_calibration", std::to_string(calibration_.matched())},
-                  {"writers_of_clouds", std::to_string(clouds_.writers())}},
+                  {"writers_of_clouds", std::to_string(clouds_.writers())},
+                  {"waiting_for", inputs_.Waiting()}},
                  Clock::now());
+  log_.WriteCounted();
 }
 
 }  // namespace palpate::calibration

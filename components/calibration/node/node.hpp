@@ -14,6 +14,7 @@
 #include "components/calibration/node/node_config.hpp"
 #include "components/calibration/node/worker.hpp"
 #include "libs/dds/health.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
 
@@ -39,6 +40,7 @@ class CalibrationNode {
   using Clock = dds::WaitSet::Clock;
 
   void ReadLastCalibration();
+  void ExpectInputs();
   CloudEvents EventsOfClouds();
   void TakeRequests();
   void TakeJointStates();
@@ -87,6 +89,7 @@ class CalibrationNode {
   Clock::time_point last_step_;
   std::string sent_reason_;
   dds::HealthCounts counts_;
+  dds::InputMonitor inputs_;
 };
 
 }  // namespace palpate::calibration

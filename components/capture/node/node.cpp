@@ -3,10 +3,12 @@
 
 #include "components/capture/node/node.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "libs/core/clock.hpp"
 #include "libs/core/seconds.hpp"
+#include "libs/core/text.hpp"
 
 namespace palpate::capture {
 
@@ -15,6 +17,7 @@ namespace {
 constexpr auto kLookPeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr auto kLastMessagesWait = std::chrono::seconds(2);
+constexpr auto kFirstReminder = std::chrono::seconds(8);
 constexpr double kFrameWait_s = 0.1;
 
 Status StatusOf(const SourceHealth& health) {
@@ -85,7 +88,7 @@ void CaptureNode::PublishOne(const SourceFrame& frame) {
   const bool sent = publisher_.Publish(frame, source_->Health());
   // Step by step, so that no reader misses a frame.
   if (step_ && !publisher_.WaitUntilReceived(kLastMessagesWait)) {
-    log_.Write(Severity::kWarning, "a reader has not confirmed a frame");
+    log_.WarnRepeatedly("a reader has not confirmed a frame");
   }
   const double latency_s = NsToSeconds(WallNow_ns() - frame.facts.stamp_host_ns);
   const std::lock_guard lock(mutex_);
@@ -99,9 +102,25 @@ void CaptureNode::WatchSource() {
   const bool changed = words != last_words_ || health.notes != last_notes_;
   if (changed) LogChange(health);
   last_words_ = words;
+  RemindOfCamera(health, changed);
   if (!changed && Clock::now() < next_report_) return;
   next_report_ = Clock::now() + kReportPeriod;
   Report(health);
+}
+
+/// While no frame comes, the log says so again, each time after twice the pause.
+void CaptureNode::RemindOfCamera(const SourceHealth& health, bool changed) {
+  const Clock::time_point now = Clock::now();
+  if (changed || health.state == SourceState::kStream || health.state == SourceState::kEnded) {
+    waits_since_ = now;
+    next_reminder_ = now + kFirstReminder;
+  } else if (now >= next_reminder_) {
+    log_.Write(
+        Severity::kWarning,
+        "waiting for the camera for " + FormatNumber(std::round(ToSeconds(now - waits_since_))) +
+            " s: " + (health.reason.empty() ? std::string(NameOf(health.state)) : health.reason));
+    next_reminder_ = now + (now - waits_since_);
+  }
 }
 
 void CaptureNode::LogChange(const SourceHealth& health) {
@@ -137,6 +156,7 @@ void CaptureNode::Report(const SourceHealth& health) {
                   {"socket_drops", std::to_string(health.socket_drops)},
                   {"last_failure", health.last_failure}},
                  Clock::now());
+  log_.WriteCounted();
 }
 
 }  // namespace palpate::capture

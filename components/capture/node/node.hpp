@@ -39,6 +39,7 @@ class CaptureNode {
   void PublishOne(const SourceFrame& frame);
   void WatchSource();
   void LogChange(const SourceHealth& health);
+  void RemindOfCamera(const SourceHealth& health, bool changed);
   void Report(const SourceHealth& health);
 
   bool step_;
@@ -54,6 +55,8 @@ class CaptureNode {
   std::string last_words_;    ///< state and reason, logged when they change
   std::vector<std::string> last_notes_;
   Clock::time_point next_report_;
+  Clock::time_point waits_since_;  ///< for the camera
+  Clock::time_point next_reminder_;
   std::atomic<bool> stop_{false};
   std::thread writer_;
 };

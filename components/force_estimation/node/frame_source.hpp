@@ -12,6 +12,7 @@
 
 #include "components/force_estimation/node/frame_input.hpp"
 #include "libs/core/status.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/robot/calibration_file.hpp"
 
 namespace palpate::force_estimation {
@@ -51,9 +52,13 @@ class FrameSource {
   /// Uses the camera pose of a calibration, and checks images by its depth bias, from now on.
   virtual void SetCalibration(const robot::CalibrationFile&) {}
 
+  /// Has `inputs` watch the readers, which this owns.
+  virtual void ExpectInputs(dds::InputMonitor& inputs) const = 0;
+
   virtual std::string name() const = 0;  ///< of the frames, for messages: "markers"
   virtual uint64_t dropped() const = 0;  ///< frames that were lost or overtaken before they came
-  virtual uint32_t writers() const = 0;  ///< that match its readers
+  virtual bool knows_camera_pose() const { return true; }  ///< or needs none
+  virtual uint32_t writers() const = 0;                    ///< that match its readers
   virtual uint32_t incompatible_qos() const = 0;
 
  protected:

@@ -20,6 +20,10 @@ class MarkerSource : public FrameSource {
   MarkerSource(dds::Participant& participant, dds::WaitSet& loop, std::vector<std::string> names,
                TakeArrival take);
 
+  void ExpectInputs(dds::InputMonitor& inputs) const override {
+    inputs.Expect(markers_, "palpate-perception or palpate-player");
+  }
+
   std::string name() const override { return "markers"; }
   uint64_t dropped() const override { return gate_.lost(); }
   uint32_t writers() const override { return markers_.matched(); }

@@ -13,8 +13,10 @@
 #include "components/force_estimation/node/marker_source.hpp"
 #include "components/force_estimation/node/shape_source.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/core/clock.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/joint_states.hpp"
 #include "libs/dds/stamp.hpp"
@@ -41,9 +43,7 @@ std::optional<Eigen::Isometry3d> CameraPose(const NodeConfig& config) {
   return geometry::ReadPose(app::ParseYaml(config.camera_pose, "camera_pose"));
 }
 
-double SecondsSince(dds::WaitSet::Clock::time_point then) {
-  return std::chrono::duration<double>(dds::WaitSet::Clock::now() - then).count();
-}
+double SecondsNow() { return NsToSeconds(MonotonicNow_ns()); }
 
 }  // namespace
 
@@ -67,7 +67,9 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
       calibration_(participant_, worker_.model()),
       in_use_(calibration),
-      source_(MakeSource()) {
+      force_lines_(SecondsNow()),
+      source_(MakeSource()),
+      inputs_(participant_, loop_, log_) {
   last_status_ = {StatusCode::kNotRun, "no " + source_->name() + " on /perception/" +
                                            (IsFromShape(config) ? "robot_cloud" : "markers") +
                                            " yet"};
@@ -82,6 +84,15 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
   }
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
+  ExpectInputs();
+}
+
+void ForceEstimationNode::ExpectInputs() {
+  source_->ExpectInputs(inputs_);
+  inputs_.Expect(joint_states_, "the driver of the actuators or palpate-virtual-robot");
+  if (!config_.follow_calibration) return;
+  inputs_.Expect(calibration_.reader(), "palpate-calibration", dds::InputKind::kLatched,
+                 [this] { return !source_->knows_camera_pose(); });
 }
 
 std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
@@ -132,7 +143,7 @@ void ForceEstimationNode::TakeCalibration() {
       Adopt(verdict.calibration);
     } else {
       ++counts_.refused;
-      log_.Write(Severity::kWarning, "/calibration refused: " + verdict.status.message());
+      log_.WarnRepeatedly("/calibration refused: " + verdict.status.message());
     }
   }
 }
@@ -178,9 +189,8 @@ void ForceEstimationNode::Accept(FrameInput input) {
 void ForceEstimationNode::Refuse(const FrameHead& head, const Status& status) {
   ++counts_.refused;
   last_status_ = status;
-  if (std::exchange(last_refusal_, status.message()) != status.message()) {
-    log_.Write(Severity::kWarning, source_->name() + " refused: " + status.message());
-  }
+  log_.WarnRepeatedly(source_->name() + " refused: " + status.message(),
+                      dds::StampText(head.stamp_ns));
   outputs_.PublishRefusal(head, status);
 }
 
@@ -235,6 +245,7 @@ void ForceEstimationNode::PublishResults() {
     drift_ = result->drift;
     if (result->gap_so_far.state != gap_.state) LogGap(result->gap_so_far);
     gap_ = result->gap_so_far;
+    force_lines_.Add(result->estimate);
     outputs_.Publish(*result);
   }
 }
@@ -252,7 +263,16 @@ void ForceEstimationNode::ReportHealth() {
       {"incompatible_qos", std::to_string(source_->incompatible_qos())}};
   AppendDrift(drift_, &values);
   AppendGap(gap_, &values);
+  values.emplace_back("waiting_for", inputs_.Waiting());
   health_.Report(status, counts, values, Clock::now());
+  LogForces();
+  log_.WriteCounted();
+}
+
+void ForceEstimationNode::LogForces() {
+  for (const std::string& line : force_lines_.Take(SecondsNow())) {
+    log_.Write(Severity::kInfo, line);
+  }
 }
 
 void ForceEstimationNode::LogDrift(const DriftReport& drift) {

@@ -10,11 +10,13 @@
 
 #include "components/force_estimation/node/cable_history.hpp"
 #include "components/force_estimation/node/calibration_input.hpp"
+#include "components/force_estimation/node/force_lines.hpp"
 #include "components/force_estimation/node/frame_source.hpp"
 #include "components/force_estimation/node/node_config.hpp"
 #include "components/force_estimation/node/outputs.hpp"
 #include "components/force_estimation/node/worker.hpp"
 #include "libs/dds/health.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
 
@@ -59,6 +61,8 @@ class ForceEstimationNode {
   Status CurrentStatus() const;
   void LogDrift(const DriftReport& drift);
   void LogGap(const GapReport& gap);
+  void ExpectInputs();
+  void LogForces();
 
   NodeConfig config_;
   dds::Participant participant_;
@@ -83,8 +87,9 @@ class ForceEstimationNode {
   DriftReport drift_;
   GapReport gap_;
   Clock::time_point last_frame_;
-  std::string last_refusal_;
+  ForceLines force_lines_;
   std::unique_ptr<FrameSource> source_;
+  dds::InputMonitor inputs_;
 };
 
 }  // namespace palpate::force_estimation

@@ -33,6 +33,13 @@ ShapeSource::ShapeSource(dds::Participant& participant, dds::WaitSet& loop,
   loop.Attach(contacts_, [this] { TakeContacts(); });
 }
 
+void ShapeSource::ExpectInputs(dds::InputMonitor& inputs) const {
+  const std::string publisher = "palpate-perception";
+  inputs.Expect(clouds_, publisher);
+  inputs.Expect(reports_, publisher);
+  inputs.Expect(contacts_, publisher);
+}
+
 /// Incomplete frames are dropped: they were taken from the old camera pose.
 void ShapeSource::SetCalibration(const robot::CalibrationFile& calibration) {
   if (!calibration.pose) return;

@@ -26,8 +26,11 @@ class ShapeSource : public FrameSource {
   /// Frames of other images than the calibration's depth bias is for are refused.
   void SetCalibration(const robot::CalibrationFile& calibration) override;
 
+  void ExpectInputs(dds::InputMonitor& inputs) const override;
+
   std::string name() const override { return "clouds"; }
   uint64_t dropped() const override { return dropped_; }
+  bool knows_camera_pose() const override { return T_robot_camera_.has_value(); }
   uint32_t writers() const override { return contacts_.matched(); }
   uint32_t incompatible_qos() const override {
     return clouds_.counters().incompatible_qos + reports_.counters().incompatible_qos +

@@ -56,8 +56,10 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       outputs_{participant_, !config.markers.color_rgb.empty()},
       pairing_{FromSeconds(config.pairing_wait_s)},
       worker_{
-          {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}} {
+          {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
+      inputs_{participant_, loop_, log_} {
   AttachReaders();
+  ExpectInputs();
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
   if (pose_.T_robot_camera()) return;
@@ -75,6 +77,21 @@ void PerceptionNode::AttachReaders() {
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
   if (!config_.follow_calibration) return;
   loop_.Attach(calibrations_, [this] { TakeCalibration(); });
+}
+
+/// Colour is no needed input: a camera may have none.
+void PerceptionNode::ExpectInputs() {
+  using Kind = dds::InputKind;
+  const std::string capture = "palpate-capture";
+  inputs_.Expect(setups_, capture, Kind::kLatched);
+  inputs_.Expect(depth_lenses_, capture, Kind::kLatched);
+  inputs_.Expect(depths_, capture);
+  inputs_.Expect(infos_, capture);
+  // The model answers frames, and without a pose its surface is of no use.
+  const auto needs_model = [this] { return pose_.T_robot_camera() && !IsSilent(); };
+  const std::string model = "palpate-force-estimation";
+  inputs_.Expect(meshes_, model, Kind::kLatched, needs_model);
+  inputs_.Expect(mesh_states_, model, Kind::kStream, needs_model);
 }
 
 /// Comes before the frames that are taken with it: who takes frames asks for it first.
@@ -137,7 +154,7 @@ void PerceptionNode::TakeFacts() {
 void PerceptionNode::TakeMesh() {
   for (const auto& message : meshes_.Take()) {
     const Status status = predictions_.SetMesh(message);
-    if (!status.ok()) log_.Write(Severity::kWarning, "/robot/mesh: " + status.message());
+    if (!status.ok()) log_.WarnRepeatedly("/robot/mesh: " + status.message());
   }
   AdoptCalibration();
 }
@@ -147,7 +164,7 @@ void PerceptionNode::TakeCalibration() {
     const Status status = pose_.Take(message);
     if (status.ok()) continue;
     ++counts_.refused;
-    log_.Write(Severity::kWarning, "/calibration refused: " + status.message());
+    log_.WarnRepeatedly("/calibration refused: " + status.message());
   }
   AdoptCalibration();
 }
@@ -156,7 +173,7 @@ void PerceptionNode::AdoptCalibration() {
   const Status status = pose_.Adopt(predictions_.mesh_hash());
   if (status.ok()) return;
   ++counts_.refused;
-  log_.Write(Severity::kWarning, "/calibration refused: " + status.message());
+  log_.WarnRepeatedly("/calibration refused: " + status.message());
 }
 
 void PerceptionNode::TakeMeshStates() {
@@ -249,9 +266,7 @@ void PerceptionNode::Work(FrameSet set) {
     return;
   }
   ++counts_.refused;
-  if (std::exchange(last_refusal_, status.message()) != status.message()) {
-    log_.Write(Severity::kWarning, "frame refused: " + status.message());
-  }
+  log_.WarnRepeatedly("frame refused: " + status.message(), dds::StampText(set.stamp_ns));
   PerceptionJob refused = HeadOf(set);
   refused.outcome.observation.stamp_ns = set.stamp_ns;
   refused.outcome.observation.frame.status = status;
@@ -308,7 +323,6 @@ void PerceptionNode::PublishResults() {
 
 void PerceptionNode::Publish(const FrameOutcome& outcome, Clock::time_point taken) {
   last_status_ = outcome.observation.frame.status;
-  if (last_status_.ok()) last_refusal_.clear();
   outputs_.Publish(outcome, taken);
   published_at_ = Clock::now();
 }
@@ -322,12 +336,18 @@ void PerceptionNode::ReportHealth() {
                  {{"device", camera_.device()},
                   {"readers_of_contacts", std::to_string(outputs_.readers())},
                   {"writers_of_depth", std::to_string(depths_.matched())},
-                  {"incompatible_qos", std::to_string(depths_.counters().incompatible_qos)}},
+                  {"incompatible_qos", std::to_string(depths_.counters().incompatible_qos)},
+                  {"waiting_for", inputs_.Waiting()}},
                  Clock::now());
+  log_.WriteCounted();
+}
+
+bool PerceptionNode::IsSilent() const {
+  return counts_.received == 0 || SecondsSince(last_depth_) > config_.silence_s;
 }
 
 Status PerceptionNode::CurrentStatus() const {
-  if (counts_.received > 0 && SecondsSince(last_depth_) > config_.silence_s) {
+  if (counts_.received > 0 && IsSilent()) {
     return {StatusCode::kStale,
             "no depth images for " + FormatNumber(std::round(SecondsSince(last_depth_))) + " s"};
   }

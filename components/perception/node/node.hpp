@@ -15,6 +15,7 @@
 #include "components/perception/node/prediction_history.hpp"
 #include "components/perception/node/worker.hpp"
 #include "libs/dds/health.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
 
@@ -40,6 +41,7 @@ class PerceptionNode {
   using Clock = dds::WaitSet::Clock;
 
   void AttachReaders();
+  void ExpectInputs();
   void TakeCamera();
   void TakeDepth();
   void TakeColor();
@@ -63,6 +65,7 @@ class PerceptionNode {
   void PublishResults();
   void Publish(const FrameOutcome& outcome, Clock::time_point taken);
   void ReportHealth();
+  bool IsSilent() const;
   Status CurrentStatus() const;
 
   NodeConfig config_;
@@ -97,7 +100,7 @@ class PerceptionNode {
   Clock::time_point last_depth_;
   dds::HealthCounts counts_;
   Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};
-  std::string last_refusal_;
+  dds::InputMonitor inputs_;
 };
 
 }  // namespace palpate::perception

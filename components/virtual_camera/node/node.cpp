@@ -58,7 +58,12 @@ VirtualCameraNode::VirtualCameraNode(const NodeConfig& config, Scene scene, int 
       bench_states_{participant_.CreateReader(dds::kBenchStateTopic)},
       mesh_states_{participant_.CreateReader(dds::kTrueMeshStateTopic)},
       device_{DeviceOf(config, scene_), CameraOf(scene_.schedule.scenario()).camera},
-      last_state_ns_{MonotonicNow_ns()} {
+      last_state_ns_{MonotonicNow_ns()},
+      inputs_{participant_, loop_, log_} {
+  const std::string publisher = "palpate-virtual-robot";
+  inputs_.Expect(meshes_, publisher, dds::InputKind::kLatched);
+  inputs_.Expect(bench_states_, publisher);
+  inputs_.Expect(mesh_states_, publisher);
   robot_surface_.markers_m = scene_.markers_m;
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(bench_states_, [this] { TakeBenchStates(); });
@@ -71,7 +76,7 @@ VirtualCameraNode::VirtualCameraNode(const NodeConfig& config, Scene scene, int 
 void VirtualCameraNode::TakeMesh() {
   for (const idl::palpate_msgs::Mesh& message : meshes_.Take()) {
     if (const Status status = FromMesh(message, &robot_surface_); !status.ok()) {
-      Refuse(status);
+      Refuse(status, dds::StampNs(message.header.stamp));
       continue;
     }
     mesh_hash_ = dds::Text(message.mesh_hash);
@@ -89,7 +94,7 @@ void VirtualCameraNode::TakeBenchStates() {
       status = {StatusCode::kInvalidInput, "the virtual robot runs another scenario or seed"};
     }
     if (!status.ok()) {
-      Refuse(status);
+      Refuse(status, dds::StampNs(message.header.stamp));
       continue;
     }
     benches_[dds::StampNs(message.header.stamp)] = std::move(view);
@@ -111,7 +116,7 @@ void VirtualCameraNode::TakeMeshStates() {
     View& view = bench.mapped();
     if (const Status status = FromMeshState(message, robot_surface_.rest_m.cols(), &view);
         !status.ok()) {
-      Refuse(status);
+      Refuse(status, dds::StampNs(message.header.stamp));
       continue;
     }
     if (newest) ++counts_.dropped;
@@ -132,11 +137,10 @@ void VirtualCameraNode::TakePicture(std::int64_t stamp_ns, const View& view) {
   counts_.latencies_s.push_back(SecondsSince(start));
 }
 
-void VirtualCameraNode::Refuse(const Status& status) {
+void VirtualCameraNode::Refuse(const Status& status, std::int64_t stamp_ns) {
   ++counts_.refused;
-  if (std::exchange(last_refusal_, status.message()) != status.message()) {
-    log_.Write(Severity::kWarning, "truth refused: " + status.message());
-  }
+  last_refusal_ = status.message();
+  log_.WarnRepeatedly("truth refused: " + status.message(), dds::StampText(stamp_ns));
 }
 
 Status VirtualCameraNode::StatusNow() const {
@@ -155,8 +159,10 @@ void VirtualCameraNode::ReportHealth() {
                   {"packets_sent", std::to_string(sent.packets_sent)},
                   {"packets_withheld", std::to_string(sent.packets_withheld)},
                   {"packets_resent", std::to_string(sent.packets_resent)},
-                  {"resend_refused", std::to_string(sent.resend_refused)}},
+                  {"resend_refused", std::to_string(sent.resend_refused)},
+                  {"waiting_for", inputs_.Waiting()}},
                  Clock::now());
+  log_.WriteCounted();
   counts_.latencies_s.clear();
 }
 

@@ -12,6 +12,7 @@
 #include "components/virtual_camera/node/config.hpp"
 #include "components/virtual_camera/virtual_camera.hpp"
 #include "libs/dds/health.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
 #include "libs/gige_vision/device.hpp"
@@ -48,7 +49,7 @@ class VirtualCameraNode {
   void TakeBenchStates();
   void TakeMeshStates();
   void TakePicture(std::int64_t stamp_ns, const View& view);
-  void Refuse(const Status& status);
+  void Refuse(const Status& status, std::int64_t stamp_ns);
   Status StatusNow() const;
   void ReportHealth();
 
@@ -70,6 +71,7 @@ class VirtualCameraNode {
   std::int64_t last_state_ns_;
   std::string last_refusal_;
   dds::HealthCounts counts_;
+  dds::InputMonitor inputs_;
 };
 
 }  // namespace palpate::virtual_camera

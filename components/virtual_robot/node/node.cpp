@@ -49,7 +49,10 @@ VirtualRobotNode::VirtualRobotNode(const NodeConfig& config, BenchSetup bench, i
       bench_state_{participant_.CreateWriter(dds::kBenchStateTopic)},
       clock_{1.0 / config.rate_hz, config.max_step_s},
       commanded_m_{NothingDriven(bench_.cables.size())},
-      last_command_ns_{MonotonicNow_ns()} {
+      last_command_ns_{MonotonicNow_ns()},
+      inputs_{participant_, loop_, log_} {
+  inputs_.Expect(commands_, "the controller", dds::InputKind::kStream,
+                 [this] { return config_.commands == "topic"; });
   loop_.Attach(commands_, [this] { TakeCommands(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
 }
@@ -82,11 +85,11 @@ void VirtualRobotNode::Step() {
   const double bench_s = clock_.Tick(Seconds(now));
   counts_.dropped += clock_.missed() - missed_before;
   const scenario::BenchInputs inputs = InputsNow();
-  const Status before = std::exchange(physics_, bench_.robot->Advance(bench_s, inputs));
+  physics_ = bench_.robot->Advance(bench_s, inputs);
   counts_.latencies_s.push_back(Seconds(Clock::now()) - Seconds(now));
   if (!physics_.ok()) {
     ++counts_.refused;
-    if (before.ok()) log_.Write(Severity::kWarning, "no new state: " + physics_.message());
+    log_.WarnRepeatedly("no new state: " + physics_.message());
     return;
   }
   Publish(inputs, bench_.schedule.At(bench_s - pass_start_s_));
@@ -137,7 +140,8 @@ void VirtualRobotNode::TakeCommands() {
       continue;
     }
     ++counts_.refused;
-    log_.Write(Severity::kWarning, "command refused: " + status.message());
+    log_.WarnRepeatedly("command refused: " + status.message(),
+                        dds::StampText(dds::StampNs(message.header.stamp)));
   }
 }
 
@@ -155,8 +159,12 @@ void VirtualRobotNode::ReportHealth() {
   const auto moment = bench_.schedule.At(clock_.bench_s() - pass_start_s_);
   const auto& plan = bench_.schedule.scenario().recordings[At(moment.recording)];
   health_.Report(StatusNow(), counts_,
-                 {{"recording", plan.name}, {"t_s", FormatNumber(moment.t_s)}}, Clock::now());
+                 {{"recording", plan.name},
+                  {"t_s", FormatNumber(moment.t_s)},
+                  {"waiting_for", inputs_.Waiting()}},
+                 Clock::now());
   counts_.latencies_s.clear();
+  log_.WriteCounted();
 }
 
 }  // namespace palpate::virtual_robot

@@ -13,6 +13,7 @@
 #include "components/virtual_robot/node/convert.hpp"
 #include "components/virtual_robot/virtual_robot.hpp"
 #include "libs/dds/health.hpp"
+#include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/wait_set.hpp"
 #include "libs/scenario/schedule.hpp"
@@ -71,6 +72,7 @@ class VirtualRobotNode {
   std::uint64_t counter_ = 0;
   Status physics_;
   dds::HealthCounts counts_;
+  dds::InputMonitor inputs_;
 };
 
 }  // namespace palpate::virtual_robot
