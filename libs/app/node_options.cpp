@@ -36,14 +36,22 @@ int DomainOfEnvironment() {
 
 }  // namespace
 
+void DeclareDomain(Arguments& arguments, int* domain_id) {
+  *domain_id = kDomainNotGiven;
+  arguments.Option("--domain", domain_id, 0, kMaxDomain,
+                   "DDS domain; without it the value of ROS_DOMAIN_ID, else 0");
+}
+
+void SettleDomain(int* domain_id) {
+  if (*domain_id == kDomainNotGiven) *domain_id = DomainOfEnvironment();
+}
+
 void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
-  options->domain_id = kDomainNotGiven;
   arguments.Option("--config", &options->config_file,
                    "Settings file (YAML); settings that it lacks keep their defaults");
   arguments.Repeated("--set KEY=VALUE", &options->overrides,
                      "Change one setting; overrides the settings file");
-  arguments.Option("--domain", &options->domain_id, 0, kMaxDomain,
-                   "DDS domain; without it the value of ROS_DOMAIN_ID, else 0");
+  DeclareDomain(arguments, &options->domain_id);
   arguments.Choice("--log-level LEVEL", &options->log_level, {"debug", "info", "warning", "error"},
                    "Lowest severity that is logged: debug, info, warning or error");
   arguments.Flag("--print-config", &options->print_config,
@@ -56,7 +64,7 @@ bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* option
   if (options->markdown && !options->print_config) {
     throw InputError("--markdown needs --print-config: give both");
   }
-  if (options->domain_id == kDomainNotGiven) options->domain_id = DomainOfEnvironment();
+  SettleDomain(&options->domain_id);
   if (!options->config_file.empty()) {
     const std::string bytes = ReadFile(options->config_file);
     options->config_sha256 = Sha256Hex(bytes);

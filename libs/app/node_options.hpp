@@ -24,6 +24,14 @@ struct NodeOptions {
   bool markdown = false;
 };
 
+/// --domain alone, for commands that join a domain but have no settings. Its value lands in
+/// `domain_id` when the arguments are parsed, and SettleDomain() must follow.
+void DeclareDomain(Arguments& arguments, int* domain_id);
+
+/// Where --domain was not given: the domain of ROS_DOMAIN_ID, else 0. Throws InputError where
+/// ROS_DOMAIN_ID is no domain.
+void SettleDomain(int* domain_id);
+
 /// Declares the options above; their values land in `options` when the arguments are parsed.
 void DeclareNodeOptions(Arguments& arguments, NodeOptions* options);
 

@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-#include "components/palpate/node/demo/demo_messages.hpp"
+#include "components/palpate/node/live/live_messages.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
 
@@ -26,7 +26,7 @@ int TestDomain() {
 class FakeSystem {
  public:
   FakeSystem()
-      : participant_(JoinDomain(TestDomain())),
+      : participant_(JoinDomain("fake_system", TestDomain())),
         truth_(participant_.CreateWriter(dds::kTrueForcesTopic)),
         pictures_(participant_.CreateWriter(dds::kFrameInfoTopic)),
         perceived_(participant_.CreateWriter(dds::kPerceptionReportTopic)),

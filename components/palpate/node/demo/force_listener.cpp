@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "components/palpate/node/demo/demo_messages.hpp"
+#include "components/palpate/node/live/live_messages.hpp"
 #include "libs/dds/stamp.hpp"
 
 namespace palpate::command {
@@ -17,7 +17,7 @@ constexpr auto kPollPeriod = std::chrono::milliseconds(50);
 }  // namespace
 
 ForceListener::ForceListener(int domain_id)
-    : participant_(JoinDomain(domain_id)),
+    : participant_(JoinDomain("palpate_demo", domain_id)),
       loop_(participant_),
       forces_(participant_.CreateReader(dds::kForcesTopic)),
       mesh_states_(participant_.CreateReader(dds::kMeshStateTopic)) {

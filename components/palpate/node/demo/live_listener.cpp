@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "components/palpate/node/demo/demo_messages.hpp"
+#include "components/palpate/node/live/live_messages.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/dds/message.hpp"
 #include "libs/dds/stamp.hpp"
@@ -20,7 +20,7 @@ constexpr auto kLivePollPeriod = std::chrono::milliseconds(50);
 
 LiveListener::LiveListener(int domain_id, Truth truth)
     : with_truth_(truth == Truth::kKnown),
-      participant_(JoinDomain(domain_id)),
+      participant_(JoinDomain("palpate_demo", domain_id)),
       loop_(participant_),
       forces_(participant_.CreateReader(dds::kForcesTopic)),
       mesh_states_(participant_.CreateReader(dds::kMeshStateTopic)),

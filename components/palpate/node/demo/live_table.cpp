@@ -4,13 +4,12 @@
 #include "components/palpate/node/demo/live_table.hpp"
 
 #include <fmt/core.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <utility>
 
 #include "components/palpate/compare/live_line.hpp"
+#include "components/palpate/node/live/terminal.hpp"
 
 namespace palpate::command {
 
@@ -18,20 +17,11 @@ namespace {
 
 constexpr std::int64_t kTerminalStep_ns = 100'000'000;
 constexpr std::int64_t kPlainStep_ns = 1'000'000'000;
-constexpr std::size_t kUsualColumns = 120;
-
-std::size_t TerminalColumns() {
-  winsize size{};
-  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : kUsualColumns;
-}
 
 }  // namespace
 
 LiveTable::LiveTable(Clock clock)
-    : clock_(std::move(clock)),
-      terminal_(isatty(STDOUT_FILENO) != 0),
-      shown_ns_(clock_() - kPlainStep_ns) {}
+    : clock_(std::move(clock)), terminal_(IsTerminal()), shown_ns_(clock_() - kPlainStep_ns) {}
 
 LiveTable::~LiveTable() {
   if (on_screen_) fmt::print("\n");
@@ -42,7 +32,7 @@ void LiveTable::Show(const std::string& line) {
   if (now_ns - shown_ns_ < (terminal_ ? kTerminalStep_ns : kPlainStep_ns)) return;
   shown_ns_ = now_ns;
   if (terminal_) {
-    fmt::print("\r\033[K{}", Cut(line, TerminalColumns() - 1));
+    fmt::print("\r\033[K{}", Cut(line, SizeOfTerminal().columns - 1));
   } else {
     fmt::print("{}\n", line);
   }

@@ -5,17 +5,23 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
 #include "components/palpate/compare/truth_timeline.hpp"
+#include "libs/core/status.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/dds/topics.hpp"
 
 namespace palpate::command {
 
-/// The demonstration as a node. Throws RunError where DDS refuses.
-dds::Participant JoinDomain(int domain_id);
+/// A node with the built-in topic table. Throws RunError where DDS refuses.
+dds::Participant JoinDomain(const std::string& node_name, int domain_id);
+
+/// The status of a word of forces.csv; an unknown word is an invalid input.
+Status ParseStatus(std::string_view word, std::string_view reason);
 
 /// A /forces message; t_s is its stamp, s since the epoch.
 force_estimation::ForceEstimate ToEstimate(const idl::palpate_msgs::ForceArray& message);

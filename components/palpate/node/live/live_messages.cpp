@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/palpate/node/demo/demo_messages.hpp"
+#include "components/palpate/node/live/live_messages.hpp"
 
 #include <string>
 
@@ -13,9 +13,6 @@
 
 namespace palpate::command {
 
-namespace {
-
-// The status of a word of forces.csv; an unknown word is an invalid input.
 Status ParseStatus(std::string_view word, std::string_view reason) {
   for (int code = 0; code <= static_cast<int>(StatusCode::kInvalidInput); ++code) {
     if (ToString(static_cast<StatusCode>(code)) == word) {
@@ -25,11 +22,9 @@ Status ParseStatus(std::string_view word, std::string_view reason) {
   return {StatusCode::kInvalidInput, "unknown status '" + std::string(word) + "'"};
 }
 
-}  // namespace
-
-dds::Participant JoinDomain(int domain_id) {
+dds::Participant JoinDomain(const std::string& node_name, int domain_id) {
   const dds::NodeSettings settings;
-  return dds::Participant(dds::ParticipantOf(settings, "palpate_demo", domain_id),
+  return dds::Participant(dds::ParticipantOf(settings, node_name, domain_id),
                           dds::LoadTopicTable(settings, app::LoadYaml, app::ParseYaml));
 }
 

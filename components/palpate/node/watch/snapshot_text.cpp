@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/watch/snapshot_text.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "libs/core/utc_text.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+// A line that is older than this says so.
+constexpr double kOld_s = 2.0;
+
+/// " (reason)"; empty where there is none.
+std::string InBrackets(const std::string& reason) {
+  return reason.empty() ? std::string() : " (" + reason + ")";
+}
+
+std::string Ms(double seconds) { return fmt::format("{:.0f} ms", 1e3 * seconds); }
+
+std::string FlowText(const TopicFlow& flow) {
+  if (flow.silence_s > kOld_s) return fmt::format("no message for {:.1f} s", flow.silence_s);
+  std::string text = fmt::format("{:.1f}/s", flow.rate_hz);
+  if (flow.lost > 0) text += fmt::format(", {} of {} lost", flow.lost, flow.received + flow.lost);
+  return text;
+}
+
+std::string ForceLine(const ForceState& force) {
+  const Eigen::Vector3d at_mm = 1e3 * force.position_m;
+  std::string size = force.force_N.allFinite()
+                         ? fmt::format("{:8.3f} +- {:.3f} N", force.force_N.norm(), force.ci95_N)
+                         : "       ? N";
+  std::string place =
+      fmt::format("at ({:.0f}, {:.0f}, {:.0f}) mm", at_mm.x(), at_mm.y(), at_mm.z());
+  if (force.location_ci95_m > 0.0) {
+    place += fmt::format(" +- {:.0f} mm", 1e3 * force.location_ci95_m);
+  }
+  return fmt::format("  {:<16} {:<20} {:<34} {}{}\n", force.name, size, place, force.status,
+                     InBrackets(force.reason));
+}
+
+std::string ForcesText(const SystemSnapshot& snapshot) {
+  if (!snapshot.forces) return "FORCES       no message on /forces\n";
+  const ForcesState& state = *snapshot.forces;
+  std::string text = fmt::format("FORCES       {}{}; {}", state.status, InBrackets(state.reason),
+                                 FlowText(state.flow));
+  text += fmt::format("; age {}, of it estimation {}\n", Ms(state.age_s), Ms(state.latency_s));
+  for (const ForceState& force : state.forces) text += ForceLine(force);
+  if (state.forces.empty()) text += "  none\n";
+  return text;
+}
+
+std::string ModelErrorText(const SystemSnapshot& snapshot) {
+  if (!snapshot.model_error) return {};
+  const ModelErrorState& state = *snapshot.model_error;
+  return fmt::format("MODEL ERROR  {}residual {:.2f} mm, noise {:.2f} mm, {} samples; {}\n",
+                     state.judgement.empty() ? "" : state.judgement + "; ",
+                     1e3 * state.residual_rms_m, 1e3 * state.noise_rms_m, state.samples,
+                     FlowText(state.flow));
+}
+
+std::string PerceptionText(const SystemSnapshot& snapshot) {
+  if (!snapshot.perception) return {};
+  const PerceptionState& state = *snapshot.perception;
+  std::string text =
+      fmt::format("PERCEPTION   {}{}; {} robot points, {} object points, {} contacts; {}; {}\n",
+                  state.status, InBrackets(state.reason), state.robot_points, state.object_points,
+                  state.contacts, FlowText(state.flow), Ms(state.latency_s));
+  for (const std::string& note : state.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+std::string CameraText(const SystemSnapshot& snapshot) {
+  if (!snapshot.camera) return {};
+  const CameraState& state = *snapshot.camera;
+  return fmt::format(
+      "CAMERA       {} (epoch {}); {}; {:.0f} % of the pixels have depth; {} frames failed, {} "
+      "dropped; {} packets lost\n",
+      state.device, state.epoch, FlowText(state.flow), 1e2 * state.valid_ratio, state.frames_failed,
+      state.frames_dropped, state.packets_lost);
+}
+
+std::string CablesText(const SystemSnapshot& snapshot) {
+  if (!snapshot.cables) return {};
+  std::string text = "CABLES       " + FlowText(snapshot.cables->flow);
+  for (const CableValue& cable : snapshot.cables->cables) {
+    text += "; " + cable.name;
+    if (std::isfinite(cable.displacement_m)) {
+      text += fmt::format(" {:.1f} mm", 1e3 * cable.displacement_m);
+    }
+    if (std::isfinite(cable.tension_N)) text += fmt::format(" {:.2f} N", cable.tension_N);
+  }
+  return text + "\n";
+}
+
+std::string MeshText(const SystemSnapshot& snapshot) {
+  if (!snapshot.mesh) return {};
+  return fmt::format("MESH STATE   {}; {}\n", snapshot.mesh->status, FlowText(snapshot.mesh->flow));
+}
+
+std::string CalibrationText(const SystemSnapshot& snapshot) {
+  if (!snapshot.calibration) return {};
+  const CalibrationState& state = *snapshot.calibration;
+  std::string text = "CALIBRATION  " + state.state;
+  if (state.frames_wanted > 0) {
+    text += fmt::format(", {} of {} frames", state.frames_taken, state.frames_wanted);
+  }
+  return text + InBrackets(state.reason) + "\n";
+}
+
+std::string ProcessLine(const ProcessState& process) {
+  const std::string status =
+      process.IsSilent() ? fmt::format("silent {:.0f} s", process.silence_s) : process.status;
+  std::string line = fmt::format(
+      "  {:<17} {:<16} {:>7.1f} {:>7.1f} {:>7.1f} {:>8.1f} {:>9} {:>9} {:>8} {:>8} {:>8.0f}\n",
+      process.name, status, process.input_rate_hz, process.output_rate_hz,
+      1e3 * process.latency_mean_s, 1e3 * process.latency_max_s, process.received,
+      process.published, process.dropped, process.refused, process.uptime_s);
+  if (process.restarts > 0) line += fmt::format("    restarts seen: {}\n", process.restarts);
+  if (!process.reason.empty()) line += "    " + process.reason + "\n";
+  if (!process.waiting_for.empty()) line += "    " + process.waiting_for + "\n";
+  return line;
+}
+
+std::string ProcessesText(const SystemSnapshot& snapshot) {
+  std::string text = fmt::format(
+      "PROCESSES\n  {:<17} {:<16} {:>7} {:>7} {:>7} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "",
+      "status", "in/s", "out/s", "mean ms", "max ms", "received", "published", "dropped", "refused",
+      "uptime s");
+  for (const ProcessState& process : snapshot.processes) text += ProcessLine(process);
+  return text;
+}
+
+std::string OthersText(const SystemSnapshot& snapshot) {
+  if (snapshot.others.empty()) return {};
+  std::string text = "OTHER DIAGNOSTICS\n";
+  for (const OtherDiagnosis& other : snapshot.others) {
+    text += fmt::format("  {:<34} {:<8} {} ({:.0f} s ago)\n", other.name, other.level,
+                        other.message, other.silence_s);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string SnapshotText(const SystemSnapshot& snapshot) {
+  std::string text = fmt::format("palpate watch, domain {}, {}\n", snapshot.domain_id,
+                                 UtcTextOfNs(snapshot.time_ns));
+  if (snapshot.processes.empty()) {
+    text += fmt::format(
+        "no palpate process in domain {}: start one there, or give its domain with --domain\n",
+        snapshot.domain_id);
+    if (!snapshot.forces) return text + OthersText(snapshot);
+  }
+  text += ForcesText(snapshot) + ModelErrorText(snapshot) + MeshText(snapshot) +
+          PerceptionText(snapshot) + CameraText(snapshot) + CablesText(snapshot) +
+          CalibrationText(snapshot);
+  if (!snapshot.processes.empty()) text += ProcessesText(snapshot);
+  return text + OthersText(snapshot);
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/watch/system_listener.hpp"
+
+#include "components/palpate/node/live/live_messages.hpp"
+#include "libs/core/clock.hpp"
+#include "libs/core/seconds.hpp"
+#include "libs/dds/stamp.hpp"
+
+namespace palpate::command {
+
+namespace {
+
+constexpr auto kPollPeriod = std::chrono::milliseconds(50);
+
+double Now_s() { return NsToSeconds(MonotonicNow_ns()); }
+
+}  // namespace
+
+SystemListener::SystemListener(int domain_id)
+    : participant_(JoinDomain("palpate_watch", domain_id)),
+      loop_(participant_),
+      builder_(domain_id),
+      statuses_(participant_.CreateReader(dds::kComponentStatusTopic)),
+      diagnostics_(participant_.CreateReader(dds::kDiagnosticsTopic)),
+      forces_(participant_.CreateReader(dds::kForcesTopic)),
+      model_errors_(participant_.CreateReader(dds::kModelGapTopic)),
+      reports_(participant_.CreateReader(dds::kPerceptionReportTopic)),
+      frames_(participant_.CreateReader(dds::kFrameInfoTopic)),
+      meshes_(participant_.CreateReader(dds::kMeshStateTopic)),
+      cables_(participant_.CreateReader(dds::kJointStatesTopic)),
+      calibrations_(participant_.CreateReader(dds::kCalibrationStatusTopic)) {
+  Attach(statuses_);
+  Attach(diagnostics_);
+  Attach(forces_);
+  Attach(model_errors_);
+  Attach(reports_);
+  Attach(frames_);
+  Attach(meshes_);
+  Attach(cables_);
+  loop_.Attach(calibrations_, [this] {
+    for (const auto& message : calibrations_.Take()) builder_.Add(message);
+  });
+  loop_.Every(kPollPeriod, [] {});
+}
+
+template <typename T>
+void SystemListener::Attach(dds::Reader<T>& reader) {
+  loop_.Attach(reader, [this, &reader] {
+    for (const T& message : reader.Take()) builder_.Add(message, Now_s());
+  });
+}
+
+void SystemListener::Listen(const std::function<bool()>& done,
+                            std::chrono::duration<double> limit) {
+  loop_.DispatchUntil(done, dds::WaitSet::Clock::now() + FromSeconds(limit.count()));
+}
+
+SystemSnapshot SystemListener::Snapshot() const { return builder_.At(Now_s(), dds::WallClockNs()); }
+
+bool SystemListener::HeardAll() const {
+  return statuses_.matched() > 0 && builder_.processes() >= statuses_.matched();
+}
+
+}  // namespace palpate::command

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "components/palpate/node/watch/snapshot_builder.hpp"
+#include "libs/dds/participant.hpp"
+#include "libs/dds/wait_set.hpp"
+
+namespace palpate::command {
+
+/// Reads what the processes of a domain say about themselves and the last results, without images
+/// and clouds. Publishes nothing.
+class SystemListener {
+ public:
+  /// Throws RunError where DDS refuses.
+  explicit SystemListener(int domain_id);
+
+  /// Takes messages until `done()` holds, which is asked at least every 50 ms, or `limit` passes.
+  void Listen(const std::function<bool()>& done, std::chrono::duration<double> limit);
+
+  SystemSnapshot Snapshot() const;
+
+  /// Whether every process that DDS has found has reported, and there is one.
+  bool HeardAll() const;
+
+ private:
+  template <typename T>
+  void Attach(dds::Reader<T>& reader);
+
+  dds::Participant participant_;
+  dds::WaitSet loop_;
+  SnapshotBuilder builder_;
+  dds::Reader<idl::palpate_msgs::ComponentStatus> statuses_;
+  dds::Reader<idl::diagnostic_msgs::DiagnosticArray> diagnostics_;
+  dds::Reader<idl::palpate_msgs::ForceArray> forces_;
+  dds::Reader<idl::palpate_msgs::ModelGap> model_errors_;
+  dds::Reader<idl::palpate_msgs::PerceptionReport> reports_;
+  dds::Reader<idl::palpate_msgs::FrameInfo> frames_;
+  dds::Reader<idl::palpate_msgs::MeshState> meshes_;
+  dds::Reader<idl::sensor_msgs::JointState> cables_;
+  dds::Reader<idl::palpate_msgs::CalibrationStatus> calibrations_;
+};
+
+}  // namespace palpate::command

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include "libs/app/verbs.hpp"
+
+namespace palpate::command {
+
+struct WatchOptions {
+  int domain_id = 0;
+  bool once = false;
+  bool json = false;
+  double rate_hz = 2.0;    ///< 0.1 to 20
+  double timeout_s = 5.0;  ///< of `once`, > 0
+};
+
+/// Shows the running system until a signal stops it, or once. Returns the exit code: with `once` 1
+/// where no process answers. Throws InputError for numbers out of range, RunError where DDS
+/// refuses.
+int Watch(const WatchOptions& options);
+
+app::Verb WatchVerb();
+
+}  // namespace palpate::command

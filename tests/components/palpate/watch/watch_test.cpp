@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/palpate/node/watch/watch_verb.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "components/palpate/node/live/live_messages.hpp"
+#include "components/palpate/node/verbs.hpp"
+#include "components/palpate/node/watch/system_listener.hpp"
+#include "libs/core/error.hpp"
+#include "libs/dds/health.hpp"
+#include "libs/dds/message.hpp"
+
+namespace palpate::command {
+namespace {
+
+using testing::HasSubstr;
+
+/// The domain that this test program has for itself (set by CMake).
+int TestDomain() { return std::atoi(std::getenv("ROS_DOMAIN_ID")); }
+
+/// Stands in for palpate-force-estimation: reports and sends a force until it goes.
+class FakeEstimator {
+ public:
+  FakeEstimator() : thread_([this] { Run(); }) {}
+  ~FakeEstimator() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  void Run() {
+    dds::Participant participant = JoinDomain("palpate_force_estimation", TestDomain());
+    const auto start = dds::HealthReporter::Clock::now();
+    dds::HealthReporter health(participant, "force_estimation", start);
+    auto forces = participant.CreateWriter(dds::kForcesTopic);
+    for (std::uint64_t i = 0; !stop_; ++i) {
+      dds::Message<idl::palpate_msgs::ForceArray> message;
+      message->counter = i;
+      dds::SetText(message->status, "ok");
+      dds::Resize(message->forces, 1);
+      dds::SetText(message->forces._buffer[0].name, "ball");
+      dds::SetText(message->forces._buffer[0].status, "ok");
+      message->forces._buffer[0].force_n = {0.0, 0.3, 0.4};
+      EXPECT_TRUE(forces.Write(message));
+      if (i % 10 == 0) {
+        health.Report(Status::Ok(), {.received = i, .latencies_s = {}}, {{"waiting_for", ""}},
+                      dds::HealthReporter::Clock::now());
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+TEST(Watch, TheListenerShowsAProcessAndItsForce) {
+  const FakeEstimator estimator;
+  SystemListener listener(TestDomain());
+  listener.Listen([&] { return listener.HeardAll() && listener.Snapshot().forces; },
+                  std::chrono::seconds(10));
+  const SystemSnapshot snapshot = listener.Snapshot();
+  ASSERT_EQ(snapshot.processes.size(), 1u);
+  EXPECT_EQ(snapshot.processes[0].name, "force_estimation");
+  ASSERT_TRUE(snapshot.forces);
+  ASSERT_EQ(snapshot.forces->forces.size(), 1u);
+  EXPECT_NEAR(snapshot.forces->forces[0].force_N.norm(), 0.5, 1e-12);
+}
+
+TEST(Watch, OncePrintsOneObjectAndExitsWith0) {
+  const FakeEstimator estimator;
+  testing::internal::CaptureStdout();
+  const int code = RunCommand({"watch", "--once", "--json", "--timeout", "10"});
+  const std::string text = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(code, 0);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json.at("domain"), TestDomain());
+  EXPECT_EQ(json.at("processes").at(0).at("status"), "ok");
+  EXPECT_NEAR(json.at("forces").at("contacts").at(0).at("size_N"), 0.5, 1e-12);
+  EXPECT_GT(json.at("forces").at("rate_hz"), 0.0);
+}
+
+TEST(Watch, OnceWithoutAProcessSaysSoAndExitsWith1) {
+  testing::internal::CaptureStdout();
+  const int code = RunCommand({"watch", "--once", "--timeout", "0.3"});
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("no palpate process in domain " + std::to_string(TestDomain())));
+  EXPECT_EQ(code, 1);
+}
+
+std::string RefusalOf(const std::vector<std::string>& words) {
+  try {
+    RunCommand(words);
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Watch, RefusesRatesAndTimesThatAreNone) {
+  EXPECT_THAT(RefusalOf({"watch", "--rate", "0"}), HasSubstr("--rate must be 0.1 to 20 Hz, not 0"));
+  EXPECT_THAT(RefusalOf({"watch", "--rate", "1000"}), HasSubstr("--rate must be"));
+  EXPECT_THAT(RefusalOf({"watch", "--once", "--timeout", "-1"}),
+              HasSubstr("--timeout must be above 0 s, not -1"));
+  EXPECT_THAT(RefusalOf({"watch", "--domain", "300"}), HasSubstr("--domain"));
+}
+
+}  // namespace
+}  // namespace palpate::command
