@@ -32,7 +32,7 @@ namespace {
 
 using std::chrono::duration;
 
-constexpr duration<double> kStartLimit = std::chrono::seconds(60);
+constexpr duration<double> kSystemStartLimit = std::chrono::seconds(60);
 constexpr duration<double> kFirstForceLimit = std::chrono::seconds(60);
 constexpr duration<double> kLongestReplay = std::chrono::hours(24);
 constexpr int kUsualSeconds = 30;
@@ -74,7 +74,7 @@ class DemoRun {
       }
       return true;
     };
-    const bool there = Listen(all_there, kStartLimit);
+    const bool there = Listen(all_there, kSystemStartLimit);
     if (!there && !stop_.Requested()) {
       throw RunError("the processes do not answer within 60 s; see their logs in " +
                      log_folder_hint_);

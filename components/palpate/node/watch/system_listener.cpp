@@ -12,9 +12,9 @@ namespace palpate::command {
 
 namespace {
 
-constexpr auto kPollPeriod = std::chrono::milliseconds(50);
+constexpr auto kListenPeriod = std::chrono::milliseconds(50);
 
-double Now_s() { return NsToSeconds(MonotonicNow_ns()); }
+double MonotonicNow_s() { return NsToSeconds(MonotonicNow_ns()); }
 
 }  // namespace
 
@@ -42,13 +42,13 @@ SystemListener::SystemListener(int domain_id)
   loop_.Attach(calibrations_, [this] {
     for (const auto& message : calibrations_.Take()) builder_.Add(message);
   });
-  loop_.Every(kPollPeriod, [] {});
+  loop_.Every(kListenPeriod, [] {});
 }
 
 template <typename T>
 void SystemListener::Attach(dds::Reader<T>& reader) {
   loop_.Attach(reader, [this, &reader] {
-    for (const T& message : reader.Take()) builder_.Add(message, Now_s());
+    for (const T& message : reader.Take()) builder_.Add(message, MonotonicNow_s());
   });
 }
 
@@ -57,7 +57,9 @@ void SystemListener::Listen(const std::function<bool()>& done,
   loop_.DispatchUntil(done, dds::WaitSet::Clock::now() + FromSeconds(limit.count()));
 }
 
-SystemSnapshot SystemListener::Snapshot() const { return builder_.At(Now_s(), dds::WallClockNs()); }
+SystemSnapshot SystemListener::Snapshot() const {
+  return builder_.At(MonotonicNow_s(), dds::WallClockNs());
+}
 
 bool SystemListener::HeardAll() const {
   return statuses_.matched() > 0 && builder_.processes() >= statuses_.matched();
