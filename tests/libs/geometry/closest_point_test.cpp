@@ -60,7 +60,9 @@ TEST(RayMeets, TheWallsAroundAPointAndNothingBehindIt) {
   for (const Eigen::Vector3d direction : directions.colwise()) {
     EXPECT_TRUE(RayMeets(cube, {0.3, 0.6, 0.2}, direction));
     // From beside the cube only rays towards it can meet it.
-    if (direction.x() > 0.0) EXPECT_FALSE(RayMeets(cube, {1.5, 0.5, 0.5}, direction));
+    if (direction.x() > 0.0) {
+      EXPECT_FALSE(RayMeets(cube, {1.5, 0.5, 0.5}, direction));
+    }
   }
   EXPECT_TRUE(RayMeets(cube, {1.5, 0.5, 0.4}, {-1.0, 0.0, 0.0}));
   EXPECT_FALSE(RayMeets(cube, {1.5, 2.5, 0.4}, {-1.0, 0.0, 0.0}));
