@@ -16,6 +16,8 @@ struct ContactSite {
   double patch_radius_m = 0.0;  ///< the force is spread over the surface within; 0: a point
   /// Unit vector, robot frame, along which the force acts (a hung weight: gravity); zero: unknown.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+
+  bool operator==(const ContactSite&) const = default;
 };
 
 /// Reads Config::contacts, each "name: x, y, z[, patch radius][ along dx, dy, dz]", m. Throws

@@ -32,6 +32,8 @@ struct MarkerTuning {
 };
 constexpr MarkerTuning kMarkerTuning;
 
+constexpr size_t kMostContacts = fem::kMaxQpVariables / 3;
+
 /// F' C^-1 F in the directions that were fitted: the statistic of the test for a contact.
 double SquaredDistanceFromZero(const ContactForce& contact) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(contact.covariance_N2);
@@ -60,19 +62,13 @@ class MarkerForceEstimator::Impl {
         fitter_(model, config),
         free_state_(model.RestState()) {
     if (model.body().markers.empty()) throw InputError("the robot file names no markers");
-    constexpr size_t kMostContacts = fem::kMaxQpVariables / 3;
     if (sites_.size() > kMostContacts) {
       throw InputError("contacts: " + std::to_string(sites_.size()) + " are given; at most " +
                        std::to_string(kMostContacts) + " are fitted at once");
     }
-    for (const ContactSite& site : sites_) {
-      fit_sites_.push_back({.patch = PatchOf(site), .direction = site.direction});
-    }
+    for (const ContactSite& site : sites_) RefuseFarSite(site);
     if (sites_.empty()) search_.emplace(model, config, fitter_);
-    fitter_.SetSites(fit_sites_);
-    for (const robot::BodyMarker& marker : model.body().markers) {
-      marker_weight_.push_back(StandsOnContact(marker) ? config.contact_marker_weight : 1.0);
-    }
+    SetSites(sites_);
     const auto rows = ToIndex(3 * model.body().markers.size());
     targets_.value_m = targets_.weight = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
@@ -97,7 +93,11 @@ class MarkerForceEstimator::Impl {
   const ModelState& last_good() const { return fitter_.last_good(); }
 
  private:
-  fem::SurfacePatch PatchOf(const ContactSite& site) const;
+  bool IsNear(const ContactSite& site) const;
+  void RefuseFarSite(const ContactSite& site) const;
+  void SetSites(const std::vector<ContactSite>& sites);
+  Status FollowLoads(const MarkerFrame& frame);
+  bool Searches() const { return sites_.empty(); }
   bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
   Status CheckFrame(const MarkerFrame& frame) const;
@@ -125,7 +125,7 @@ class MarkerForceEstimator::Impl {
   std::vector<double> marker_weight_;
   MarkerOffsetCalibration offsets_;
   ForceFitter fitter_;
-  std::optional<ContactSearch> search_;
+  std::optional<ContactSearch> search_;  ///< where the settings give no contact
   RowTargets targets_;
   double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
@@ -135,14 +135,48 @@ class MarkerForceEstimator::Impl {
   bool published_ = false;               ///< the estimate has a state of this frame
 };
 
-fem::SurfacePatch MarkerForceEstimator::Impl::PatchOf(const ContactSite& site) const {
+bool MarkerForceEstimator::Impl::IsNear(const ContactSite& site) const {
+  return model_.Patch(site.position_m, site.patch_radius_m).distance_m <=
+         kMarkerTuning.largest_contact_distance_m;
+}
+
+void MarkerForceEstimator::Impl::RefuseFarSite(const ContactSite& site) const {
+  if (IsNear(site)) return;
   const fem::SurfacePatch patch = model_.Patch(site.position_m, site.patch_radius_m);
-  if (patch.distance_m > kMarkerTuning.largest_contact_distance_m) {
-    throw InputError("contact '" + site.name + "' lies " + std::to_string(patch.distance_m) +
-                     " m from the body's surface; at most " +
-                     std::to_string(kMarkerTuning.largest_contact_distance_m) + " m is allowed");
+  throw InputError("contact '" + site.name + "' lies " + std::to_string(patch.distance_m) +
+                   " m from the body's surface; at most " +
+                   std::to_string(kMarkerTuning.largest_contact_distance_m) + " m is allowed");
+}
+
+/// The contacts of the frames from now on; none: they are searched.
+void MarkerForceEstimator::Impl::SetSites(const std::vector<ContactSite>& sites) {
+  sites_ = sites;
+  fit_sites_.clear();
+  for (const ContactSite& site : sites_) {
+    fit_sites_.push_back(
+        {.patch = model_.Patch(site.position_m, site.patch_radius_m), .direction = site.direction});
   }
-  return patch;
+  fitter_.SetSites(fit_sites_);
+  marker_weight_.clear();
+  for (const robot::BodyMarker& marker : model_.body().markers) {
+    marker_weight_.push_back(StandsOnContact(marker) ? config_.contact_marker_weight : 1.0);
+  }
+  state_.valid = false;
+}
+
+/// Known loads are contacts of known place where the settings give no contact.
+Status MarkerForceEstimator::Impl::FollowLoads(const MarkerFrame& frame) {
+  if (!config_.contacts.empty() || frame.loads == sites_) return Status::Ok();
+  for (const ContactSite& load : frame.loads) {
+    if (!IsNear(load)) return {StatusCode::kInvalidInput, load.name + " is not on the body"};
+  }
+  if (frame.loads.size() > kMostContacts) {
+    return {StatusCode::kInvalidInput, std::to_string(frame.loads.size()) +
+                                           " known loads act at once; at most " +
+                                           std::to_string(kMostContacts) + " contacts are fitted"};
+  }
+  SetSites(frame.loads);
+  return Status::Ok();
 }
 
 bool MarkerForceEstimator::Impl::StandsOnContact(const robot::BodyMarker& marker) const {
@@ -159,8 +193,9 @@ Status MarkerForceEstimator::Impl::Process(const MarkerFrame& frame) {
     return {StatusCode::kNoCalibration, "reference frame: marker offsets are being set"};
   }
   if (Status status = offsets_.Finish(); !status.ok()) return status;
+  if (Status status = FollowLoads(frame); !status.ok()) return status;
   if (Status status = SetTargets(frame); !status.ok()) return status;
-  return sites_.empty() ? SearchSites(frame) : FitGivenSites(frame);
+  return Searches() ? SearchSites(frame) : FitGivenSites(frame);
 }
 
 Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
@@ -310,7 +345,7 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
     misfit.weight.setZero();
     return misfit;
   }
-  if (!search_) {
+  if (!Searches()) {
     misfit.response_m = fitter_.Response();
     return misfit;
   }
@@ -335,7 +370,7 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
 void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<FitSite>& fit_sites,
                                          const std::vector<ContactSite>& sites,
                                          double location_ci95_m) {
-  const ModelState& state = search_ ? search_->result().state : state_;
+  const ModelState& state = Searches() ? search_->result().state : state_;
   const double inflation = estimate_.degrees_of_freedom > 0
                                ? std::max(1.0, fit.chi_squared / estimate_.degrees_of_freedom)
                                : 1.0;
@@ -352,7 +387,7 @@ void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<
 
 ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t index,
                                                      double inflation) const {
-  const ModelState& state = search_ ? search_->result().state : state_;
+  const ModelState& state = Searches() ? search_->result().state : state_;
   const auto row = ToIndex(3 * index);
   ContactForce contact;
   contact.force_N = state.lambda_f_N.segment<3>(row);

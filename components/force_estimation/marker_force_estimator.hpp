@@ -31,7 +31,8 @@ struct MarkerMisfit {
 /// External forces from marker positions: the QP of eqs. (11) to (14) of the paper with prescribed
 /// cable tensions (13) or displacements (14), relinearised until the model is in equilibrium. Each
 /// frame starts at the state of the one before. Frames with a reference shape only set the marker
-/// offsets and give kNoCalibration.
+/// offsets and give kNoCalibration. Without given contacts the known loads of a frame
+/// (MarkerFrame::loads) are its contacts, and where there are none, contacts are searched.
 class MarkerForceEstimator {
  public:
   /// `model` must outlive the estimator. `youngs_modulus_relative_sigma`: relative standard error
@@ -49,7 +50,7 @@ class MarkerForceEstimator {
   /// Of the last frame; weights of 0 where its fit failed.
   MarkerMisfit Misfit();
 
-  /// The given contact sites; empty where contacts are searched.
+  /// The given contact sites, or known loads of the last frame; empty where contacts are searched.
   const std::vector<ContactSite>& sites() const;
   /// The last converged state of given contacts; later frames that failed do not change it.
   const ModelState& last_good() const;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/force_estimation/contact_site.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -29,6 +30,9 @@ struct MarkerFrame {
   ReferenceShape reference = ReferenceShape::kNone;
   std::vector<MarkerObservation> markers;   ///< in the order of the robot's markers
   std::vector<robot::CableCommand> cables;  ///< in the order of the robot's cables
+  /// Where known loads act now. They are the contacts where the settings give none: of known place
+  /// and unknown force.
+  std::vector<ContactSite> loads = {};
 };
 
 }  // namespace palpate::force_estimation

@@ -16,12 +16,13 @@
 #include "components/diagnosis/report/report_html.hpp"
 #include "components/diagnosis/report/verdict_json.hpp"
 #include "components/diagnosis/vocabulary/verdict_words.hpp"
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/import/import_options.hpp"
-#include "components/palpate/progress_line.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/version.hpp"
 #include "libs/app/yaml.hpp"
@@ -104,16 +105,15 @@ perception::Config ImageSettings(const DiagnoseOptions& options,
 /// Data that cannot be used are a verdict; a wrong robot file or option is an error.
 diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                                   const robot::RobotDescription& robot) {
-  std::unique_ptr<ProgressLine> progress;
+  const auto begin = std::chrono::steady_clock::now();
   const auto report = [&](int done, int of, const std::string& what) {
-    if (!progress) progress = std::make_unique<ProgressLine>("steps", of);
-    progress->Update(done);
-    progress->Clear();
-    fmt::print(stderr, "{} of {}: {}\n", done + 1, of, what);
+    fmt::print(stderr, "{}\n",
+               StepLine(done, of, what, SecondsSince(begin), 60.0 * options.most_minutes));
   };
   try {
     const experiment::Experiment experiment = ReadData(options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
+    PrintWarnings(body);
     std::optional<SurfaceImages> images;
     if (options.from != "markers" && HasSurfaceImages(experiment)) {
       images.emplace(experiment, body, ImageSettings(options, experiment));
@@ -183,16 +183,28 @@ void PrintExplanation(const std::string& id, const diagnosis::DiagnosisResult& r
 
 }  // namespace
 
+std::string StepLine(int done, int of, const std::string& what, double elapsed_s,
+                     double longest_s) {
+  std::string line =
+      fmt::format("step {} of at most {}: {} ({:.0f} s so far", done + 1, of, what, elapsed_s);
+  if (longest_s > 0.0) line += fmt::format("; the search ends after {:.0f} s", longest_s);
+  return line + ")";
+}
+
 int Diagnose(const DiagnoseOptions& options) {
   for (const std::string& id : ExcludedCauses(options))
     CheckCause("--exclude", id, diagnosis::CatalogueIds());
   if (!options.explain.empty())
     CheckCause("--explain", options.explain, diagnosis::SearchedFaults());
+  CheckOutputFolder(options.out);
   PerceptionOf(options.overrides, {});  // refused before anything is computed
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
+  std::optional<EndOnSignal> end_on_signal;
+  end_on_signal.emplace("palpate diagnose", "nothing was written");
   diagnosis::Diagnosis diagnosis = DiagnoseData(options, robot);
+  end_on_signal.reset();
   diagnosis::DiagnosisResult& result = diagnosis.result;
   result.robot = robot.name;
   result.data = options.data.string();

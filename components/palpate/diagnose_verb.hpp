@@ -29,8 +29,12 @@ struct DiagnoseOptions {
 /// are at fault, calibration.extended.yaml, and prints the verdict; with `plan` the next experiment
 /// as plan/. Data that cannot be read or that determine nothing have a verdict, too (data_unfit).
 /// Returns 0, or 1 for data_unfit. Throws InputError where the robot or an option is wrong,
-/// RunError where nothing can be written.
+/// RunError where nothing can be written. A signal ends the process (EndOnSignal).
 int Diagnose(const DiagnoseOptions& options);
+
+/// "step 2 of at most 7: fitting the null model (12 s so far; the search ends after 600 s)". Steps
+/// differ in length and may be left out, so that no time to go is known. `longest_s` 0: unlimited.
+std::string StepLine(int done, int of, const std::string& what, double elapsed_s, double longest_s);
 
 app::Verb DiagnoseVerb();
 

@@ -3,6 +3,8 @@
 
 #include "components/palpate/find_robot.hpp"
 
+#include <fmt/core.h>
+
 #include <string>
 #include <utility>
 
@@ -15,6 +17,12 @@
 
 namespace palpate::command {
 
+void PrintWarnings(const robot::RobotBody& body) {
+  for (const std::string& warning : body.warnings) {
+    fmt::print(stderr, "palpate: warning: robot {}: {}\n", body.name, warning);
+  }
+}
+
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
                                              const fem::SolverSettings& solver,
                                              const std::filesystem::path& calibration,
@@ -23,6 +31,7 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
   if (!calibration.empty()) {
     robot::ApplyGeometry(robot::ReadCalibrationFile(calibration, app::LoadYaml), &body);
   }
+  PrintWarnings(body);
   if (eyelet_room_m > 0.0) robot::GiveEyeletsRoom(eyelet_room_m, &body);
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);
 }

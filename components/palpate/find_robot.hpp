@@ -20,9 +20,12 @@ using app::FindRobotFile;
 using app::KnownRobots;
 using app::ProgramFolder;
 
-/// Reads the robot file and its mesh and makes the model ready to solve, of the geometry that the
-/// calibration file (empty: none) says; nothing else of it is applied. Its eyelets can be moved by
-/// `eyelet_room_m` (robot/eyelets.hpp). Throws InputError.
+/// The warnings of the robot file, one line each on the standard error output.
+void PrintWarnings(const robot::RobotBody& body);
+
+/// Reads the robot file and its mesh, prints their warnings and makes the model ready to solve, of
+/// the geometry that the calibration file (empty: none) says; nothing else of it is applied. Its
+/// eyelets can be moved by `eyelet_room_m` (robot/eyelets.hpp). Throws InputError.
 std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& robot,
                                              const fem::SolverSettings& solver = {},
                                              const std::filesystem::path& calibration = {},

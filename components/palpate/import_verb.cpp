@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/import/import_capture.hpp"
 #include "components/palpate/import/import_registration.hpp"
@@ -108,6 +109,9 @@ void DeclareTarget(app::Arguments& arguments, ImportOptions& options) {
                     "camera_moved", "second_speed", "repeat", "free"},
                    "What was done: rest, ramp, hold, known_load, co_contraction, base_tilted, "
                    "camera_moved, second_speed, repeat or free (docs/experiment.md)");
+  arguments.Repeated("--load LOAD", &options.loads,
+                     "Known load \"x, y, z[, patch radius]: fx, fy, fz\", m and N, robot frame, on "
+                     "the undeformed body, all the time (loads.csv); kind known_load needs one");
   arguments.Option("--notes", &options.notes, "Text to store with the recording");
   arguments.Option("--markers-sigma M", &options.markers_sigma_m,
                    "Standard deviation of the noise of a coordinate, m, for a new experiment; 0: "
@@ -160,6 +164,7 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
     throw InputError("--markers-sigma: must be 0 or more, not " +
                      FormatNumber(options.markers_sigma_m));
   const Target target = FindTarget(options);
+  CheckOutputFolder(target.recording);
   const bool is_new_experiment =
       !target.experiment_file.empty() && !fs::exists(target.experiment_file);
   const experiment::CapturedMarkers captured = ReadAndEdit(options);
@@ -182,6 +187,10 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
                                         target.experiment_file);
   }
   report << "wrote " << target.recording.string() << '\n';
+  if (recording.kind == experiment::RecordingKind::kKnownLoad && recording.loads.empty()) {
+    report << "warning: a recording of kind known_load needs its load: write "
+           << (target.recording / "loads.csv").string() << ", or import it again with --load\n";
+  }
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
@@ -50,12 +51,25 @@ bool IsMesh(const std::filesystem::path& target) {
   return extension == ".vtu" || extension == ".vtk" || extension == ".msh";
 }
 
+// No soft robot is so long; a mesh file does not say its unit.
+std::vector<std::string> DoubtUnit(const fem::MeshReport& report, const std::string& unit) {
+  constexpr double kLongestRobot_m = 10.0;
+  const double length_m = (report.max_m - report.min_m).maxCoeff();
+  if (!(length_m > kLongestRobot_m)) return {};
+  const std::string smaller = unit == "m" ? "mm" : (unit == "cm" ? "mm" : "");
+  return {
+      fmt::format("{:.4g} m long{}", length_m, smaller.empty() ? "" : ": --unit " + smaller + "?")};
+}
+
 Findings DescribeMesh(const std::filesystem::path& target, const std::string& unit) {
   const double metres_per_unit = unit == "mm" ? 1e-3 : (unit == "cm" ? 1e-2 : 1.0);
   const fem::MeshReport report = fem::ReportMesh(fem::ReadMesh(target, metres_per_unit));
-  return {
-      {{"mesh", ToJson(report)}},
+  const std::vector<std::string> warnings = DoubtUnit(report, unit);
+  Findings found{
+      {{"mesh", ToJson(report)}, {"warnings", warnings}},
       fmt::format("mesh {}, lengths read as {}\n{}", target.string(), unit, fem::ToText(report))};
+  for (const std::string& warning : warnings) found.text += "warning: " + warning + "\n";
+  return found;
 }
 
 Findings DescribeRobot(const std::filesystem::path& target) {
@@ -69,7 +83,7 @@ Findings DescribeRobot(const std::filesystem::path& target) {
                 {"mesh", ToJson(report)},       {"mass_kg", body.node_mass_kg.sum()},
                 {"cables", Json::array()},      {"markers", Json::array()},
                 {"regions", body.region_names}, {"feature_points", body.feature_points.size()},
-                {"notes", body.notes}};
+                {"warnings", body.warnings},    {"notes", body.notes}};
   found.text += fmt::format("mass {:.4g} kg, E {:.4g} kPa, nu {:.3g}, mesh {}\n",
                             body.node_mass_kg.sum(), 1e-3 * body.materials[0].youngs_modulus_Pa,
                             body.materials[0].poissons_ratio, body.mesh_hash);
@@ -83,6 +97,7 @@ Findings DescribeRobot(const std::filesystem::path& target) {
     found.text += fmt::format("marker {}: {:.2f} mm off the body\n", marker.name,
                               1e3 * marker.point.distance_m);
   }
+  for (const std::string& warning : body.warnings) found.text += "warning: " + warning + "\n";
   for (const std::string& note : body.notes) {
     found.text += "note: " + note + "\n";
   }

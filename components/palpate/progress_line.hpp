@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "libs/core/clock.hpp"
 
@@ -22,15 +24,25 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// `done` of the total are done.
-  void Update(int done);
+  void Update(int done) { Update(done, 0.0, {}); }
+  /// The same, and the share `part` (0 to 1) of the next one; `detail` says what is being done and
+  /// is asked only where a line is printed.
+  void Update(int done, double part, const std::function<std::string()>& detail);
+
+  /// Printed once, as a line of its own, where the work turns out to take long: after 5 s more than
+  /// 30 s are to go.
+  void SetAdvice(std::string advice) { advice_ = std::move(advice); }
 
   /// Takes the line off the terminal, before something else is printed there.
   void Clear();
 
-  /// "12 of 40 rows, 3.4 rows/s, 8 s to go"
-  static std::string Text(const std::string& unit, int done, int total, double elapsed_s);
+  /// "12 of 40 rows, 3.4 rows/s, 8 s to go": at the mean rate so far, in which `part` counts.
+  static std::string Text(const std::string& unit, int done, int total, double elapsed_s,
+                          double part = 0.0);
 
  private:
+  void Advise(double reached, double elapsed_s);
+
   std::string unit_;
   int total_;
   Clock clock_;
@@ -38,6 +50,7 @@ class ProgressLine {
   std::int64_t shown_ns_;
   bool terminal_;
   bool on_screen_ = false;
+  std::string advice_;
 };
 
 }  // namespace palpate::command

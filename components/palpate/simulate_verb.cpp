@@ -9,11 +9,13 @@
 #include <memory>
 #include <optional>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/palpate/simulate/sealed_answer.hpp"
 #include "components/palpate/simulate/simulation.hpp"
 #include "libs/app/run_main.hpp"
+#include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 
@@ -49,6 +51,9 @@ SimulationJob JobOf(const SimulateOptions& options) {
   job.out = options.out;
   job.answer = AnswerFile(options, options.out);
   job.tell_camera_pose = options.tell_camera_pose;
+  CheckOutputFolder(job.out);
+  // Beside an experiment whose folder is yet to be made there is no folder either.
+  if (!options.answer.empty()) CheckOutputFile(job.answer);
   return job;
 }
 
@@ -58,9 +63,13 @@ int SimulateOrCheck(const SimulateOptions& options, const MakeBench& make_bench)
   if (!options.check.empty()) return Check(options);
   const SimulationJob job = JobOf(options);
   std::optional<ProgressLine> progress;
+  const app::StopSignal stop;
   const SimulationCounts counts = Simulate(job, make_bench, [&](int done, int total) {
     if (!progress) progress.emplace("samples", total);
     progress->Update(done);
+    if (!stop.Requested()) return;
+    progress->Clear();
+    throw app::Interrupted(fmt::format("after {} of {} samples: nothing was written", done, total));
   });
   progress.reset();
   fmt::print("{}: {} recordings, {} images, {} marker frames; ground truth in {}\n",

@@ -7,14 +7,16 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <utility>
 
 #include "components/palpate/robot_scene.hpp"
+#include "components/palpate/solve_files.hpp"
 #include "libs/app/version.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/experiment/folders.hpp"
+#include "libs/fem/cell_stress.hpp"
 #include "libs/fem/mesh_io/write_vtu.hpp"
 
 namespace palpate::command {
@@ -23,29 +25,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw RunError(
-        "cannot create the folder " + folder.string() + ": " +
-        (error ? error.message() : "a file has that name; remove it or give another --out"));
-  }
+std::string RowFile(const char* stem, int row, const char* extension) {
+  return fmt::format("{}_{:04d}.{}", stem, row, extension);
 }
 
-void RemoveOldResults(const std::filesystem::path& folder) {
-  const std::regex ours(
-      "nodes_[0-9]{4,}\\.csv|body_[0-9]{4,}\\.vtu|scene_[0-9]{4,}\\.png|cables\\.csv|result\\."
-      "json");
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), ours)) {
-      old.push_back(entry.path());
-    }
+std::vector<std::string> PlannedFiles(const robot::RobotModel& model, const Extras& extras,
+                                      int row_count) {
+  std::vector<std::string> files = {"result.json", "cables.csv"};
+  if (!model.body().markers.empty()) files.emplace_back("markers.csv");
+  if (extras.vtu) files.emplace_back("body.pvd");
+  for (int row = 0; row < row_count; ++row) {
+    files.push_back(RowFile("nodes", row, "csv"));
+    if (extras.vtu) files.push_back(RowFile("body", row, "vtu"));
+    if (extras.png) files.push_back(RowFile("scene", row, "png"));
   }
-  for (const std::filesystem::path& file : old) {
-    std::filesystem::remove(file);
-  }
+  return files;
 }
 
 std::string NodesText(const Eigen::VectorXd& x_m) {
@@ -60,44 +54,74 @@ std::string NodesText(const Eigen::VectorXd& x_m) {
   return text;
 }
 
-fem::VtuFields DisplacementField(const robot::RobotModel& model, const Eigen::VectorXd& x_m) {
-  const Eigen::Matrix3Xd& rest_m = model.body().mesh.nodes_m;
-  const Eigen::Map<const Eigen::Matrix3Xd> now_m(x_m.data(), 3, x_m.size() / 3);
-  return {.of_nodes = {{"displacement_m", now_m - rest_m}}, .of_cells = {}};
+/// Displacement and load of each node, stress and strain of each element.
+fem::VtuFields BodyFields(const robot::RobotBody& body, const RowResult& result) {
+  const Eigen::Map<const Eigen::Matrix3Xd> now_m(result.x_m.data(), 3, result.x_m.size() / 3);
+  Eigen::Matrix3Xd load_N = Eigen::Matrix3Xd::Zero(3, now_m.cols());
+  for (const robot::DeadLoad& load : result.loads) {
+    for (std::size_t k = 0; k < load.weights.nodes.size(); ++k) {
+      load_N.col(load.weights.nodes[k]) += load.weights.weights[k] * load.force_N;
+    }
+  }
+  const fem::CellStress stress =
+      fem::EvaluateCellStress(body.mesh, body.materials, body.material_of_cell, result.x_m);
+  return {.of_nodes = {{"displacement_m", now_m - body.mesh.nodes_m}, {"load_N", load_N}},
+          .of_cells = {{"von_mises_stress_Pa", stress.von_mises_Pa.transpose()},
+                       {"largest_principal_strain", stress.largest_strain.transpose()}}};
+}
+
+/// An arrow for each load, the largest 0.3 of the body's diagonal long.
+void AddLoads(const RowResult& result, const robot::RobotBody& body, view::Scene* scene) {
+  double largest_N = 0.0;
+  for (const robot::DeadLoad& load : result.loads) {
+    largest_N = std::max(largest_N, load.force_N.norm());
+  }
+  if (!(largest_N > 0.0)) return;
+  const double metres_per_newton = 0.3 * BodyDiagonal_m(body) / largest_N;
+  for (const robot::DeadLoad& load : result.loads) {
+    AddForce(load.weights.Position(result.x_m), load.force_N, metres_per_newton,
+             view::palette::kTruth, fmt::format("{:.3g} N", load.force_N.norm()), scene);
+  }
+  scene->legend.push_back({view::LegendEntry::Mark::kLine, view::palette::kTruth, "loads"});
 }
 
 }  // namespace
 
 SolveOutput::SolveOutput(std::filesystem::path folder, const robot::RobotModel& model,
-                         const Extras& extras)
+                         const Extras& extras, int row_count)
     : folder_(std::move(folder)),
       model_(model),
       extras_(extras),
       cables_text_("row,cable,displacement_m,tension_N\n") {
-  MakeFolder(folder_);
-  RemoveOldResults(folder_);
+  markers_.names = model.MarkerNames();
+  MakeRoomForResults(folder_, PlannedFiles(model, extras, row_count));
+  experiment::CreateFolder(folder_);
 }
 
-std::filesystem::path SolveOutput::RowFile(const char* stem, int row, const char* extension) const {
-  return folder_ / fmt::format("{}_{:04d}.{}", stem, row, extension);
+std::filesystem::path SolveOutput::File(const std::string& name) {
+  files_.push_back(name);
+  return folder_ / name;
 }
 
 void SolveOutput::Add(const RowResult& result) {
   if (result.converged()) {
-    WriteFile(RowFile("nodes", result.row, "csv"), NodesText(result.x_m));
-    if (extras_.vtu) {
-      fem::WriteVtu(RowFile("body", result.row, "vtu"), model_.body().mesh, result.x_m,
-                    DisplacementField(model_, result.x_m));
-    }
-    if (extras_.png) {
-      Draw(result);
-    }
+    WriteFile(File(RowFile("nodes", result.row, "csv")), NodesText(result.x_m));
+    if (extras_.vtu) WriteBody(result);
+    if (extras_.png) Draw(result);
+    AddMarkers(result);
   }
   AddCables(result);
   rows_.push_back({result.row, result.t_s, result.solver, result.time_s, result.notes});
 }
 
-void SolveOutput::Draw(const RowResult& result) const {
+/// Points are undeformed: ParaView's Warp By Vector deforms them by displacement_m.
+void SolveOutput::WriteBody(const RowResult& result) {
+  const robot::RobotBody& body = model_.body();
+  fem::WriteVtu(File(RowFile("body", result.row, "vtu")), body.mesh, body.mesh.nodes_m.reshaped(),
+                BodyFields(body, result));
+}
+
+void SolveOutput::Draw(const RowResult& result) {
   view::Scene scene = MakeRobotScene(model_, result.x_m);
   scene.title = fmt::format("{}, row {} (t = {:g} s)", model_.body().name, result.row, result.t_s);
   std::string cables;
@@ -107,7 +131,17 @@ void SolveOutput::Draw(const RowResult& result) const {
                     1e3 * result.cables[c].displacement_m, result.cables[c].tension_N);
   }
   scene.caption = {cables};
-  view::SaveScene(RowFile("scene", result.row, "png"), scene);
+  AddLoads(result, model_.body(), &scene);
+  view::SaveScene(File(RowFile("scene", result.row, "png")), scene);
+}
+
+void SolveOutput::AddMarkers(const RowResult& result) {
+  experiment::MarkerFrame frame;
+  frame.t_s = result.t_s;
+  for (const robot::BodyMarker& marker : model_.body().markers) {
+    frame.positions_m.emplace_back(marker.point.weights.Position(result.x_m));
+  }
+  markers_.frames.push_back(std::move(frame));
 }
 
 void SolveOutput::AddCables(const RowResult& result) {
@@ -124,12 +158,31 @@ void SolveOutput::AddCables(const RowResult& result) {
   }
 }
 
-std::string SolveOutput::Finish(const std::vector<std::string>& notes) {
+void SolveOutput::WriteTables() {
+  WriteFile(File("cables.csv"), cables_text_);
+  if (!markers_.names.empty() && !markers_.frames.empty()) {
+    experiment::WriteMarkers(markers_, File("markers.csv"));
+  }
+  if (!extras_.vtu) return;
+  std::string steps;
+  for (const RowSummary& row : rows_) {
+    if (!row.solver.status.ok()) continue;
+    steps += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
+                         FormatNumber(row.t_s), RowFile("body", row.row, "vtu"));
+  }
+  WriteFile(File("body.pvd"),
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+            "version=\"0.1\">\n<Collection>\n" +
+                steps + "</Collection>\n</VTKFile>\n");
+}
+
+std::string SolveOutput::Finish(const std::vector<std::string>& notes, bool interrupted) {
+  WriteTables();
   Json rows = Json::array();
   int iterations = 0;
   double residual_N = 0.0;
   double time_s = 0.0;
-  bool converged = true;
+  bool converged = !interrupted;
   for (const RowSummary& row : rows_) {
     rows.push_back({{"row", row.row},
                     {"t_s", row.t_s},
@@ -148,20 +201,23 @@ std::string SolveOutput::Finish(const std::vector<std::string>& notes) {
     time_s += row.time_s;
     converged = converged && row.solver.status.ok();
   }
+  const std::filesystem::path file = File("result.json");
   const robot::RobotBody& body = model_.body();
   const Json result = {{"palpate", app::Version()},
                        {"robot", body.name},
                        {"mesh_hash", body.mesh_hash},
                        {"element", body.mesh.cells.rows() == 10 ? "tet10" : "tet4"},
                        {"converged", converged},
+                       {"interrupted", interrupted},
                        {"iterations", iterations},
                        {"residual_N", residual_N},
                        {"time_s", time_s},
                        {"rows", rows},
-                       {"notes", notes}};
+                       {"warnings", body.warnings},
+                       {"notes", notes},
+                       {"files", files_}};
   const std::string text = result.dump(2) + "\n";
-  WriteFile(folder_ / "cables.csv", cables_text_);
-  WriteFile(folder_ / "result.json", text);
+  WriteFile(file, text);
   return text;
 }
 

@@ -8,34 +8,42 @@
 #include <vector>
 
 #include "components/palpate/solve_rows.hpp"
+#include "libs/experiment/markers.hpp"
 
 namespace palpate::command {
 
 /// What is written besides the tables.
 struct Extras {
-  bool vtu = false;  ///< body_0000.vtu, for ParaView
+  bool vtu = false;  ///< body_0000.vtu and body.pvd, for ParaView
   bool png = false;  ///< scene_0000.png
 };
 
-/// The folder that `palpate solve` fills: nodes_0000.csv (node,x_m,y_m,z_m) and the extras for each
-/// row that converged; cables.csv (row,cable,displacement_m,tension_N; the
-/// fields of a row that did not converge are empty) and result.json at the end.
+/// The folder that `palpate solve` fills. For each row that converged: nodes_0000.csv
+/// (node,x_m,y_m,z_m) and the extras. At the end: markers.csv (t_s,marker,x_m,y_m,z_m, robot frame,
+/// the frames of the rows that converged), cables.csv (row,cable,displacement_m,tension_N; the
+/// fields of a row that did not converge are empty) and result.json, which lists all files.
 class SolveOutput {
  public:
-  /// Creates the folder and removes the results of an earlier `solve` from it, so that no old row
-  /// is mistaken for a new one. Throws RunError where that fails.
-  SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, const Extras& extras);
+  /// Creates the folder for `row_count` rows; replaces the results of an earlier `solve`
+  /// (MakeRoomForResults). Throws InputError where that is refused, RunError where it fails.
+  SolveOutput(std::filesystem::path folder, const robot::RobotModel& model, const Extras& extras,
+              int row_count);
 
   /// Writes the row's own files. Throws RunError where they cannot be written.
   void Add(const RowResult& result);
 
-  /// Writes cables.csv and result.json; returns the text of the latter. Throws RunError.
-  std::string Finish(const std::vector<std::string>& notes);
+  /// Writes the rest; returns the text of result.json. `interrupted`: not all rows were added.
+  /// Throws RunError.
+  std::string Finish(const std::vector<std::string>& notes, bool interrupted);
 
  private:
+  void AddMarkers(const RowResult& result);
   void AddCables(const RowResult& result);
-  void Draw(const RowResult& result) const;
-  std::filesystem::path RowFile(const char* stem, int row, const char* extension) const;
+  void WriteBody(const RowResult& result);
+  void Draw(const RowResult& result);
+  void WriteTables();
+  /// The path of a file of this folder, which result.json will list.
+  std::filesystem::path File(const std::string& name);
 
   struct RowSummary {
     int row;
@@ -49,7 +57,9 @@ class SolveOutput {
   const robot::RobotModel& model_;
   Extras extras_;
   std::string cables_text_;
+  experiment::MarkerTracks markers_;
   std::vector<RowSummary> rows_;
+  std::vector<std::string> files_;
 };
 
 }  // namespace palpate::command

@@ -87,7 +87,28 @@ void ReadCables(const LoadCase& row, const robot::RobotModel& model, const fem::
   }
 }
 
-// Adds to a failure which cable is farthest from its prescribed displacement.
+// The cable whose tension was followed least of its way; empty where none has a prescribed one.
+std::string ExplainTensions(const LoadCase& row, const robot::RobotModel& model,
+                            const fem::StaticState& state) {
+  constexpr double kReached = 1.0 - 1e-6;
+  double smallest_share = kReached;
+  std::string explanation;
+  for (int c = 0; c < model.CableCount(); ++c) {
+    const CableCommand& command = row.cables[At(c)];
+    if (command.kind != CableCommand::Kind::kTension || !(command.value > 0.0)) continue;
+    const double reached_N = state.multipliers_N[c];
+    if (reached_N / command.value >= smallest_share) continue;
+    smallest_share = reached_N / command.value;
+    const std::string& cable = model.body().cables[At(c)].name;
+    explanation = fmt::format(
+        "cable {}: followed up to {:.3g} N of the {:.6g} N prescribed; near its limit a tension no "
+        "longer determines the shape: prescribe the displacement ({}.displacement_m) instead: ",
+        cable, reached_N, command.value, cable);
+  }
+  return explanation;
+}
+
+// Adds to a failure which cable is farthest from its prescribed displacement or tension.
 void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
                     const fem::StaticState& state, fem::StaticResult* result) {
   if (result->status.code() == StatusCode::kTensionLimit) {
@@ -107,6 +128,7 @@ void ExplainFailure(const LoadCase& row, const robot::RobotModel& model,
           model.body().cables[At(c)].name, reached_m, command.value);
     }
   }
+  if (culprit.empty()) culprit = ExplainTensions(row, model, state);
   result->status = Status(result->status.code(), culprit + result->status.message());
 }
 
@@ -139,28 +161,50 @@ fem::StaticResult SolveRow(const LoadCase& row, const std::vector<robot::DeadLoa
   return result;
 }
 
+// Takes the observer off the solver again.
+class ObserverScope {
+ public:
+  explicit ObserverScope(robot::RobotModel* model) : model_(model) {}
+  ~ObserverScope() { model_->static_solver().SetObserver({}); }
+  ObserverScope(const ObserverScope&) = delete;
+  ObserverScope& operator=(const ObserverScope&) = delete;
+
+ private:
+  robot::RobotModel* model_;
+};
+
 }  // namespace
 
-void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
-               const std::function<void(const RowResult&)>& take) {
+bool SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
+               const std::function<void(const RowResult&)>& take, const WatchRow& watch) {
   LoadPatches patches(*model);
   for (const LoadCase& row : rows) {
     DeadLoadsOf(row, &patches);  // refuses loads far from the body before anything is solved
   }
+  const ObserverScope observer(model);
   fem::StaticState state = model->RestState();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     RowResult result;
     result.row = static_cast<int>(i);
     result.t_s = rows[i].t_s;
+    result.loads = DeadLoadsOf(rows[i], &patches);
+    bool gave_up = false;
+    model->static_solver().SetObserver([&](const fem::StaticResult& so_far) {
+      gave_up = gave_up || !watch(result.row, so_far);
+      return !gave_up;
+    });
+    if (!watch(result.row, result.solver)) return false;  // a row may need no iteration
     const std::int64_t start_ns = MonotonicNow_ns();
-    result.solver = SolveRow(rows[i], DeadLoadsOf(rows[i], &patches), model, &state);
+    result.solver = SolveRow(rows[i], result.loads, model, &state);
     result.time_s = static_cast<double>(MonotonicNow_ns() - start_ns) * 1e-9;
+    if (gave_up) return false;
     if (result.converged()) {
       result.x_m = state.x_m;
       ReadCables(rows[i], *model, state, &result);
     }
     take(result);
   }
+  return true;
 }
 
 std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,

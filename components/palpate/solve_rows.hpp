@@ -21,16 +21,22 @@ struct RowResult {
   double time_s = 0.0;                    ///< wall clock
   Eigen::VectorXd x_m;                    ///< [3n]; empty where it did not converge
   std::vector<robot::CableState> cables;  ///< empty where it did not converge
-  std::vector<std::string> notes;         ///< slack cables
+  std::vector<robot::DeadLoad> loads;
+  std::vector<std::string> notes;  ///< slack cables
 
   bool converged() const { return solver.status.ok(); }
 };
 
+/// Told at the start of a row and before each of its Newton iterations what of it has been reached; false: give up.
+using WatchRow = std::function<bool(int row, const fem::StaticResult& so_far)>;
+
 /// Solves one row after the other, each from the state before it (the first from rest), and hands
-/// each result to `take`. A row that fails does not stop the others. Throws InputError at the line
-/// of a load that lies farther from the body than half the body's diagonal.
-void SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
-               const std::function<void(const RowResult&)>& take);
+/// each result to `take`. A row that fails does not stop the others. Where `watch` gives up, the
+/// row that is being solved is not taken, nor are those after it. Returns whether all rows were
+/// taken. Throws InputError at the line of a load that lies farther from the body than half the
+/// body's diagonal.
+bool SolveRows(const std::vector<LoadCase>& rows, robot::RobotModel* model,
+               const std::function<void(const RowResult&)>& take, const WatchRow& watch);
 
 /// Notes on loads that do not lie on the surface.
 std::vector<std::string> NotesOnLoads(const std::vector<LoadCase>& rows,

@@ -9,12 +9,14 @@
 #include <memory>
 #include <optional>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/load_cases.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/palpate/solve_output.hpp"
 #include "components/palpate/solve_rows.hpp"
 #include "libs/app/run_main.hpp"
+#include "libs/app/stop_signal.hpp"
 
 namespace palpate::command {
 
@@ -59,37 +61,59 @@ void PrintRow(const RowResult& result, const std::vector<std::string>& cable_nam
   }
 }
 
+std::string WordsOfRow(int row, const fem::StaticResult& so_far) {
+  return fmt::format("row {}: {:.0f} % of its load in {} load steps, {} Newton iterations", row,
+                     100.0 * so_far.load_fraction, so_far.load_steps, so_far.iterations);
+}
+
+void PrintResult(const SolveOptions& options, const robot::RobotModel& model,
+                 const RowResult& result) {
+  if (!options.json) {
+    PrintRow(result, model.CableNames());
+  } else if (!result.converged()) {
+    fmt::print(stderr, "palpate solve: row {}: {}\n", result.row, result.solver.status.message());
+  }
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int Solve(const SolveOptions& options) {
+  CheckOutputFolder(options.out);
   const std::unique_ptr<robot::RobotModel> model = LoadRobot(options.robot, options.solver);
   const LoadCases cases = ReadCases(options, *model);
   const std::vector<std::string> notes = AllNotes(cases, *model);
-  SolveOutput output(options.out, *model, {.vtu = options.vtu, .png = options.png});
+  const int total = static_cast<int>(cases.rows.size());
+  SolveOutput output(options.out, *model, {.vtu = options.vtu, .png = options.png}, total);
   if (!options.json) {
     for (const std::string& note : notes) {
       fmt::print("note: {}\n", note);
     }
   }
-  const int total = static_cast<int>(cases.rows.size());
+  const app::StopSignal stop;
+  int done = 0;
   int converged = 0;
   ProgressLine progress("rows", total);
-  SolveRows(cases.rows, model.get(), [&](const RowResult& result) {
+  const auto take = [&](const RowResult& result) {
     output.Add(result);
     converged += result.converged() ? 1 : 0;
     progress.Clear();
-    if (!options.json) {
-      PrintRow(result, model->CableNames());
-    } else if (!result.converged()) {
-      fmt::print(stderr, "palpate solve: row {}: {}\n", result.row, result.solver.status.message());
-    }
-    std::fflush(stdout);
-    progress.Update(result.row + 1);
-  });
-  const std::string json = output.Finish(notes);
-  if (options.json) {
-    fmt::print("{}", json);
-  } else {
+    PrintResult(options, *model, result);
+    progress.Update(++done);
+  };
+  const auto watch = [&](int row, const fem::StaticResult& so_far) {
+    progress.Update(row, so_far.load_fraction, [&] { return WordsOfRow(row, so_far); });
+    return !stop.Requested();
+  };
+  const bool all = SolveRows(cases.rows, model.get(), take, watch);
+  progress.Clear();
+  const std::string json = output.Finish(notes, !all);
+  if (options.json) fmt::print("{}", json);
+  if (!all) {
+    throw app::Interrupted(
+        fmt::format("after {} of {} rows: they are in {}", done, total, options.out.string()));
+  }
+  if (!options.json) {
     fmt::print("{} of {} rows in equilibrium; written to {}\n", converged, total,
                options.out.string());
   }
@@ -114,9 +138,12 @@ app::Verb SolveVerb() {
             DeclareSolverOptions(arguments, &options->solver);
             DeclareCableInput(arguments, &options->cable_input);
             arguments.Flag("--vtu", &options->vtu,
-                           "Also write the deformed body of each row for ParaView: body_0000.vtu");
+                           "Also write the body of each row for ParaView: body_0000.vtu "
+                           "(undeformed points, displacement_m, load_N, stress, strain), and "
+                           "body.pvd, which lists them by time");
             arguments.Flag("--png", &options->png,
-                           "Also draw the deformed body of each row: scene_0000.png");
+                           "Also draw the deformed body and the loads of each row: "
+                           "scene_0000.png");
             arguments.Flag("--json", &options->json, "Print result.json instead of text");
             return [options] { return Solve(*options); };
           }};

@@ -18,13 +18,14 @@ struct SolveOptions {
   std::filesystem::path out;
   std::string cable_input = "displacement";  ///< or "tension": prescribed on a cable with both
   fem::SolverSettings solver;
-  bool vtu = false;   ///< write body_0000.vtu
+  bool vtu = false;   ///< write body_0000.vtu and body.pvd
   bool png = false;   ///< write scene_0000.png
   bool json = false;  ///< print result.json instead of text
 };
 
 /// `palpate solve`: static equilibria, one for each row of the actuation. Returns 0 only if all
-/// rows converged, else 1; throws InputError and RunError.
+/// rows converged, else 1; throws InputError and RunError, and app::Interrupted once the rows that
+/// were solved before a signal are written.
 int Solve(const SolveOptions& options);
 
 app::Verb SolveVerb();

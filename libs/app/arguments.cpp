@@ -62,6 +62,13 @@ std::string NoteOnDefault(Need need, const std::string& value) {
   return value.empty() || need == Need::kRequired ? "" : "default: " + value;
 }
 
+/// The same of an option, of which `help` may say what holds without it.
+std::string NoteOnDefault(Need need, const std::string& value, const std::string& help) {
+  const bool is_none = value.empty() && need == Need::kOptional;
+  if (is_none && help.find("without it") == std::string::npos) return "default: none";
+  return NoteOnDefault(need, value);
+}
+
 /// "--out FOLDER" -> "--out", "FOLDER"; without a second word `placeholder`.
 ArgumentText OptionText(const std::string& declared, const std::string& placeholder) {
   const std::size_t space = declared.find(' ');
@@ -173,7 +180,7 @@ void Arguments::Positionals(const std::string& name, std::vector<std::string>* v
 void Arguments::Option(const std::string& name, std::filesystem::path* value,
                        const std::string& help, Need need) {
   ArgumentText argument = OptionText(name, "FILE");
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, value->string())});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, value->string(), help)});
   argument.is_path = true;
   impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
@@ -181,7 +188,7 @@ void Arguments::Option(const std::string& name, std::filesystem::path* value,
 void Arguments::Option(const std::string& name, std::string* value, const std::string& help,
                        Need need) {
   ArgumentText argument = OptionText(name, "TEXT");
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value)});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value, help)});
   impl_->Add(argument, need, [value](const std::string& text) { *value = text; });
 }
 
@@ -189,8 +196,9 @@ void Arguments::Option(const std::string& name, int* value, int min, int max,
                        const std::string& help, Need need) {
   const bool has_default = *value >= min && *value <= max;
   ArgumentText argument = OptionText(name, "N");
-  argument.help = WithNotes(help, {NoteOnNeed(need), Range(min, max),
-                                   NoteOnDefault(need, has_default ? std::to_string(*value) : "")});
+  argument.help =
+      WithNotes(help, {NoteOnNeed(need), Range(min, max),
+                       NoteOnDefault(need, has_default ? std::to_string(*value) : "", help)});
   const auto check = [min, max](const std::string& text) {
     int number = 0;
     if (ParseWhole(text, &number) && number >= min && number <= max) return std::string();
@@ -203,8 +211,8 @@ void Arguments::Option(const std::string& name, int* value, int min, int max,
 void Arguments::Option(const std::string& name, double* value, const std::string& help, Need need) {
   ArgumentText argument = OptionText(name, "NUMBER");
   argument.help = WithNotes(
-      help,
-      {NoteOnNeed(need), NoteOnDefault(need, std::isfinite(*value) ? FormatNumber(*value) : "")});
+      help, {NoteOnNeed(need),
+             NoteOnDefault(need, std::isfinite(*value) ? FormatNumber(*value) : "", help)});
   impl_->Add(argument, need, [value](const std::string& text) { ParseFinite(text, value); })
       ->check(CheckFinite);
 }
@@ -214,7 +222,7 @@ void Arguments::Choice(const std::string& name, std::string* value,
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : "|") + choice;
   ArgumentText argument = OptionText(name, list);
-  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value)});
+  argument.help = WithNotes(help, {NoteOnNeed(need), NoteOnDefault(need, *value, help)});
   argument.words = choices;
   const auto check = [choices = std::move(choices), list](const std::string& text) {
     const bool known = std::find(choices.begin(), choices.end(), text) != choices.end();

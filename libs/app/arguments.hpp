@@ -24,8 +24,8 @@ enum class Scope { kProgram, kVerb };
 /// Options are written "--out FOLDER": the second word stands for the value in these texts. An
 /// option that is not given does not change its target. Texts say what an option does and its
 /// unit; the range and the default, which is the target's value at the declaration, are added. A
-/// target that is empty or out of its range has no default that could be shown: the text says what
-/// holds then. The targets must outlive Parse().
+/// target that is empty or out of its range is shown as "default: none", unless the text says what
+/// holds "without it". The targets must outlive Parse().
 class Arguments {
  public:
   /// `program`: "palpate solve"; `purpose`: an imperative sentence without a full stop.

@@ -172,7 +172,7 @@ std::string FormatManualPage(const CommandText& command) {
   AppendRoffArguments(command, &page);
   page +=
       ".SH EXIT STATUS\n0: done; 1: failed while running; 2: wrong usage, settings or input "
-      "files.\n";
+      "files; 130: interrupted by a signal.\n";
   AppendSeeAlso(command, &page);
   return page;
 }

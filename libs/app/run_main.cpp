@@ -15,12 +15,16 @@ namespace palpate::app {
 
 namespace {
 
-void PrintError(const std::string& program, std::string cause) {
+void PrintLine(const std::string& program, const char* kind, std::string cause) {
   for (char& c : cause) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   while (cause.ends_with(' ')) cause.pop_back();
-  std::fprintf(stderr, "%s: error: %s\n", program.c_str(), cause.c_str());
+  std::fprintf(stderr, "%s: %s%s\n", program.c_str(), kind, cause.c_str());
+}
+
+void PrintError(const std::string& program, const std::string& cause) {
+  PrintLine(program, "error: ", cause);
 }
 
 /// Text is buffered: only the last flush shows whether all of it was written.
@@ -40,6 +44,9 @@ int RunMain(const std::string& program, const std::function<int()>& work) {
     const int exit_code = work();
     FlushOutput();
     return exit_code;
+  } catch (const Interrupted& interrupted) {
+    PrintLine(program, "interrupted ", interrupted.what());
+    return kExitInterrupted;
   } catch (const InputError& error) {
     PrintError(program, error.what());
     return kExitUsage;

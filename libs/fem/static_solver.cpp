@@ -158,6 +158,7 @@ Status StaticSolver::Iterate(const LoadState& loads, Steps steps, StaticState* s
     }
     if (tangents() > most) break;
     if (budget_->Over()) return {StatusCode::kBudgetReached, "time used up"};
+    if (observer_ && !observer_(*result)) return {StatusCode::kBudgetReached, "interrupted"};
     ++result->iterations;
     may_keep = steps == Steps::kFull;
     const bool moved = steps == Steps::kFull ? TakeFullStep(state)

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <utility>
 
 #include "libs/core/status.hpp"
 #include "libs/fem/equilibrium_step.hpp"
@@ -43,6 +45,10 @@ struct StaticResult {
   Eigen::VectorXd multipliers_N;
 };
 
+/// Takes what has been reached so far, before each Newton iteration; false ends the solution with
+/// kBudgetReached. Of the result, iterations, load_steps and load_fraction are current.
+using StaticObserver = std::function<bool(const StaticResult&)>;
+
 /// Newton's method for r(x, lambda) = 0 (linearisation.hpp): full steps first; where they fail, a
 /// line search on the potential energy; where that fails, load stepping. No step inverts an
 /// element, and only stable equilibria (K positive definite) count. Bounds on constraints are
@@ -50,6 +56,9 @@ struct StaticResult {
 class StaticSolver {
  public:
   explicit StaticSolver(Linearisation& linearisation, const StaticSettings& settings = {});
+
+  /// For all solutions from now on; empty: none.
+  void SetObserver(StaticObserver observer) { observer_ = std::move(observer); }
 
   /// Rest shape, no load, every command off.
   StaticState RestState() const;
@@ -79,6 +88,7 @@ class StaticSolver {
   StaticSettings settings_;
   EquilibriumStep step_;
   const TimeBudget* budget_ = nullptr;  ///< of the present Solve
+  StaticObserver observer_;
   Eigen::VectorXd penalties_;
   StaticState trial_;
 };

@@ -24,6 +24,11 @@ struct SurfacePoint {
 Eigen::Vector3d ClosestPointOnTriangle(const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m,
                                        const Eigen::Vector3d& c_m, const Eigen::Vector3d& point_m);
 
+/// Whether the ray from `origin_m` along `direction` (not zero) meets a triangle of the surface;
+/// touching an edge counts. One pass over all triangles (Moeller and Trumbore 1997).
+bool RayMeets(const TriangleSurface& surface, const Eigen::Vector3d& origin_m,
+              const Eigen::Vector3d& direction);
+
 /// Finds the nearest surface point in about log(t) steps: a tree of boxes over the triangles.
 /// After a deformation, Refit() keeps the tree and updates its boxes in O(t), without allocation.
 class SurfaceIndex {

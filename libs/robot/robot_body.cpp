@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -29,12 +30,28 @@ std::string Millimetres(double length_m) {
   return text.data();
 }
 
+/// Whether the surface is in the way in nearly all directions from a point outside the mesh.
+bool IsInHollow(const fem::PointLocator& locator, const Eigen::Vector3d& point_m) {
+  constexpr double kNearlyAll = 0.9;
+  const geometry::TriangleSurface& surface = locator.surface().surface();
+  int blocked = 0;
+  int directions = 0;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (direction.isZero()) continue;
+    ++directions;
+    blocked += geometry::RayMeets(surface, point_m, direction) ? 1 : 0;
+  }
+  return blocked >= kNearlyAll * directions;
+}
+
 /// Places points of the robot file on the body, and says where they lie off it.
 class PointPlacer {
  public:
-  PointPlacer(const fem::PointLocator& locator, std::vector<std::string>* notes)
+  PointPlacer(const fem::PointLocator& locator, RobotBody* body)
       : locator_(locator),
-        notes_(notes),
+        notes_(&body->notes),
+        warnings_(&body->warnings),
         diagonal_m_(geometry::BoundingBox(locator.mesh().nodes_m).Diagonal_m()) {}
 
   fem::BodyPoint Eyelet(const CableSettings& cable, Eigen::Index index) const {
@@ -48,6 +65,12 @@ class PointPlacer {
                                         " from the body; allowed are " + Millimetres(reach_m) +
                                         " (20 mm, or 5 % of the body's diagonal where that is "
                                         "less); is the path in metres?");
+    }
+    if (point.distance_m > 0.0 && IsInHollow(locator_, point.rest_m)) {
+      warnings_->push_back(name + " lies in a hollow, " + Millimetres(point.distance_m) +
+                           " off the nearest wall: it moves as if it were fixed to that wall; is "
+                           "path_m meant to be in the material?");
+      return point;
     }
     NoteDistance(name, point);
     return point;
@@ -74,6 +97,7 @@ class PointPlacer {
 
   const fem::PointLocator& locator_;
   std::vector<std::string>* notes_;
+  std::vector<std::string>* warnings_;
   double diagonal_m_;
 };
 
@@ -94,6 +118,18 @@ void NoteLocking(const RobotDescription& robot, std::vector<std::string>* notes)
   }
 }
 
+/// Adds a warning for a modulus that no solid has: a number in another unit.
+void WarnOfUnit(const std::string& part, double youngs_modulus_Pa,
+                std::vector<std::string>* warnings) {
+  constexpr double kSoftestSolid_Pa = 1e3;
+  if (youngs_modulus_Pa >= kSoftestSolid_Pa) return;
+  const bool is_MPa = youngs_modulus_Pa < 10.0;
+  warnings->push_back(part + ": youngs_modulus_Pa: " + FormatNumber(youngs_modulus_Pa) +
+                      " Pa is softer than any solid: is this " + (is_MPa ? "MPa" : "kPa") +
+                      "? Then write " +
+                      std::to_string(std::llround(youngs_modulus_Pa * (is_MPa ? 1e6 : 1e3))));
+}
+
 Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   for (int corner = 0; corner < 4; ++corner) sum_m += mesh.nodes_m.col(mesh.cells(corner, cell));
@@ -102,12 +138,16 @@ Eigen::Vector3d Centroid_m(const fem::TetMesh& mesh, int cell) {
 
 void AssignMaterials(const RobotDescription& robot, RobotBody* body) {
   body->materials.push_back(robot.material);
+  WarnOfUnit("material", robot.material.youngs_modulus_Pa, &body->warnings);
   body->nominal_poissons_ratio = robot.material.poissons_ratio;
   body->material_of_cell.assign(static_cast<size_t>(body->mesh.CellCount()), 0);
   for (const RegionSettings& region : robot.regions) {
     const int index = static_cast<int>(body->materials.size());
     fem::Material material = robot.material;
     if (region.youngs_modulus_Pa) material.youngs_modulus_Pa = *region.youngs_modulus_Pa;
+    if (region.youngs_modulus_Pa) {
+      WarnOfUnit("region " + region.name, *region.youngs_modulus_Pa, &body->warnings);
+    }
     body->materials.push_back(material);
     body->region_names.push_back(region.name);
     for (int cell = 0; cell < body->mesh.CellCount(); ++cell) {
@@ -167,7 +207,7 @@ void PlaceFeaturePoints(const RobotDescription& robot, const fem::PointLocator& 
 }
 
 void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator, RobotBody* body) {
-  const PointPlacer placer(locator, &body->notes);
+  const PointPlacer placer(locator, body);
   for (const CableSettings& settings : robot.cables) {
     BodyCable cable{settings.name,          settings.path_m.col(0),        {},
                     settings.max_tension_N, settings.friction_coefficient, settings.guide_radius_m};

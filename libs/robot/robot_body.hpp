@@ -66,6 +66,8 @@ struct RobotBody {
 
   /// What a log should say: the mesh, fixed nodes, points that lie off the mesh.
   std::vector<std::string> notes;
+  /// What is likely an error of the robot file: a modulus below 1 kPa, a cable in a hollow.
+  std::vector<std::string> warnings;
 };
 
 /// Reads the mesh that `robot` names, places it and puts everything on it. Throws InputError: a

@@ -24,6 +24,7 @@ std::unique_ptr<robot::RobotModel> LoadRobot(const std::filesystem::path& file,
                                              const fem::SolverSettings& solver,
                                              const robot::CalibrationFile* calibration) {
   auto body = robot::BuildRobotBody(robot::ReadRobotFile(file, app::LoadYaml));
+  for (const std::string& warning : body.warnings) app::LogWarning("{}", warning);
   for (const std::string& note : body.notes) app::LogInfo("{}", note);
   if (calibration != nullptr) robot::ApplyGeometry(*calibration, &body);
   return std::make_unique<robot::RobotModel>(std::move(body), fem::StaticSettings{}, solver);

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "components/calibration/joint/found_calibration.hpp"
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
+#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
@@ -164,7 +166,10 @@ int Calibrate(const CalibrateOptions& options) {
   constexpr double kSigmasOfRoom = 4.0;
   const std::unique_ptr<robot::RobotModel> model =
       LoadRobot(options.robot, options.solver, {}, kSigmasOfRoom * options.cable_eyelet_sigma_m);
+  std::optional<EndOnSignal> end_on_signal;
+  end_on_signal.emplace("palpate calibrate", "no calibration was written");
   const robot::CalibrationFile file = Find(options, model.get());
+  end_on_signal.reset();
   robot::WriteCalibrationFile(file, options.out);
   if (options.json) {
     PrintCalibrationJson(file);

@@ -35,8 +35,13 @@ ForceScore ScoreOf(const std::vector<ComparedForce>& forces) {
     if (!DirectionIsKnown(force)) continue;
     angles_rad.push_back(Angle_rad(force.estimate->force_N, force.truth->force_N));
   }
-  return {static_cast<int>(forces.size()), Mean(errors), Quantile(distances_m, 0.5),
-          Mean(angles_rad), Mean(inside)};
+  return {.frames = static_cast<int>(forces.size()),
+          .mean_relative_error = Mean(errors),
+          .median_relative_error = Quantile(errors, 0.5),
+          .p95_relative_error = Quantile(errors, 0.95),
+          .median_location_error_m = Quantile(distances_m, 0.5),
+          .mean_direction_error_rad = Mean(angles_rad),
+          .coverage = Mean(inside)};
 }
 
 std::string ScoreText(const std::string& name, const ForceScore& score) {

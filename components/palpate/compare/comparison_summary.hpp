@@ -15,6 +15,8 @@ namespace palpate::command {
 struct ForceScore {
   int frames = 0;
   double mean_relative_error = 0.0;
+  double median_relative_error = 0.0;
+  double p95_relative_error = 0.0;  ///< 95 % of the errors are no larger
   double median_location_error_m = 0.0;
   double mean_direction_error_rad = 0.0;  ///< of those whose direction was observable
   double coverage = 0.0;                  ///< share whose true magnitude lies in the 95 % interval

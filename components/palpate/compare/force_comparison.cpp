@@ -70,6 +70,18 @@ std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& e
   return compared;
 }
 
+std::vector<ComparedForce> WithoutTruth(const force_estimation::ForceEstimate& estimate) {
+  std::vector<ComparedForce> alone;
+  if (!HasResult(estimate.status)) return alone;
+  for (const ContactForce& contact : WithForce(estimate.contacts)) {
+    ComparedForce force;
+    force.t_s = estimate.t_s;
+    force.estimate = contact;
+    alone.push_back(force);
+  }
+  return alone;
+}
+
 bool HasResult(const Status& status) {
   return status.ok() || status.code() == StatusCode::kNoContact;
 }

@@ -36,6 +36,9 @@ struct ComparedForce {
 std::vector<ComparedForce> CompareFrame(const force_estimation::ForceEstimate& estimate,
                                         const TruthTimeline& truth, const ComparisonRules& rules);
 
+/// The contacts of a frame whose forces have a number, without a truth.
+std::vector<ComparedForce> WithoutTruth(const force_estimation::ForceEstimate& estimate);
+
 /// Whether the frame has a result: forces, or that there is none.
 bool HasResult(const Status& status);
 

@@ -78,17 +78,7 @@ void LiveComparison::Advance(const TakeFrame& take) {
 
 std::vector<ComparedForce> LiveComparison::Compare(
     const force_estimation::ForceEstimate& estimate) const {
-  if (with_truth_) return CompareFrame(estimate, truth_, rules_);
-  std::vector<ComparedForce> alone;
-  if (!HasResult(estimate.status)) return alone;
-  for (const force_estimation::ContactForce& contact : estimate.contacts) {
-    if (!HasForce(contact)) continue;
-    ComparedForce force;
-    force.t_s = estimate.t_s;
-    force.estimate = contact;
-    alone.push_back(force);
-  }
-  return alone;
+  return with_truth_ ? CompareFrame(estimate, truth_, rules_) : WithoutTruth(estimate);
 }
 
 void LiveComparison::KeepIfBest(double t_s, const std::vector<ComparedForce>& compared) {

@@ -15,6 +15,7 @@
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/robot_scene.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -40,16 +41,30 @@ bool IsResult(const Status& status) {
   return status.ok() || status.code() == StatusCode::kNoContact;
 }
 
+/// forces.svg -> forces_NAME.svg
+std::filesystem::path PlotOf(const std::filesystem::path& plot, const std::string& recording) {
+  std::filesystem::path file = plot;
+  return file.replace_filename(plot.stem().string() + "_" + recording + plot.extension().string());
+}
+
 }  // namespace
 
 EstimateRun::EstimateRun(const EstimateOptions& options, const EstimateSettings& settings,
-                         experiment::Experiment* experiment, robot::RobotModel* model)
+                         experiment::Experiment* experiment, robot::RobotModel* model,
+                         std::function<bool()> stop_requested)
     : options_(options),
       settings_(settings),
       experiment_(*experiment),
       model_(*model),
       calibration_(ApplyCalibration(options.calibration, model, experiment)),
-      json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {}
+      stop_requested_(std::move(stop_requested)),
+      json_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::array())) {
+  if (options.answer.empty()) return;
+  truth_ = ReadKnownTruth(options.answer, *experiment, BodyDiagonal_m(model->body()));
+  if (options.json) return;
+  fmt::print("compared with {}: forces of {:.3g} N or more, within {:.3g} mm\n",
+             options.answer.string(), truth_->rules.smallest_N, 1e3 * truth_->rules.same_place_m);
+}
 
 EstimateRun::~EstimateRun() = default;
 
@@ -70,7 +85,8 @@ ShapeReplay& EstimateRun::Shape() {
                                                                     calibration_);
   const ShapeReplay::Inputs inputs{.experiment = experiment_,
                                    .model = &model_,
-                                   .cable_input = ParseCableInput(options_.cable_input)};
+                                   .cable_input = ParseCableInput(options_.cable_input),
+                                   .limits = Limits()};
   shape_ = std::make_unique<ShapeReplay>(inputs, std::move(perception), std::move(pipeline));
   return *shape_;
 }
@@ -89,38 +105,62 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
                    "pose: the depth bias stays unknown");
 }
 
-void EstimateRun::Estimate(const PlannedRecording& planned) {
+ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstimate& take) {
+  if (planned.from == EstimateFrom::kShape) return Shape().Estimate(*planned.recording, take);
+  const MarkerReplay::Inputs inputs{.experiment = experiment_,
+                                    .model = &model_,
+                                    .cable_input = ParseCableInput(options_.cable_input),
+                                    .limits = Limits()};
+  return MarkerReplay(inputs, settings_.forces, calibration_).Estimate(*planned.recording, take);
+}
+
+void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {
   const experiment::Recording& recording = *planned.recording;
-  ForceSummary summary(recording.name, recording.steady_window_s);
+  ForceSummary summary(recording.name, recording.steady_window_s, recording.loads);
+  RecordingComparison comparison(recording.name, truth_ ? &*truth_ : nullptr);
   const TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
     table_.Add(recording.name, estimate);
     summary.Add(estimate);
+    comparison.Add(estimate, &all_);
     with_result_ += IsResult(estimate.status) ? 1 : 0;
   };
-  if (planned.from == EstimateFrom::kShape) {
-    Shape().Estimate(recording, take);
-  } else {
-    const MarkerReplay::Inputs inputs{.experiment = experiment_,
-                                      .model = &model_,
-                                      .cable_input = ParseCableInput(options_.cable_input)};
-    MarkerReplay(inputs, settings_.forces, calibration_).Estimate(recording, take);
-  }
+  const ReplayCount count = Replay(planned, take);
+  count_ = {.done = count_.done + count.done, .total = count_.total + count.total};
+  interrupted_ = interrupted_ || !count.complete();
   nlohmann::ordered_json json = summary.ToJson();
   json["from"] = ToString(planned.from);
+  if (comparison.has_truth()) json["comparison"] = ToJson(comparison.summary());
   json_->push_back(std::move(json));
   if (!options_.json) {
     fmt::print("{}", summary.ToText());
+    if (truth_) PrintComparison(comparison);
     std::fflush(stdout);
   }
+  if (options_.plot.empty()) return;
+  comparison.Draw(model_.body().name,
+                  is_only ? options_.plot : PlotOf(options_.plot, recording.name));
+}
+
+void EstimateRun::PrintComparison(const RecordingComparison& comparison) {
+  compared_recordings_ += comparison.has_truth() ? 1 : 0;
+  fmt::print("  truth: {}\n", comparison.has_truth() ? ToLine(comparison.summary())
+                                                     : "the file has none of this recording");
 }
 
 int EstimateRun::Finish() {
+  interrupted_ = interrupted_ || (stop_requested_ && stop_requested_());
+  if (interrupted_ && table_.empty())
+    throw app::Interrupted("before the first frame: nothing was written");
   table_.Write(options_.out);
-  if (options_.json) {
-    fmt::print("{}\n", json_->dump(2));
-  } else {
-    fmt::print("written to {}\n", options_.out.string());
+  if (options_.json) fmt::print("{}\n", json_->dump(2));
+  if (!options_.json && compared_recordings_ > 1) {
+    fmt::print("all recordings: {}\n", ToLine(all_));
   }
+  if (interrupted_) {
+    throw app::Interrupted(fmt::format("after {} of {} frames: their forces are in {}", count_.done,
+                                       count_.total, options_.out.string()));
+  }
+  if (!options_.json) fmt::print("written to {}\n", options_.out.string());
   return with_result_ > 0 ? app::kExitDone : app::kExitFailed;
 }
 

@@ -5,22 +5,54 @@
 
 #include <memory>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/estimate/estimate_run.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "libs/app/stop_signal.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
+#include "libs/core/text.hpp"
 
 namespace palpate::command {
 
+namespace {
+
+void DeclareOutputs(app::Arguments& arguments, EstimateOptions* options) {
+  arguments.Option("--out", &options->out, "CSV file of the forces to write", app::Need::kRequired);
+  arguments.Option(
+      "--plot FILE.svg", &options->plot,
+      "SVG file to draw: forces over time with 95 % bands, one panel for each contact; "
+      "several recordings have one file each, FILE_RECORDING.svg");
+  arguments.Option("--answer FILE.json", &options->answer,
+                   "Ground truth of palpate simulate (EXP.answer.json): print errors, coverage of "
+                   "the intervals, missed forces and false alarms, and draw the truth in --plot");
+  arguments.Flag("--json", &options->json, "Print the summary as JSON");
+}
+
+void CheckOptions(const EstimateOptions& options) {
+  CheckOutputFile(options.out);
+  if (!options.plot.empty()) CheckOutputFile(options.plot);
+  if (options.rate_Hz < 0.0) {
+    throw InputError("--rate: must be 0 or more, not " + FormatNumber(options.rate_Hz));
+  }
+}
+
+}  // namespace
+
 int Estimate(const EstimateOptions& options) {
+  CheckOptions(options);
   experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const EstimateSettings settings =
       ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts);
   const auto plan = PlanEstimates(experiment, options.recordings, options.from);
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
                                options.calibration);
-  EstimateRun run(options, settings, &experiment, model.get());
+  const app::StopSignal stop;
+  EstimateRun run(options, settings, &experiment, model.get(), [&] { return stop.Requested(); });
   run.EstimateDepthBias(plan);
-  for (const PlannedRecording& planned : plan) run.Estimate(planned);
+  for (const PlannedRecording& planned : plan) {
+    if (!stop.Requested()) run.Estimate(planned, /*is_only=*/plan.size() == 1);
+  }
   return run.Finish();
 }
 
@@ -32,8 +64,7 @@ app::Verb EstimateVerb() {
         DeclareRobot(arguments, &options->robot);
         arguments.Option("--data FOLDER", &options->data, "Experiment or recording folder",
                          app::Need::kRequired);
-        arguments.Option("--out", &options->out, "CSV file of the forces to write",
-                         app::Need::kRequired);
+        DeclareOutputs(arguments, options.get());
         arguments.Option("--calibration", &options->calibration,
                          "Calibration file of palpate calibrate; without it the robot file's "
                          "moduli hold and the camera pose is the experiment's");
@@ -48,15 +79,17 @@ app::Verb EstimateVerb() {
                          "palpate-force-estimation; or none");
         arguments.Repeated("--contact SITE", &options->contacts,
                            "Possible contact location \"name: x, y, z[, patch radius]\", m, on the "
-                           "undeformed body; without it contacts are searched, and images use "
-                           "the locations of known loads (loads.csv)");
+                           "undeformed body; without it known loads (loads.csv) are contacts of "
+                           "known place and unknown force, and others are searched");
         arguments.Option("--config", &options->config,
                          "Settings file (YAML): settings of palpate-force-estimation, shape.* and "
                          "perception.*");
         arguments.Repeated("--set KEY=VALUE", &options->overrides,
                            "Change one of these settings; overrides the settings file");
+        arguments.Option("--rate HZ", &options->rate_Hz,
+                         "Largest frame rate to estimate, Hz: frames in between are left out; 0: "
+                         "all frames");
         DeclareCableInput(arguments, &options->cable_input);
-        arguments.Flag("--json", &options->json, "Print the summary as JSON");
         return [options] { return Estimate(*options); };
       }};
 }

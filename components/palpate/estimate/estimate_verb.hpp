@@ -24,12 +24,16 @@ struct EstimateOptions {
   std::filesystem::path config;        ///< EstimateSettings; empty: defaults
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::string cable_input = "displacement";
+  double rate_Hz = 0.0;  ///< largest frame rate; 0: all frames
   std::filesystem::path out;
+  std::filesystem::path plot;    ///< SVG of forces over time; empty: none
+  std::filesystem::path answer;  ///< EXP.answer.json to compare with; empty: none
   bool json = false;
 };
 
 /// `palpate estimate`: forces from the images or the markers of recordings, written as forces.csv.
-/// Returns 0, or 1 where not a single frame had a result; throws InputError and RunError.
+/// Returns 0, or 1 where not a single frame had a result; throws InputError and RunError, and
+/// app::Interrupted once the forces of the frames before a signal are written.
 int Estimate(const EstimateOptions& options);
 
 app::Verb EstimateVerb();

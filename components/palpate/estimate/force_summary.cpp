@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "components/force_estimation/shape/known_contacts.hpp"
 #include "components/palpate/compare/force_comparison.hpp"
 #include "libs/core/statistics.hpp"
 
@@ -25,11 +26,24 @@ std::string MostFrequent(const std::map<std::string, int>& counts) {
   return most == counts.end() ? "" : most->first;
 }
 
+/// Size of the known load that acts at the contact of this name.
+std::optional<double> KnownForce_N(const std::vector<experiment::KnownLoad>& loads, double t_s,
+                                   const std::string& contact) {
+  for (const force_estimation::ContactSite& site : force_estimation::SitesOfLoads(loads, t_s)) {
+    if (site.name != contact) continue;
+    for (const experiment::KnownLoad& load : experiment::LoadsAt(loads, t_s)) {
+      if (load.position_m == site.position_m) return load.force_N.norm();
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ForceSummary::ForceSummary(std::string recording,
-                           std::optional<experiment::TimeWindow> steady_window_s)
-    : recording_(std::move(recording)), window_s_(steady_window_s) {}
+                           std::optional<experiment::TimeWindow> steady_window_s,
+                           std::vector<experiment::KnownLoad> loads)
+    : recording_(std::move(recording)), window_s_(steady_window_s), loads_(std::move(loads)) {}
 
 void ForceSummary::Add(const force_estimation::ForceEstimate& estimate) {
   const std::string word(ToString(estimate.status.code()));
@@ -47,6 +61,8 @@ void ForceSummary::Add(const force_estimation::ForceEstimate& estimate) {
       samples.z_N.push_back(contact.force_N.z());
       samples.magnitude_N.push_back(contact.force_N.norm());
       samples.ci95_N.push_back(contact.ci95_N);
+      const auto known_N = KnownForce_N(loads_, estimate.t_s, contact.name);
+      if (known_N) samples.known_N.push_back(*known_N);
     }
   }
 }
@@ -69,7 +85,9 @@ ForceSummary::Contact ForceSummary::MedianOf(const std::string& contact) const {
           .force_N = {MedianOr0(samples.x_N), MedianOr0(samples.y_N), MedianOr0(samples.z_N)},
           .magnitude_N = MedianOr0(samples.magnitude_N),
           .ci95_N = MedianOr0(samples.ci95_N),
-          .status = MostFrequent(samples.statuses)};
+          .status = MostFrequent(samples.statuses),
+          .known_N =
+              samples.known_N.empty() ? std::nullopt : std::optional(MedianOr0(samples.known_N))};
 }
 
 std::string ForceSummary::ToText() const {
@@ -90,10 +108,11 @@ std::string ForceSummary::ToText() const {
                 ? fmt::format("  {}: {}\n", name, median.status)
                 : fmt::format(
                       "  {}: {:.4f} N +- {:.4f} (95 %), ({:.4f}, {:.4f}, {:.4f}) N, {}; "
-                      "median of {} frames{}\n",
+                      "median of {} frames{}{}\n",
                       name, median.magnitude_N, median.ci95_N, median.force_N.x(),
                       median.force_N.y(), median.force_N.z(), median.status, median.count,
-                      window_s_ ? " in the static phase" : "");
+                      window_s_ ? " in the static phase" : "",
+                      median.known_N ? fmt::format("; known load {:.4f} N", *median.known_N) : "");
   }
   return text;
 }
@@ -108,6 +127,7 @@ nlohmann::ordered_json ForceSummary::ToJson() const {
       contact["force_N"] = {median.force_N.x(), median.force_N.y(), median.force_N.z()};
       contact["magnitude_N"] = median.magnitude_N;
       contact["ci95_N"] = median.ci95_N;
+      if (median.known_N) contact["known_load_N"] = *median.known_N;
     }
     contacts.push_back(contact);
   }

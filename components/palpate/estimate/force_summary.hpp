@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "components/force_estimation/marker_force_estimator.hpp"
+#include "libs/experiment/loads.hpp"
 #include "libs/experiment/markers.hpp"
 
 namespace palpate::command {
@@ -19,7 +20,9 @@ namespace palpate::command {
 /// force at each contact over the static phase (the whole recording where none is given).
 class ForceSummary {
  public:
-  ForceSummary(std::string recording, std::optional<experiment::TimeWindow> steady_window_s);
+  /// `loads`: known loads of the recording, shown beside the contacts at their places.
+  ForceSummary(std::string recording, std::optional<experiment::TimeWindow> steady_window_s,
+               std::vector<experiment::KnownLoad> loads = {});
 
   void Add(const force_estimation::ForceEstimate& estimate);
 
@@ -29,7 +32,8 @@ class ForceSummary {
     Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of each component
     double magnitude_N = 0.0;
     double ci95_N = 0.0;
-    std::string status;  ///< the most frequent
+    std::string status;             ///< the most frequent
+    std::optional<double> known_N;  ///< size of the known load at this contact
   };
   Contact MedianOf(const std::string& contact) const;
   std::vector<std::string> Contacts() const;
@@ -40,12 +44,13 @@ class ForceSummary {
 
  private:
   struct Samples {
-    std::vector<double> x_N, y_N, z_N, magnitude_N, ci95_N;
+    std::vector<double> x_N, y_N, z_N, magnitude_N, ci95_N, known_N;
     std::map<std::string, int> statuses;
   };
 
   std::string recording_;
   std::optional<experiment::TimeWindow> window_s_;
+  std::vector<experiment::KnownLoad> loads_;
   std::map<std::string, int> statuses_;         // of frames
   std::map<std::string, std::string> reasons_;  // the first of each status
   std::map<std::string, Samples> contacts_;

@@ -32,6 +32,7 @@ std::string ContactFields(const force_estimation::ContactForce& contact) {
 
 void ForcesTable::Add(const std::string& recording,
                       const force_estimation::ForceEstimate& estimate) {
+  empty_ = false;
   const std::string head = Field(recording) + "," + FormatNumber(estimate.t_s) + ",";
   if (!estimate.status.ok() || estimate.contacts.empty()) {
     text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + "\n";

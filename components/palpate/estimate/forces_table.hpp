@@ -17,11 +17,13 @@ class ForcesTable {
  public:
   void Add(const std::string& recording, const force_estimation::ForceEstimate& estimate);
 
+  bool empty() const { return empty_; }
   const std::string& text() const { return text_; }
   /// Throws RunError where the file cannot be written.
   void Write(const std::filesystem::path& file) const;
 
  private:
+  bool empty_ = true;
   std::string text_ =
       "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status\n";
 };

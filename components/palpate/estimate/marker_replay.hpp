@@ -7,6 +7,7 @@
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/force_estimate.hpp"
+#include "components/palpate/estimate/replay_limits.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -24,15 +25,17 @@ class MarkerReplay {
     const experiment::Experiment& experiment;  ///< must outlive the replay, as the model
     robot::RobotModel* model = nullptr;        ///< `calibration` was applied to it
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
+    ReplayLimits limits{};
   };
 
   MarkerReplay(const Inputs& inputs, const force_estimation::Config& config,
                const robot::CalibrationFile& calibration)
       : inputs_(inputs), config_(config), calibration_(calibration) {}
 
-  /// Hands the estimate of each frame to `take`. Throws InputError as
-  /// force_estimation::FramesOfRecording does.
-  void Estimate(const experiment::Recording& recording, const TakeEstimate& take) const;
+  /// Hands the estimate of each frame to `take`; all frames of a reference window are among them.
+  /// Without contacts in the settings, known loads are contacts of known place. Throws InputError
+  /// as force_estimation::FramesOfRecording does, and for a load far from the body.
+  ReplayCount Estimate(const experiment::Recording& recording, const TakeEstimate& take) const;
 
  private:
   Inputs inputs_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "components/force_estimation/recording_frames.hpp"
 #include "components/palpate/progress_line.hpp"
@@ -23,14 +24,30 @@ using force_estimation::ForceEstimate;
 
 constexpr double kNsPerSecond = 1e9;
 
-void RefuseEach(const experiment::RgbdSequence& images, const std::string& reason,
-                const TakeEstimate& take) {
+/// The numbers of the frames to estimate, in their order.
+std::vector<std::size_t> ChosenFrames(const experiment::RgbdSequence& images, double rate_Hz) {
+  std::vector<double> t_s;
+  for (const experiment::FrameFiles& frame : images.frames) {
+    t_s.push_back(static_cast<double>(frame.t_ns) / kNsPerSecond);
+  }
+  const std::vector<bool> kept = KeptFrames(t_s, rate_Hz);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+ReplayCount RefuseEach(const experiment::RgbdSequence& images, const std::string& reason,
+                       const TakeEstimate& take) {
   ForceEstimate refused;
   refused.status = Status(StatusCode::kNoCalibration, reason);
   for (const experiment::FrameFiles& frame : images.frames) {
     refused.t_s = static_cast<double>(frame.t_ns) / kNsPerSecond;
     take(refused);
   }
+  const int count = static_cast<int>(images.frames.size());
+  return {.done = count, .total = count};
 }
 
 }  // namespace
@@ -60,32 +77,37 @@ int ShapeReplay::EstimateDepthBias(const Recording& recording) {
   return frames;
 }
 
-void ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
+ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
   auto images = experiment::OpenRecordingImages(recording, app::LoadYaml);
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
-    RefuseEach(images, missing->reason, take);
-    return;
+    return RefuseEach(images, missing->reason, take);
   }
-  Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)}, /*contact_free=*/false,
-      take);
+  return Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)},
+             /*contact_free=*/false, take);
 }
 
-void ShapeReplay::Run(const Scene& scene, bool contact_free, const TakeEstimate& take) {
+ReplayCount ShapeReplay::Run(const Scene& scene, bool contact_free, const TakeEstimate& take) {
   experiment::CheckCables(scene.recording, inputs_.model->CableNames());
   const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
   inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
   perception_.set_camera(scene.images.camera);
   ++epoch_;
-  ProgressLine progress("frames", static_cast<int>(scene.images.frames.size()));
+  const std::vector<std::size_t> chosen =
+      ChosenFrames(scene.images, contact_free ? 0.0 : inputs_.limits.rate_Hz);
+  ReplayCount count{.done = 0, .total = static_cast<int>(chosen.size())};
+  ProgressLine progress("frames", count.total);
+  progress.SetAdvice(AdviceWhereSlow(inputs_.model->body()));
   rgbd::RgbdFrame frame;
-  for (std::size_t i = 0; i < scene.images.frames.size(); ++i) {
+  for (const std::size_t i : chosen) {
+    if (inputs_.limits.StopRequested()) break;
     scene.images.Read(i, &frame);
     frame.stamp_ns = scene.images.frames[i].t_ns;
     take(Step(scene, frame, contact_free));
-    progress.Update(static_cast<int>(i) + 1);
+    progress.Update(++count.done);
   }
   inputs_.model->SetGravity(gravity_m_s2_);
+  return count;
 }
 
 const ForceEstimate& ShapeReplay::Step(const Scene& scene, const rgbd::RgbdFrame& frame,

@@ -26,6 +26,7 @@ class ShapeReplay {
     const experiment::Experiment& experiment;  ///< must outlive the replay, as the model
     robot::RobotModel* model = nullptr;        ///< of the pipeline
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
+    ReplayLimits limits{};  ///< contact-free recordings are not thinned
   };
 
   ShapeReplay(const Inputs& inputs, ReplayPerception perception,
@@ -38,12 +39,12 @@ class ShapeReplay {
   /// Hands the estimate of each frame to `take`; kNoCalibration, with the reason, where the camera
   /// pose is unknown. Throws InputError for images that cannot be read, and for a cable that the
   /// robot does not have.
-  void Estimate(const experiment::Recording& recording, const TakeEstimate& take);
+  ReplayCount Estimate(const experiment::Recording& recording, const TakeEstimate& take);
 
  private:
   struct Scene;
 
-  void Run(const Scene& scene, bool contact_free, const TakeEstimate& take);
+  ReplayCount Run(const Scene& scene, bool contact_free, const TakeEstimate& take);
   const force_estimation::ForceEstimate& Step(const Scene& scene, const rgbd::RgbdFrame& frame,
                                               bool contact_free);
   const perception::Observation& Perceive(const Scene& scene, const rgbd::RgbdFrame& frame);

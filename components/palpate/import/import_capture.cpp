@@ -97,6 +97,7 @@ experiment::Recording MakeRecording(const ImportOptions& options, const Captured
     recording.reference = {*rest, undeformed ? experiment::ReferenceShape::kUndeformed
                                              : experiment::ReferenceShape::kEquilibrium};
   }
+  recording.loads = ParseLoads(options.loads, recording.markers->frames.front().t_s);
   recording.frame = ChooseFrame(options);
   CheckWindows(recording);
   return recording;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "libs/experiment/loads.hpp"
 #include "libs/experiment/markers.hpp"
 
 namespace palpate::command {
@@ -23,6 +24,7 @@ struct ImportOptions {
   std::filesystem::path robot;  ///< file or name; its markers are the only ones allowed
   std::string kind = "free";    ///< `kind` of recording.yaml
   std::string notes;            ///< `notes` of recording.yaml
+  std::vector<std::string> loads;  ///< "x,y,z[,radius]: fx,fy,fz" of loads.csv
 
   std::vector<std::string> rename;  ///< "Tip-1=tip_top": name in the file, new name
   std::string markers;              ///< "a,b,c": keep only these; empty: all
@@ -49,6 +51,8 @@ std::vector<std::string> SplitNames(const std::string& text, char separator = ',
 std::optional<experiment::TimeWindow> ParseWindow(const std::string& option,
                                                   const std::string& text);
 std::optional<Eigen::Isometry3d> ParsePose(const std::string& text);
+/// Loads that act all the time, from `t_s` on.
+std::vector<experiment::KnownLoad> ParseLoads(const std::vector<std::string>& loads, double t_s);
 /// Name in the file -> new name.
 std::map<std::string, std::string> ParseRenames(const std::vector<std::string>& renames);
 

@@ -11,6 +11,7 @@
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/sha256.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
 
 namespace palpate::command {
@@ -64,6 +65,22 @@ OrderedJson EffectsOf(const Answer& answer, bool clutter) {
   return effects;
 }
 
+Eigen::Vector3d ToVector(const OrderedJson& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+TrueForces ToTrueForces(const OrderedJson& json) {
+  TrueForces frame{json.at("t_s").get<double>(), {}};
+  for (const OrderedJson& force : json.at("forces")) {
+    virtual_robot::TrueForce& truth = frame.forces.emplace_back();
+    truth.name = force.at("name").get<std::string>();
+    truth.position_m = ToVector(force.at("position_m"));
+    truth.rest_position_m = ToVector(force.at("rest_position_m"));
+    truth.force_N = ToVector(force.at("force_N"));
+  }
+  return frame;
+}
+
 }  // namespace
 
 std::string NewSalt() {
@@ -90,6 +107,25 @@ std::string FormatAnswer(const Answer& answer) {
     json["recordings"].push_back(ToJson(recording, answer.camera));
   }
   return json.dump(1) + "\n";
+}
+
+std::vector<RecordingTruth> ReadRecordingTruths(const fs::path& answer) {
+  std::vector<RecordingTruth> recordings;
+  try {
+    const OrderedJson json = OrderedJson::parse(ReadFile(answer));
+    for (const OrderedJson& recording : json.at("recordings")) {
+      RecordingTruth& truth = recordings.emplace_back();
+      truth.name = recording.at("name").get<std::string>();
+      for (const OrderedJson& frame : recording.at("frames")) {
+        truth.frames.push_back(ToTrueForces(frame));
+      }
+    }
+  } catch (const OrderedJson::exception& error) {
+    throw InputError(
+        SourceLocation{answer.string()},
+        "is not a ground truth of palpate simulate (EXP.answer.json): " + Excerpt(error.what()));
+  }
+  return recordings;
 }
 
 std::string HashOfData(const fs::path& experiment) {

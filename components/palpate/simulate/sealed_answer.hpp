@@ -49,6 +49,10 @@ std::string NewSalt();
 /// The bytes of the answer's file: JSON.
 std::string FormatAnswer(const Answer& answer);
 
+/// The recordings of a file that FormatAnswer wrote, with their true forces. Throws InputError
+/// where it cannot be read or is something else.
+std::vector<RecordingTruth> ReadRecordingTruths(const std::filesystem::path& answer);
+
 /// Of all files below recordings/, names and contents: the measured data.
 std::string HashOfData(const std::filesystem::path& experiment);
 

@@ -7,10 +7,18 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <thread>
 
 #include "components/palpate/child_process.hpp"
+#include "components/palpate/diagnose_verb.hpp"
+#include "components/palpate/end_on_signal.hpp"
+#include "components/palpate/find_robot.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/palpate/reference_verb.hpp"
 #include "libs/core/error.hpp"
@@ -94,6 +102,127 @@ TEST(Command, PrintsTheReferenceOfFiles) {
 TEST(ProgressLine, SaysRateAndTimeToGo) {
   EXPECT_EQ(ProgressLine::Text("rows", 0, 40, 3.0), "0 of 40 rows");
   EXPECT_EQ(ProgressLine::Text("rows", 10, 40, 5.0), "10 of 40 rows, 2 rows/s, 15 s to go");
+}
+
+TEST(ProgressLine, CountsTheShareOfWhatIsBeingDone) {
+  EXPECT_EQ(ProgressLine::Text("rows", 2, 4, 5.0, 0.5), "2 of 4 rows, 0.5 rows/s, 3 s to go");
+  EXPECT_EQ(ProgressLine::Text("rows", 0, 4, 5.0, 0.0), "0 of 4 rows");
+}
+
+TEST(ProgressLine, SaysWhatIsBeingDoneAndAdvisesOnceWhereMuchIsToGo) {
+  std::int64_t now_ns = 0;
+  testing::internal::CaptureStderr();
+  {
+    ProgressLine progress("rows", 100, [&] { return now_ns; });
+    progress.SetAdvice("try less");
+    now_ns = 4'000'000'000;
+    progress.Update(1);
+    now_ns = 12'000'000'000;
+    progress.Update(3, 0.5, [] { return std::string("row 3: 50 %"); });
+    now_ns = 30'000'000'000;
+    progress.Update(4);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "try less\n"
+            "3 of 100 rows, 0.292 rows/s, 331 s to go; row 3: 50 %\n"
+            "4 of 100 rows, 0.133 rows/s, 720 s to go\n");
+}
+
+TEST(ProgressLine, AdvisesNothingWhereLittleIsToGo) {
+  std::int64_t now_ns = 0;
+  testing::internal::CaptureStderr();
+  {
+    ProgressLine progress("rows", 100, [&] { return now_ns; });
+    progress.SetAdvice("try less");
+    now_ns = 6'000'000'000;
+    progress.Update(90);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// Options of a verb with the text of each, from its --help.
+std::map<std::string, std::string> OptionsOf(const std::string& verb) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(RunCommand({verb, "--help"}), 0);
+  std::istringstream lines(testing::internal::GetCapturedStdout());
+  std::map<std::string, std::string> options;
+  std::string option;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  --")) option = line.substr(2, line.find("  ", 2) - 2);
+    if (!option.empty()) options[option] += " " + line;
+  }
+  return options;
+}
+
+TEST(Command, SaysOfEachOptionWithAValueWhatHoldsWithoutIt) {
+  for (const char* verb : {"solve", "simulate", "calibrate", "estimate", "import", "capture",
+                           "diagnose", "info", "reference", "demo"}) {
+    for (const auto& [option, text] : OptionsOf(verb)) {
+      if (option.find(' ') == std::string::npos) continue;  // a flag
+      const std::string words = std::regex_replace(text, std::regex(" +"), " ");
+      EXPECT_THAT(words, testing::ContainsRegex("default: |required|without it|may be repeated"))
+          << verb << " " << option;
+    }
+  }
+}
+
+TEST(StepLine, CountsFromOneAndClaimsNoTimeToGo) {
+  EXPECT_EQ(StepLine(0, 7, "simulating", 3.4, 600.0),
+            "step 1 of at most 7: simulating (3 s so far; the search ends after 600 s)");
+  EXPECT_EQ(StepLine(1, 7, "fitting", 12.0, 0.0), "step 2 of at most 7: fitting (12 s so far)");
+}
+
+TEST(Command, SaysThatAMeshIsTooLargeForItsUnit) {
+  const TestFolder folder;
+  WriteBarRobot(folder);
+  const std::string mesh = (folder / "bar.vtk").string();
+  const auto output = [](const std::vector<std::string>& words) {
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(RunCommand(words), 0);
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_THAT(output({"info", mesh}), testing::HasSubstr("warning: 80 m long: --unit mm?"));
+  EXPECT_THAT(output({"info", mesh, "--json"}), testing::HasSubstr("80 m long: --unit mm?"));
+  EXPECT_THAT(output({"info", mesh, "--unit", "mm"}), testing::Not(testing::HasSubstr("warning")));
+}
+
+/// The process is asked to end once `file` is there.
+int InterruptOnce(ChildProcess* process, const std::filesystem::path& file) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(file) && !process->ExitCode() &&
+         std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  return process->Stop();
+}
+
+TEST(Interrupted, SolveLeavesTheRowsThatItHas) {
+  const TestFolder folder;
+  std::string rows = "t_s\n";
+  for (int i = 0; i < 100000; ++i) rows += std::to_string(i) + "\n";
+  const std::string out = (folder / "out").string();
+  ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
+                       {"solve", WriteBarRobot(folder).string(), "--actuation",
+                        folder.Write("a.csv", rows).string(), "--out", out},
+                       {}, folder / "log");
+  EXPECT_EQ(InterruptOnce(&process, folder / "out/nodes_0002.csv"), 130);
+  EXPECT_THAT(ReadFile(folder / "log"),
+              testing::ContainsRegex(
+                  "palpate: interrupted after [0-9]+ of 100000 rows: they are in .*out"));
+  EXPECT_THAT(ReadFile(folder / "out/result.json"), testing::HasSubstr("\"interrupted\": true"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/markers.csv"));
+}
+
+TEST(Interrupted, DiagnoseSaysThatNothingWasWritten) {
+  const TestFolder folder;
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        const EndOnSignal end("palpate diagnose", "nothing was written");
+        raise(SIGTERM);
+        for (;;) std::this_thread::yield();
+      },
+      testing::ExitedWithCode(130), "palpate diagnose: interrupted: nothing was written");
 }
 
 TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct FakeBenchLog {
   std::vector<CameraInput> moments;  ///< of the frames
   std::vector<scenario::ActiveEffect> effects;
   double fails_after_s = 1e9;
+  double raises_after_s = 1e9;                                       ///< SIGINT
   Eigen::Isometry3d T_before_after = Eigen::Isometry3d::Identity();  ///< camera, moved by an effect
 };
 
@@ -46,6 +48,10 @@ class FakeBench : public SimulatedBench {
   }
   Status Advance(double t_s, const scenario::BenchInputs& inputs) override {
     if (t_s > log_.fails_after_s) return {StatusCode::kInverted, "an element turned inside out"};
+    if (t_s > log_.raises_after_s) {
+      log_.raises_after_s = 1e9;  // a second signal would end the test
+      std::raise(SIGINT);
+    }
     log_.steps.push_back({t_s, inputs});
     inputs_ = inputs;
     return Status::Ok();

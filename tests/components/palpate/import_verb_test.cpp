@@ -96,6 +96,34 @@ TEST_F(ImportVerbTest, WritesAnExperimentThatReadsBack) {
   EXPECT_EQ(recording.markers->frames[2].positions_m[1], Eigen::Vector3d(0.1, -0.6, 0));
 }
 
+TEST_F(ImportVerbTest, WritesKnownLoads) {
+  options_.kind = "known_load";
+  options_.loads = {"0.01, 0.02, 0.03: 0, 0, -0.5", "0.01,0.02,0.01,0.004: 0.1,0,0"};
+  const auto loads = Import().recordings[0].loads;
+  EXPECT_THAT(report_.str(), testing::Not(HasSubstr("warning")));
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_EQ(loads[0].position_m, Eigen::Vector3d(0.01, 0.02, 0.03));
+  EXPECT_EQ(loads[0].force_N, Eigen::Vector3d(0.0, 0.0, -0.5));
+  EXPECT_EQ(loads[1].patch_radius_m, 0.004);
+  EXPECT_EQ(loads[0].t_s, loads[1].t_s);  // all the time
+}
+
+TEST_F(ImportVerbTest, WarnsOfAKnownLoadThatIsMissing) {
+  options_.kind = "known_load";
+  Import();
+  EXPECT_THAT(report_.str(), HasSubstr("kind known_load needs its load"));
+}
+
+TEST_F(ImportVerbTest, RefusesALoadInAnotherForm) {
+  for (const char* load :
+       {"0,0,0", "0,0: 1,0,0", "0,0,0: 1,0", "a,0,0: 1,0,0", "0,0,0,-1: 1,0,0"}) {
+    options_.loads = {load};
+    EXPECT_THAT(Refusal(), HasSubstr("--load '" + std::string(load) + "'"));
+  }
+  options_.loads = {"120,0,0: 1,0,0"};
+  EXPECT_THAT(Refusal(), HasSubstr("millimetres?"));
+}
+
 TEST_F(ImportVerbTest, DoesNotClaimTheRobotFrameWithoutBeingTold) {
   const auto experiment = Import();
   EXPECT_EQ(experiment.frame, MeasurementFrame::kCamera);

@@ -8,16 +8,22 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "components/palpate/find_robot.hpp"
+#include "components/palpate/solve_rows.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "libs/experiment/csv_table.hpp"
+#include "libs/experiment/markers.hpp"
+#include "libs/fem/mesh_io/read_mesh.hpp"
 #include "tests/components/palpate/test_robot.hpp"
 
 namespace palpate::command {
 namespace {
 
 using experiment::CsvTable;
+using test_support::MessageOf;
 
 class SolveVerb : public testing::Test {
  protected:
@@ -153,9 +159,114 @@ TEST_F(SolveVerb, RefusesALoadFarFromTheBodyWithFileAndLine) {
   }
 }
 
-TEST_F(SolveVerb, SaysWhereItCannotWrite) {
+TEST_F(SolveVerb, SaysWhereItCannotWriteBeforeItReadsTheRobot) {
+  options_.robot = "no_such_robot";
   options_.out = folder_.Write("file", "in the way");
-  EXPECT_THROW(Solve(options_), RunError);
+  EXPECT_THAT(MessageOf([&] { Solve(options_); }), testing::HasSubstr("is not a folder"));
+}
+
+TEST_F(SolveVerb, WritesMarkersAsARecordingHasThem) {
+  Actuate("t_s,top.displacement_m\n0,0.001\n1,0.2\n2.5,0.002\n");
+  EXPECT_EQ(Solve(options_), 1);  // the second row
+  const auto markers = experiment::ReadMarkers(options_.out / "markers.csv");
+  EXPECT_EQ(markers.names, std::vector<std::string>{"tip"});
+  ASSERT_EQ(markers.frames.size(), 2U);
+  EXPECT_EQ(markers.frames[1].t_s, 2.5);
+  // The marker is the node at (80, 10, 20) mm: three nodes before the last.
+  const CsvTable nodes = CsvTable::Read(options_.out / "nodes_0002.csv");
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = static_cast<std::size_t>(axis) + 1;
+    EXPECT_NEAR((*markers.frames[1].positions_m[0])[axis], nodes.Number(nodes.rows() - 4, column),
+                1e-12);
+  }
+}
+
+TEST_F(SolveVerb, LeavesFilesThatItDidNotWrite) {
+  Actuate("t_s,top.tension_N\n0,0\n");
+  ASSERT_EQ(Solve(options_), 0);
+  folder_.Write("out/nodes_0009.csv", "mine");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_EQ(ReadFile(options_.out / "nodes_0009.csv"), "mine");
+  folder_.Write("out/nodes_0001.csv", "mine, too");
+  Actuate("t_s,top.tension_N\n0,0\n1,0\n");
+  EXPECT_THAT(MessageOf([&] { Solve(options_); }),
+              testing::AllOf(testing::HasSubstr("nodes_0001.csv: is there already"),
+                             testing::HasSubstr("give another --out")));
+  EXPECT_TRUE(std::filesystem::exists(options_.out / "nodes_0000.csv"));
+}
+
+TEST_F(SolveVerb, LeavesAResultThatIsOfSomethingElse) {
+  folder_.Write("out/result.json", "{\"files\": [\"../bar.yaml\"]}");
+  EXPECT_THAT(MessageOf([&] { Solve(options_); }), testing::HasSubstr("result.json: is there"));
+  folder_.Write("out/result.json", R"({"palpate": "1", "files": ["../bar.yaml", "result.json"]})");
+  ASSERT_EQ(Solve(options_), 0);
+  EXPECT_TRUE(std::filesystem::exists(options_.robot));
+}
+
+TEST_F(SolveVerb, ParaViewHasUndeformedPointsWithFieldsAndTheTimes) {
+  options_.loads = folder_.Write("l.csv",
+                                 "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n"
+                                 "0,0.08,0.01,0.02,0,0,-0.01\n2,0.08,0.01,0.02,0,0,-0.02\n");
+  options_.vtu = true;
+  ASSERT_EQ(Solve(options_), 0);
+  const fem::TetMesh written = fem::ReadMesh(options_.out / "body_0001.vtu", 1.0);
+  const fem::TetMesh rest = fem::ReadMesh(folder_ / "bar.vtk", 1e-3);
+  EXPECT_TRUE(written.nodes_m.isApprox(rest.nodes_m, 1e-12));
+  const std::string text = ReadFile(options_.out / "body_0001.vtu");
+  for (const char* field :
+       {"displacement_m", "load_N", "von_mises_stress_Pa", "largest_principal_strain"}) {
+    EXPECT_THAT(text, testing::HasSubstr("Name=\"" + std::string(field) + "\""));
+  }
+  EXPECT_THAT(
+      ReadFile(options_.out / "body.pvd"),
+      testing::AllOf(testing::HasSubstr("timestep=\"0\" part=\"0\" file=\"body_0000.vtu\""),
+                     testing::HasSubstr("timestep=\"2\" part=\"0\" file=\"body_0001.vtu\"")));
+}
+
+TEST_F(SolveVerb, SaysHowFarATensionWasFollowedAndWhatToPrescribeInstead) {
+  const std::string strong = std::regex_replace(
+      ReadFile(options_.robot), std::regex("max_tension_N: 1"), "max_tension_N: 100");
+  options_.robot = folder_.Write("strong.yaml", strong);
+  Actuate("t_s,top.tension_N\n0,60\n");
+  EXPECT_EQ(Solve(options_), 1);
+  EXPECT_THAT(
+      Result()["rows"][0]["message"].get<std::string>(),
+      testing::AllOf(testing::ContainsRegex("cable top: followed up to [0-9.]+ N of the 60 N"),
+                     testing::HasSubstr("prescribe the displacement (top.displacement_m)")));
+}
+
+TEST_F(SolveVerb, WarnsOfAModulusInAnotherUnit) {
+  const std::string soft = std::regex_replace(
+      ReadFile(options_.robot), std::regex("youngs_modulus_Pa: 100.0e3"), "youngs_modulus_Pa: 0.2");
+  options_.robot = folder_.Write("soft.yaml", soft);
+  testing::internal::CaptureStderr();
+  LoadRobot(options_.robot);
+  EXPECT_THAT(
+      testing::internal::GetCapturedStderr(),
+      testing::HasSubstr("warning: robot bar: material: youngs_modulus_Pa: 0.2 Pa is softer "
+                         "than any solid: is this MPa? Then write 200000"));
+}
+
+TEST_F(SolveVerb, TellsTheWatcherOfEachRowAndLeavesOffWhereItGivesUp) {
+  const auto model = LoadRobot(options_.robot);
+  std::vector<LoadCase> rows(3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].t_s = static_cast<double>(i);
+    rows[i].cables = {{robot::CableCommand::Kind::kTension, 0.1 * static_cast<double>(i)}};
+  }
+  std::vector<int> taken;
+  std::vector<int> watched;
+  const auto take = [&](const RowResult& result) { taken.push_back(result.row); };
+  EXPECT_FALSE(SolveRows(rows, model.get(), take, [&](int row, const fem::StaticResult& so_far) {
+    EXPECT_GE(so_far.load_fraction, 0.0);
+    watched.push_back(row);
+    return row < 1;
+  }));
+  EXPECT_EQ(taken, std::vector<int>{0});
+  EXPECT_EQ(watched.back(), 1);
+  EXPECT_TRUE(
+      SolveRows(rows, model.get(), take, [](int, const fem::StaticResult&) { return true; }));
+  EXPECT_EQ(taken, (std::vector<int>{0, 0, 1, 2}));
 }
 
 TEST_F(SolveVerb, RefusesARobotThatIsNotThere) {

@@ -180,6 +180,8 @@ TEST(RunMain, MapsErrorsToExitCodesAndOneLine) {
   EXPECT_EQ(run([]() -> int { throw std::logic_error("odd"); }, &printed), 1);
   EXPECT_EQ(run([]() -> int { throw std::bad_alloc(); }, &printed), 1);
   EXPECT_EQ(printed, "palpate: error: out of memory\n");
+  EXPECT_EQ(run([]() -> int { throw Interrupted("after 2 of 3 rows: kept"); }, &printed), 130);
+  EXPECT_EQ(printed, "palpate: interrupted after 2 of 3 rows: kept\n");
 }
 
 TEST(RunMainDeathTest, OutputThatCannotBeWrittenIsAFailure) {

@@ -54,6 +54,20 @@ TEST(ClosestPointOnTriangle, TreatsATriangleWithoutAreaAsItsEdges) {
                   .isApprox(Eigen::Vector3d(1.5, 0, 0), 1e-14));
 }
 
+TEST(RayMeets, TheWallsAroundAPointAndNothingBehindIt) {
+  const TriangleSurface cube = UnitCube();
+  const Eigen::Matrix3Xd directions = RandomPoints(200, 1.0, 9);
+  for (const Eigen::Vector3d direction : directions.colwise()) {
+    EXPECT_TRUE(RayMeets(cube, {0.3, 0.6, 0.2}, direction));
+    // From beside the cube only rays towards it can meet it.
+    if (direction.x() > 0.0) {
+      EXPECT_FALSE(RayMeets(cube, {1.5, 0.5, 0.5}, direction));
+    }
+  }
+  EXPECT_TRUE(RayMeets(cube, {1.5, 0.5, 0.4}, {-1.0, 0.0, 0.0}));
+  EXPECT_FALSE(RayMeets(cube, {1.5, 2.5, 0.4}, {-1.0, 0.0, 0.0}));
+}
+
 TEST(SurfaceIndex, FindsWhatASearchThroughAllTrianglesFinds) {
   const TriangleSurface sphere = Sphere(0.1, 20, 30);
   const SurfaceIndex index(sphere);

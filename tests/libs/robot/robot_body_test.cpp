@@ -14,6 +14,7 @@
 
 #include "libs/core/error.hpp"
 #include "libs/robot/body_mesh.hpp"
+#include "tests/libs/fem/points/meshes.hpp"
 #include "tests/libs/robot/robot_files.hpp"
 
 namespace palpate::robot {
@@ -54,6 +55,51 @@ class RobotBodyTest : public testing::Test {
 };
 
 Eigen::VectorXd RestNodes(const RobotBody& body) { return body.mesh.nodes_m.reshaped(); }
+
+/// A box of 30 mm with a closed hollow of 10 mm in its middle.
+fem::TetMesh HollowBox() {
+  fem::TetMesh box = fem::BoxMesh({0.03, 0.03, 0.03}, {3, 3, 3});
+  constexpr int kFirstOfTheMiddle = 6 * 13;
+  Eigen::MatrixXi cells(4, box.CellCount() - 6);
+  cells << box.cells.leftCols(kFirstOfTheMiddle),
+      box.cells.rightCols(box.CellCount() - kFirstOfTheMiddle - 6);
+  box.cells = cells;
+  return box;
+}
+
+std::string HollowRobot(const std::string& eyelet_m, const std::string& youngs_modulus_Pa) {
+  return "name: hollow\nmesh: {file: hollow.vtk, unit: m}\nelement: tet4\n"
+         "material: {model: stable_neo_hookean, youngs_modulus_Pa: " +
+         youngs_modulus_Pa +
+         ", poissons_ratio: 0.45}\nmass: {density_kg_m3: 1000}\ngravity_m_s2: [0, 0, -9.81]\n"
+         "fixed: [{box_m: [[-0.001, -0.001, -0.001], [0.031, 0.031, 0.001]]}]\n"
+         "cables: [{name: c, path_m: [[0.01, 0.01, -0.01], " +
+         eyelet_m + "], max_tension_N: 1, guide_radius_m: 0}]\n";
+}
+
+TEST_F(RobotBodyTest, WarnsOfACableInAHollow) {
+  WriteVtk(HollowBox(), folder_ / "hollow.vtk");
+  EXPECT_THAT(Build(HollowRobot("[0.0115, 0.015, 0.015]", "200.0e3")).warnings,
+              testing::ElementsAre(AllOf(HasSubstr("cable c: attachment lies in a hollow, 1.5 mm"),
+                                         HasSubstr("in the material?"))));
+  EXPECT_TRUE(Build(HollowRobot("[0.005, 0.015, 0.015]", "200.0e3")).warnings.empty());
+  // Off the outer side.
+  const RobotBody outside = Build(HollowRobot("[-0.001, 0.015, 0.015]", "200.0e3"));
+  EXPECT_TRUE(outside.warnings.empty());
+  EXPECT_THAT(outside.notes, Contains(HasSubstr("cable c: attachment 1 mm outside the mesh")));
+}
+
+TEST_F(RobotBodyTest, WarnsOfAModulusThatNoSolidHas) {
+  WriteVtk(HollowBox(), folder_ / "hollow.vtk");
+  const auto warnings = [&](const std::string& youngs_modulus_Pa) {
+    return Build(HollowRobot("[0.005, 0.015, 0.015]", youngs_modulus_Pa)).warnings;
+  };
+  EXPECT_THAT(warnings("0.2"),
+              testing::ElementsAre(AllOf(HasSubstr("youngs_modulus_Pa: 0.2 Pa"),
+                                         HasSubstr("is this MPa? Then write 200000"))));
+  EXPECT_THAT(warnings("180"), testing::ElementsAre(HasSubstr("is this kPa? Then write 180000")));
+  EXPECT_TRUE(warnings("1.0e3").empty());
+}
 
 TEST_F(RobotBodyTest, PlacesTheMesh) {
   const RobotBody body = Build(Changed("element: tet10", "element: tet4"));

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <utility>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
@@ -70,6 +71,7 @@ DemoPlace MakeDemoPlace(const std::filesystem::path& out) {
   place.programs = ProgramFolder();
   place.folder = out.empty() ? place.programs.parent_path() / "demo" : out;
   place.folder = std::filesystem::absolute(place.folder).lexically_normal();
+  CheckOutputFolder(place.folder);
   std::error_code error;
   std::filesystem::create_directories(place.folder, error);
   if (error) {

@@ -216,6 +216,29 @@ TEST(StaticSolver, StopsWhereItsTimeIsUsedUp) {
   EXPECT_EQ(bar.state.x_m, before);
 }
 
+TEST(StaticSolver, TellsItsObserverHowFarItIsAndStopsWhereItSays) {
+  Bar bar(kStable, {}, /*hold_far_end=*/true);
+  bar.TwistTip(3.0);
+  const Eigen::VectorXd before = bar.state.x_m;
+  std::vector<int> iterations;
+  bar.solver.SetObserver([&](const StaticResult& so_far) {
+    iterations.push_back(so_far.iterations);
+    return so_far.iterations < 2;
+  });
+  const StaticResult stopped = bar.solver.Solve(bar.target, &bar.state);
+  EXPECT_EQ(stopped.status.code(), StatusCode::kBudgetReached);
+  EXPECT_EQ(iterations, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(bar.state.x_m, before);
+  double largest_fraction = 0.0;
+  bar.solver.SetObserver([&](const StaticResult& so_far) {
+    largest_fraction = std::max(largest_fraction, so_far.load_fraction);
+    return true;
+  });
+  EXPECT_TRUE(bar.solver.Solve(bar.target, &bar.state).status.ok());
+  EXPECT_GT(largest_fraction, 0.0);  // it takes several load steps
+  EXPECT_LT(largest_fraction, 1.0);
+}
+
 TEST(StaticSolver, AFailureLeavesTheLastBalance) {
   Bar bar(kStable, {}, /*hold_far_end=*/true);
   for (int n = 0; n < bar.mesh.NodeCount(); ++n) {  // the ends would change places
