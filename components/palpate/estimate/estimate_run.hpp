@@ -36,6 +36,7 @@ class EstimateRun {
 
  private:
   ShapeReplay& Shape();
+  std::unique_ptr<ShapeReplay> MakeShapeReplay() const;
   void Say(const std::string& note);
 
   const EstimateOptions& options_;
