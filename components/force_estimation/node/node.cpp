@@ -241,6 +241,7 @@ bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
 void ForceEstimationNode::PublishResults() {
   while (const std::optional<FrameResult> result = worker_.TakeResult()) {
     last_status_ = result->estimate.status;
+    LogBiasFrames(result->bias_frames_to_come);
     if (ToString(result->drift.state) != ToString(drift_.state)) LogDrift(result->drift);
     drift_ = result->drift;
     if (result->gap_so_far.state != gap_.state) LogGap(result->gap_so_far);
@@ -280,6 +281,18 @@ void ForceEstimationNode::LogDrift(const DriftReport& drift) {
   log_.Write(moved ? Severity::kWarning : Severity::kInfo,
              "calibration of the camera: " + ToString(drift.state) +
                  (moved ? ": " + drift.advice : std::string()));
+}
+
+/// When the depth bias begins to be estimated, be it at the start or because a sequence begins
+/// while the robot is at work, and when it is known.
+void ForceEstimationNode::LogBiasFrames(int to_come) {
+  const int before = std::exchange(bias_frames_to_come_, to_come);
+  if (to_come > before) {
+    log_.Write(Severity::kWarning, "learning the depth bias from " + std::to_string(to_come) +
+                                       " frames: do not touch the robot");
+  } else if (to_come == 0 && before > 0) {
+    log_.Write(Severity::kInfo, "the depth bias is known: forces from now on");
+  }
 }
 
 void ForceEstimationNode::LogGap(const GapReport& gap) {

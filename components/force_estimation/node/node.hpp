@@ -60,6 +60,7 @@ class ForceEstimationNode {
   bool IsSilent() const;
   Status CurrentStatus() const;
   void LogDrift(const DriftReport& drift);
+  void LogBiasFrames(int to_come);
   void LogGap(const GapReport& gap);
   void ExpectInputs();
   void LogForces();
@@ -86,6 +87,7 @@ class ForceEstimationNode {
   Status last_status_;
   DriftReport drift_;
   GapReport gap_;
+  int bias_frames_to_come_ = 0;  ///< of the last result
   Clock::time_point last_frame_;
   ForceLines force_lines_;
   std::unique_ptr<FrameSource> source_;

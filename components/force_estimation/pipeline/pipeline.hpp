@@ -38,6 +38,8 @@ struct PipelineResult {
   Status state;                 ///< ok: x_m is the equilibrium that explains the frame
   DriftReport drift = {};       ///< of the frames before this one
   GapReport gap_so_far = {};    ///< of the frames before this one
+  /// Contact-free frames that are still to come until there are forces, with this one.
+  int bias_frames_to_come = 0;
 };
 
 /// From frames of one sequence to forces, with the state that a sequence keeps: contact-free frames

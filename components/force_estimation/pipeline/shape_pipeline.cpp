@@ -3,6 +3,7 @@
 
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -31,7 +32,8 @@ ShapePipeline::Estimator MakeEstimator(robot::RobotModel& model, const Config& c
           .features = [estimator]() -> const std::vector<FeatureReport>& {
             return estimator->features();
           },
-          .prepare_next = [estimator] { estimator->PrepareNext(); }};
+          .prepare_next = [estimator] { estimator->PrepareNext(); },
+          .judge_bias_frames = [estimator] { return estimator->JudgeBiasFrames(); }};
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ const PipelineResult& ShapePipeline::Update(PipelineFrame frame) {
 }
 
 void ShapePipeline::MarkContactFree() {
-  if (frames_with_robot_ < contact_free_frames_) shape_.frame.untouched = true;
+  result_.bias_frames_to_come = std::max(0, contact_free_frames_ - frames_with_robot_);
+  if (result_.bias_frames_to_come > 0) shape_.frame.untouched = true;
   if (shape_.perception.ok()) ++frames_with_robot_;
 }
 

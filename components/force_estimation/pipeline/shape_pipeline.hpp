@@ -32,6 +32,7 @@ class ShapePipeline : public Pipeline {
     std::function<const ForceEstimate&(const ShapeFrame&)> update;
     std::function<const std::vector<FeatureReport>&()> features;
     std::function<void()> prepare_next;
+    std::function<std::vector<BiasSequence>()> judge_bias_frames = {};
   };
 
   /// `model`, to which `calibration` was applied, must outlive the pipeline. Of the calibration the
@@ -52,6 +53,11 @@ class ShapePipeline : public Pipeline {
   /// [3 x n] nodes of the last frame whose state is known, robot frame, as perception receives
   /// them; without columns where there was none yet.
   Eigen::Matrix3Xf PredictedNodes_m() const;
+  /// Whether the frames with `untouched`, by epoch, were contact-free.
+  std::vector<BiasSequence> JudgeBiasFrames() const { return estimator_.judge_bias_frames(); }
+  /// The shape `x_m` [3n] in which the next frame is expected, robot frame: the posture that the
+  /// commands give, at the start of a sequence.
+  void Expect(const Eigen::VectorXd& x_m) { nodes_m_ = x_m.cast<float>().cast<double>(); }
 
  private:
   void MarkContactFree();

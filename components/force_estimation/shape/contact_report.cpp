@@ -18,14 +18,22 @@ namespace {
 /// At the contact's location.
 Eigen::Matrix3d CovarianceOf(const ShapeFitter& fit, std::size_t site) {
   const auto row = ToIndex(3 * site);
-  return fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
+  return fit.Covariance_N2().block<3, 3>(row, row);
+}
+
+/// What a bias that was fitted along adds to the covariance.
+Eigen::Matrix3d ShareOfBias(const ShapeFitter& fit, std::size_t site) {
+  const auto row = ToIndex(3 * site);
+  return CovarianceOf(fit, site) - fit.fitter().fit().covariance_N2.block<3, 3>(row, row);
 }
 
 /// With the uncertainty of the location.
 Eigen::Matrix3d WholeCovariance(const ShapeFitter& fit, std::size_t site) {
   const ShapeSite& followed = fit.sites()[site];
   if (followed.hidden) return CovarianceOf(fit, site) + followed.place_force_covariance_N2;
-  if (site < fit.located().size()) return fit.located()[site].force_covariance_N2;
+  if (site < fit.located().size()) {
+    return fit.located()[site].force_covariance_N2 + ShareOfBias(fit, site);
+  }
   return CovarianceOf(fit, site);
 }
 
@@ -73,8 +81,9 @@ ContactReport::ContactReport(const ShapeConfig& config, double force_relative_si
 /// is the best of many candidates, so that the chance is divided by their number.
 double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
   const bool hidden = fit.sites()[site].hidden;
-  const double chance =
-      hidden ? config_.hidden_significance / search_places_ : config_.significance;
+  const double seen =
+      fit.IsBiasFittedAlong() ? tuning_.significance_along : config_.significance;
+  const double chance = hidden ? config_.hidden_significance / search_places_ : seen;
   return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
 }
 

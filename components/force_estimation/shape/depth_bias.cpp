@@ -113,6 +113,13 @@ Eigen::VectorXd DepthBias::ScaledBasis(const correspondence::FeatureMatch& match
   return prior_root_.transpose() * SharedBasis(match, T_robot_camera);
 }
 
+double DepthBias::PriorResidual_m(const correspondence::FeatureMatch& match,
+                                  const Eigen::VectorXd& x_m,
+                                  const Eigen::Isometry3d& T_robot_camera) const {
+  return match.target_m - match.row.Value(x_m) -
+         SharedBasis(match, T_robot_camera).dot(prior_mean_);
+}
+
 void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
                       const Eigen::VectorXd& x_m, const Eigen::Isometry3d& T_robot_camera) {
   PALPATE_CHECK(static_cast<int>(matches.size()) == feature_count_, matches.size());
@@ -139,6 +146,13 @@ void DepthBias::Learn(const std::vector<correspondence::FeatureMatch>& matches,
     right_side_[at] += residual_over_sigma * own;
     AddToSeries(feature, residual_over_sigma);
   }
+}
+
+void DepthBias::SetShared(const Eigen::VectorXd& shared) {
+  PALPATE_CHECK(!known_ && shared.size() == shared_count_, known_, shared.size());
+  shared_is_given_ = true;
+  solution_.setZero();
+  solution_.head(shared_count_) = shared;
 }
 
 void DepthBias::AddToSeries(int feature, double residual_over_sigma) {
@@ -197,6 +211,7 @@ Status DepthBias::Finish() {
   covariance_ = factor.Inverse();
   solution_ = factor.Solve(Eigen::VectorXd(worth * right_side_));
   known_ = true;
+  shared_is_given_ = false;
   return Status::Ok();
 }
 
@@ -209,8 +224,9 @@ double DepthBias::Correction_m(int feature, const correspondence::FeatureMatch& 
 
 double DepthBias::CorrectionSigma_m(int feature, const correspondence::FeatureMatch& match,
                                     const Eigen::Isometry3d& T_robot_camera) const {
-  const Eigen::VectorXd shared = ScaledBasis(match, T_robot_camera);
   const double own = config_.feature_offset_prior_m;
+  if (shared_is_given_) return own;
+  const Eigen::VectorXd shared = ScaledBasis(match, T_robot_camera);
   const Eigen::Index at = shared_count_ + feature;
   const double variance_m2 =
       shared.dot(covariance_.topLeftCorner(shared_count_, shared_count_) * shared) +

@@ -52,6 +52,13 @@ class DepthBias {
   /// few surface points were seen and no calibration gave the map.
   Status Finish();
 
+  /// Where neither frames nor a calibration gave the map: the parameters that the points share,
+  /// over their prior sigmas, from a fit together with forces; the map stays unknown.
+  /// CorrectionSigma_m is from now on that of the points' own offsets: the shared uncertainty
+  /// (ScaledBasis) is the caller's.
+  void SetShared(const Eigen::VectorXd& shared);
+  Eigen::VectorXd Shared() const { return solution_.head(shared_count_); }
+
   int frames() const { return frames_; }
   bool known() const { return known_; }
 
@@ -62,6 +69,13 @@ class DepthBias {
   /// Sigma of that correction, m; before Finish that of the priors.
   double CorrectionSigma_m(int feature, const correspondence::FeatureMatch& match,
                            const Eigen::Isometry3d& T_robot_camera) const;
+  /// Derivative of a match's residual to each independent parameter that the points share, which
+  /// the prior gives a sigma of 1, m.
+  Eigen::VectorXd ScaledBasis(const correspondence::FeatureMatch& match,
+                              const Eigen::Isometry3d& T_robot_camera) const;
+  /// Residual of a match about `x_m` [3n], less the mean of the prior, m.
+  double PriorResidual_m(const correspondence::FeatureMatch& match, const Eigen::VectorXd& x_m,
+                         const Eigen::Isometry3d& T_robot_camera) const;
   /// Scatter of single frames about the correction, over their sigma_m: 1 where the noise model is
   /// right, and before Finish.
   double NoiseScale() const { return noise_scale_; }
@@ -83,9 +97,6 @@ class DepthBias {
   /// map.
   Eigen::VectorXd SharedBasis(const correspondence::FeatureMatch& match,
                               const Eigen::Isometry3d& T_robot_camera) const;
-  /// The same per independent parameter that the prior gives a sigma of 1.
-  Eigen::VectorXd ScaledBasis(const correspondence::FeatureMatch& match,
-                              const Eigen::Isometry3d& T_robot_camera) const;
   void SetPrior();
   void Reset();
   void AddToSeries(int feature, double residual_over_sigma);
@@ -100,6 +111,7 @@ class DepthBias {
   Eigen::MatrixXd prior_root_;  ///< [shared square] L of the prior's covariance L L'
   int frames_ = 0;
   bool known_ = false;
+  bool shared_is_given_ = false;
   double noise_scale_ = 1.0;
   double correlation_;  ///< of a frame with the next
   std::vector<Series> series_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libs/core/index.hpp"
+#include "libs/linalg/cholesky.hpp"
 
 namespace palpate::force_estimation {
 
@@ -133,10 +134,11 @@ Eigen::Vector3d ShapeFitter::NormalAt(std::size_t site) const {
 
 bool ShapeFitter::FlipAdhesiveContacts() {
   bool moved = false;
+  const Eigen::MatrixXd covariances_N2 = Covariance_N2();
   for (std::size_t s = 0; s < sites().size(); ++s) {
     const Eigen::Vector3d normal = NormalAt(s);
     const auto row = ToIndex(3 * s);
-    const Eigen::Matrix3d covariance_N2 = fitter_.fit().covariance_N2.block<3, 3>(row, row);
+    const Eigen::Matrix3d covariance_N2 = covariances_N2.block<3, 3>(row, row);
     const double sigma_N = std::sqrt(std::max(0.0, normal.dot(covariance_N2 * normal)));
     if (normal.dot(ForceAt(s)) < tuning_.adhesion_sigmas * sigma_N) continue;
     moved = tracks_.TurnOver(s, ForceAt(s)) || moved;
@@ -163,20 +165,75 @@ Status ShapeFitter::Match(const ShapeFrame& frame) {
 
 Status ShapeFitter::MatchAndFit(const ShapeFrame& frame, const DepthBias& bias) {
   Status status;
-  for (int round = 0; round < shape_.matching_rounds; ++round) {
+  const int rounds = MatchingRounds();
+  for (int round = 0; round < rounds; ++round) {
     if (status = Match(frame); !status.ok()) return status;
+    T_robot_camera_ = frame.T_robot_camera;
     targets_.Build(*matches_, bias, frame.T_robot_camera, state_.x_m, bias_x_m_, sites());
     targets_.WeighAt(state_.x_m);
     fitter_.SetRows(targets_.rows());
     matched_x_m_ = state_.x_m;
-    const bool last = round + 1 == shape_.matching_rounds;
+    const bool last = round + 1 == rounds;
     if (!last) {
       if (status = FitRoughly(frame); !status.ok()) return status;
-      if (LargestMotion_m(matched_x_m_) >= tuning_.match_again_m) continue;
+      const bool bias_changed = along_ != nullptr && FitBiasAlong() >= tuning_.bias_again_m;
+      if (bias_changed || LargestMotion_m(matched_x_m_) >= tuning_.match_again_m) continue;
     }
     return Fit(frame);
   }
   return status;
+}
+
+int ShapeFitter::MatchingRounds() const {
+  return (along_ == nullptr ? 1 : tuning_.rounds_along) * shape_.matching_rounds;
+}
+
+Eigen::MatrixXd ShapeFitter::SharedBias_m() const {
+  const std::vector<int>& features = targets_.features();
+  Eigen::MatrixXd rows_m(ToIndex(features.size()), along_->Shared().size());
+  for (std::size_t r = 0; r < features.size(); ++r) {
+    rows_m.row(ToIndex(r)) =
+        along_->ScaledBasis((*matches_)[At(features[r])], T_robot_camera_).transpose();
+  }
+  return rows_m;
+}
+
+/// Gauss-Newton step of bias and forces together, of which the bias is taken: the next fit gives
+/// the forces. Alternating the two fits would creep where a contact resembles a bias. At the
+/// optimum of the forces for the present bias b: G'S^-1 r = P f.
+double ShapeFitter::FitBiasAlong() {
+  if (targets_.Count() == 0) return 0.0;
+  const Eigen::MatrixXd shared_m = SharedBias_m();
+  const Eigen::VectorXd before = along_->Shared();
+  const Eigen::MatrixXd weighted = targets_.targets().weight.asDiagonal() * shared_m;
+  Eigen::MatrixXd information = weighted.transpose() * shared_m;
+  information.diagonal().array() += 1.0;
+  Eigen::VectorXd right_side =
+      weighted.transpose() * (fitter_.fit().residual_m + shared_m * before);
+  const Eigen::MatrixXd& forces_N2 = fitter_.fit().covariance_N2;
+  if (forces_N2.size() > 0) {
+    const Eigen::MatrixXd coupling = fitter_.Response().transpose() * weighted;
+    const Eigen::MatrixXd gain = forces_N2 * coupling;
+    information -= coupling.transpose() * gain;
+    right_side -= gain.transpose() * (coupling * before);
+  }
+  const Eigen::VectorXd shared = linalg::Cholesky(information).Solve(right_side);
+  along_->SetShared(shared);
+  return (shared_m * (shared - before)).cwiseAbs().maxCoeff();
+}
+
+/// The bias is a further unknown with the prior sigma 1: the block of the forces in the inverse of
+/// the joint information, by Woodbury's identity.
+Eigen::MatrixXd ShapeFitter::Covariance_N2() const {
+  const Eigen::MatrixXd& forces_N2 = fitter_.fit().covariance_N2;
+  if (along_ == nullptr || forces_N2.size() == 0 || targets_.Count() == 0) return forces_N2;
+  const Eigen::MatrixXd shared_m = SharedBias_m();
+  const Eigen::MatrixXd weighted = targets_.targets().weight.asDiagonal() * shared_m;
+  const Eigen::MatrixXd coupling = fitter_.Response().transpose() * weighted;
+  const Eigen::MatrixXd gain = forces_N2 * coupling;
+  Eigen::MatrixXd left = shared_m.transpose() * weighted - coupling.transpose() * gain;
+  left.diagonal().array() += 1.0;
+  return forces_N2 + gain * linalg::Cholesky(left).Solve(Eigen::MatrixXd(gain.transpose()));
 }
 
 Status ShapeFitter::MatchAndFitFromFar(const ShapeFrame& frame, const DepthBias& bias) {

@@ -45,6 +45,11 @@ struct ShapeFitterTuning {
   int frames_to_settle = 4;
   int frames_between_locations = 5;
   double settled_share = 0.3;
+  /// Where the depth bias is fitted along: factor on the rounds of matching, and the change of a
+  /// target by the bias after which forces are fitted again. More rounds, smaller: slower, closer
+  /// to the joint optimum.
+  int rounds_along = 3;
+  double bias_again_m = 5e-5;
   int reweightings = 1;  ///< of outliers in a frame; more: slower, closer to the robust optimum
   /// Further fits where one has used up its iterations and the frame's work is not limited. More: a
   /// longer first frame, fewer failures far from the shape.
@@ -129,6 +134,14 @@ class ShapeFitter {
   /// Replaces the hidden sites; their forces begin at zero.
   void ReplaceHidden(const std::vector<HiddenContact>& found);
 
+  /// From now on each matching fits this bias, whose map is unknown, along with the forces;
+  /// nullptr: no longer. It must be the one that MatchAndFit gets.
+  void FitAlong(DepthBias* bias) { along_ = bias; }
+  bool IsBiasFittedAlong() const { return along_ != nullptr; }
+  /// Covariance of the forces [3k x 3k] of the last fit, N^2, with the share of a bias that was
+  /// fitted along.
+  Eigen::MatrixXd Covariance_N2() const;
+
   /// The shape to which the bias belongs: nodes [3n].
   void SetBiasShape(const Eigen::VectorXd& x_m) { bias_x_m_ = x_m; }
 
@@ -165,6 +178,9 @@ class ShapeFitter {
  private:
   void UseSites();
   void SetForcePrior();
+  int MatchingRounds() const;
+  Eigen::MatrixXd SharedBias_m() const;  ///< [rows x parameters] derivative of the residuals
+  double FitBiasAlong();                 ///< the largest change of a target, m
   Status FitRoughly(const ShapeFrame& frame);
   Status Fit(const ShapeFrame& frame);
   void CountSteps(const ForceFit& fit);
@@ -189,7 +205,9 @@ class ShapeFitter {
   Eigen::VectorXd matched_x_m_;            ///< [3n] of the last matching
   Eigen::VectorXd bias_x_m_;               ///< [3n]; empty: the first initial shape
   std::vector<std::string> fitted_names_;  ///< of the fitter's sites
-  bool places_moved_ = false;              ///< since the fitter's last update
+  DepthBias* along_ = nullptr;
+  Eigen::Isometry3d T_robot_camera_ = Eigen::Isometry3d::Identity();  ///< of the last matching
+  bool places_moved_ = false;  ///< since the fitter's last update
   const std::vector<correspondence::FeatureMatch>* matches_ = nullptr;
   std::vector<LocatedForce> located_;
   int iterations_ = 0;

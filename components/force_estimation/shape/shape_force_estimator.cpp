@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "components/force_estimation/shape/bias_frame_check.hpp"
 #include "components/force_estimation/shape/contact_report.hpp"
 #include "components/force_estimation/shape/depth_bias.hpp"
 #include "components/force_estimation/shape/hidden_contacts.hpp"
@@ -33,6 +34,7 @@ class ShapeForceEstimator::Impl {
         shape_(shape),
         tuning_(tuning),
         bias_(static_cast<int>(model.body().feature_points.size()), shape),
+        bias_frames_(shape),
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
         report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma),
@@ -65,6 +67,7 @@ class ShapeForceEstimator::Impl {
   }
 
   const std::vector<FeatureReport>& features() const { return features_; }
+  std::vector<BiasSequence> JudgeBiasFrames() const { return bias_frames_.Judge(); }
   double SmallestForce_N(const Eigen::Vector3d& rest_position_m);
 
  private:
@@ -88,6 +91,7 @@ class ShapeForceEstimator::Impl {
   ShapeConfig shape_;
   ShapeForceEstimatorTuning tuning_;
   DepthBias bias_;
+  BiasFrameCheck bias_frames_;
   ShapeFitter fit_;
   HiddenContacts hidden_;
   ContactReport report_;
@@ -135,6 +139,7 @@ Status ShapeForceEstimator::Impl::Learn(const ShapeFrame& frame) {
   if (Status status = StartFromFreeState(frame); !status.ok()) return status;
   PublishState();
   if (Status status = fit_.Match(frame); !status.ok()) return status;
+  bias_frames_.Add(bias_, frame.epoch, fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
   bias_.Learn(fit_.matches(), fit_.state().x_m, frame.T_robot_camera);
   fit_.SetBiasShape(fit_.state().x_m);
   return {StatusCode::kNoCalibration, "the depth bias is being estimated: frame " +
@@ -160,6 +165,8 @@ Status ShapeForceEstimator::Impl::Estimate(const ShapeFrame& frame) {
     return {StatusCode::kNoRobotSeen,
             "only " + std::to_string(frame.cloud.Count()) + " points of the robot are seen"};
   }
+  if (!bias_.known()) bias_.SetShared(bias_.Shared());
+  fit_.FitAlong(bias_.known() ? nullptr : &bias_);
   begins_ = frames_to_begin_ > 0;
   frames_to_begin_ -= begins_ ? 1 : 0;
   fit_.BeginFrame(begins_);
@@ -370,6 +377,10 @@ void ShapeForceEstimator::PrepareNext() { impl_->PrepareNext(); }
 
 const std::vector<FeatureReport>& ShapeForceEstimator::features() const {
   return impl_->features();
+}
+
+std::vector<BiasSequence> ShapeForceEstimator::JudgeBiasFrames() const {
+  return impl_->JudgeBiasFrames();
 }
 
 double ShapeForceEstimator::SmallestForce_N(const Eigen::Vector3d& rest_position_m) const {

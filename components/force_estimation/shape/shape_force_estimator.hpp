@@ -9,6 +9,7 @@
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
+#include "components/force_estimation/shape/bias_frame_check.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_frame.hpp"
 #include "components/force_estimation/shape/surface_matching.hpp"
@@ -56,7 +57,9 @@ struct ShapeForceEstimatorTuning {
 /// equilibrium, visible contacts moved along the surface by the deformation within their
 /// covariance, hidden contacts found by search.
 ///
-/// The first frames with `untouched` serve to estimate the depth bias and give kNoCalibration. A
+/// The first frames with `untouched` serve to estimate the depth bias and give kNoCalibration.
+/// Without such frames and without TakeDepthBias, the bias is fitted along with the forces of each
+/// frame: intervals are wider, and hidden contacts are not searched. A
 /// frame with too few matches gives kNoRobotSeen; its x_m is the predicted shape for perception.
 class ShapeForceEstimator {
  public:
@@ -76,6 +79,9 @@ class ShapeForceEstimator {
   /// kTangentialUnobservable or kUnobservable; hidden ones are called hidden_1, hidden_2 and have
   /// kHidden.
   const ForceEstimate& Update(const ShapeFrame& frame);
+
+  /// Whether the frames with `untouched`, by epoch, were contact-free.
+  std::vector<BiasSequence> JudgeBiasFrames() const;
 
   /// To be called after each Update, once its estimate is published: a factor and responses at the
   /// fitted shape, for the next frame. The estimate and the features stay.

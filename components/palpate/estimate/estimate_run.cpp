@@ -12,6 +12,7 @@
 
 #include "components/force_estimation/contact_site.hpp"
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
+#include "components/palpate/estimate/bias_frames.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
 #include "components/palpate/find_robot.hpp"
@@ -73,11 +74,11 @@ void EstimateRun::Say(const std::string& note) {
 }
 
 ShapeReplay& EstimateRun::Shape() {
-  if (shape_) return *shape_;
-  for (const auto& site : force_estimation::ParseContactSites(settings_.forces.contacts)) {
-    if (site.direction.isZero(0.0)) continue;
-    Say("the direction of contact '" + site.name + "' is used with markers only");
-  }
+  if (!shape_) shape_ = MakeShapeReplay();
+  return *shape_;
+}
+
+std::unique_ptr<ShapeReplay> EstimateRun::MakeShapeReplay() const {
   ReplayPerception perception = MakeReplayPerception(settings_.perception, calibration_.depth_bias);
   force_estimation::ShapeConfig shape = settings_.shape;
   if (options_.bias_frames != "first") shape.untouched_frames = 0;
@@ -86,23 +87,28 @@ ShapeReplay& EstimateRun::Shape() {
   const ShapeReplay::Inputs inputs{.experiment = experiment_,
                                    .model = &model_,
                                    .cable_input = ParseCableInput(options_.cable_input),
-                                   .limits = Limits()};
-  shape_ = std::make_unique<ShapeReplay>(inputs, std::move(perception), std::move(pipeline));
-  return *shape_;
+                                   .limits = Limits(),
+                                   .expect_posture = options_.bias_frames != "first"};
+  return std::make_unique<ShapeReplay>(inputs, std::move(perception), std::move(pipeline));
 }
 
 void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
   const bool from_shape = std::any_of(
       plan.begin(), plan.end(),
       [](const PlannedRecording& planned) { return planned.from == EstimateFrom::kShape; });
-  if (!from_shape || options_.bias_frames != "recordings") return;
-  int frames = 0;
-  for (const experiment::Recording* recording : BiasRecordings(experiment_)) {
-    frames += Shape().EstimateDepthBias(*recording);
+  if (!from_shape) return;
+  for (const auto& site : force_estimation::ParseContactSites(settings_.forces.contacts)) {
+    if (site.direction.isZero(0.0)) continue;
+    Say("the direction of contact '" + site.name + "' is used with markers only");
   }
-  Say(frames > 0 ? fmt::format("depth bias estimated from {} contact-free frames", frames)
-                 : "no contact-free recording (kind rest, ramp, hold, ...) has images and a camera "
-                   "pose: the depth bias stays unknown");
+  if (options_.bias_frames != "recordings") return;
+  BiasFrames found = FindBiasFrames({.experiment = experiment_,
+                                     .plan = plan,
+                                     .is_calibrated = calibration_.depth_bias.has_value(),
+                                     .most_first_frames = settings_.shape.untouched_frames},
+                                    [this] { return MakeShapeReplay(); });
+  shape_ = std::move(found.replay);
+  for (const std::string& note : found.notes) Say(note);
 }
 
 ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstimate& take) {

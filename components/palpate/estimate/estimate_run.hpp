@@ -47,6 +47,7 @@ class EstimateRun {
   ReplayCount Replay(const PlannedRecording& planned, const TakeEstimate& take);
   void PrintComparison(const RecordingComparison& comparison);
   ReplayLimits Limits() const { return {options_.rate_Hz, stop_requested_}; }
+  std::unique_ptr<ShapeReplay> MakeShapeReplay() const;
   void Say(const std::string& note);
 
   const EstimateOptions& options_;

@@ -32,9 +32,11 @@ struct EstimateSettings {
 
 /// Defaults, the depth noise of the experiment, `file` (empty: none), `overrides`
 /// (KEY=VALUE), and `contacts` added to the settings' own; later ones override. Throws InputError.
+/// `as_process`: with the work per frame of palpate-force-estimation, else without a limit.
 EstimateSettings ReadEstimateSettings(const experiment::Experiment& experiment,
                                       const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides,
-                                      const std::vector<std::string>& contacts);
+                                      const std::vector<std::string>& contacts,
+                                      bool as_process = false);
 
 }  // namespace palpate::command

@@ -43,7 +43,8 @@ int Estimate(const EstimateOptions& options) {
   CheckOptions(options);
   experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
   const EstimateSettings settings =
-      ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts);
+      ReadEstimateSettings(experiment, options.config, options.overrides, options.contacts,
+                           options.bias_frames == "first");
   const auto plan = PlanEstimates(experiment, options.recordings, options.from);
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
                                options.calibration);
@@ -75,8 +76,10 @@ app::Verb EstimateVerb() {
                          "images where a recording has them, else markers");
         arguments.Choice("--bias-frames", &options->bias_frames, {"recordings", "first", "none"},
                          "Contact-free frames used to estimate the depth bias: those of "
-                         "contact-free recordings; the first shape.untouched_frames frames, as in "
-                         "palpate-force-estimation; or none");
+                         "contact-free recordings, which are checked, else, without a calibrated "
+                         "bias, first frames that pass the check; the first "
+                         "shape.untouched_frames frames, all as in palpate-force-estimation; or "
+                         "none");
         arguments.Repeated("--contact SITE", &options->contacts,
                            "Possible contact location \"name: x, y, z[, patch radius]\", m, on the "
                            "undeformed body; without it known loads (loads.csv) are contacts of "

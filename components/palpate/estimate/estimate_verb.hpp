@@ -17,8 +17,8 @@ struct EstimateOptions {
   std::filesystem::path data;           ///< experiment or recording folder
   std::vector<std::string> recordings;  ///< names; empty: all that can be estimated
   std::string from;  ///< "markers" | "shape"; empty: shape where there are images
-  /// Frames from which the depth bias is estimated: "recordings" (those of contact-free
-  /// recordings), "first" (the first shape.untouched_frames frames, as the processes do), "none".
+  /// Frames from which the depth bias is estimated: "recordings" (FindBiasFrames), "first" (the
+  /// first shape.untouched_frames frames; all else, too, is as the processes do it), "none".
   std::string bias_frames = "recordings";
   std::vector<std::string> contacts;   ///< added to the settings' contacts
   std::filesystem::path config;        ///< EstimateSettings; empty: defaults

@@ -3,16 +3,19 @@
 
 #include "components/palpate/estimate/shape_replay.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "components/calibration/recording_phase.hpp"
 #include "components/force_estimation/recording_frames.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/perception/predicted_surface.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/core/index.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::command {
@@ -68,13 +71,30 @@ ShapeReplay::ShapeReplay(const Inputs& inputs, ReplayPerception perception,
       gravity_m_s2_(inputs.model->gravity_m_s2()) {}
 
 int ShapeReplay::EstimateDepthBias(const Recording& recording) {
+  return EstimateDepthBias(recording, Frames{.contact_free = true});
+}
+
+int ShapeReplay::EstimateDepthBiasFromStart(const Recording& recording, int most) {
+  return EstimateDepthBias(recording, {.contact_free = true, .until_contact = true, .most = most});
+}
+
+int ShapeReplay::EstimateDepthBias(const Recording& recording, const Frames& frames) {
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
   if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return 0;
-  int frames = 0;
+  int count = 0;
   Run({recording, experiment::OpenRecordingImages(recording, app::LoadYaml),
        std::get<Eigen::Isometry3d>(pose)},
-      /*contact_free=*/true, [&](const ForceEstimate&) { ++frames; });
-  return frames;
+      frames, [&](const ForceEstimate&) { ++count; });
+  bias_recordings_[epoch_] = &recording;
+  return count;
+}
+
+std::vector<ShapeReplay::BiasRecording> ShapeReplay::JudgeBiasRecordings() const {
+  std::vector<BiasRecording> recordings;
+  for (const force_estimation::BiasSequence& verdict : pipeline_->JudgeBiasFrames()) {
+    recordings.push_back({bias_recordings_.at(verdict.epoch), verdict});
+  }
+  return recordings;
 }
 
 ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate& take) {
@@ -83,18 +103,19 @@ ReplayCount ShapeReplay::Estimate(const Recording& recording, const TakeEstimate
   if (const auto* missing = std::get_if<experiment::NeedsCalibration>(&pose)) {
     return RefuseEach(images, missing->reason, take);
   }
-  return Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)},
-             /*contact_free=*/false, take);
+  return Run({recording, std::move(images), std::get<Eigen::Isometry3d>(pose)}, {}, take);
 }
 
-ReplayCount ShapeReplay::Run(const Scene& scene, bool contact_free, const TakeEstimate& take) {
+ReplayCount ShapeReplay::Run(const Scene& scene, const Frames& frames, const TakeEstimate& take) {
   experiment::CheckCables(scene.recording, inputs_.model->CableNames());
   const Eigen::Matrix3d R_base = experiment::BaseRotation(scene.recording);
   inputs_.model->SetGravity(R_base.transpose() * gravity_m_s2_);
   perception_.set_camera(scene.images.camera);
   ++epoch_;
-  const std::vector<std::size_t> chosen =
-      ChosenFrames(scene.images, contact_free ? 0.0 : inputs_.limits.rate_Hz);
+  if (inputs_.expect_posture) ExpectPosture(scene);
+  std::vector<std::size_t> chosen =
+      ChosenFrames(scene.images, frames.contact_free ? 0.0 : inputs_.limits.rate_Hz);
+  chosen.resize(std::min(chosen.size(), At(frames.most)));
   ReplayCount count{.done = 0, .total = static_cast<int>(chosen.size())};
   ProgressLine progress("frames", count.total);
   progress.SetAdvice(AdviceWhereSlow(inputs_.model->body()));
@@ -103,17 +124,31 @@ ReplayCount ShapeReplay::Run(const Scene& scene, bool contact_free, const TakeEs
     if (inputs_.limits.StopRequested()) break;
     scene.images.Read(i, &frame);
     frame.stamp_ns = scene.images.frames[i].t_ns;
-    take(Step(scene, frame, contact_free));
+    const perception::Observation& observation = Perceive(scene, frame);
+    if (frames.until_contact && !observation.contacts.empty()) break;
+    take(Step(scene, observation, frames.contact_free));
     progress.Update(++count.done);
   }
   inputs_.model->SetGravity(gravity_m_s2_);
   return count;
 }
 
-const ForceEstimate& ShapeReplay::Step(const Scene& scene, const rgbd::RgbdFrame& frame,
+/// The equilibrium under the commands and known loads of the first frame. Where none is found, the
+/// shape of the frame before stays.
+void ShapeReplay::ExpectPosture(const Scene& scene) {
+  robot::RobotModel& model = *inputs_.model;
+  const double t_s = static_cast<double>(scene.images.frames.front().t_ns) / kNsPerSecond;
+  const auto cables = force_estimation::CablesAt(scene.recording, model, inputs_.cable_input, t_s);
+  fem::StaticState state = model.RestState();
+  const Status status =
+      model.Solve(cables, calibration::LoadsAt(scene.recording, model, t_s), &state).status;
+  if (status.ok()) pipeline_->Expect(state.x_m);
+}
+
+const ForceEstimate& ShapeReplay::Step(const Scene& scene,
+                                       const perception::Observation& observation,
                                        bool contact_free) {
-  const perception::Observation& observation = Perceive(scene, frame);
-  const double t_s = static_cast<double>(frame.stamp_ns) / kNsPerSecond;
+  const double t_s = static_cast<double>(observation.stamp_ns) / kNsPerSecond;
   force_estimation::PerceivedShape shape;
   shape.frame = MakeShapeFrame(observation, scene.T_robot_camera);
   shape.frame.t_s = t_s;

@@ -6,7 +6,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
+#include <vector>
 
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
@@ -27,6 +30,9 @@ class ShapeReplay {
     robot::RobotModel* model = nullptr;        ///< of the pipeline
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
     ReplayLimits limits{};  ///< contact-free recordings are not thinned
+    /// Each recording begins with the posture that its commands give, so that its first frame has a
+    /// predicted surface. False: with the shape of the frame before, as palpate-force-estimation.
+    bool expect_posture = true;
   };
 
   ShapeReplay(const Inputs& inputs, ReplayPerception perception,
@@ -35,6 +41,17 @@ class ShapeReplay {
   /// Processes the frames of a contact-free recording for the depth bias. Returns their number; 0
   /// where the camera pose is unknown. Throws InputError as Estimate does.
   int EstimateDepthBias(const experiment::Recording& recording);
+  /// The same for a recording that may have contacts: its first frames, up to `most`, as long as
+  /// perception locates no contact.
+  int EstimateDepthBiasFromStart(const experiment::Recording& recording, int most);
+
+  /// A contact-free recording whose frames were processed for the depth bias.
+  struct BiasRecording {
+    const experiment::Recording* recording = nullptr;
+    force_estimation::BiasSequence verdict;
+  };
+  /// Whether they were contact-free, in the order of processing.
+  std::vector<BiasRecording> JudgeBiasRecordings() const;
 
   /// Hands the estimate of each frame to `take`; kNoCalibration, with the reason, where the camera
   /// pose is unknown. Throws InputError for images that cannot be read, and for a cable that the
@@ -44,8 +61,18 @@ class ShapeReplay {
  private:
   struct Scene;
 
-  ReplayCount Run(const Scene& scene, bool contact_free, const TakeEstimate& take);
-  const force_estimation::ForceEstimate& Step(const Scene& scene, const rgbd::RgbdFrame& frame,
+  /// The frames of a recording that are processed, and as what.
+  struct Frames {
+    bool contact_free = false;
+    bool until_contact = false;  ///< as long as perception locates none
+    int most = std::numeric_limits<int>::max();
+  };
+
+  int EstimateDepthBias(const experiment::Recording& recording, const Frames& frames);
+  ReplayCount Run(const Scene& scene, const Frames& frames, const TakeEstimate& take);
+  void ExpectPosture(const Scene& scene);
+  const force_estimation::ForceEstimate& Step(const Scene& scene,
+                                              const perception::Observation& observation,
                                               bool contact_free);
   const perception::Observation& Perceive(const Scene& scene, const rgbd::RgbdFrame& frame);
 
@@ -55,6 +82,7 @@ class ShapeReplay {
   Eigen::Matrix3Xi triangles_;
   Eigen::Vector3d gravity_m_s2_;
   std::uint32_t epoch_ = 0;  ///< recordings that were opened
+  std::map<std::uint32_t, const experiment::Recording*> bias_recordings_;  ///< by epoch
 };
 
 /// The observation in the robot's frame, without cables and time.

@@ -45,12 +45,24 @@ recordings:
           - {t_s: 1.2, position_m: [0.0220, -0.0220, 0.103]}
 )";
 
+// The ball is there from the first image of all recordings on: of a rest and of a free one.
+const std::string kPressed = kPush.substr(0, kPush.find("recordings:")) + R"(recordings:
+  - name: a_rest
+    kind: rest
+    duration_s: 0.3
+    tools: [{tool: ball, path: [{t_s: 0, position_m: [0.0220, -0.0220, 0.103]}]}]
+  - name: b_push
+    kind: free
+    duration_s: 0.3
+    tools: [{tool: ball, path: [{t_s: 0, position_m: [0.0225, -0.0225, 0.103]}]}]
+)";
+
 class EstimateImages : public testing::Test {
  protected:
-  void Simulate(bool tell_camera_pose) {
+  void Simulate(bool tell_camera_pose, const std::string& scenario = kPush) {
     SimulateOptions simulate;
     simulate.robot = "four_leg";
-    simulate.scenario = folder_.Write("s.yaml", kPush);
+    simulate.scenario = folder_.Write("s.yaml", scenario);
     simulate.seed = 7;
     simulate.out = folder_ / "exp";
     simulate.tell_camera_pose = tell_camera_pose;
@@ -98,6 +110,30 @@ TEST_F(EstimateImages, FindsTheBallsForceAndNothingAtRestTheSameEachTime) {
   const std::string first = ReadFile(options_.out);
   ASSERT_EQ(Estimate(options_), 0);
   EXPECT_EQ(ReadFile(options_.out), first);
+}
+
+// Its first images are contact-free, which nobody has said.
+TEST_F(EstimateImages, OneRecordingAloneGivesItsForces) {
+  Simulate(true);
+  options_.recordings = {"b_push"};
+  std::filesystem::remove_all(folder_ / "exp/recordings/a_rest");
+  testing::internal::CaptureStderr();
+  ASSERT_EQ(Estimate(options_), 0);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("frames of b_push, in which nothing is seen to touch the robot"));
+  EXPECT_NEAR(LastOf("b_push").force_N, TrueForce_N(), 0.15 * TrueForce_N());
+}
+
+// Without contact-free images the bias of the depth is estimated with the forces.
+TEST_F(EstimateImages, ARestInWhichTheRobotIsTouchedIsNamedAndNotBelieved) {
+  Simulate(true, kPressed);
+  testing::internal::CaptureStderr();
+  ASSERT_EQ(Estimate(options_), 0);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(said, testing::HasSubstr("a_rest: not used for the depth bias"));
+  EXPECT_THAT(said, testing::HasSubstr("Intervals are wider"));
+  EXPECT_EQ(LastOf("a_rest").status, "ok");
+  EXPECT_NEAR(LastOf("b_push").force_N, TrueForce_N(), 0.3 * TrueForce_N());
 }
 
 TEST_F(EstimateImages, WithoutACameraPoseNothingIsKnownAndTheRunHasFailed) {

@@ -90,6 +90,13 @@ class ShapeReplayTest : public testing::Test {
     const Eigen::Matrix3Xd& rest_m = model_->body().mesh.nodes_m;
     return (1.0 + stretch / 3.0) * Eigen::Map<const Eigen::VectorXd>(rest_m.data(), rest_m.size());
   }
+  // What perception is given of them.
+  perception::PredictedSurface Surface(const Eigen::VectorXd& nodes_m) const {
+    const Eigen::Matrix3Xf travelled =
+        Eigen::Map<const Eigen::Matrix3Xd>(nodes_m.data(), 3, nodes_m.size() / 3).cast<float>();
+    return perception::MakePredictedSurface(travelled, model_->body().boundary.DrawnTriangles(),
+                                            LookingDown());
+  }
   // A recording with `count` frames from `t_s` on, 0.1 s apart.
   Recording Images(const std::string& name, RecordingKind kind, int count, double t_s = 1.0) const {
     std::filesystem::create_directories(folder_ / name);
@@ -107,10 +114,11 @@ class ShapeReplayTest : public testing::Test {
     }
     return recording;
   }
-  ShapeReplay Replay(int contact_free_frames = 0) {
+  ShapeReplay Replay(int contact_free_frames = 0, bool expect_posture = true) {
     return ShapeReplay({.experiment = experiment_,
                         .model = model_.get(),
-                        .cable_input = robot::CableInput::kDisplacement},
+                        .cable_input = robot::CableInput::kDisplacement,
+                        .expect_posture = expect_posture},
                        fake_.Perception(),
                        std::make_unique<ShapePipeline>(
                            model_->body(), std::vector<force_estimation::ContactSite>(),
@@ -132,15 +140,49 @@ class ShapeReplayTest : public testing::Test {
 TEST_F(ShapeReplayTest, PredictsFromTheLastEstimateAsItTravels) {
   Replay().Estimate(Images("r", RecordingKind::kFree, 2), ignore_);
   ASSERT_THAT(fake_.predictions, SizeIs(2));
-  EXPECT_FALSE(fake_.predictions[0]);
   ASSERT_TRUE(fake_.predictions[1]);
-  const Eigen::VectorXd nodes_m = Nodes(0.1);
-  const Eigen::Matrix3Xf travelled =
-      Eigen::Map<const Eigen::Matrix3Xd>(nodes_m.data(), 3, nodes_m.size() / 3).cast<float>();
-  const auto expected = perception::MakePredictedSurface(
-      travelled, model_->body().boundary.DrawnTriangles(), LookingDown());
+  const auto expected = Surface(Nodes(0.1));
   EXPECT_EQ(fake_.predictions[1]->vertices_m, expected.vertices_m);  // to the last bit
   EXPECT_EQ(fake_.predictions[1]->triangles, expected.triangles);
+}
+
+TEST_F(ShapeReplayTest, TheFirstImageOfEachRecordingIsExpectedInThePostureOfItsCommands) {
+  Recording pulled = Images("b", RecordingKind::kFree, 1);
+  experiment::Actuation actuation;
+  actuation.t_s = {1.0};
+  actuation.columns.push_back({.cable = "top",
+                               .quantity = experiment::CableQuantity::kDisplacement,
+                               .samples = {0.002},
+                               .where = {}});
+  pulled.actuation = actuation;
+  ShapeReplay replay = Replay();
+  replay.Estimate(Images("a", RecordingKind::kFree, 1), ignore_);
+  replay.Estimate(pulled, ignore_);
+  ASSERT_TRUE(fake_.predictions[0] && fake_.predictions[1]);
+  for (const double displacement_m : {0.0, 0.002}) {
+    fem::StaticState state = model_->RestState();
+    const auto kind = displacement_m > 0.0 ? robot::CableCommand::Kind::kDisplacement
+                                           : robot::CableCommand::Kind::kNone;
+    ASSERT_TRUE(model_->Solve({{.kind = kind, .value = displacement_m}}, {}, &state).status.ok());
+    const auto& seen = *fake_.predictions[displacement_m > 0.0 ? 1 : 0];
+    EXPECT_TRUE(seen.vertices_m.isApprox(Surface(state.x_m).vertices_m, 1e-9)) << displacement_m;
+  }
+  EXPECT_GT((fake_.predictions[0]->vertices_m - fake_.predictions[1]->vertices_m).norm(), 1e-3);
+}
+
+TEST_F(ShapeReplayTest, TheProcessExpectsNothingBeforeItsFirstImage) {
+  Replay(0, /*expect_posture=*/false).Estimate(Images("r", RecordingKind::kFree, 1), ignore_);
+  EXPECT_FALSE(fake_.predictions[0]);
+}
+
+TEST_F(ShapeReplayTest, FirstFramesAreContactFreeUntilPerceptionLocatesAContact) {
+  ShapeReplay replay = Replay();
+  const Recording recording = Images("r", RecordingKind::kFree, 5);
+  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3), 3);
+  EXPECT_THAT(ContactFree(), ElementsAre(true, true, true));
+  fake_.observation.contacts.resize(1);
+  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3), 0);
+  EXPECT_THAT(fake_.frames, SizeIs(3));
 }
 
 TEST_F(ShapeReplayTest, AFailedEstimatePredictsNothing) {

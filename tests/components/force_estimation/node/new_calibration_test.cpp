@@ -152,6 +152,25 @@ class NewCalibrationTest : public testing::Test {
   std::thread thread_;
 };
 
+/// At the start, and when a sequence begins while the robot is at work.
+TEST_F(NewCalibrationTest, WhileTheDepthBiasIsLearntTheLogAsksNotToTouchTheRobot) {
+  Start(Config());
+  std::int64_t stamp_ns = 0;
+  for (const int first : {30, 25}) {
+    said_.clear();
+    script_.SetBiasFramesToCome(first);
+    Ask(stamp_ns += 10);
+    EXPECT_TRUE(WaitUntilSaid("learning the depth bias from " + std::to_string(first) +
+                              " frames: do not touch the robot"));
+    script_.SetBiasFramesToCome(1);
+    Ask(stamp_ns += 10);
+    script_.SetBiasFramesToCome(0);
+    Ask(stamp_ns += 10);
+    EXPECT_TRUE(WaitUntilSaid("the depth bias is known"));
+    EXPECT_EQ(said_.size(), 2u);
+  }
+}
+
 TEST_F(NewCalibrationTest, HoldsFromTheNextFrameOnWhichBeginsASequence) {
   Start(Config());
   Ask(10);

@@ -36,6 +36,10 @@ class Script {
     const std::lock_guard lock(mutex_);
     drift_ = drift;
   }
+  void SetBiasFramesToCome(int frames) {
+    const std::lock_guard lock(mutex_);
+    bias_frames_to_come_ = frames;
+  }
   PipelineMaker Maker() {
     return [this](robot::RobotModel& model) { return std::make_unique<Scripted>(*this, model); };
   }
@@ -56,6 +60,7 @@ class Script {
       result_.state_is_known = true;
       result_.state = Status::Ok();
       result_.drift = script_.drift_;
+      result_.bias_frames_to_come = script_.bias_frames_to_come_;
       result_.estimate.status = Status::Ok();
       result_.estimate.x_m = model_.RestState().x_m;
       ContactForce contact;
@@ -77,6 +82,7 @@ class Script {
   std::condition_variable changed_;
   bool hold_ = false;
   DriftReport drift_;
+  int bias_frames_to_come_ = 0;
   int made_ = 0;
   std::vector<Call> calls_;
 };
