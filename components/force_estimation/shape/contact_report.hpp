@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "components/force_estimation/config.hpp"
 #include "components/force_estimation/force_estimate.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
@@ -27,6 +28,7 @@ struct ContactReportTuning {
   /// Posterior over prior variance of the tangential force above which it counts as not observed.
   /// Larger: forces that friction's prior dominates have status ok.
   double observed_variance = 0.5;
+  double uncertain_share = Config().uncertain_share;  ///< Config::uncertain_share
 };
 
 /// The contacts of a fit: which act, their forces and uncertainties.
