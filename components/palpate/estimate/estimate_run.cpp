@@ -14,6 +14,7 @@
 #include "components/force_estimation/pipeline/shape_pipeline.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
+#include "components/palpate/estimate/rest_check.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
@@ -89,29 +90,51 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
                    "pose: the depth bias stays unknown");
 }
 
+void EstimateRun::CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan) {
+  const bool needed = std::any_of(plan.begin(), plan.end(), [](const PlannedRecording& planned) {
+    return planned.from == EstimateFrom::kMarkers && !planned.recording->reference;
+  });
+  if (!needed) return;
+  tare_ = std::make_unique<MarkerTare>(experiment_, &model_, ParseCableInput(options_.cable_input),
+                                       settings_.forces);
+  for (const std::string& note : tare_->Choose()) Say(note);
+}
+
 void EstimateRun::Estimate(const PlannedRecording& planned) {
   const experiment::Recording& recording = *planned.recording;
   ForceSummary summary(recording.name, recording.steady_window_s);
+  const bool from_shape = planned.from == EstimateFrom::kShape;
+  RestCheck rest(
+      experiment_, recording,
+      {.calibrated = !options_.calibration.empty(),
+       .significance = from_shape ? settings_.shape.significance : settings_.forces.significance,
+       .gravity_m_s2 = model_.gravity_m_s2()});
   const TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
     table_.Add(recording.name, estimate);
     summary.Add(estimate);
+    rest.Add(estimate);
     with_result_ += IsResult(estimate.status) ? 1 : 0;
   };
-  if (planned.from == EstimateFrom::kShape) {
+  if (from_shape) {
     Shape().Estimate(recording, take);
   } else {
     const MarkerReplay::Inputs inputs{.experiment = experiment_,
                                       .model = &model_,
-                                      .cable_input = ParseCableInput(options_.cable_input)};
+                                      .cable_input = ParseCableInput(options_.cable_input),
+                                      .tare = tare_.get()};
     MarkerReplay(inputs, settings_.forces, calibration_).Estimate(recording, take);
   }
   nlohmann::ordered_json json = summary.ToJson();
   json["from"] = ToString(planned.from);
+  const auto failure = rest.Failure();
+  if (failure) json["error"] = *failure;
   json_->push_back(std::move(json));
   if (!options_.json) {
     fmt::print("{}", summary.ToText());
     std::fflush(stdout);
   }
+  if (failure) Say(*failure);
+  rest_has_forces_ = rest_has_forces_ || failure;
 }
 
 int EstimateRun::Finish() {
@@ -121,7 +144,7 @@ int EstimateRun::Finish() {
   } else {
     fmt::print("written to {}\n", options_.out.string());
   }
-  return with_result_ > 0 ? app::kExitDone : app::kExitFailed;
+  return with_result_ > 0 && !rest_has_forces_ ? app::kExitDone : app::kExitFailed;
 }
 
 }  // namespace palpate::command

@@ -13,6 +13,7 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "components/palpate/estimate/force_summary.hpp"
 #include "components/palpate/estimate/forces_table.hpp"
+#include "components/palpate/estimate/marker_tare.hpp"
 #include "components/palpate/estimate/shape_replay.hpp"
 #include "libs/robot/calibration_file.hpp"
 
@@ -29,9 +30,13 @@ class EstimateRun {
 
   /// Processes the contact-free recordings, where one of `plan` is estimated from its shape.
   void EstimateDepthBias(const std::vector<PlannedRecording>& plan);
+  /// Chooses the recordings that give marker offsets, where `plan` has markers without a rest
+  /// window.
+  void CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan);
   /// Throws InputError, as the replays do.
   void Estimate(const PlannedRecording& planned);
-  /// Writes forces.csv; returns the exit code. Throws RunError.
+  /// Writes forces.csv; returns the exit code, kExitFailed where no frame has a result or a rest
+  /// recording has forces. Throws RunError.
   int Finish();
 
  private:
@@ -44,9 +49,11 @@ class EstimateRun {
   robot::RobotModel& model_;
   robot::CalibrationFile calibration_;  ///< empty where none is given
   std::unique_ptr<ShapeReplay> shape_;  ///< created when first needed
+  std::unique_ptr<MarkerTare> tare_;    ///< created where it is needed
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   int with_result_ = 0;
+  bool rest_has_forces_ = false;  ///< a rest recording has more forces than chance gives
 };
 
 }  // namespace palpate::command

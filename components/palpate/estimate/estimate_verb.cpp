@@ -20,6 +20,7 @@ int Estimate(const EstimateOptions& options) {
                                options.calibration);
   EstimateRun run(options, settings, &experiment, model.get());
   run.EstimateDepthBias(plan);
+  run.CalibrateMarkerOffsets(plan);
   for (const PlannedRecording& planned : plan) run.Estimate(planned);
   return run.Finish();
 }

@@ -29,7 +29,8 @@ struct EstimateOptions {
 };
 
 /// `palpate estimate`: forces from the images or the markers of recordings, written as forces.csv.
-/// Returns 0, or 1 where not a single frame had a result; throws InputError and RunError.
+/// Returns 0, or 1 where not a single frame had a result, or a rest recording has forces; throws
+/// InputError and RunError.
 int Estimate(const EstimateOptions& options);
 
 app::Verb EstimateVerb();

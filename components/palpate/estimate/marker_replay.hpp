@@ -4,9 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/force_estimate.hpp"
+#include "components/force_estimation/marker_frame.hpp"
+#include "components/palpate/estimate/marker_tare.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/calibration_file.hpp"
 #include "libs/robot/robot_model.hpp"
@@ -17,13 +20,15 @@ namespace palpate::command {
 using TakeEstimate = std::function<void(const force_estimation::ForceEstimate&)>;
 
 /// Passes the markers of recordings through force_estimation::MarkerPipeline. Each recording has a
-/// pipeline of its own: marker offsets of one do not hold for the next.
+/// pipeline of its own. Its marker offsets are those of its rest window, else of the contact-free
+/// recordings (MarkerTare), else zero.
 class MarkerReplay {
  public:
   struct Inputs {
     const experiment::Experiment& experiment;  ///< must outlive the replay, as the model
     robot::RobotModel* model = nullptr;        ///< `calibration` was applied to it
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
+    const MarkerTare* tare = nullptr;  ///< none: no offsets without a rest window
   };
 
   MarkerReplay(const Inputs& inputs, const force_estimation::Config& config,
@@ -31,10 +36,14 @@ class MarkerReplay {
       : inputs_(inputs), config_(config), calibration_(calibration) {}
 
   /// Hands the estimate of each frame to `take`. Throws InputError as
-  /// force_estimation::FramesOfRecording does.
+  /// force_estimation::FramesOfRecording does, and for markers at rest that do not have the robot's
+  /// shape, orientation or place (force_estimation::CheckRestMarkers).
   void Estimate(const experiment::Recording& recording, const TakeEstimate& take) const;
 
  private:
+  void CheckAtRest(const experiment::Recording& recording,
+                   const std::vector<force_estimation::MarkerFrame>& frames) const;
+
   Inputs inputs_;
   force_estimation::Config config_;
   robot::CalibrationFile calibration_;
