@@ -24,6 +24,9 @@ struct Config {
   double contact_marker_weight = 0.01;
   double significance = 1e-3;
   double unobservable_sigma_N = 1.0;
+  double uncertain_share = 0.5;
+  bool adhesion = false;
+  double friction_sigma = 1.0;
   int max_iterations = 40;
   double frame_tolerance = 1e-10;
   double frame_budget_s = 0.0;
@@ -50,6 +53,13 @@ struct Config {
       "False-alarm probability per frame");
     v("unobservable_sigma_N", unobservable_sigma_N, {.min = 0.0, .min_open = true},
       "Standard deviation above which a force component is unobservable");
+    v("uncertain_share", uncertain_share, {.min = 0.0, .min_open = true},
+      "Half-width of the 95 % interval, as a share of |F|, above which a force is uncertain; the "
+      "default is that of a force just detected at the default significance");
+    v("adhesion", adhesion,
+      "Whether a contact found by search may pull; false: contacts push on the outer surface");
+    v("friction_sigma", friction_sigma, {.min = 0.0, .min_open = true},
+      "Standard deviation of the ratio of tangential to normal force of a contact found by search");
     v("max_iterations", max_iterations, {.min = 1.0, .max = 1000.0},
       "Largest number of linearisations per frame");
     v("frame_tolerance", frame_tolerance, {.min = 1e-11, .max = 0.1},

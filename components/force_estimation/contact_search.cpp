@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
-#include "libs/core/error.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/statistics.hpp"
 
 namespace palpate::force_estimation {
@@ -18,82 +18,107 @@ namespace {
 struct ContactSearchTuning {
   /// Candidates that are fitted to equilibrium. The first-order ranking errs among neighbours: more
   /// find the best one more often, at a fit each.
-  size_t fitted_candidates = 3;
+  int fitted_candidates = 3;
+  /// Candidates whose fit is tried for these.
+  size_t tried_candidates = 8;
+  /// Coarse candidates around which fine places are screened, and how much worse than the best they
+  /// may be: more find a narrow optimum beside a worse candidate.
+  size_t refined_candidates = 6;
+  double refined_score = 12.0;
   /// Contacts of the last frame are kept while the weighted residual is below this times that of
   /// the search. Larger: steadier locations and fewer searches. Smaller: a contact that moves is
   /// followed sooner.
   double keep_factor = 2.0;
+  /// A force grown by this factor since the search knows its location that much better: it is
+  /// searched again. Smaller: more searches while a force rises.
+  double searched_again_growth = 2.0;
+  /// Rounds of screening, each about the state that the round before found: responses to large
+  /// forces are not linear.
+  int most_rounds = 4;
 };
 constexpr ContactSearchTuning kContactSearchTuning;
 
-double MeanSpacing(const std::vector<FitSite>& candidates) {
-  double sum = 0.0;
-  for (size_t a = 0; a < candidates.size(); ++a) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (size_t b = 0; b < candidates.size(); ++b) {
-      if (a == b) continue;
-      nearest =
-          std::min(nearest, (candidates[a].patch.centre_m - candidates[b].patch.centre_m).norm());
-    }
-    if (candidates.size() > 1) sum += nearest / static_cast<double>(candidates.size());
-  }
-  return sum;
-}
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-std::vector<size_t> Ranking(const std::vector<double>& chi_squared) {
-  std::vector<size_t> order(chi_squared.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return chi_squared[a] < chi_squared[b]; });
-  order.resize(std::min(order.size(), kContactSearchTuning.fitted_candidates));
-  return order;
+double NoiseScale(double chi_squared, const RowTargets& targets, size_t contacts) {
+  const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(contacts));
+  return std::max(1.0, chi_squared / freedom);
 }
 
 }  // namespace
 
 ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter)
-    : config_(config), fitter_(fitter) {
-  for (const fem::BodyPoint& point : model.body().feature_points) {
-    candidates_.push_back({.patch = model.Patch(point.rest_m, config.candidate_patch_radius_m)});
-  }
-  if (candidates_.empty()) throw InputError("the robot file gives no feature points to search");
-  spacing_m_ = MeanSpacing(candidates_);
-}
+    : config_(config), fitter_(fitter), candidates_(model, config) {}
 
 const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
+                                                 const Eigen::VectorXd& shared_variance_m2,
                                                  const std::vector<robot::CableCommand>& cables,
                                                  const fem::StaticState& free_state) {
   const double limit = ChiSquaredQuantile(1.0 - config_.significance, targets.rows);
-  ModelState start{.valid = true,
-                   .balanced = true,
-                   .x_m = free_state.x_m,
-                   .lambda_a_N = free_state.multipliers_N,
-                   .lambda_f_N = Eigen::VectorXd::Zero(0)};
-  ForceFit untouched;
-  untouched.residual_m = Eigen::VectorXd::Zero(targets.value_m.size());
-  untouched.chi_squared = fitter_.ChiSquared(targets, start, &untouched.residual_m);
-  if (untouched.chi_squared > limit && KeepContacts(targets, cables, limit)) return result_;
+  const ModelState start{.valid = true,
+                         .balanced = true,
+                         .x_m = free_state.x_m,
+                         .lambda_a_N = free_state.multipliers_N,
+                         .lambda_f_N = Eigen::VectorXd::Zero(0)};
+  Eigen::VectorXd free_residual_m = Eigen::VectorXd::Zero(targets.value_m.size());
+  const bool touched = fitter_.ChiSquared(targets, start, &free_residual_m) > limit;
+  const bool kept = touched && KeepContacts(targets, cables, limit);
+  if (!kept) {
+    pool_.Clear();
+    Search(targets, cables, start, limit);
+  }
+  const Result& result = found_.result;
+  if (!result.status.ok()) return result;
+  const Eigen::VectorXd free_m = targets.value_m - free_residual_m;
+  const bool due =
+      pool_.Add({.targets = targets,
+                 .shared_variance_m2 = shared_variance_m2,
+                 .free_m = free_m,
+                 .forces_N = result.state.lambda_f_N,
+                 .covariance_N2 = result.fit.covariance_N2,
+                 .noise_scale = NoiseScale(result.fit.chi_squared, targets, result.sites.size())});
+  if (due) SearchInMean(targets, cables, start, limit);
+  return result;
+}
 
-  chosen_.clear();
-  result_ = {.status = Status(StatusCode::kNoContact, {}),
-             .fit = std::move(untouched),
-             .state = std::move(start),
-             .sites = {},
-             .fit_sites = {},
-             .location_ci95_m = 0.0};
+void ContactSearch::Search(const RowTargets& targets,
+                           const std::vector<robot::CableCommand>& cables, const ModelState& start,
+                           double limit) {
+  Result& result = found_.result;
+  result = Result();
+  result.status = Status(StatusCode::kNoContact, {});
+  result.state = start;
+  result.fit.residual_m = Eigen::VectorXd::Zero(targets.value_m.size());
+  result.fit.chi_squared = fitter_.ChiSquared(targets, start, &result.fit.residual_m);
   for (int contact = 0; contact < config_.max_contacts; ++contact) {
-    if (result_.fit.chi_squared <= limit) break;
+    if (result.fit.chi_squared <= limit) break;
     if (targets.rows < 3 * (contact + 1)) {
-      if (contact == 0) result_.status = Status(StatusCode::kUnobservable, "too few markers");
+      if (contact == 0) result.status = Status(StatusCode::kUnobservable, "too few markers");
       break;
     }
     Status added = AddContact(targets, cables);
-    if (added.ok() || contact == 0) result_.status = added;
+    if (added.ok() || contact == 0) result.status = added;
     if (!added.ok()) break;  // the contacts before it hold
   }
-  searched_chi_squared_ = result_.fit.chi_squared;
-  searched_force_N_ = result_.state.lambda_f_N.norm();
-  return result_;
+  found_.chi_squared = result.fit.chi_squared;
+  found_.force_N = result.state.lambda_f_N.norm();
+  found_.location_covariance_N2 = result.location_covariance_N2;
+}
+
+/// The location is that of the mean, the forces are those of the frame. What the mean does not show
+/// better stays.
+void ContactSearch::SearchInMean(const RowTargets& targets,
+                                 const std::vector<robot::CableCommand>& cables,
+                                 const ModelState& start, double limit) {
+  const Found before = found_;
+  Search(pool_.Mean(), cables, start, limit);
+  const bool same =
+      found_.result.status.ok() && found_.result.sites.size() == before.result.sites.size();
+  if (!same || !KeepContacts(targets, cables, kNever)) {
+    found_ = before;
+    return;
+  }
+  found_.chi_squared = found_.result.fit.chi_squared;
 }
 
 /// Fits the forces at the locations of the last frame. Model errors grow with the forces, and the
@@ -101,74 +126,158 @@ const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
 bool ContactSearch::KeepContacts(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables,
                                  double noise_limit) {
-  if (!result_.status.ok() || result_.sites.empty()) return false;
-  fitter_.SetSites(result_.fit_sites);
-  ModelState state = result_.state;
+  Result& result = found_.result;
+  if (!result.status.ok() || result.sites.empty()) return false;
+  fitter_.SetSites(result.fit_sites);
+  ModelState state = result.state;
   state.balanced = false;
   const ForceFit& fit = fitter_.Fit(targets, cables, &state);
   if (!fit.status.ok()) return false;
-  const double growth = state.lambda_f_N.squaredNorm() / (searched_force_N_ * searched_force_N_);
+  const double growth = state.lambda_f_N.squaredNorm() / (found_.force_N * found_.force_N);
   const double searched =
-      kContactSearchTuning.keep_factor * searched_chi_squared_ * std::max(1.0, growth);
-  if (fit.chi_squared > std::max(noise_limit, searched)) return false;
-  result_.fit = fit;
-  result_.state = std::move(state);
+      kContactSearchTuning.keep_factor * found_.chi_squared * std::max(1.0, growth);
+  const double most_growth = std::pow(kContactSearchTuning.searched_again_growth, 2);
+  if (fit.chi_squared > std::max(noise_limit, searched) || growth > most_growth) return false;
+  result.fit = fit;
+  result.state = std::move(state);
+  for (size_t s = 0; s < result.sites.size(); ++s) {
+    result.location_covariance_N2[s] = growth * found_.location_covariance_N2[s];
+  }
   return true;
+}
+
+bool ContactSearch::IsTaken(const FitSite& site) const {
+  const double apart_m =
+      std::max(config_.candidate_patch_radius_m, 0.5 * candidates_.fine_spacing_m());
+  const auto& taken = found_.result.fit_sites;
+  return std::any_of(taken.begin(), taken.end(), [&](const FitSite& other) {
+    return (other.patch.centre_m - site.patch.centre_m).norm() < apart_m;
+  });
+}
+
+Status ContactSearch::ScreenSites(const RowTargets& targets,
+                                  const std::vector<robot::CableCommand>& cables,
+                                  const ModelState& state, const std::vector<FitSite>& sites,
+                                  std::vector<Screened>* screened) {
+  std::vector<ScreenedSite> results;
+  if (Status status = fitter_.Screen(targets, cables, state, sites, &results); !status.ok()) {
+    return status;
+  }
+  for (size_t k = 0; k < sites.size(); ++k) {
+    if (IsTaken(sites[k])) continue;
+    const double cost = candidates_.PriorCost(sites[k], results[k].force_N, state.x_m);
+    screened->push_back({sites[k], results[k].force_N, results[k].chi_squared + cost});
+  }
+  std::stable_sort(screened->begin(), screened->end(),
+                   [](const Screened& a, const Screened& b) { return a.score < b.score; });
+  return Status::Ok();
+}
+
+/// The coarse candidates, and the fine places around the best of them; the best first. Responses
+/// are those about `state`.
+Status ContactSearch::ScreenAll(const RowTargets& targets,
+                                const std::vector<robot::CableCommand>& cables,
+                                const ModelState& state, std::vector<Screened>* screened) {
+  screened->clear();
+  Status status = ScreenSites(targets, cables, state, candidates_.coarse(), screened);
+  if (!status.ok()) return status;
+  if (screened->empty() || !std::isfinite(screened->front().score)) {
+    return {StatusCode::kUnobservable,
+            "no contact that pushes explains the markers (adhesion: true allows one that pulls)"};
+  }
+  const double least = screened->front().score;
+  const double noise_scale = NoiseScale(least, targets, found_.result.sites.size() + 1);
+  std::vector<Eigen::Vector3d> near_m;
+  for (const Screened& candidate : *screened) {
+    if (near_m.size() == kContactSearchTuning.refined_candidates) break;
+    if (candidate.score > least + noise_scale * kContactSearchTuning.refined_score) break;
+    near_m.push_back(candidate.site.patch.centre_m);
+  }
+  return ScreenSites(targets, cables, state, candidates_.FinePlaces(near_m), screened);
+}
+
+/// Fits the best candidates to equilibrium, from `start` on, and takes the best of them into `best`
+/// where it is better.
+bool ContactSearch::FitBest(const RowTargets& targets,
+                            const std::vector<robot::CableCommand>& cables, const ModelState& start,
+                            const std::vector<Screened>& screened, Fitted* best) {
+  bool better = false;
+  int fitted = 0;
+  const size_t tried = std::min(screened.size(), kContactSearchTuning.tried_candidates);
+  for (size_t k = 0; k < tried && fitted < kContactSearchTuning.fitted_candidates; ++k) {
+    const FitSite& site = screened[k].site;
+    if (!std::isfinite(screened[k].score)) break;
+    std::vector<FitSite> sites = found_.result.fit_sites;
+    sites.push_back(site);
+    fitter_.SetSites(sites);
+    ModelState state = start;
+    state.balanced = false;
+    state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
+    state.lambda_f_N.tail<3>() = screened[k].force_N;
+    const ForceFit& fit = fitter_.Fit(targets, cables, &state);
+    if (!fit.status.ok()) continue;
+    const Eigen::Vector3d force_N = state.lambda_f_N.tail<3>();
+    const double score = fit.chi_squared + candidates_.PriorCost(site, force_N, state.x_m);
+    if (!std::isfinite(score)) continue;
+    ++fitted;
+    if (score >= best->score) continue;
+    better = true;
+    *best = {.site = site, .fit = fit, .state = state, .score = score};
+  }
+  return better;
 }
 
 Status ContactSearch::AddContact(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables) {
-  fitter_.SetSites(result_.fit_sites);
-  std::vector<double> chi_squared;
-  Status status = fitter_.Screen(targets, cables, result_.state, candidates_, &chi_squared);
-  if (!status.ok()) return status;
-  for (const size_t taken : chosen_) {
-    chi_squared[taken] = std::numeric_limits<double>::infinity();
+  Result& result = found_.result;
+  const Eigen::Index known_forces = result.state.lambda_f_N.size();
+  std::vector<Screened> screened;
+  Fitted best;
+  ModelState about = result.state;
+  for (int round = 0; round < kContactSearchTuning.most_rounds; ++round) {
+    fitter_.SetSites(result.fit_sites);
+    Status status = ScreenAll(targets, cables, about, &screened);
+    if (!status.ok() && round == 0) return status;
+    if (!status.ok() || !FitBest(targets, cables, about, screened, &best)) break;
+    about = best.state;
+    about.balanced = false;
+    about.lambda_f_N.conservativeResize(known_forces);
   }
-  const ModelState start = result_.state;
-  const std::vector<FitSite> known = result_.fit_sites;
-  double best_chi_squared = std::numeric_limits<double>::infinity();
-  size_t best = 0;
-  for (const size_t candidate : Ranking(chi_squared)) {
-    if (!std::isfinite(chi_squared[candidate])) break;
-    std::vector<FitSite> sites = known;
-    sites.push_back(candidates_[candidate]);
-    fitter_.SetSites(sites);
-    ModelState state = start;
-    state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
-    const ForceFit& fit = fitter_.Fit(targets, cables, &state);
-    if (!fit.status.ok() || fit.chi_squared >= best_chi_squared) continue;
-    best_chi_squared = fit.chi_squared;
-    best = candidate;
-    result_.fit = fit;
-    result_.state = state;
-    result_.fit_sites = sites;
-  }
-  if (!std::isfinite(best_chi_squared)) {
+  if (!std::isfinite(best.score)) {
     return {StatusCode::kNotConverged, "no candidate contact leads to an equilibrium"};
   }
-  chosen_.push_back(best);
-  result_.sites.push_back({.name = "contact_" + std::to_string(known.size() + 1),
-                           .position_m = candidates_[best].patch.centre_m,
-                           .patch_radius_m = config_.candidate_patch_radius_m});
-  const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(result_.sites.size()));
-  const double noise_scale = std::max(1.0, best_chi_squared / freedom);
-  result_.location_ci95_m =
-      std::max(result_.location_ci95_m, LocationInterval(chi_squared, best, noise_scale));
+  result.fit = best.fit;
+  result.state = best.state;
+  result.fit_sites.push_back(best.site);
+  result.sites.push_back({.name = "contact_" + std::to_string(result.sites.size() + 1),
+                          .position_m = best.site.patch.centre_m,
+                          .patch_radius_m = config_.candidate_patch_radius_m});
+  AddUncertainty(screened, best, NoiseScale(best.score, targets, result.sites.size()));
   return Status::Ok();
 }
 
-double ContactSearch::LocationInterval(const std::vector<double>& chi_squared, size_t best,
-                                       double noise_scale) const {
-  const double limit = *std::min_element(chi_squared.begin(), chi_squared.end()) +
-                       noise_scale * ChiSquaredQuantile(0.95, 2);
-  double radius = 0.5 * spacing_m_;
-  for (size_t c = 0; c < candidates_.size(); ++c) {
-    if (chi_squared[c] > limit) continue;
-    radius =
-        std::max(radius, (candidates_[c].patch.centre_m - candidates_[best].patch.centre_m).norm());
+/// Of the location and, from it, of the force.
+void ContactSearch::AddUncertainty(const std::vector<Screened>& screened, const Fitted& best,
+                                   double noise_scale) {
+  Result& result = found_.result;
+  const double least = std::min(screened.front().score, best.score);
+  const Eigen::Vector3d force_N = best.state.lambda_f_N.tail<3>();
+  const double limit = least + noise_scale * ChiSquaredQuantile(0.95, 2);
+  double radius_m = 0.5 * candidates_.fine_spacing_m();
+  double weights = std::exp(-0.5 * (best.score - least) / noise_scale);
+  Eigen::Matrix3d covariance_N2 = Eigen::Matrix3d::Zero();
+  for (const Screened& other : screened) {
+    if (!std::isfinite(other.score)) break;
+    if (other.score <= limit) {
+      radius_m = std::max(radius_m, (other.site.patch.centre_m - best.site.patch.centre_m).norm());
+    }
+    const double weight = std::exp(-0.5 * (other.score - least) / noise_scale);
+    const Eigen::Vector3d change_N = other.force_N - force_N;
+    covariance_N2 += weight * change_N * change_N.transpose();
+    weights += weight;
   }
-  return radius;
+  result.location_ci95_m = std::max(result.location_ci95_m, radius_m);
+  result.location_covariance_N2.push_back(covariance_N2 / weights);
 }
 
 }  // namespace palpate::force_estimation

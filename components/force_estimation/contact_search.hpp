@@ -3,19 +3,28 @@
 
 #pragma once
 
+#include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "components/force_estimation/contact_candidates.hpp"
 #include "components/force_estimation/contact_site.hpp"
 #include "components/force_estimation/fit/force_fitter.hpp"
+#include "components/force_estimation/target_pool.hpp"
 #include "libs/fem/static_solver.hpp"
 
 namespace palpate::force_estimation {
 
-/// Searches contact locations from the deformation alone, among the robot's feature points. All
-/// candidates are screened to first order, the best are fitted to equilibrium, and contacts are
-/// added one by one while the residual is beyond the noise (Config::significance). Contacts that
-/// still explain the markers of the next frame keep their location and name.
+/// Searches contact locations from the deformation alone, on the surface that something can touch
+/// (ContactCandidates). All candidates are screened to first order, the best are fitted to
+/// equilibrium, both again about the best state until it stays, and contacts are added one by one
+/// while the residual is beyond the noise (Config::significance). A contact pushes, unless
+/// Config::adhesion.
+///
+/// Contacts that still explain the markers of the next frame keep their name. While they and the
+/// cables stay as they are, frames are averaged, and after 4, 8, 16, ... frames the location is
+/// searched again in their mean.
 class ContactSearch {
  public:
   struct Result {
@@ -24,6 +33,8 @@ class ContactSearch {
     ModelState state;
     std::vector<ContactSite> sites;
     std::vector<FitSite> fit_sites;
+    /// [sites] covariance of each force from the uncertainty of its location.
+    std::vector<Eigen::Matrix3d> location_covariance_N2;
     /// Radius of the 95 % confidence region of the location, m; at least half the distance between
     /// candidates.
     double location_ci95_m = 0.0;
@@ -33,27 +44,59 @@ class ContactSearch {
   /// points.
   ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter);
 
-  /// `free_state`: the equilibrium without contact under these cable inputs.
-  const Result& Find(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+  /// `shared_variance_m2` [rows]: the part of the variance that is of an error which all frames
+  /// share. `free_state`: the equilibrium without contact under these cable inputs.
+  const Result& Find(const RowTargets& targets, const Eigen::VectorXd& shared_variance_m2,
+                     const std::vector<robot::CableCommand>& cables,
                      const fem::StaticState& free_state);
 
-  const Result& result() const { return result_; }
+  const Result& result() const { return found_.result; }
 
  private:
+  /// A candidate and the force there, to first order. `score`: chi-squared and the prior's cost.
+  struct Screened {
+    FitSite site;
+    Eigen::Vector3d force_N;
+    double score = 0.0;
+  };
+  /// One more contact, fitted to equilibrium. `score` as of Screened.
+  struct Fitted {
+    FitSite site;
+    ForceFit fit;
+    ModelState state;
+    double score = std::numeric_limits<double>::infinity();
+  };
+  /// What the last search found, and the frame after it fitted again.
+  struct Found {
+    Result result;
+    std::vector<Eigen::Matrix3d> location_covariance_N2;  ///< of the search
+    double chi_squared = 0.0;                             ///< of the search
+    double force_N = 0.0;                                 ///< norm of all forces of the search
+  };
+
+  void Search(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+              const ModelState& start, double limit);
+  void SearchInMean(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+                    const ModelState& start, double limit);
   bool KeepContacts(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                     double noise_limit);
   Status AddContact(const RowTargets& targets, const std::vector<robot::CableCommand>& cables);
-  double LocationInterval(const std::vector<double>& chi_squared, size_t best,
-                          double noise_scale) const;
+  Status ScreenSites(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+                     const ModelState& state, const std::vector<FitSite>& sites,
+                     std::vector<Screened>* screened);
+  Status ScreenAll(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+                   const ModelState& state, std::vector<Screened>* screened);
+  bool FitBest(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+               const ModelState& start, const std::vector<Screened>& screened, Fitted* best);
+  bool IsTaken(const FitSite& site) const;
+  void AddUncertainty(const std::vector<Screened>& screened, const Fitted& best,
+                      double noise_scale);
 
   Config config_;
   ForceFitter& fitter_;
-  std::vector<FitSite> candidates_;
-  double spacing_m_ = 0.0;             ///< mean distance from a candidate to the next
-  std::vector<size_t> chosen_;         ///< candidates at which there is a contact
-  double searched_chi_squared_ = 0.0;  ///< of the last search
-  double searched_force_N_ = 0.0;      ///< norm of all forces of that search
-  Result result_;
+  ContactCandidates candidates_;
+  TargetPool pool_;
+  Found found_;
 };
 
 }  // namespace palpate::force_estimation

@@ -13,7 +13,9 @@
 namespace palpate::force_estimation {
 
 struct ContactForce {
-  Status status;  ///< kOk, kTangentialUnobservable (force along the normal only), kUnobservable
+  /// kOk, kUncertain (acts, but ci95_N is large beside |F|), kTangentialUnobservable (force along
+  /// the normal only), kHidden, kUnobservable, kNoContact.
+  Status status;
   std::string name;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< on the deformed body, robot frame
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     ///< acts on the robot, robot frame
@@ -46,8 +48,10 @@ struct ForceEstimate {
 /// Whether an estimate of this status may be used: forces were found, or none act.
 bool IsUsable(const Status& status);
 
-/// Standard deviation of |F|, N: along the force; for a force of zero in the direction of the
-/// largest variance.
-double SigmaOfSize_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2);
+/// Half-width h of the 95 % confidence interval |F| +- h of the size of a force, N, where `force_N`
+/// is an estimate with the covariance `covariance_N2`. Of a force that is large beside it, 1.96
+/// standard deviations along the force. Of a small one |F| is no linear function and is estimated
+/// too large: Neyman's interval then, over a fixed quasi-random sample; its longer side counts.
+double HalfWidth95_N(const Eigen::Vector3d& force_N, const Eigen::Matrix3d& covariance_N2);
 
 }  // namespace palpate::force_estimation

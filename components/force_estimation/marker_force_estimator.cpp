@@ -70,7 +70,7 @@ class MarkerForceEstimator::Impl {
     if (sites_.empty()) search_.emplace(model, config, fitter_);
     SetSites(sites_);
     const auto rows = ToIndex(3 * model.body().markers.size());
-    targets_.value_m = targets_.weight = Eigen::VectorXd::Zero(rows);
+    targets_.value_m = targets_.weight = shared_variance_m2_ = Eigen::VectorXd::Zero(rows);
     estimate_.marker_residual_m = Eigen::VectorXd::Zero(rows);
     estimate_.x_m = free_state_.x_m;
     estimate_.cables.resize(static_cast<size_t>(model.CableCount()));
@@ -127,6 +127,7 @@ class MarkerForceEstimator::Impl {
   ForceFitter fitter_;
   std::optional<ContactSearch> search_;  ///< where the settings give no contact
   RowTargets targets_;
+  Eigen::VectorXd shared_variance_m2_;  ///< [3m] part of the variance that all frames share
   double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
   ModelState state_;             ///< last fit
@@ -217,10 +218,13 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
     const MarkerObservation& marker = frame.markers[m];
     const auto row = ToIndex(3 * m);
     const bool used = marker.valid && marker.position_m.allFinite() && offsets_.Usable(m);
+    const int reference_frames = offsets_.FrameCount(m);
     for (Eigen::Index i = 0; i < 3; ++i) {
       const double given = marker.sigma_m[i];
       const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
-      const double variance = noise * noise + config_.marker_bias_m * config_.marker_bias_m;
+      const double offset_m2 = reference_frames > 0 ? noise * noise / reference_frames : 0.0;
+      shared_variance_m2_[row + i] = offset_m2 + config_.marker_bias_m * config_.marker_bias_m;
+      const double variance = noise * noise + shared_variance_m2_[row + i];
       targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
       targets_.value_m[row + i] = used ? marker.position_m[i] - offsets_.offset_m()[row + i] : 0.0;
       if (!(targets_.weight[row + i] > 0.0)) continue;
@@ -279,7 +283,8 @@ Status MarkerForceEstimator::Impl::StatusOfContacts() const {
   bool none_acts = true;
   for (const ContactForce& contact : estimate_.contacts) {
     const StatusCode code = contact.status.code();
-    if (code == StatusCode::kOk || code == StatusCode::kTangentialUnobservable) {
+    if (code == StatusCode::kOk || code == StatusCode::kTangentialUnobservable ||
+        code == StatusCode::kUncertain) {
       return Status::Ok();
     }
     none_acts = none_acts && code == StatusCode::kNoContact;
@@ -289,7 +294,8 @@ Status MarkerForceEstimator::Impl::StatusOfContacts() const {
 
 Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
   if (Status status = SolveFreeState(frame); !status.ok()) return status;
-  const ContactSearch::Result& found = search_->Find(targets_, frame.cables, free_state_);
+  const ContactSearch::Result& found =
+      search_->Find(targets_, shared_variance_m2_, frame.cables, free_state_);
   if (found.status.ok() || found.status.code() == StatusCode::kNoContact) {
     PublishState(found.state);
     PublishFit(found.fit);
@@ -394,7 +400,6 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
   const Eigen::Vector3d by_modulus = modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
   contact.covariance_N2 =
       inflation * fit.covariance_N2.block<3, 3>(row, row) + by_modulus * by_modulus.transpose();
-  contact.ci95_N = kSigmas95 * SigmaOfSize_N(contact.force_N, contact.covariance_N2);
   switch (fit.observability[index]) {
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});
@@ -407,9 +412,14 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
     case Observability::kFull: contact.status = Status::Ok(); break;
   }
   const int unknowns = fit.unknowns[index];
-  if (SquaredDistanceFromZero(contact) <=
-      ChiSquaredQuantile(1.0 - config_.significance, unknowns)) {
-    contact.status = Status(StatusCode::kNoContact, {});
+  const bool acts =
+      SquaredDistanceFromZero(contact) > ChiSquaredQuantile(1.0 - config_.significance, unknowns);
+  if (!acts) contact.status = Status(StatusCode::kNoContact, {});
+  // Where nothing acts a location has no meaning, so that the test is without its uncertainty.
+  if (search_) contact.covariance_N2 += search_->result().location_covariance_N2[index];
+  contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
+  if (acts && contact.ci95_N > config_.uncertain_share * contact.force_N.norm()) {
+    contact.status = Status(StatusCode::kUncertain, {});
   }
   return contact;
 }

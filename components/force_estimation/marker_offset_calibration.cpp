@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "components/force_estimation/rest_markers.hpp"
 #include "libs/core/index.hpp"
 
 namespace palpate::force_estimation {
@@ -31,8 +32,9 @@ void MarkerOffsetCalibration::Add(const MarkerFrame& frame) {
 
 Status MarkerOffsetCalibration::Finish() {
   if (!open_) return Status::Ok();
-  Eigen::VectorXd model_positions(sum_.size());
-  if (Status status = ModelPositions(&model_positions); !status.ok()) return status;
+  Eigen::VectorXd model_positions;
+  Status status = ReferenceMarkers(model_, last_.reference, last_.cables, &model_positions);
+  if (!status.ok()) return status;
   offset_.setZero();
   for (size_t m = 0; m < counts_.size(); ++m) {
     if (counts_[m] == 0) continue;
@@ -41,19 +43,6 @@ Status MarkerOffsetCalibration::Finish() {
   }
   open_ = false;
   calibrated_ = true;
-  return Status::Ok();
-}
-
-Status MarkerOffsetCalibration::ModelPositions(Eigen::VectorXd* positions_m) {
-  fem::StaticState state = model_.RestState();
-  if (last_.reference == ReferenceShape::kEquilibrium) {
-    const fem::StaticResult result = model_.Solve(last_.cables, {}, &state);
-    if (!result.status.ok()) return result.status;
-  }
-  const auto& markers = model_.body().markers;
-  for (size_t m = 0; m < markers.size(); ++m) {
-    positions_m->segment<3>(ToIndex(3 * m)) = markers[m].point.weights.Position(state.x_m);
-  }
   return Status::Ok();
 }
 

@@ -28,12 +28,13 @@ class MarkerOffsetCalibration {
 
   /// Measured minus model [3m], robot frame, m; 0 for markers that were in no reference frame.
   const Eigen::VectorXd& offset_m() const { return offset_; }
+  /// Frames that the offset of a marker is the mean of; 0: its offset is no measurement. The noise
+  /// of a frame over the root of this is an error that all later frames share.
+  int FrameCount(size_t marker) const { return calibrated_ ? counts_[marker] : 0; }
   /// Whether the marker may be used: it has an offset, or there was no calibration.
   bool Usable(size_t marker) const { return !calibrated_ || counts_[marker] > 0; }
 
  private:
-  Status ModelPositions(Eigen::VectorXd* positions_m);
-
   robot::RobotModel& model_;
   MarkerFrame last_;
   Eigen::VectorXd sum_;

@@ -52,6 +52,7 @@ void Import(const Capture& capture, const std::filesystem::path& beam,
   options.notes = capture.notes;
   options.markers = "Tip-1,Tip-2,Tip-3";
   options.rest_window = capture.rest_window;
+  options.rest_shape = "undeformed";
   options.steady_window = capture.steady_window;
   options.register_to_robot = true;
   options.rate_Hz = 10.0;

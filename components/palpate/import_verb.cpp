@@ -55,10 +55,12 @@ Target FindTarget(const ImportOptions& options) {
 
 experiment::Experiment MakeExperiment(const ImportOptions& options,
                                       const std::optional<robot::RobotDescription>& robot,
-                                      experiment::MeasurementFrame frame) {
+                                      experiment::MeasurementFrame frame,
+                                      const std::optional<Eigen::Vector3d>& noise_m) {
   experiment::Experiment experiment;
   if (robot) experiment.robot = robot->file;
   experiment.frame = frame;
+  experiment.markers_sigma_m = noise_m;
   if (options.markers_sigma_m > 0.0) {
     experiment.markers_sigma_m = Eigen::Vector3d::Constant(options.markers_sigma_m);
   }
@@ -115,7 +117,7 @@ void DeclareTarget(app::Arguments& arguments, ImportOptions& options) {
   arguments.Option("--notes", &options.notes, "Text to store with the recording");
   arguments.Option("--markers-sigma M", &options.markers_sigma_m,
                    "Standard deviation of the noise of a coordinate, m, for a new experiment; 0: "
-                   "not written");
+                   "as the static noise of the capture is");
 }
 
 void DeclareEdits(app::Arguments& arguments, ImportOptions& options) {
@@ -134,9 +136,10 @@ void DeclareEdits(app::Arguments& arguments, ImportOptions& options) {
   arguments.Option("--rest-window T0:T1", &options.rest_window,
                    "Window at rest, s, on the file's clock: displacements count from the mean "
                    "over it");
-  arguments.Choice("--rest-shape SHAPE", &options.rest_shape, {"undeformed", "equilibrium"},
-                   "Shape of the body in the rest window: undeformed (the mesh, before gravity) or "
-                   "equilibrium (static equilibrium under gravity)");
+  arguments.Choice("--rest-shape SHAPE", &options.rest_shape, {"auto", "undeformed", "equilibrium"},
+                   "Shape of the body in the rest window: equilibrium (under gravity and cables, "
+                   "without contact), undeformed (held straight by hand: the mesh before gravity), "
+                   "or auto, which is equilibrium");
   arguments.Option("--steady-window T0:T1", &options.steady_window,
                    "Window of the static phase, s, on the file's clock; without it none");
 }
@@ -152,7 +155,7 @@ void DeclareFrame(app::Arguments& arguments, ImportOptions& options) {
                    "Camera pose T_robot_camera as x,y,z,qx,qy,qz,qw, m");
   arguments.Flag("--register", &options.register_to_robot,
                  "Estimate T_robot_camera: register the mean marker positions of the rest window "
-                 "to the robot file");
+                 "to the robot's rest shape (--rest-shape)");
   arguments.Option("--register-markers A,B,...", &options.register_markers,
                    "Register these markers only; without it all");
 }
@@ -174,17 +177,16 @@ int RunImport(const ImportOptions& options, std::ostream& report) {
     CheckFits(options, robot, target.experiment_file);
   }
   if (robot) experiment::CheckMarkers(recording, MarkerNames(*robot));
-  PrintQuality(captured, recording, report);
-  if (options.register_to_robot) {
-    if (!robot) throw InputError("--register needs --robot");
-    recording.T_robot_camera = Register(options, recording, *robot, report);
-  }
+  const std::optional<Eigen::Vector3d> noise_m = PrintQuality(captured, recording, report);
+  if (options.register_to_robot && !robot) throw InputError("--register needs --robot");
+  if (robot) PlaceMarkers(options, report, &recording);
   PrintFrame(options, recording, report);
 
   experiment::WriteRecording(recording, target.recording);
   if (is_new_experiment) {
-    experiment::WriteExperimentSettings(MakeExperiment(options, robot, *recording.frame),
-                                        target.experiment_file);
+    const auto settings = MakeExperiment(options, robot, *recording.frame, noise_m);
+    experiment::WriteExperimentSettings(settings, target.experiment_file);
+    PrintNoise(settings, report);
   }
   report << "wrote " << target.recording.string() << '\n';
   if (recording.kind == experiment::RecordingKind::kKnownLoad && recording.loads.empty()) {

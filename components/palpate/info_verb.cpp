@@ -72,6 +72,23 @@ Findings DescribeMesh(const std::filesystem::path& target, const std::string& un
   return found;
 }
 
+// Where contacts are searched.
+void DescribeCandidates(const robot::RobotDescription& description, const robot::RobotBody& body,
+                        Findings* found) {
+  const auto inner = body.boundary.FaceCount() -
+                     static_cast<int>(fem::OuterFaces(body.mesh, body.boundary).size());
+  const std::string& region = description.feature_point_region;
+  found->json["contact_candidates"] = {{"points", body.feature_points.size()},
+                                       {"contact_faces", body.contact_faces.size()},
+                                       {"inner_faces_left_out", inner}};
+  if (!region.empty()) found->json["contact_candidates"]["region"] = region;
+  found->text +=
+      fmt::format("contact candidates: {} points on {} of {} faces{}{}\n",
+                  body.feature_points.size(), body.contact_faces.size(), body.boundary.FaceCount(),
+                  region.empty() ? "" : " (region " + region + ")",
+                  inner > 0 ? fmt::format(", {} faces of closed cavities left out", inner) : "");
+}
+
 Findings DescribeRobot(const std::filesystem::path& target) {
   const auto description = robot::ReadRobotFile(FindRobotFile(target), app::LoadYaml);
   const robot::RobotBody body = robot::BuildRobotBody(description);
@@ -97,6 +114,7 @@ Findings DescribeRobot(const std::filesystem::path& target) {
     found.text += fmt::format("marker {}: {:.2f} mm off the body\n", marker.name,
                               1e3 * marker.point.distance_m);
   }
+  DescribeCandidates(description, body, &found);
   for (const std::string& warning : body.warnings) found.text += "warning: " + warning + "\n";
   for (const std::string& note : body.notes) {
     found.text += "note: " + note + "\n";

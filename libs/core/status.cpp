@@ -18,6 +18,7 @@ std::string_view ToString(StatusCode code) {
     case StatusCode::kTensionLimit: return "tension_limit";
     case StatusCode::kUnobservable: return "unobservable";
     case StatusCode::kTangentialUnobservable: return "tangential_unobservable";
+    case StatusCode::kUncertain: return "uncertain";
     case StatusCode::kNoContact: return "no_contact";
     case StatusCode::kHidden: return "hidden";
     case StatusCode::kNoCalibration: return "no_calibration";

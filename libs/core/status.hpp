@@ -26,6 +26,7 @@ enum class StatusCode {
   kStale,         ///< inputs too old
   kNoRobotSeen,   ///< no usable measurement in this frame
   kInvalidInput,  ///< NaN, wrong frame, wrong size
+  kUncertain,     ///< beyond the noise, but its size is not well known
 };
 
 /// The word for `code` in CSV files, messages and logs, e.g. "ok", "not_converged".

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "libs/fem/tet_mesh.hpp"
 #include "libs/geometry/triangle_surface.hpp"
@@ -25,6 +26,10 @@ struct BoundarySurface {
 };
 
 BoundarySurface ExtractBoundary(const TetMesh& mesh);
+
+/// The faces that something outside the body can touch, in rising order: those of all shells (faces
+/// connected over edges) but the walls of closed cavities, and what lies inside these.
+std::vector<int> OuterFaces(const TetMesh& mesh, const BoundarySurface& boundary);
 
 /// The corner triangles at rest; triangle f is face f of `boundary`.
 geometry::TriangleSurface RestSurface(const TetMesh& mesh, const BoundarySurface& boundary);

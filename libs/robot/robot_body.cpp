@@ -184,18 +184,39 @@ Eigen::VectorXd NodeMass_kg(const MassSettings& mass, const BodyMesh& body) {
   return equal_kg;
 }
 
+/// Of `feature_points: {region: ...}`; all materials where none is named.
+bool IsOfRegion(const std::vector<std::string>& regions, const std::string& region, int material) {
+  return region.empty() || (material > 0 && regions[At(material - 1)] == region);
+}
+
+void FindContactFaces(const RobotDescription& robot, RobotBody* body) {
+  const std::vector<int> outer = fem::OuterFaces(body->mesh, body->boundary);
+  for (const int face : outer) {
+    const int material = body->material_of_cell[At(body->boundary.cells(face))];
+    if (IsOfRegion(body->region_names, robot.feature_point_region, material)) {
+      body->contact_faces.push_back(face);
+    }
+  }
+  if (body->contact_faces.empty() && !robot.feature_point_region.empty()) {
+    throw InputError(robot.feature_points_where,
+                     "region '" + robot.feature_point_region + "' has no outer surface");
+  }
+}
+
 void PlaceFeaturePoints(const RobotDescription& robot, const fem::PointLocator& locator,
                         const PointPlacer& placer, RobotBody* body) {
+  FindContactFaces(robot, body);
   const geometry::TriangleSurface& surface = locator.surface().surface();
   if (robot.feature_points_m.cols() == 0) {
     const geometry::SurfaceSamples spread =
-        geometry::SpreadEvenly(surface, robot.feature_point_count);
+        geometry::SpreadEvenly(ContactSurface(*body), robot.feature_point_count);
     for (const auto& position_m : spread.positions_m.colwise()) {
       body->feature_points.push_back(locator.Embed(position_m));
     }
     body->feature_normals = spread.normals;
     return;
   }
+  body->feature_points_are_given = true;
   body->feature_normals.resize(3, robot.feature_points_m.cols());
   for (Eigen::Index k = 0; k < robot.feature_points_m.cols(); ++k) {
     const Eigen::Vector3d position_m = robot.feature_points_m.col(k);
@@ -224,6 +245,14 @@ void PlacePoints(const RobotDescription& robot, const fem::PointLocator& locator
 }
 
 }  // namespace
+
+geometry::TriangleSurface ContactSurface(const RobotBody& body) {
+  geometry::TriangleSurface surface = fem::RestSurface(body.mesh, body.boundary);
+  if (!body.contact_faces.empty()) {
+    surface.triangles = surface.triangles(Eigen::all, body.contact_faces).eval();
+  }
+  return surface;
+}
 
 RobotBody BuildRobotBody(const RobotDescription& robot) {
   RobotBody body;

@@ -38,6 +38,9 @@ struct RobotBody {
   std::string name;
   fem::TetMesh mesh;              ///< placed, of the element that the robot file names
   fem::BoundarySurface boundary;  ///< of `mesh`
+  /// Faces of `boundary` where something can touch, in rising order: fem::OuterFaces, of the region
+  /// of `feature_points` where the robot file names one. Empty: all.
+  std::vector<int> contact_faces;
 
   /// Name of the mesh as it lies in the file, and of the element: 64-bit FNV-1a over the nodes (in
   /// metres, before the placement), the elements and the number of nodes per element, as
@@ -62,6 +65,8 @@ struct RobotBody {
   double eyelet_room_m = 0.0;  ///< how far a model of it can move eyelets (GiveEyeletsRoom)
   std::vector<BodyMarker> markers;
   std::vector<fem::BodyPoint> feature_points;
+  /// The robot file gives them; else they are spread over contact_faces.
+  bool feature_points_are_given = false;
   Eigen::Matrix3Xd feature_normals;  ///< [3 x feature_points] unit, outward, of the nearest face
 
   /// What a log should say: the mesh, fixed nodes, points that lie off the mesh.
@@ -76,5 +81,8 @@ struct RobotBody {
 /// point of a cable more than 20 mm or 5 % of the body's diagonal from the body, whichever is less;
 /// a marker or a given feature point farther from it than that diagonal.
 RobotBody BuildRobotBody(const RobotDescription& robot);
+
+/// The rest surface where something can touch: contact_faces, or all where there are none.
+geometry::TriangleSurface ContactSurface(const RobotBody& body);
 
 }  // namespace palpate::robot

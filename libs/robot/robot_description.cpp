@@ -219,6 +219,15 @@ MarkerSettings ReadMarker(const ConfigNode& node, std::set<std::string>* names) 
   return marker;
 }
 
+void RequireRegion(const ConfigNode& node, const RobotDescription& robot) {
+  std::vector<std::string> known;
+  for (const RegionSettings& region : robot.regions) known.push_back(region.name);
+  if (std::find(known.begin(), known.end(), robot.feature_point_region) != known.end()) return;
+  Refuse(node, "there is no region '" + robot.feature_point_region + "'" +
+                   DidYouMean(robot.feature_point_region, known) +
+                   (known.empty() ? "; the robot file has none" : "; there is " + Listed(known)));
+}
+
 void ReadFeaturePoints(const ConfigNode& node, RobotDescription* robot) {
   robot->feature_points_where = node.where;
   const ConfigNode* positions = &node;
@@ -226,11 +235,20 @@ void ReadFeaturePoints(const ConfigNode& node, RobotDescription* robot) {
     MapReader map(node, FeaturePointKeys());
     const ConfigNode* count = map.Optional("count");
     positions = map.Optional("positions_m");
+    const ConfigNode* region = map.Optional("region");
+    map.Read("region", &robot->feature_point_region);
     map.Finish();
-    if ((count == nullptr) == (positions == nullptr)) {
+    if (count != nullptr && positions != nullptr) {
       Refuse(node, "needs either count or positions_m");
     }
-    map.Read("count", &robot->feature_point_count);
+    if (positions != nullptr && region != nullptr) {
+      Refuse(*region, "restricts points that are spread; leave it out beside positions_m");
+    }
+    if (count == nullptr && positions == nullptr && region == nullptr) {
+      Refuse(node, "needs count, positions_m or region");
+    }
+    if (region != nullptr) RequireRegion(*region, *robot);
+    if (count != nullptr) map.Read("count", &robot->feature_point_count);
   }
   if (positions == nullptr) return;
   robot->feature_points_m = ReadPoints(*positions);

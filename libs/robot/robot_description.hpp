@@ -78,6 +78,7 @@ struct RobotDescription {
   std::vector<MarkerSettings> markers;
   int feature_point_count = 51;       ///< used where no positions are given
   Eigen::Matrix3Xd feature_points_m;  ///< [3 x k] given positions, or empty
+  std::string feature_point_region;   ///< name in `regions`: only its surface; empty: all
   SourceLocation feature_points_where;
 };
 

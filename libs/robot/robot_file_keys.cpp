@@ -117,12 +117,18 @@ const KeyTable& MarkerKeys() {
 
 const KeyTable& FeaturePointKeys() {
   static const KeyTable keys{.title = "feature points",
-                             .about = "Points of the surface at which contacts are searched.",
+                             .about =
+                                 "Points of the surface at which contacts are searched and images "
+                                 "are compared. At least one key.",
                              .keys = {{"count", value::WholeNumber(1, kMaxFeaturePoints), kOptional,
-                                       "Number of points, spread evenly over the surface."},
+                                       "Number of points, spread evenly over the outer surface: "
+                                       "walls of closed cavities are left out."},
                                       {"positions_m", value::Points(1), kOptional,
-                                       "The points themselves, robot frame, undeformed body."}},
-                             .exactly_one = {{"count", "positions_m"}}};
+                                       "The points themselves, robot frame, undeformed body."},
+                                      {"region", value::Text(), kOptional,
+                                       "Name in `regions`: only the surface of this region. Not "
+                                       "beside `positions_m`."}},
+                             .at_most_one = {{"count", "positions_m"}, {"positions_m", "region"}}};
   return keys;
 }
 

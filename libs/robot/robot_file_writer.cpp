@@ -87,7 +87,9 @@ std::string FeaturePointsText(const RobotDescription& robot) {
   if (robot.feature_points_m.cols() > 0) {
     return "feature_points: {positions_m: " + Points(robot.feature_points_m) + "}\n";
   }
-  return "feature_points: {count: " + std::to_string(robot.feature_point_count) + "}\n";
+  const std::string region =
+      robot.feature_point_region.empty() ? "" : ", region: " + Quoted(robot.feature_point_region);
+  return "feature_points: {count: " + std::to_string(robot.feature_point_count) + region + "}\n";
 }
 
 }  // namespace

@@ -538,10 +538,10 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
 Status ForceFitter::Screen(const RowTargets& targets,
                            const std::vector<robot::CableCommand>& cables, const ModelState& state,
                            const std::vector<FitSite>& candidates,
-                           std::vector<double>* chi_squared) {
+                           std::vector<ScreenedSite>* screened) {
   const std::vector<FitSite> sites = sites_;
   ModelState extended = state;
-  chi_squared->clear();
+  screened->clear();
   UpdateWeight();
   Status status = Status::Ok();
   for (size_t c = 0; c < candidates.size() && status.ok(); ++c) {
@@ -560,12 +560,13 @@ Status ForceFitter::Screen(const RowTargets& targets,
     if (status.ok()) status = condensation_.Condense(compliance_, cables);
     if (!status.ok()) break;
     if (!SolveQp(targets, cables, extended).ok()) {
-      chi_squared->push_back(std::numeric_limits<double>::infinity());
+      screened->push_back({.chi_squared = std::numeric_limits<double>::infinity()});
       continue;
     }
     const Eigen::VectorXd residual =
         targets.value_m - condensation_.e0_m() - condensation_.G() * new_lambda_f_;
-    chi_squared->push_back((residual.array().square() * targets.weight.array()).sum());
+    screened->push_back(
+        {(residual.array().square() * targets.weight.array()).sum(), new_lambda_f_.tail<3>()});
   }
   SetSites(sites);
   return status;

@@ -35,6 +35,12 @@ struct ModelState {
   Eigen::VectorXd lambda_f_N;  ///< [3k] x, y, z of each contact, robot frame
 };
 
+/// One more contact, fitted to first order (ForceFitter::Screen).
+struct ScreenedSite {
+  double chi_squared = 0.0;  ///< of all rows; infinite: its force cannot be told from the others'
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< robot frame
+};
+
 struct ForceFit {
   Status status;               ///< kBudgetReached: usable as a start, but not converged
   int iterations = 0;          ///< linearisations
@@ -136,12 +142,11 @@ class ForceFitter final : private fem::NewtonProblem {
   /// G' S^-1 G and the prior about the last fit [3k x 3k], 1/N^2.
   fem::QpMatrix Information(const RowTargets& targets) const;
 
-  /// Weighted residual with a force at one more site, to first order about `state`: one value for
-  /// each of `candidates`, infinite where its force cannot be told from those at the present sites.
-  /// Not ok where the state cannot be linearised.
+  /// A force at one more site, to first order about `state`, the others fitted again: one result
+  /// for each of `candidates`. Not ok where the state cannot be linearised.
   Status Screen(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                 const ModelState& state, const std::vector<FitSite>& candidates,
-                std::vector<double>* chi_squared);
+                std::vector<ScreenedSite>* screened);
 
   /// Weighted residual of the rows at `state`; sets `residual_m` [rows].
   double ChiSquared(const RowTargets& targets, const ModelState& state,

@@ -45,7 +45,7 @@ CandidateLocations::CandidateLocations(const robot::RobotModel& model, double pa
                                        const CandidateLocationsTuning& tuning) {
   PALPATE_CHECK(patch_radius_m > 0.0, patch_radius_m);
   const robot::RobotBody& body = model.body();
-  const double area_m2 = geometry::SurfaceArea_m2(fem::RestSurface(body.mesh, body.boundary));
+  const double area_m2 = geometry::SurfaceArea_m2(robot::ContactSurface(body));
   const double apart_m = tuning.spacing_patch_radii * patch_radius_m;
   const int wanted = static_cast<int>(std::clamp(
       area_m2 / (apart_m * apart_m), 1.0 * tuning.fewest_candidates, 1.0 * tuning.most_candidates));
@@ -61,7 +61,7 @@ CandidateLocations::CandidateLocations(const robot::RobotModel& model, double pa
 /// Takes `count` places of equal area and drops those within `clearance_m` of a fixed node.
 void CandidateLocations::SpreadOver(const robot::RobotModel& model, double clearance_m, int count) {
   const robot::RobotBody& body = model.body();
-  const geometry::TriangleSurface surface = fem::RestSurface(body.mesh, body.boundary);
+  const geometry::TriangleSurface surface = robot::ContactSurface(body);
   surface_triangles_ = surface.triangles;
   const geometry::TriangleSurface held = HeldSurface(body);
   std::optional<geometry::SurfaceIndex> held_index;

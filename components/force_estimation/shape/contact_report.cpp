@@ -138,7 +138,9 @@ ContactForce ContactReport::ContactAt(const ShapeFitter& fit, std::size_t site,
       single_N2 - RandomLeft(single_N2, followed.filter.covariance_N2());
   const Eigen::Vector3d shared_N = force_relative_sigma_ * contact.force_N;
   contact.covariance_N2 = inflation * (whole - averaged_away) + shared_N * shared_N.transpose();
-  contact.ci95_N = kSigmas95 * SigmaOfSize_N(contact.force_N, contact.covariance_N2);
+  contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
+  const bool wide = contact.ci95_N > tuning_.uncertain_share * contact.force_N.norm();
+  if (wide && !followed.hidden) contact.status = Status(StatusCode::kUncertain, {});
   const double seen_m2 = followed.seen_sigma_m * followed.seen_sigma_m;  // in both directions
   const double place_variance =
       located ? inflation * fit.located()[site].location_covariance_m2.trace() : 2.0 * seen_m2;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "components/force_estimation/config.hpp"
 #include "components/force_estimation/force_estimate.hpp"
 #include "components/force_estimation/shape/shape_config.hpp"
 #include "components/force_estimation/shape/shape_fitter.hpp"
@@ -31,6 +32,7 @@ struct ContactReportTuning {
   /// Its interval is then mostly the bias', constant over the frames, so that there is no chance in
   /// each of them. Larger: forces that are no larger than their interval are reported.
   double significance_along = 0.01;
+  double uncertain_share = Config().uncertain_share;  ///< Config::uncertain_share
 };
 
 /// The contacts of a fit: which act, their forces and uncertainties.

@@ -38,7 +38,7 @@ class ShapeForceEstimator::Impl {
         fit_(model, config, shape),
         hidden_(model, shape, fit_),
         report_(shape, std::hypot(modulus_sigma, shape.force_relative_sigma),
-                hidden_.CandidateCount()),
+                hidden_.CandidateCount(), {.uncertain_share = config.uncertain_share}),
         free_state_(model.RestState()) {
     estimate_.cables.resize(static_cast<std::size_t>(model.CableCount()));
     estimate_.x_m = free_state_.x_m;

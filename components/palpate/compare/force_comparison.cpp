@@ -90,6 +90,7 @@ bool HasForce(const ContactForce& contact) {
   switch (contact.status.code()) {
     case StatusCode::kOk:
     case StatusCode::kTangentialUnobservable:
+    case StatusCode::kUncertain:
     case StatusCode::kHidden: return true;
     default: return false;
   }

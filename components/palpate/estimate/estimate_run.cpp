@@ -15,6 +15,7 @@
 #include "components/palpate/estimate/bias_frames.hpp"
 #include "components/palpate/estimate/marker_replay.hpp"
 #include "components/palpate/estimate/replay_perception.hpp"
+#include "components/palpate/estimate/rest_check.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/robot_scene.hpp"
 #include "libs/app/run_main.hpp"
@@ -111,23 +112,44 @@ void EstimateRun::EstimateDepthBias(const std::vector<PlannedRecording>& plan) {
   for (const std::string& note : found.notes) Say(note);
 }
 
+void EstimateRun::CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan) {
+  const bool needed = std::any_of(plan.begin(), plan.end(), [](const PlannedRecording& planned) {
+    return planned.from == EstimateFrom::kMarkers && !planned.recording->reference;
+  });
+  if (!needed) return;
+  tare_ = std::make_unique<MarkerTare>(experiment_, &model_, ParseCableInput(options_.cable_input),
+                                       settings_.forces);
+  for (const std::string& note : tare_->Choose()) Say(note);
+}
+
 ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstimate& take) {
   if (planned.from == EstimateFrom::kShape) return Shape().Estimate(*planned.recording, take);
   const MarkerReplay::Inputs inputs{.experiment = experiment_,
                                     .model = &model_,
                                     .cable_input = ParseCableInput(options_.cable_input),
-                                    .limits = Limits()};
+                                    .limits = Limits(),
+                                    .tare = tare_.get()};
   return MarkerReplay(inputs, settings_.forces, calibration_).Estimate(*planned.recording, take);
+}
+
+RestCheck::Known EstimateRun::RestCheckOf(const PlannedRecording& planned) const {
+  const bool from_shape = planned.from == EstimateFrom::kShape;
+  return {
+      .calibrated = !options_.calibration.empty(),
+      .significance = from_shape ? settings_.shape.significance : settings_.forces.significance,
+      .gravity_m_s2 = model_.gravity_m_s2()};
 }
 
 void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {
   const experiment::Recording& recording = *planned.recording;
   ForceSummary summary(recording.name, recording.steady_window_s, recording.loads);
   RecordingComparison comparison(recording.name, truth_ ? &*truth_ : nullptr);
+  RestCheck rest(experiment_, recording, RestCheckOf(planned));
   const TakeEstimate take = [&](const force_estimation::ForceEstimate& estimate) {
     table_.Add(recording.name, estimate);
     summary.Add(estimate);
     comparison.Add(estimate, &all_);
+    rest.Add(estimate);
     with_result_ += IsResult(estimate.status) ? 1 : 0;
   };
   const ReplayCount count = Replay(planned, take);
@@ -135,6 +157,8 @@ void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {
   interrupted_ = interrupted_ || !count.complete();
   nlohmann::ordered_json json = summary.ToJson();
   json["from"] = ToString(planned.from);
+  const auto failure = rest.Failure();
+  if (failure) json["error"] = *failure;
   if (comparison.has_truth()) json["comparison"] = ToJson(comparison.summary());
   json_->push_back(std::move(json));
   if (!options_.json) {
@@ -142,6 +166,8 @@ void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {
     if (truth_) PrintComparison(comparison);
     std::fflush(stdout);
   }
+  if (failure) Say(*failure);
+  rest_has_forces_ = rest_has_forces_ || failure;
   if (options_.plot.empty()) return;
   comparison.Draw(model_.body().name,
                   is_only ? options_.plot : PlotOf(options_.plot, recording.name));
@@ -167,7 +193,7 @@ int EstimateRun::Finish() {
                                        count_.total, options_.out.string()));
   }
   if (!options_.json) fmt::print("written to {}\n", options_.out.string());
-  return with_result_ > 0 ? app::kExitDone : app::kExitFailed;
+  return with_result_ > 0 && !rest_has_forces_ ? app::kExitDone : app::kExitFailed;
 }
 
 }  // namespace palpate::command

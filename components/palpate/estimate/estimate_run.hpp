@@ -16,8 +16,10 @@
 #include "components/palpate/estimate/force_summary.hpp"
 #include "components/palpate/estimate/forces_table.hpp"
 #include "components/palpate/estimate/known_truth.hpp"
+#include "components/palpate/estimate/marker_tare.hpp"
 #include "components/palpate/estimate/recording_comparison.hpp"
 #include "components/palpate/estimate/replay_limits.hpp"
+#include "components/palpate/estimate/rest_check.hpp"
 #include "components/palpate/estimate/shape_replay.hpp"
 #include "libs/robot/calibration_file.hpp"
 
@@ -35,15 +37,19 @@ class EstimateRun {
 
   /// Processes the contact-free recordings, where one of `plan` is estimated from its shape.
   void EstimateDepthBias(const std::vector<PlannedRecording>& plan);
+  /// Chooses the recordings that give marker offsets, where `plan` has markers without a rest
+  /// window.
+  void CalibrateMarkerOffsets(const std::vector<PlannedRecording>& plan);
   /// Also draws the plot where one is wanted; `is_only`: under the name that was given. Throws
   /// InputError, as the replays do.
   void Estimate(const PlannedRecording& planned, bool is_only = true);
-  /// Writes forces.csv; returns the exit code. Throws RunError, and app::Interrupted where the run
-  /// ended early.
+  /// Writes forces.csv; returns the exit code, kExitFailed where no frame has a result or a rest
+  /// recording has forces. Throws RunError, and app::Interrupted where the run ended early.
   int Finish();
 
  private:
   ShapeReplay& Shape();
+  RestCheck::Known RestCheckOf(const PlannedRecording& planned) const;
   ReplayCount Replay(const PlannedRecording& planned, const TakeEstimate& take);
   void PrintComparison(const RecordingComparison& comparison);
   ReplayLimits Limits() const { return {options_.rate_Hz, stop_requested_}; }
@@ -58,6 +64,7 @@ class EstimateRun {
   std::function<bool()> stop_requested_;
   std::optional<KnownTruth> truth_;
   std::unique_ptr<ShapeReplay> shape_;  ///< created when first needed
+  std::unique_ptr<MarkerTare> tare_;    ///< created where it is needed
   ForcesTable table_;
   std::unique_ptr<nlohmann::ordered_json> json_;
   ComparisonSummary all_;  ///< of all recordings
@@ -65,6 +72,7 @@ class EstimateRun {
   int with_result_ = 0;
   ReplayCount count_;  ///< of all recordings that were begun
   bool interrupted_ = false;
+  bool rest_has_forces_ = false;  ///< a rest recording has more forces than chance gives
 };
 
 }  // namespace palpate::command

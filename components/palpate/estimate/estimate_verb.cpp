@@ -51,6 +51,7 @@ int Estimate(const EstimateOptions& options) {
   const app::StopSignal stop;
   EstimateRun run(options, settings, &experiment, model.get(), [&] { return stop.Requested(); });
   run.EstimateDepthBias(plan);
+  run.CalibrateMarkerOffsets(plan);
   for (const PlannedRecording& planned : plan) {
     if (!stop.Requested()) run.Estimate(planned, /*is_only=*/plan.size() == 1);
   }

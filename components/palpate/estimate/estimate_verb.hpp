@@ -32,8 +32,9 @@ struct EstimateOptions {
 };
 
 /// `palpate estimate`: forces from the images or the markers of recordings, written as forces.csv.
-/// Returns 0, or 1 where not a single frame had a result; throws InputError and RunError, and
-/// app::Interrupted once the forces of the frames before a signal are written.
+/// Returns 0, or 1 where not a single frame had a result, or a rest recording has forces. Throws
+/// InputError and RunError, and app::Interrupted once the forces of the frames before a signal are
+/// written.
 int Estimate(const EstimateOptions& options);
 
 app::Verb EstimateVerb();

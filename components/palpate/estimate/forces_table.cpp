@@ -24,8 +24,14 @@ std::string ContactFields(const force_estimation::ContactForce& contact) {
     text += "," + (known ? FormatNumber(value) : std::string());
   }
   text += "," + (known ? FormatNumber(contact.ci95_N) : std::string());
-  return text + "," + FormatNumber(contact.location_ci95_m) + "," +
-         std::string(ToString(contact.status.code()));
+  text += "," + FormatNumber(contact.location_ci95_m) + "," +
+          std::string(ToString(contact.status.code()));
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = row; column < 3; ++column) {
+      text += "," + (known ? FormatNumber(contact.covariance_N2(row, column)) : std::string());
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -35,7 +41,7 @@ void ForcesTable::Add(const std::string& recording,
   empty_ = false;
   const std::string head = Field(recording) + "," + FormatNumber(estimate.t_s) + ",";
   if (!estimate.status.ok() || estimate.contacts.empty()) {
-    text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + "\n";
+    text_ += head + ",,,,,,,,," + std::string(ToString(estimate.status.code())) + ",,,,,,\n";
     return;
   }
   for (const force_estimation::ContactForce& contact : estimate.contacts) {

@@ -25,7 +25,8 @@ class ForcesTable {
  private:
   bool empty_ = true;
   std::string text_ =
-      "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status\n";
+      "recording,t_s,contact,x_m,y_m,z_m,fx_N,fy_N,fz_N,ci95_N,location_ci95_m,status,"
+      "cov_xx_N2,cov_xy_N2,cov_xz_N2,cov_yy_N2,cov_yz_N2,cov_zz_N2\n";
 };
 
 }  // namespace palpate::command

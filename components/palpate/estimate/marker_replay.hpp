@@ -4,9 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "components/force_estimation/config.hpp"
 #include "components/force_estimation/force_estimate.hpp"
+#include "components/force_estimation/marker_frame.hpp"
+#include "components/palpate/estimate/marker_tare.hpp"
 #include "components/palpate/estimate/replay_limits.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/calibration_file.hpp"
@@ -18,7 +21,8 @@ namespace palpate::command {
 using TakeEstimate = std::function<void(const force_estimation::ForceEstimate&)>;
 
 /// Passes the markers of recordings through force_estimation::MarkerPipeline. Each recording has a
-/// pipeline of its own: marker offsets of one do not hold for the next.
+/// pipeline of its own. Its marker offsets are those of its rest window, else of the contact-free
+/// recordings (MarkerTare), else zero.
 class MarkerReplay {
  public:
   struct Inputs {
@@ -26,6 +30,7 @@ class MarkerReplay {
     robot::RobotModel* model = nullptr;        ///< `calibration` was applied to it
     robot::CableInput cable_input = robot::CableInput::kDisplacement;
     ReplayLimits limits{};
+    const MarkerTare* tare = nullptr;  ///< none: no offsets without a rest window
   };
 
   MarkerReplay(const Inputs& inputs, const force_estimation::Config& config,
@@ -34,10 +39,15 @@ class MarkerReplay {
 
   /// Hands the estimate of each frame to `take`; all frames of a reference window are among them.
   /// Without contacts in the settings, known loads are contacts of known place. Throws InputError
-  /// as force_estimation::FramesOfRecording does, and for a load far from the body.
+  /// as force_estimation::FramesOfRecording does, for a load far from the body, and for markers at
+  /// rest that do not have the robot's shape, orientation or place
+  /// (force_estimation::CheckRestMarkers).
   ReplayCount Estimate(const experiment::Recording& recording, const TakeEstimate& take) const;
 
  private:
+  void CheckAtRest(const experiment::Recording& recording,
+                   const std::vector<force_estimation::MarkerFrame>& frames) const;
+
   Inputs inputs_;
   force_estimation::Config config_;
   robot::CalibrationFile calibration_;

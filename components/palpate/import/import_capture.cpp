@@ -93,6 +93,8 @@ experiment::Recording MakeRecording(const ImportOptions& options, const Captured
       Shifted(ParseWindow("steady-window", options.steady_window), options.time_offset_s);
   const auto rest = Shifted(ParseWindow("rest-window", options.rest_window), options.time_offset_s);
   if (rest) {
+    // Nothing but hands or zero gravity keeps a soft body straight. Without gravity and cables the
+    // two shapes are equal.
     const bool undeformed = options.rest_shape == "undeformed";
     recording.reference = {*rest, undeformed ? experiment::ReferenceShape::kUndeformed
                                              : experiment::ReferenceShape::kEquilibrium};

@@ -33,17 +33,17 @@ struct ImportOptions {
 
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();
-  double rate_Hz = 0.0;                   ///< frames a second to keep; 0: all
-  double time_offset_s = 0.0;             ///< added to all times (an experiment has one clock)
-  std::string rest_window;                ///< "T0:T1", `reference.window_s`; empty: none
-  std::string rest_shape = "undeformed";  ///< undeformed or equilibrium
-  std::string steady_window;              ///< "T0:T1", `steady_window_s`; empty: none
+  double rate_Hz = 0.0;             ///< frames a second to keep; 0: all
+  double time_offset_s = 0.0;       ///< added to all times (an experiment has one clock)
+  std::string rest_window;          ///< "T0:T1", `reference.window_s`; empty: none
+  std::string rest_shape = "auto";  ///< auto (equilibrium), undeformed or equilibrium
+  std::string steady_window;        ///< "T0:T1", `steady_window_s`; empty: none
 
   std::string frame;               ///< robot or camera; empty: robot with `axes` alone, else camera
   std::string pose;                ///< T_robot_camera as "x,y,z,qx,qy,qz,qw"; empty: unknown
   bool register_to_robot = false;  ///< estimate T_robot_camera from the rest window's means
   std::string register_markers;    ///< "a,b,c": those to register; empty: all that are kept
-  double markers_sigma_m = 0.0;    ///< for a new experiment.yaml; 0: left out
+  double markers_sigma_m = 0.0;    ///< for a new experiment.yaml; 0: as the capture shows it
 };
 
 /// Values of options. Each throws InputError with the option and the form that is expected.

@@ -3,20 +3,23 @@
 
 #pragma once
 
-#include <Eigen/Geometry>
 #include <ostream>
 
 #include "components/palpate/import/import_options.hpp"
 #include "libs/experiment/recording.hpp"
-#include "libs/robot/robot_description.hpp"
 
 namespace palpate::command {
 
-/// T_robot_camera: rigid registration of the markers' mean positions in the rest window (in the
-/// whole recording where only markers that do not move are used) to the rest positions of the robot
-/// file. Reports the residual of each marker. Throws InputError where the options contradict each
-/// other or the markers do not determine the pose.
-Eigen::Isometry3d Register(const ImportOptions& options, const experiment::Recording& recording,
-                           const robot::RobotDescription& robot, std::ostream& report);
+/// Compares the markers at rest with the robot's, and with --register estimates
+/// recording->T_robot_camera first.
+///
+/// At rest: the mean over the rest window, or over the whole recording of kind rest; with
+/// --register without a rest window over the whole recording, of markers that do not move. The
+/// robot's: in the shape of the rest window, else undeformed. Reports that shape and the residual
+/// of each marker. Throws InputError where options contradict each other, where the markers do not
+/// determine the pose, and where they have another shape, or, of known pose, are turned or lie
+/// elsewhere (force_estimation::CheckRestMarkers).
+void PlaceMarkers(const ImportOptions& options, std::ostream& report,
+                  experiment::Recording* recording);
 
 }  // namespace palpate::command

@@ -5,6 +5,10 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <vector>
+
+#include "libs/core/statistics.hpp"
 #include "libs/experiment/capture_edit.hpp"
 
 namespace palpate::command {
@@ -13,8 +17,32 @@ using experiment::CapturedMarkers;
 using experiment::MeasurementFrame;
 using experiment::TimeWindow;
 
-void PrintQuality(const CapturedMarkers& captured, const experiment::Recording& recording,
-                  std::ostream& report) {
+namespace {
+
+/// More digits would say more than a second of noise does.
+double TwoDigits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::round(value / unit) * unit;
+}
+
+std::optional<Eigen::Vector3d> NoiseOf(const experiment::CaptureQuality& quality) {
+  Eigen::Vector3d noise_m;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double> known_m;
+    for (const auto& marker : quality.markers) {
+      if (marker.noise_m) known_m.push_back((*marker.noise_m)[axis]);
+    }
+    if (known_m.empty() || !(Median(known_m) > 0.0)) return std::nullopt;
+    noise_m[axis] = TwoDigits(Median(known_m));
+  }
+  return noise_m;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> PrintQuality(const CapturedMarkers& captured,
+                                            const experiment::Recording& recording,
+                                            std::ostream& report) {
   std::optional<TimeWindow> window = recording.steady_window_s;
   if (!window && recording.reference) window = recording.reference->window_s;
   const auto quality = experiment::AssessCapture(captured, window);
@@ -36,6 +64,17 @@ void PrintQuality(const CapturedMarkers& captured, const experiment::Recording& 
                             noise_um.z());
     }
     report << '\n';
+  }
+  return NoiseOf(quality);
+}
+
+void PrintNoise(const experiment::Experiment& settings, std::ostream& report) {
+  if (settings.markers_sigma_m) {
+    const Eigen::Vector3d sigma_um = 1e6 * *settings.markers_sigma_m;
+    report << fmt::format("markers_sigma_m of experiment.yaml: {:.3g} {:.3g} {:.3g} um\n",
+                          sigma_um.x(), sigma_um.y(), sigma_um.z());
+  } else {
+    report << "noise is not known: write markers_sigma_m to experiment.yaml\n";
   }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "components/force_estimation/contact_search.hpp"
 #include "components/force_estimation/marker_force_estimator.hpp"
@@ -169,6 +171,78 @@ TEST(ContactSearch, FindsTheSameContactAgainAfterItsRelease) {
     ASSERT_EQ(estimate.contacts.size(), 1U);
     EXPECT_EQ(estimate.contacts[0].name, "contact_1");
     EXPECT_LT((estimate.contacts[0].force_N - share * force_N).norm(), 1e-5);
+  }
+}
+
+/// A pull on the top is a push on the bottom, until adhesion is asked for.
+TEST(ContactSearch, ReportsAPullOnlyWithAdhesion) {
+  const auto model = Build(BeamRobot());
+  const size_t point = Nearest(*model, {-0.02, 0.015, 0.03});
+  const fem::SurfacePatch patch = model->Patch(model->body().feature_points[point].rest_m, 0.005);
+  ASSERT_GT(patch.normal.z(), 0.9);
+  const fem::StaticState truth = SolveTruth(*model, {}, {{patch.weights, 0.3 * patch.normal}});
+  const MarkerFrame frame = FrameOf(*model, truth, {});
+  const Eigen::Vector3d place_m = patch.weights.Position(truth.x_m);
+  Config config;
+  config.adhesion = true;
+  MarkerForceEstimator pulls(*model, config);
+  const ForceEstimate& pulled = pulls.Update(frame);
+  ASSERT_TRUE(pulled.status.ok());
+  EXPECT_LT((pulled.contacts[0].position_m - place_m).norm(), 1e-6);
+  EXPECT_GT(pulled.contacts[0].force_N.z(), 0.29);
+  MarkerForceEstimator pushes(*model, Config{});
+  const ForceEstimate& pushed = pushes.Update(frame);
+  if (!pushed.status.ok()) return;
+  EXPECT_LT(pushed.contacts[0].position_m.z(), place_m.z() - 0.01);
+}
+
+/// Noise of one frame moves the location by more than that of many.
+TEST(ContactSearch, RefinesTheLocationOfAContactThatStays) {
+  const auto model = Build(BeamRobot());
+  const fem::SurfacePatch patch = model->Patch({-0.033, 0.021, 0.03}, 0.005);
+  const fem::StaticState truth = SolveTruth(*model, {}, {{patch.weights, -0.05 * patch.normal}});
+  const Eigen::Vector3d place_m = patch.weights.Position(truth.x_m);
+  std::mt19937 random(12);
+  double first_m2 = 0.0;
+  double last_m2 = 0.0;
+  constexpr int kContacts = 4;
+  constexpr int kFrames = 33;
+  for (int contact = 0; contact < kContacts; ++contact) {
+    MarkerForceEstimator estimator(*model, Config{});
+    for (int k = 0; k < kFrames; ++k) {
+      MarkerFrame frame = FrameOf(*model, truth, {});
+      frame.t_s = 0.01 * k;
+      AddNoise(1e-4, random, &frame);
+      const ForceEstimate& estimate = estimator.Update(frame);
+      ASSERT_TRUE(estimate.status.ok()) << ToString(estimate.status.code());
+      EXPECT_EQ(estimate.contacts.at(0).name, "contact_1");
+      const double error_m2 = (estimate.contacts[0].position_m - place_m).squaredNorm();
+      if (k == 0) first_m2 += error_m2 / kContacts;
+      if (k + 1 == kFrames) last_m2 += error_m2 / kContacts;
+    }
+  }
+  EXPECT_LT(last_m2, 0.5 * first_m2);
+  EXPECT_LT(std::sqrt(last_m2), 0.005);
+}
+
+TEST(ContactSearch, LooksOnTheContactSurfaceOnly) {
+  robot::RobotDescription robot = BeamRobot();
+  robot::RobotBody body = robot::BuildRobotBody(robot);
+  EXPECT_EQ(std::ssize(body.contact_faces), body.boundary.FaceCount());
+  robot.regions.push_back({"end", {{-0.03, -1.0, -1.0}, {1.0, 1.0, 1.0}}, std::nullopt, {}});
+  robot.feature_point_region = "end";
+  body = robot::BuildRobotBody(robot);
+  EXPECT_LT(std::ssize(body.contact_faces), body.boundary.FaceCount());
+  for (const fem::BodyPoint& point : body.feature_points) {
+    EXPECT_GT(point.rest_m.x(), -0.05);
+  }
+  const robot::RobotModel model(std::move(body));
+  const ContactCandidates candidates(model, Config{});
+  for (const FitSite& site : candidates.coarse()) EXPECT_GT(site.patch.centre_m.x(), -0.05);
+  std::vector<Eigen::Vector3d> everywhere_m;
+  for (const FitSite& site : candidates.coarse()) everywhere_m.push_back(site.patch.centre_m);
+  for (const FitSite& site : candidates.FinePlaces(everywhere_m)) {
+    EXPECT_GT(site.patch.centre_m.x(), -0.05);
   }
 }
 

@@ -73,9 +73,10 @@ TEST(BeamVerbs, FindTheStiffnessAndThenTheHungWeight) {
   options.out = folder / "forces.csv";
   ASSERT_EQ(Estimate(options), 0);
   const auto forces = experiment::CsvTable::Read(options.out);
-  EXPECT_EQ(forces.header(),
-            (std::vector<std::string>{"recording", "t_s", "contact", "x_m", "y_m", "z_m", "fx_N",
-                                      "fy_N", "fz_N", "ci95_N", "location_ci95_m", "status"}));
+  EXPECT_EQ(forces.header(), (std::vector<std::string>{
+                                 "recording", "t_s", "contact", "x_m", "y_m", "z_m", "fx_N", "fy_N",
+                                 "fz_N", "ci95_N", "location_ci95_m", "status", "cov_xx_N2",
+                                 "cov_xy_N2", "cov_xz_N2", "cov_yy_N2", "cov_yz_N2", "cov_zz_N2"}));
   ASSERT_EQ(forces.rows(), 60U);
   EXPECT_EQ(forces.Text(0, 11), "no_calibration");
   EXPECT_EQ(forces.Text(0, 2), "");

@@ -52,6 +52,7 @@ class MeasuredBeam : public testing::Test {
     option("--kind", kind);
     option("--markers", "Tip-1,Tip-2,Tip-3");
     option("--rest-window", held);
+    option("--rest-shape", "undeformed");
     option("--steady-window", settled);
     option("--rate", "10");
     words.emplace_back("--register");

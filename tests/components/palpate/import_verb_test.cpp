@@ -6,11 +6,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <random>
 #include <sstream>
 
+#include "components/force_estimation/rest_markers.hpp"
+#include "components/palpate/find_robot.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
+#include "libs/core/text.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "tests/support/measured_data.hpp"
 #include "tests/support/test_folder.hpp"
@@ -21,13 +27,19 @@ namespace {
 namespace fs = std::filesystem;
 using experiment::MeasurementFrame;
 using testing::AllOf;
+using testing::Each;
 using testing::ElementsAre;
+using testing::Gt;
 using testing::HasSubstr;
+using testing::Lt;
 
+// Without gravity the equilibrium is the undeformed shape.
 constexpr const char* kRobot =
-    "name: box\nmesh: {file: box.vtu, unit: m}\nelement: tet4\n"
+    "name: box\nmesh: {file: " PALPATE_SOURCE_DIR
+    "/config/robots/rod.msh, unit: m}\nelement: tet4\n"
     "material: {model: corotational, youngs_modulus_Pa: 1.0e5, poissons_ratio: 0.3}\n"
-    "mass: {density_kg_m3: 1000}\nfixed: [{box_m: [[-1, -1, -1], [0, 1, 1]]}]\n"
+    "mass: {density_kg_m3: 1000}\ngravity_m_s2: [0, 0, 0]\n"
+    "fixed: [{box_m: [[-0.1005, -0.001, -0.001], [-0.0995, 0.031, 0.031]]}]\n"
     "markers:\n  - {name: a, position_m: [0.1, 0, 0]}\n  - {name: b, position_m: [0, 0.1, 0]}\n"
     "  - {name: c, position_m: [0, 0, 0.1]}\n";
 
@@ -146,6 +158,102 @@ TEST_F(ImportVerbTest, FindsTheCameraFromTheRestWindow) {
   EXPECT_LT((*mapped.frames[0].positions_m[0] - Eigen::Vector3d(0.1, 0, 0)).norm(), 1e-12);
   EXPECT_LT((*mapped.frames[2].positions_m[2] - Eigen::Vector3d(0, 0, 0)).norm(), 1e-12);
   EXPECT_THAT(report_.str(), HasSubstr("registered 3 markers"));
+}
+
+// The markers of kCapture in columns x, y, z of another frame, at rest for eleven frames.
+class ImportAtRestTest : public ImportVerbTest {
+ protected:
+  ImportAtRestTest() {
+    options_.robot = folder_ / "robot.yaml";
+    options_.kind = "rest";
+    options_.rest_window = "0:0.95";
+    options_.register_to_robot = true;
+  }
+
+  using Place = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+  void WriteCapture(const std::vector<std::string>& names, double noise_m, const Place& place) {
+    const Eigen::Matrix3d robot_m = 0.1 * Eigen::Matrix3d::Identity();
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal(0.0, noise_m);
+    std::string text = "time_s,marker,x_m,y_m,z_m\n";
+    for (int frame = 0; frame <= 10; ++frame) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const Eigen::Vector3d at_m = place(robot_m.col(k));
+        text += FormatNumber(0.1 * frame) + "," + names[At(k)];
+        for (const double value : at_m) text += "," + FormatNumber(value + normal(random));
+        text += "\n";
+      }
+    }
+    WriteFile(options_.file, text);
+  }
+
+  static Eigen::Vector3d YUp(const Eigen::Vector3d& at_m) {
+    return {at_m.x() + 0.3, at_m.z(), -at_m.y()};
+  }
+};
+
+TEST_F(ImportAtRestTest, TakesTheWindowForAnEquilibriumAndSaysSo) {
+  WriteCapture({"a", "b", "c"}, 0.0, YUp);
+  const auto experiment = Import();
+  const auto& recording = experiment.recordings.at(0);
+  EXPECT_EQ(recording.reference->shape, experiment::ReferenceShape::kEquilibrium);
+  EXPECT_THAT(report_.str(), AllOf(HasSubstr("rest shape: equilibrium under gravity"),
+                                   HasSubstr("--rest-shape undeformed where")));
+  options_.recording = "r2";
+  options_.rest_shape = "undeformed";
+  EXPECT_EQ(Import().recordings.at(1).reference->shape, experiment::ReferenceShape::kUndeformed);
+  EXPECT_THAT(report_.str(), HasSubstr("rest shape: undeformed"));
+}
+
+TEST_F(ImportAtRestTest, RegistersAgainstTheComputedEquilibrium) {
+  // A soft body in gravity: its markers sink by millimetres.
+  std::string robot(kRobot);
+  robot.replace(robot.find("[0, 0, 0]"), 9, "[0, 0, -9.81]");
+  WriteFile(folder_ / "robot.yaml", robot);
+  const auto model = LoadRobot(folder_ / "robot.yaml");
+  Eigen::VectorXd sunk_m;
+  ASSERT_TRUE(force_estimation::ReferenceMarkers(
+                  *model, force_estimation::ReferenceShape::kEquilibrium, {}, &sunk_m)
+                  .ok());
+  ASSERT_GT((sunk_m.head<3>() - Eigen::Vector3d(0.1, 0.0, 0.0)).norm(), 1e-3);
+  WriteCapture({"a", "b", "c"}, 0.0, [&](const Eigen::Vector3d& at_m) {
+    Eigen::Index marker = 0;
+    at_m.maxCoeff(&marker);
+    return YUp(sunk_m.segment<3>(3 * marker));
+  });
+  const auto experiment = Import();
+  const auto pose = RobotFromMarkers(experiment, experiment.recordings.at(0));
+  const Eigen::Vector3d origin_m = std::get<Eigen::Isometry3d>(pose) * YUp(Eigen::Vector3d::Zero());
+  EXPECT_LT(origin_m.norm(), 1e-6);
+}
+
+TEST_F(ImportAtRestTest, StoresTheNoiseThatItMeasures) {
+  WriteCapture({"a", "b", "c"}, 2e-4, YUp);
+  const auto sigma_m = Import().markers_sigma_m;
+  ASSERT_TRUE(sigma_m);
+  EXPECT_THAT(std::vector<double>(sigma_m->begin(), sigma_m->end()),
+              Each(AllOf(Gt(1e-4), Lt(4e-4))));
+  EXPECT_THAT(report_.str(), HasSubstr("markers_sigma_m of experiment.yaml"));
+}
+
+TEST_F(ImportAtRestTest, KeepsTheNoiseThatIsGiven) {
+  WriteCapture({"a", "b", "c"}, 2e-4, YUp);
+  options_.markers_sigma_m = 3e-5;
+  EXPECT_EQ(Import().markers_sigma_m, Eigen::Vector3d::Constant(3e-5));
+  options_.markers_sigma_m = 0.0;
+  options_.recording = "r2";
+  EXPECT_EQ(Import().markers_sigma_m, Eigen::Vector3d::Constant(3e-5));
+}
+
+TEST_F(ImportAtRestTest, RefusesMarkersThatAreNotTheRobots) {
+  WriteCapture({"a", "b", "c"}, 0.0, YUp);
+  options_.register_to_robot = false;
+  options_.frame = "robot";
+  EXPECT_THAT(Refusal(), AllOf(HasSubstr("turned by 90 degrees"), HasSubstr("--register")));
+  options_.frame = "camera";
+  WriteCapture({"a", "b", "c"}, 0.0, [](const auto& at_m) { return YUp(10.0 * at_m); });
+  EXPECT_THAT(Refusal(), AllOf(HasSubstr("10 times as far apart"), HasSubstr("unit")));
 }
 
 TEST_F(ImportVerbTest, RefusesARegistrationThatTheMarkersDoNotDetermine) {

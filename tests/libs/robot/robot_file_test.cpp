@@ -112,6 +112,20 @@ TEST(RobotFile, FeaturePointsMayBeGiven) {
   }
 }
 
+TEST(RobotFile, FeaturePointsMayBeOfOneRegion) {
+  const std::string count = "feature_points: {count: 12}";
+  const RobotDescription tip = ReadText(Changed(count, "feature_points: {region: tip}"));
+  EXPECT_EQ(tip.feature_point_region, "tip");
+  EXPECT_EQ(tip.feature_point_count, RobotDescription().feature_point_count);
+  EXPECT_EQ(ReadText(Changed(count, "feature_points: {count: 5, region: tip}")).feature_point_count,
+            5);
+  EXPECT_THAT(RefusalOf(Changed(count, "feature_points: {region: tpi}")),
+              AllOf(HasSubstr("did you mean 'tip'"), HasSubstr("tip, root")));
+  EXPECT_THAT(RefusalOf(Changed(count, "feature_points: {region: tip, positions_m: [[0, 0, 0]]}")),
+              HasSubstr("positions_m"));
+  EXPECT_THAT(RefusalOf(Changed(count, "feature_points: {}")), HasSubstr("region"));
+}
+
 TEST(RobotFile, TranslationMayBeInMetres) {
   const RobotDescription robot =
       ReadText(Changed("translate_mm: [0, 100, 0]", "translate_m: [0, 0.1, 0]"));

@@ -14,7 +14,7 @@
 namespace palpate::command {
 
 Status ParseStatus(std::string_view word, std::string_view reason) {
-  for (int code = 0; code <= static_cast<int>(StatusCode::kInvalidInput); ++code) {
+  for (int code = 0; code <= static_cast<int>(StatusCode::kUncertain); ++code) {
     if (ToString(static_cast<StatusCode>(code)) == word) {
       return {static_cast<StatusCode>(code), std::string(reason)};
     }

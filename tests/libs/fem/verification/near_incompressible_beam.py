@@ -37,7 +37,8 @@ def import_recordings(palpate, data, robot, experiment):
     for file, name, kind, rest, steady in RECORDINGS:
         run(palpate, "import", data / file, "--out", experiment, "--recording", name,
             "--robot", robot, "--kind", kind, "--markers", "Tip-1,Tip-2,Tip-3",
-            "--rest-window", rest, "--steady-window", steady, "--register", "--rate", 10,
+            "--rest-window", rest, "--rest-shape", "undeformed", "--steady-window", steady,
+            "--register", "--rate", 10,
             *([] if experiment.exists() else ["--markers-sigma", "1e-5"]))
     (experiment / "recordings/load52g_a/loads.csv").write_text(LOADS)
 
