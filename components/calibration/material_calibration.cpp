@@ -10,6 +10,7 @@
 #include "components/calibration/marker_prediction.hpp"
 #include "libs/core/check.hpp"
 #include "libs/core/index.hpp"
+#include "libs/core/text.hpp"
 #include "libs/linalg/cholesky.hpp"
 #include "libs/linalg/symmetric_eigen.hpp"
 
@@ -147,9 +148,11 @@ Status MaterialFit::CheckDetermined() const {
     if (sigma <= settings_.undetermined_sigma) continue;
     Eigen::Index worst = 0;
     eigen.vectors.col(k).cwiseAbs().maxCoeff(&worst);
-    return {StatusCode::kUnobservable, "these data do not determine Young's modulus of " +
-                                           PartName(settings_.materials[At(worst)]) +
-                                           ": add a recording with a known load"};
+    return {StatusCode::kUnobservable,
+            "these data do not determine Young's modulus of " +
+                PartName(settings_.materials[At(worst)]) + ": its relative standard error is " +
+                FormatNumber(std::round(100.0 * sigma) / 100.0) + ", and at most " +
+                FormatNumber(settings_.undetermined_sigma) + " counts"};
   }
   return Status::Ok();
 }

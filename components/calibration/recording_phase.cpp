@@ -57,7 +57,9 @@ std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recor
                                               int most_frames) {
   if (recording.steady_window_s) return {*recording.steady_window_s};
   const auto& frames = recording.markers->frames;
-  if (CablesAreStill(recording)) return {{frames.front().t_s, frames.back().t_s}};
+  const bool loads_change =
+      !recording.loads.empty() && recording.loads.front().t_s != recording.loads.back().t_s;
+  if (CablesAreStill(recording) && !loads_change) return {{frames.front().t_s, frames.back().t_s}};
   std::vector<experiment::TimeWindow> times;
   const auto count = std::min(frames.size(), static_cast<std::size_t>(most_frames));
   for (std::size_t k = 0; k < count; ++k) {

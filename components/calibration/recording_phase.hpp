@@ -15,7 +15,7 @@ namespace palpate::calibration {
 bool CablesAreStill(const experiment::Recording& recording);
 
 /// Windows over which markers are averaged: one for a static phase, up to `most_frames` single
-/// times for a motion. The recording must have markers.
+/// times for a motion, or for loads that change. The recording must have markers.
 std::vector<experiment::TimeWindow> WindowsOf(const experiment::Recording& recording,
                                               int most_frames);
 

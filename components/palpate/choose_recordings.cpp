@@ -24,12 +24,20 @@ bool IsStaticThroughout(RecordingKind kind) {
          kind == RecordingKind::kKnownLoad || kind == RecordingKind::kBaseTilted;
 }
 
+}  // namespace
+
 bool HasKnownLoads(const Recording& recording) {
   return recording.markers && recording.kind != RecordingKind::kFree &&
          (recording.steady_window_s || IsStaticThroughout(recording.kind));
 }
 
-}  // namespace
+void RequireLoads(const Recording& recording) {
+  if (recording.kind != RecordingKind::kKnownLoad || !recording.loads.empty()) return;
+  throw InputError(SourceLocation{(recording.folder / "loads.csv").string()},
+                   "is missing, and recording '" + recording.name +
+                       "' is of kind known_load; write it with the header "
+                       "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N, or change the kind in recording.yaml");
+}
 
 std::vector<const Recording*> ChooseRecordings(const experiment::Experiment& experiment,
                                                const std::vector<std::string>& names) {

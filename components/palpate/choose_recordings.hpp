@@ -21,6 +21,13 @@ std::vector<const experiment::Recording*> ChooseRecordings(const experiment::Exp
 std::vector<const experiment::Recording*> RecordingsWithKnownLoads(
     const experiment::Experiment& experiment);
 
+/// Whether RecordingsWithKnownLoads takes it.
+bool HasKnownLoads(const experiment::Recording& recording);
+
+/// Refuses a recording of kind known_load without loads.csv, whose deflection would be taken for a
+/// soft body: InputError with the remedy.
+void RequireLoads(const experiment::Recording& recording);
+
 /// "sha256-<64 hex digits>" over the settings and tables of these recordings.
 std::string HashRecordings(const std::vector<const experiment::Recording*>& recordings);
 

@@ -87,6 +87,7 @@ std::map<std::string, rgbd::CameraModel> DepthCamerasOf(const experiment::Experi
 /// The experiment with the data that --from chooses.
 experiment::Experiment ReadData(const DiagnoseOptions& options) {
   experiment::Experiment experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
+  for (const experiment::Recording& recording : experiment.recordings) RequireLoads(recording);
   if (options.from != "depth") return experiment;
   for (experiment::Recording& recording : experiment.recordings) recording.markers.reset();
   return experiment;

@@ -141,7 +141,7 @@ const KeyTable& ExperimentKeys() {
           {"frame", value::Choice({"robot", "camera"}), Default("robot"),
            "Measurement frame of markers: the robot frame, or the optical frame of the depth "
            "camera. Images and clouds are always in the camera's."},
-          {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+          {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
            "Pose of the depth camera: p_robot = T p_camera. Absent: unknown."},
           {"markers_sigma_m", value::Either({value::Real(kPositive), value::Vector3(kPositive)}),
            kOptional,
@@ -169,7 +169,7 @@ Experiment ReadExperimentSettings(const fs::path& file, const ConfigLoader& load
     experiment.frame = ParseMeasurementFrame(ReadText(*node), node->where);
   }
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
-    experiment.T_robot_camera = geometry::ReadPose(*node);
+    experiment.T_robot_camera = geometry::ReadMeasuredPose(*node, &experiment.T_robot_camera_error);
   }
   if (const ConfigNode* node = reader.Optional("markers_sigma_m")) {
     experiment.markers_sigma_m = ReadSigma(*node);
@@ -198,7 +198,9 @@ void WriteExperimentSettings(const Experiment& experiment, const fs::path& file)
   }
   text += "frame: " + ToString(experiment.frame) + "\n";
   if (experiment.T_robot_camera) {
-    text += "T_robot_camera: " + geometry::FormatPose(*experiment.T_robot_camera) + "\n";
+    text += "T_robot_camera: " +
+            geometry::FormatPose(*experiment.T_robot_camera, experiment.T_robot_camera_error) +
+            "\n";
   }
   if (experiment.markers_sigma_m) {
     text += "markers_sigma_m: " + geometry::FormatVector(*experiment.markers_sigma_m) + "\n";
@@ -242,6 +244,12 @@ std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experime
   }
   if (recording.camera_on_base) return *experiment.T_robot_camera;
   return Eigen::Isometry3d(BaseRotation(recording).transpose()) * *experiment.T_robot_camera;
+}
+
+geometry::PoseStandardError PoseErrorOf(const Experiment& experiment, const Recording& recording) {
+  const auto& stated =
+      recording.T_robot_camera ? recording.T_robot_camera_error : experiment.T_robot_camera_error;
+  return stated.value_or(geometry::PoseStandardError{});
 }
 
 }  // namespace palpate::experiment

@@ -15,6 +15,7 @@
 #include "libs/core/config_node.hpp"
 #include "libs/core/key_table.hpp"
 #include "libs/experiment/recording.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::experiment {
 
@@ -30,7 +31,9 @@ struct Experiment {
   std::optional<std::filesystem::path> robot;  ///< resolved against experiment.yaml
   MeasurementFrame frame = MeasurementFrame::kRobot;
   std::optional<Eigen::Isometry3d> T_robot_camera;  ///< p_robot = T_robot_camera * p_camera
-  std::optional<Eigen::Vector3d> markers_sigma_m;   ///< > 0, for each axis of the measurement frame
+  /// Of T_robot_camera; absent: not stated, see PoseErrorOf.
+  std::optional<geometry::PoseStandardError> T_robot_camera_error;
+  std::optional<Eigen::Vector3d> markers_sigma_m;  ///< > 0, for each axis of the measurement frame
   std::optional<DepthNoise> depth_noise;
   std::map<std::string, double> tolerances;  ///< cause id (or *_m, *_rad) -> tau > 0
   std::optional<double> rest_between_s;      ///< >= 0; absent: unknown
@@ -80,5 +83,10 @@ std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromMarkers(const Experim
 /// its markers is: as RobotFromMarkers finds it for `frame: camera`.
 std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experiment& experiment,
                                                                   const Recording& recording);
+
+/// Standard error of the pose that these two functions give: that of the recording where it has a
+/// pose of its own, else that of the experiment; where none is stated, PoseStandardError's
+/// defaults.
+geometry::PoseStandardError PoseErrorOf(const Experiment& experiment, const Recording& recording);
 
 }  // namespace palpate::experiment

@@ -16,6 +16,7 @@
 #include "libs/experiment/actuation.hpp"
 #include "libs/experiment/loads.hpp"
 #include "libs/experiment/markers.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::experiment {
 
@@ -78,6 +79,7 @@ struct Recording {
   std::optional<Eigen::Vector2d> base_tilt_deg;
   bool camera_on_base = true;                       ///< the camera moves with a tilted base
   std::optional<Eigen::Isometry3d> T_robot_camera;  ///< overrides that of the experiment
+  std::optional<geometry::PoseStandardError> T_robot_camera_error;  ///< of it; see PoseErrorOf
   std::optional<Reference> reference;
   std::optional<TimeWindow> steady_window_s;  ///< the static phase; absent: the whole recording
   std::string notes;

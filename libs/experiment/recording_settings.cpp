@@ -58,7 +58,7 @@ const KeyTable& RecordingKeys() {
                 "base, so that gravity in it becomes R' g. Absent: not tilted."},
                {"camera_on_base", value::Boolean(), Default(Recording{}.camera_on_base),
                 "The camera moves with a tilted base."},
-               {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+               {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
                 "Pose of the depth camera during this recording. Absent: that of experiment.yaml, "
                 "or unknown for `kind: camera_moved`."},
                {"reference", value::Map(ReferenceKeys()), kOptional,
@@ -83,7 +83,7 @@ void ReadRecordingSettings(const std::filesystem::path& file, const ConfigLoader
   }
   reader.Read("camera_on_base", &recording.camera_on_base);
   if (const ConfigNode* node = reader.Optional("T_robot_camera")) {
-    recording.T_robot_camera = geometry::ReadPose(*node);
+    recording.T_robot_camera = geometry::ReadMeasuredPose(*node, &recording.T_robot_camera_error);
   }
   if (const ConfigNode* node = reader.Optional("reference")) {
     recording.reference = ReadReference(*node);
@@ -103,7 +103,8 @@ std::string FormatRecordingSettings(const Recording& recording) {
   }
   if (!recording.camera_on_base) text += "camera_on_base: false\n";
   if (recording.T_robot_camera) {
-    text += "T_robot_camera: " + geometry::FormatPose(*recording.T_robot_camera) + "\n";
+    text += "T_robot_camera: " +
+            geometry::FormatPose(*recording.T_robot_camera, recording.T_robot_camera_error) + "\n";
   }
   if (recording.reference) {
     const bool undeformed = recording.reference->shape == ReferenceShape::kUndeformed;

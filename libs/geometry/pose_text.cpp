@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/core/config_reader.hpp"
+#include "libs/core/number_rule.hpp"
 #include "libs/core/text.hpp"
 
 namespace palpate::geometry {
@@ -45,28 +46,77 @@ Eigen::Quaterniond ReadQuaternion(const ConfigNode& node) {
   return rotation.normalized();
 }
 
+const KeyTable& StandardErrorKeys() {
+  static const KeyTable keys{
+      .title = "standard error of the camera pose",
+      .about = "One standard deviation; an exact pose does not exist.",
+      .keys = {{"translation_m", value::Real(kPositive), kRequired,
+                "Along each axis of the robot frame."},
+               {"rotation_rad", value::Real(kPositive), kRequired,
+                "About each axis of the robot frame, through the camera's origin."}}};
+  return keys;
+}
+
+PoseStandardError ReadStandardError(const ConfigNode& node) {
+  MapReader reader(node, StandardErrorKeys());
+  PoseStandardError error;
+  reader.Read("translation_m", &error.translation_m);
+  reader.Read("rotation_rad", &error.rotation_rad);
+  reader.Finish();
+  return error;
+}
+
+std::vector<Key> KeysOfPose() {
+  return {{"translation_m", value::Vector3(), kRequired,
+           "Origin of the source frame, in the target frame."},
+          {"rotation_xyzw", value::Either({value::Numbers({}, 4, 4), value::Map(QuaternionKeys())}),
+           kRequired,
+           "Unit quaternion `[x, y, z, w]` or `{x, y, z, w}`. Its norm may be off 1 by 0.001."}};
+}
+
+Eigen::Isometry3d ReadTransform(MapReader* reader) {
+  Eigen::Vector3d translation_m;
+  reader->Read("translation_m", &translation_m);
+  return Eigen::Translation3d(translation_m) * ReadQuaternion(reader->Require("rotation_xyzw"));
+}
+
 }  // namespace
 
 const KeyTable& PoseKeys() {
   static const KeyTable keys{
-      .title = "pose",
-      .about = "`T_target_source`: p_target = T p_source.",
-      .keys = {
-          {"translation_m", value::Vector3(), kRequired,
-           "Origin of the source frame, in the target frame."},
-          {"rotation_xyzw", value::Either({value::Numbers({}, 4, 4), value::Map(QuaternionKeys())}),
-           kRequired,
-           "Unit quaternion `[x, y, z, w]` or `{x, y, z, w}`. Its norm may be off 1 by 0.001."}}};
+      .title = "pose", .about = "`T_target_source`: p_target = T p_source.", .keys = KeysOfPose()};
+  return keys;
+}
+
+const KeyTable& MeasuredPoseKeys() {
+  static const KeyTable keys = [] {
+    KeyTable table{.title = "camera pose",
+                   .about = "`T_robot_camera`: p_robot = T p_camera.",
+                   .keys = KeysOfPose()};
+    table.keys.push_back({"standard_error", value::Map(StandardErrorKeys()), kOptional,
+                          "How well the pose is known. Absent: 0.005 m and 0.01 rad."});
+    return table;
+  }();
   return keys;
 }
 
 Eigen::Isometry3d ReadPose(const ConfigNode& node) {
   MapReader reader(node, PoseKeys());
-  Eigen::Vector3d translation_m;
-  reader.Read("translation_m", &translation_m);
-  const Eigen::Quaterniond rotation = ReadQuaternion(reader.Require("rotation_xyzw"));
+  const Eigen::Isometry3d pose = ReadTransform(&reader);
   reader.Finish();
-  return Eigen::Translation3d(translation_m) * rotation;
+  return pose;
+}
+
+Eigen::Isometry3d ReadMeasuredPose(const ConfigNode& node,
+                                   std::optional<PoseStandardError>* standard_error) {
+  MapReader reader(node, MeasuredPoseKeys());
+  const Eigen::Isometry3d pose = ReadTransform(&reader);
+  standard_error->reset();
+  if (const ConfigNode* error = reader.Optional("standard_error")) {
+    *standard_error = ReadStandardError(*error);
+  }
+  reader.Finish();
+  return pose;
 }
 
 std::string FormatVector(const Eigen::VectorXd& vector) {
@@ -77,12 +127,18 @@ std::string FormatVector(const Eigen::VectorXd& vector) {
   return text + "]";
 }
 
-std::string FormatPose(const Eigen::Isometry3d& pose) {
+std::string FormatPose(const Eigen::Isometry3d& pose,
+                       const std::optional<PoseStandardError>& standard_error) {
   const Eigen::Quaterniond rotation(pose.rotation());
+  std::string error;
+  if (standard_error) {
+    error = ", standard_error: {translation_m: " + FormatNumber(standard_error->translation_m) +
+            ", rotation_rad: " + FormatNumber(standard_error->rotation_rad) + "}";
+  }
   return "{translation_m: " + FormatVector(pose.translation()) +
          ", rotation_xyzw: {x: " + FormatNumber(rotation.x()) +
          ", y: " + FormatNumber(rotation.y()) + ", z: " + FormatNumber(rotation.z()) +
-         ", w: " + FormatNumber(rotation.w()) + "}}";
+         ", w: " + FormatNumber(rotation.w()) + "}" + error + "}";
 }
 
 }  // namespace palpate::geometry

@@ -34,10 +34,15 @@ CalibratedPoissonsRatio ReadFoundPoissonsRatio(const ConfigNode& node) {
   return poissons;
 }
 
-CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode& error_node) {
+CalibratedPose ReadCalibratedPose(const ConfigNode& pose_node, const ConfigNode* error_node) {
   CalibratedPose pose;
-  pose.T_robot_camera = geometry::ReadPose(pose_node);
-  MapReader errors(error_node, PoseErrorKeys());
+  std::optional<geometry::PoseStandardError> stated;
+  pose.T_robot_camera = geometry::ReadMeasuredPose(pose_node, &stated);
+  const geometry::PoseStandardError error = stated.value_or(geometry::PoseStandardError{});
+  pose.rotation_error_rad.setConstant(error.rotation_rad);
+  pose.translation_error_m.setConstant(error.translation_m);
+  if (error_node == nullptr) return pose;
+  MapReader errors(*error_node, PoseErrorKeys());
   errors.Read("rotation_rad", &pose.rotation_error_rad);
   errors.Read("translation_m", &pose.translation_error_m);
   errors.Finish();
@@ -61,6 +66,8 @@ Undetermined ReadUndetermined(const ConfigNode& node) {
   Undetermined undetermined;
   map.Read("name", &undetermined.name);
   map.Read("what_would_tell", &undetermined.what_would_tell);
+  map.Read("standard_error", &undetermined.standard_error);
+  map.Read("limit", &undetermined.limit);
   map.Finish();
   return undetermined;
 }
@@ -113,8 +120,13 @@ std::string FormatGravity(const CalibratedGravity& gravity) {
          "\n";
 }
 
+/// The pose carries the largest errors, too: then it is whole where it is copied elsewhere.
 std::string FormatPoseAndErrors(const CalibratedPose& pose) {
-  return "T_robot_camera: " + geometry::FormatPose(pose.T_robot_camera) +
+  std::optional<geometry::PoseStandardError> error;
+  if (pose.translation_error_m.maxCoeff() > 0.0 && pose.rotation_error_rad.maxCoeff() > 0.0) {
+    error = {pose.translation_error_m.maxCoeff(), pose.rotation_error_rad.maxCoeff()};
+  }
+  return "T_robot_camera: " + geometry::FormatPose(pose.T_robot_camera, error) +
          "\nT_robot_camera_standard_error: {rotation_rad: " +
          geometry::FormatVector(pose.rotation_error_rad) +
          ", translation_m: " + geometry::FormatVector(pose.translation_error_m) + "}\n";
@@ -138,7 +150,9 @@ std::string FormatUndetermined(const std::vector<Undetermined>& undetermined) {
   std::string text = "undetermined:\n";
   for (const Undetermined& number : undetermined) {
     text += "  - {name: " + Quoted(number.name) +
-            ", what_would_tell: " + Quoted(number.what_would_tell) + "}\n";
+            ", what_would_tell: " + Quoted(number.what_would_tell) +
+            ", standard_error: " + FormatNumber(number.standard_error) +
+            ", limit: " + FormatNumber(number.limit) + "}\n";
   }
   return text;
 }
@@ -158,7 +172,7 @@ CalibrationFile ReadCalibrationFile(const std::filesystem::path& file, const Con
     map.Read("gravity_standard_error_m_s2", &calibration.gravity->standard_error_m_s2);
   }
   if (const ConfigNode* pose = map.Optional("T_robot_camera")) {
-    calibration.pose = ReadCalibratedPose(*pose, map.Require("T_robot_camera_standard_error"));
+    calibration.pose = ReadCalibratedPose(*pose, map.Optional("T_robot_camera_standard_error"));
   }
   if (const ConfigNode* bias = map.Optional("depth_bias")) {
     if (!calibration.pose) Refuse(*bias, "needs T_robot_camera, which it was found with");

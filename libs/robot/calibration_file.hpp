@@ -57,6 +57,9 @@ struct CalibratedDrive {
 struct Undetermined {
   std::string name;
   std::string what_would_tell;  ///< the recording that determines it
+  /// That the data reach, and the largest that determines it, in the parameter's unit; 0: unknown.
+  double standard_error = 0.0;
+  double limit = 0.0;
 };
 
 /// What `palpate calibrate` estimates, and `palpate estimate` and the processes use; format:

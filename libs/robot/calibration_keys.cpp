@@ -70,7 +70,11 @@ const KeyTable& UndeterminedKeys() {
           "its prior value.",
       .keys = {
           {"name", value::Text(), kRequired, "The parameter."},
-          {"what_would_tell", value::Text(), kRequired, "The recording that would determine it."}}};
+          {"what_would_tell", value::Text(), kRequired, "The recording that would determine it."},
+          {"standard_error", value::Real(kNonNegative), Default(0.0),
+           "Standard error that the data reach, in the unit of the parameter. 0: unknown."},
+          {"limit", value::Real(kNonNegative), Default(0.0),
+           "Largest standard error that counts as determined. 0: unknown."}}};
   return keys;
 }
 
@@ -103,10 +107,11 @@ const KeyTable& CalibrationFileKeys() {
                 "Gravity, robot frame. Absent: that of the robot file."},
                {"gravity_standard_error_m_s2", value::Vector3(kNonNegative),
                 RequiredFor("`gravity_m_s2`"), "Its standard error along each axis."},
-               {"T_robot_camera", value::Map(geometry::PoseKeys()), kOptional,
+               {"T_robot_camera", value::Map(geometry::MeasuredPoseKeys()), kOptional,
                 "Pose of the depth camera: p_robot = T p_camera."},
                {"T_robot_camera_standard_error", value::Map(PoseErrorKeys()),
-                RequiredFor("`T_robot_camera`"), "Its standard errors."},
+                OnlyFor("`T_robot_camera`"),
+                "Its standard error of each axis. Absent: its `standard_error`."},
                {"depth_bias", value::Map(DepthBiasKeys()), OnlyFor("`T_robot_camera`"),
                 "Systematic error of the depth, estimated together with the pose."},
                {"drives", value::ListOfMaps(ActuatorKeys()), kOptional,

@@ -33,7 +33,8 @@ struct SurfaceSighting {
 /// Measurements of the robot at rest at one setting of its cables, and the known inputs. Measured
 /// inputs are the initial values of unknown ones.
 struct CalibrationFrame {
-  std::string name;  ///< for messages
+  std::string name;   ///< for messages
+  int own_pose = -1;  ///< index into JointSetup::own_poses; -1: seen from the camera to calibrate
   std::vector<MarkerSighting> markers = {};
   std::vector<SurfaceSighting> surface = {};
   std::vector<robot::CableCommand> cables = {};  ///< one for each cable

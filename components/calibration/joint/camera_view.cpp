@@ -39,6 +39,13 @@ geometry::RigidTransform Changed(const geometry::RigidTransform& T, const PoseCh
   return {Exp(change.head<3>()) * T.rotation(), T.translation_m() + change.tail<3>()};
 }
 
+PoseChange ChangeBetween(const geometry::RigidTransform& from, const geometry::RigidTransform& to) {
+  const Eigen::AngleAxisd turn(to.rotation() * from.rotation().conjugate());
+  PoseChange change;
+  change << turn.angle() * turn.axis(), to.translation_m() - from.translation_m();
+  return change;
+}
+
 CameraView::CameraView(const geometry::RigidTransform& T_robot_camera_start,
                        const PoseChange& change)
     : T_(Changed(T_robot_camera_start, change)),

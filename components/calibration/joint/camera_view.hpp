@@ -15,6 +15,8 @@ using PoseChange = Eigen::Matrix<double, 6, 1>;
 
 /// T with R = exp(change[0..2]) R_0 and t = t_0 + change[3..5].
 geometry::RigidTransform Changed(const geometry::RigidTransform& T, const PoseChange& change);
+/// The change that Changed(from, change) = to.
+PoseChange ChangeBetween(const geometry::RigidTransform& from, const geometry::RigidTransform& to);
 
 /// Residual rows of one sighting, measured minus predicted, whitened, and their derivatives.
 template <int Rows>

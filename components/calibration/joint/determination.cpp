@@ -3,6 +3,7 @@
 
 #include "components/calibration/joint/determination.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -31,11 +32,16 @@ Eigen::MatrixXd Pick(const Eigen::MatrixXd& matrix, const std::vector<int>& chos
   return Pick(matrix, chosen, chosen);
 }
 
+/// A pose with a prior is never held: where the data tell nothing, the prior stays.
+bool IsMeasuredPose(int variable, const JointProblem& problem) {
+  return IsOfPose(variable, problem) &&
+         std::isfinite(problem.variables()[At(variable)].prior.sigma);
+}
+
 }  // namespace
 
 bool IsOfPose(int variable, const JointProblem& problem) {
-  const int first = problem.pose_column();
-  return first >= 0 && variable >= first && variable < first + 6;
+  return problem.variables()[At(variable)].of_pose;
 }
 
 bool IsOfDepthBias(int variable, const JointProblem& problem) {
@@ -57,8 +63,8 @@ Eigen::VectorXd ShiftVariance(const Eigen::MatrixXd& jacobian, const Eigen::Matr
 }
 
 /// Variables are scaled by min(sigma, plausible), so that each has the prior variance 1.
-std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
-                                    double share) {
+std::optional<UndeterminedVariable> MostUndetermined(const LeastSquaresPoint& point,
+                                                     const JointProblem& problem, double share) {
   std::vector<int> free;
   for (int v = 0; v < CountOf(problem); ++v) {
     if (!problem.IsHeld(v)) free.push_back(v);
@@ -72,13 +78,13 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
   double worst_sigma = 0.0;
   for (const bool pose : {false, true}) {
     for (std::size_t k = 0; k < free.size(); ++k) {
-      if (IsOfPose(free[k], problem) != pose) continue;
+      if (IsOfPose(free[k], problem) != pose || IsMeasuredPose(free[k], problem)) continue;
       const double sigma = std::sqrt(variance[ToIndex(k)]);
       if (sigma <= share || sigma <= worst_sigma) continue;
       worst = free[k];
       worst_sigma = sigma;
     }
-    if (worst) return worst;
+    if (worst) return UndeterminedVariable{*worst, worst_sigma};
   }
   if (!problem.depth_bias() || !problem.depth_bias()->estimated) return std::nullopt;
   const Eigen::VectorXd total =
@@ -90,7 +96,36 @@ std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointP
     worst = free[k];
     worst_total = of_this;
   }
+  if (!worst) return std::nullopt;
+  return UndeterminedVariable{*worst, std::sqrt(worst_total)};
+}
+
+std::optional<UndeterminedVariable> MostUncertainModulus(const LeastSquaresPoint& point,
+                                                         const JointProblem& problem,
+                                                         double huber_threshold, double share) {
+  const WeightedFit fit = Weigh(problem, point, huber_threshold);
+  const Eigen::MatrixXd covariance =
+      CovarianceOf(fit, problem, WidenedBy(fit, DegreesOfFreedom(problem)));
+  std::optional<UndeterminedVariable> worst;
+  for (int v = 0; v < CountOf(problem); ++v) {
+    const Unknown* unknown = problem.variables()[At(v)].unknown;
+    if (problem.IsHeld(v) || unknown == nullptr || !unknown->IsModulus()) continue;
+    const double sigma = std::sqrt(covariance(v, v));
+    if (sigma > (worst ? worst->sigma : share)) worst = UndeterminedVariable{v, sigma};
+  }
   return worst;
+}
+
+int DegreesOfFreedom(const JointProblem& problem) {
+  int free = 0;
+  for (int v = 0; v < CountOf(problem); ++v) {
+    free += problem.IsHeld(v) || std::isfinite(problem.variables()[At(v)].prior.sigma) ? 0 : 1;
+  }
+  return static_cast<int>(problem.DataRows()) - free;
+}
+
+double WidenedBy(const WeightedFit& fit, int degrees_of_freedom) {
+  return std::max(1.0, fit.chi_squared / std::max(1, degrees_of_freedom));
 }
 
 WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,

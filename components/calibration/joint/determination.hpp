@@ -12,13 +12,29 @@ namespace palpate::calibration {
 
 bool IsOfPose(int variable, const JointProblem& problem);
 
+/// A variable that the data do not determine, and the scaled standard deviation that they leave.
+struct UndeterminedVariable {
+  int variable = -1;
+  double sigma = 0.0;
+};
+
 /// The free variable with the largest posterior standard deviation, where that exceeds `share` of
-/// its prior or plausible change; a pose variable only where no other does. The posterior is joint:
+/// its prior or plausible change; a pose variable only where no other does, and never one with a
+/// prior. The posterior is joint:
 /// two parameters of which only the sum is observable both exceed it until one is held.
 /// Also a coefficient of the depth bias whose total error, considered parameters included, exceeds
 /// its prior.
-std::optional<int> MostUndetermined(const LeastSquaresPoint& point, const JointProblem& problem,
-                                    double share);
+std::optional<UndeterminedVariable> MostUndetermined(const LeastSquaresPoint& point,
+                                                     const JointProblem& problem, double share);
+
+/// The free modulus with the largest total error (CovarianceOf) where that exceeds `share` of its
+/// prior: a small force tells a modulus only as well as the model and the pose are known.
+std::optional<UndeterminedVariable> MostUncertainModulus(const LeastSquaresPoint& point,
+                                                         const JointProblem& problem,
+                                                         double huber_threshold, double share);
+
+/// Rows of the data minus free variables without a prior.
+int DegreesOfFreedom(const JointProblem& problem);
 
 /// A solution with its robust weights.
 struct WeightedFit {
@@ -27,6 +43,9 @@ struct WeightedFit {
 };
 WeightedFit Weigh(const JointProblem& problem, const LeastSquaresPoint& point,
                   double huber_threshold);
+
+/// Birge's ratio: at least 1.
+double WidenedBy(const WeightedFit& fit, int degrees_of_freedom);
 
 /// [variables x variables] covariance of the errors (estimate minus truth): of estimated variables
 /// the inverse information times `widened`, plus the effect of held ones (Schmidt 1966, consider

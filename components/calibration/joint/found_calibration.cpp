@@ -145,7 +145,9 @@ void TakeFit(const JointCalibration& fit, const robot::RobotModel& model,
   TakeGravity(fit, model.gravity_m_s2(), file);
   TakeGeometry(fit, model.body(), file);
   for (const FittedValue& value : fit.values) {
-    if (!value.determined) file->undetermined.push_back({value.name, value.what_would_tell});
+    if (value.determined) continue;
+    file->undetermined.push_back(
+        {value.name, value.what_would_tell, value.reached_error, value.error_limit});
   }
   file->residual_rms_m = fit.residual_rms_m;
   file->chi_squared = fit.chi_squared;

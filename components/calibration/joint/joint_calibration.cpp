@@ -24,17 +24,31 @@ Status HoldUndetermined(const LeastSquaresPoint& point, const JointSettings& set
                         JointProblem* problem, bool* held_more) {
   *held_more = false;
   for (;;) {
-    const std::optional<int> worst = MostUndetermined(point, *problem, settings.undetermined_share);
+    const auto worst = MostUndetermined(point, *problem, settings.undetermined_share);
     if (!worst) return Status::Ok();
-    const Variable& variable = problem->variables()[At(*worst)];
-    if (IsOfPose(*worst, *problem)) {
+    const Variable& variable = problem->variables()[At(worst->variable)];
+    if (IsOfPose(worst->variable, *problem)) {
       return {StatusCode::kUnobservable, "the data do not determine the camera pose (" +
                                              variable.name + "): it needs " +
                                              variable.what_would_tell};
     }
-    problem->Hold(*worst);
+    problem->Hold(worst->variable, worst->sigma);
     *held_more = true;
   }
+}
+
+/// The same at a solution, whose residuals tell how well the model fits.
+Status HoldUncertain(const LeastSquaresPoint& solution, const JointSettings& settings,
+                     JointProblem* problem, bool* held_more) {
+  if (Status status = HoldUndetermined(solution, settings, problem, held_more); !status.ok()) {
+    return status;
+  }
+  while (const auto worst = MostUncertainModulus(
+             solution, *problem, settings.solver.huber_threshold, settings.undetermined_share)) {
+    problem->Hold(worst->variable, worst->sigma);
+    *held_more = true;
+  }
+  return Status::Ok();
 }
 
 /// The next search starts there, with held variables at their means.
@@ -76,7 +90,7 @@ Status Solve(JointProblem* problem, const JointSettings& settings,
       continue;
     }
     bool held_more = false;
-    status = HoldUndetermined(solution->point, settings, problem, &held_more);
+    status = HoldUncertain(solution->point, settings, problem, &held_more);
     if (!status.ok() || !held_more) return status;
     StartWithHeld(solution->variables, problem);
     solver.starts_there = false;
@@ -84,7 +98,8 @@ Status Solve(JointProblem* problem, const JointSettings& settings,
 }
 
 void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solution,
-                  const Eigen::MatrixXd& covariance, JointCalibration* result) {
+                  const Eigen::MatrixXd& covariance, const JointSettings& settings,
+                  JointCalibration* result) {
   std::vector<int> reported;
   for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
     const bool considered = problem.variables()[At(v)].considered;
@@ -96,13 +111,19 @@ void ReportValues(const JointProblem& problem, const LeastSquaresSolution& solut
     double error = problem.Scale(v) * std::sqrt(covariance(v, v));
     if (problem.IsHeld(v)) error = variable.prior.sigma;
     const Unknown* unknown = variable.unknown;
-    if (unknown != nullptr) error *= std::abs(unknown->QuantityPerValue(value));
+    const double per_value = unknown != nullptr ? std::abs(unknown->QuantityPerValue(value)) : 1.0;
+    error *= per_value;
+    const double scale = per_value * problem.Scale(v);
     result->values.push_back(
         {.name = variable.name,
          .unit = variable.unit,
          .value = unknown != nullptr ? unknown->Quantity(value) : value,
+         .prior_mean =
+             unknown != nullptr ? unknown->Quantity(variable.prior.mean) : variable.prior.mean,
          .standard_error = error,
          .determined = !problem.IsHeld(v),
+         .reached_error = scale * problem.ReachedWhenHeld(v),
+         .error_limit = scale * settings.undetermined_share,
          .what_would_tell = problem.IsHeld(v) ? variable.what_would_tell : std::string()});
   }
   const auto count = ToIndex(reported.size());
@@ -157,22 +178,19 @@ void ReportIterations(const JointProblem& problem, const LiftedSolution& lifted_
 
 void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
               const JointSettings& settings, JointCalibration* result) {
-  const Eigen::Index rows = problem.DataRows();
   result->residual_rms_of_frame_m = problem.residual_rms_m();
+  result->marker_residuals_m = problem.marker_residuals_m();
   double squares_m2 = 0.0;
   for (const double rms_m : result->residual_rms_of_frame_m) squares_m2 += rms_m * rms_m;
   result->residual_rms_m =
       std::sqrt(squares_m2 / static_cast<double>(result->residual_rms_of_frame_m.size()));
   const WeightedFit fit = Weigh(problem, solution.point, settings.solver.huber_threshold);
   result->chi_squared = fit.chi_squared;
-  int free = 0;
-  for (int v = 0; v < static_cast<int>(problem.variables().size()); ++v) {
-    free += problem.IsHeld(v) || std::isfinite(problem.variables()[At(v)].prior.sigma) ? 0 : 1;
-  }
-  result->degrees_of_freedom = static_cast<int>(rows) - free;
-  const double widened = std::max(1.0, fit.chi_squared / std::max(1, result->degrees_of_freedom));
+  result->degrees_of_freedom = DegreesOfFreedom(problem);
+  const double widened = WidenedBy(fit, result->degrees_of_freedom);
   const Eigen::MatrixXd covariance = CovarianceOf(fit, problem, widened);
   result->T_robot_camera = problem.PoseAt(solution.variables);
+  result->adjusted_poses = problem.AdjustedPosesAt(solution.variables);
   result->x_m = problem.ShapesAt(solution.variables);
   if (problem.pose_column() >= 0) {
     Eigen::Matrix<double, 6, 1> scale;
@@ -183,7 +201,7 @@ void Conclude(const JointProblem& problem, const LeastSquaresSolution& solution,
   }
   ReportDepthBias(problem, solution, covariance,
                   CovarianceOf(fit, problem, widened, Against::kThisModel), result);
-  ReportValues(problem, solution, covariance, result);
+  ReportValues(problem, solution, covariance, settings, result);
 }
 
 }  // namespace

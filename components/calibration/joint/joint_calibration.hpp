@@ -29,8 +29,12 @@ struct FittedValue {
   std::string name;
   std::string unit;
   double value = 0.0;
+  double prior_mean = 0.0;
   double standard_error = 0.0;  ///< of a held one that of its prior; infinite: none
   bool determined = false;      ///< otherwise held at its prior mean
+  /// Of a held one: the standard error that the data leave, and the largest that determines it.
+  double reached_error = 0.0;
+  double error_limit = 0.0;
   std::string what_would_tell;  ///< the recording that would determine it; determined: empty
 };
 
@@ -39,7 +43,8 @@ struct JointCalibration {
   geometry::RigidTransform T_robot_camera;
   /// Of PoseChange at the estimated pose (rad, m); 0 where the pose was given.
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  std::vector<FittedValue> values;  ///< without the pose; unknowns in their order, last
+  std::vector<AdjustedPose> adjusted_poses;  ///< those with a prior, that to calibrate first
+  std::vector<FittedValue> values;           ///< without the pose; unknowns in their order, last
   /// Where it was estimated; its covariance is that against this model (DepthBiasMap).
   std::optional<geometry::DepthBiasMap> depth_bias;
   Eigen::MatrixXd pose_and_bias_covariance;  ///< [6 + k square] the same against the truth
@@ -47,7 +52,8 @@ struct JointCalibration {
   Eigen::MatrixXd correlation;
   double residual_rms_m = 0.0;  ///< of all frames
   std::vector<double> residual_rms_of_frame_m;
-  std::vector<Eigen::VectorXd> x_m;  ///< [frames] equilibria, nodes [3n]
+  std::vector<Eigen::Matrix3Xd> marker_residuals_m;  ///< [frames] of [3 x markers], robot frame
+  std::vector<Eigen::VectorXd> x_m;                  ///< [frames] equilibria, nodes [3n]
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
   std::vector<double> objectives;  ///< at the start and after each iteration

@@ -28,15 +28,27 @@ JointProblem::JointProblem(robot::RobotModel& model, const JointSetup& setup)
       shapes_(model, setup, AddVariables()),
       residual_rms_m_(setup.frames.size(), 0.0) {
   for (const Variable& variable : variables_) held_.push_back(variable.considered);
+  reached_.assign(variables_.size(), 0.0);
   start_ = Eigen::VectorXd::Zero(ToIndex(variables_.size()));
+  // A pose is searched from where it starts, not from its prior mean.
+  for (int v = 0; v < static_cast<int>(variables_.size()); ++v) {
+    if (variables_[At(v)].of_pose) start_[v] = -variables_[At(v)].prior.mean / Scale(v);
+  }
   for (const CalibrationFrame& frame : setup.frames) {
+    marker_residuals_m_.emplace_back(3, ToIndex(frame.markers.size()));
     data_rows_ += ToIndex(3 * frame.markers.size() + frame.surface.size());
   }
 }
 
 /// Returns the column of the first unknown.
 int JointProblem::AddVariables() {
-  if (setup_.fit_pose) AddPoseVariables();
+  if (setup_.fit_pose) {
+    const PosePrior* prior = setup_.pose_prior ? &*setup_.pose_prior : nullptr;
+    pose_column_ = AddPoseVariables("camera", setup_.T_robot_camera, prior);
+  }
+  for (const PosePrior& pose : setup_.own_poses) {
+    own_pose_columns_.push_back(AddPoseVariables(pose.name, pose.T_robot_camera, &pose));
+  }
   if (setup_.depth_bias) {
     depth_bias_column_ = static_cast<int>(variables_.size());
     for (const std::string& name : geometry::NamesOf(setup_.depth_bias->basis)) {
@@ -62,22 +74,27 @@ int JointProblem::AddVariables() {
   return first_unknown;
 }
 
-void JointProblem::AddPoseVariables() {
-  pose_column_ = static_cast<int>(variables_.size());
-  const char* axes[] = {"x", "y", "z"};
+int JointProblem::AddPoseVariables(const std::string& name, const geometry::RigidTransform& start,
+                                   const PosePrior* prior) {
+  const auto column = static_cast<int>(variables_.size());
   const std::string needed = "three or more markers that are not collinear";
-  for (const char* axis : axes) {
-    variables_.push_back({std::string("camera_rotation_") + axis,
-                          "rad",
-                          {.plausible = kProblemTuning.plausible_turn_rad},
-                          needed});
+  const PoseChange mean =
+      prior != nullptr ? ChangeBetween(start, prior->T_robot_camera) : PoseChange::Zero().eval();
+  for (int i = 0; i < 6; ++i) {
+    const bool turns = i < 3;
+    GaussianPrior one{
+        .mean = mean[i],
+        .plausible = turns ? kProblemTuning.plausible_turn_rad : kProblemTuning.plausible_shift_m};
+    if (prior != nullptr) {
+      one.sigma = turns ? prior->rotation_sigma_rad : prior->translation_sigma_m;
+    }
+    variables_.push_back({.name = name + (turns ? "_rotation_" : "_translation_") + "xyz"[i % 3],
+                          .unit = turns ? "rad" : "m",
+                          .prior = one,
+                          .what_would_tell = needed,
+                          .of_pose = true});
   }
-  for (const char* axis : axes) {
-    variables_.push_back({std::string("camera_translation_") + axis,
-                          "m",
-                          {.plausible = kProblemTuning.plausible_shift_m},
-                          needed});
-  }
+  return column;
 }
 
 void JointProblem::AddMarkerOffsets() {
@@ -101,12 +118,40 @@ double JointProblem::ValueOf(int variable, const Eigen::VectorXd& variables) con
   return variables_[At(variable)].prior.mean + Scale(variable) * variables[variable];
 }
 
-CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables) const {
+int JointProblem::PoseColumnOf(int own_pose) const {
+  return own_pose < 0 ? pose_column_ : own_pose_columns_.at(At(own_pose));
+}
+
+CameraView JointProblem::ViewAt(const Eigen::VectorXd& variables, int own_pose) const {
+  const int column = PoseColumnOf(own_pose);
   PoseChange change = PoseChange::Zero();
-  if (pose_column_ >= 0) {
-    for (int i = 0; i < 6; ++i) change[i] = ValueOf(pose_column_ + i, variables);
+  if (column >= 0) {
+    for (int i = 0; i < 6; ++i) change[i] = ValueOf(column + i, variables);
   }
-  return {setup_.T_robot_camera, change};
+  return {own_pose < 0 ? setup_.T_robot_camera : setup_.own_poses[At(own_pose)].T_robot_camera,
+          change};
+}
+
+AdjustedPose JointProblem::AdjustedAt(const Eigen::VectorXd& variables, int own_pose,
+                                      const PosePrior& prior) const {
+  AdjustedPose pose{.name = prior.name,
+                    .T_robot_camera = ViewAt(variables, own_pose).T_robot_camera()};
+  pose.from_prior = ChangeBetween(prior.T_robot_camera, pose.T_robot_camera);
+  pose.chi_squared =
+      pose.from_prior.head<3>().squaredNorm() / std::pow(prior.rotation_sigma_rad, 2) +
+      pose.from_prior.tail<3>().squaredNorm() / std::pow(prior.translation_sigma_m, 2);
+  return pose;
+}
+
+std::vector<AdjustedPose> JointProblem::AdjustedPosesAt(const Eigen::VectorXd& variables) const {
+  std::vector<AdjustedPose> poses;
+  if (setup_.fit_pose && setup_.pose_prior) {
+    poses.push_back(AdjustedAt(variables, -1, *setup_.pose_prior));
+  }
+  for (std::size_t p = 0; p < setup_.own_poses.size(); ++p) {
+    poses.push_back(AdjustedAt(variables, static_cast<int>(p), setup_.own_poses[p]));
+  }
+  return poses;
 }
 
 /// Empty without a depth bias.
@@ -132,7 +177,7 @@ std::vector<Eigen::VectorXd> JointProblem::ShapesAt(const Eigen::VectorXd& varia
 }
 
 geometry::RigidTransform JointProblem::PoseAt(const Eigen::VectorXd& variables) const {
-  return ViewAt(variables).T_robot_camera();
+  return ViewAt(variables, -1).T_robot_camera();
 }
 
 Eigen::Vector3d JointProblem::OffsetOf(int marker, const Eigen::VectorXd& variables) const {
@@ -206,32 +251,34 @@ void JointProblem::Clear(LeastSquaresPoint* point) const {
 }
 
 void JointProblem::SeeAll(const Eigen::VectorXd& variables, LeastSquaresPoint* point) {
-  const CameraView view = ViewAt(variables);
   scale_ = scale_column_ >= 0 ? ValueOf(scale_column_, variables) : 1.0;
   Eigen::Index row = 0;
   for (const CalibrationFrame& frame : setup_.frames) {
+    const CameraView view = ViewAt(variables, frame.own_pose);
     SeeMarkers(frame, view, variables, &row, point);
     SeeSurface(frame, view, variables, &row, point);
   }
   AddPriors(variables, point);
 }
 
-JointProblem::PlaceInFrame JointProblem::PlaceOf(std::size_t frame,
+JointProblem::PlaceInFrame JointProblem::PlaceOf(const CalibrationFrame& frame,
                                                  const fem::InterpolationWeights& point,
                                                  const Eigen::VectorXd& variables) const {
-  const SolvedState& solved = shapes_.solved(frame);
-  return {point, solved.column(), solved.PlaceOf(point, variables)};
+  const auto index = static_cast<std::size_t>(&frame - setup_.frames.data());
+  const SolvedState& solved = shapes_.solved(index);
+  return {PoseColumnOf(frame.own_pose), point, solved.column(), solved.PlaceOf(point, variables)};
 }
 
 void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& view,
                               const Eigen::VectorXd& variables, Eigen::Index* row,
                               LeastSquaresPoint* point) {
   const auto index = static_cast<size_t>(&frame - setup_.frames.data());
-  double squares_m2 = 0.0;
-  for (const MarkerSighting& sighting : frame.markers) {
+  Eigen::Matrix3Xd& residuals_m = marker_residuals_m_[index];
+  for (std::size_t k = 0; k < frame.markers.size(); ++k) {
+    const MarkerSighting& sighting = frame.markers[k];
     const fem::InterpolationWeights& weights =
         model_.body().markers.at(At(sighting.marker)).point.weights;
-    const PlaceInFrame seen = PlaceOf(index, weights, variables);
+    const PlaceInFrame seen = PlaceOf(frame, weights, variables);
     const Eigen::Vector3d place_m =
         scale_ * seen.place.position_m + OffsetOf(sighting.marker, variables);
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
@@ -243,11 +290,11 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
       point->jacobian.block<3, 3>(*row, column) = Scale(column) * rows.per_point_m;
     }
     const Eigen::Vector3d seen_m = (1.0 + depth_scale) * sighting.position_m;
-    squares_m2 += (view.T_robot_camera() * seen_m - place_m).squaredNorm();
+    residuals_m.col(ToIndex(k)) = view.T_robot_camera() * seen_m - place_m;
     *row += 3;
   }
   const double count = std::max<double>(1.0, static_cast<double>(frame.markers.size()));
-  residual_rms_m_[index] = std::sqrt(squares_m2 / count);
+  residual_rms_m_[index] = residuals_m.norm() / std::sqrt(count);
 }
 
 void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& view,
@@ -258,7 +305,7 @@ void JointProblem::SeeSurface(const CalibrationFrame& frame, const CameraView& v
   double squares_m2 = 0.0;
   for (const SurfaceSighting& sighting : frame.surface) {
     const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
-    const PlaceInFrame seen = PlaceOf(index, sighting.point, variables);
+    const PlaceInFrame seen = PlaceOf(frame, sighting.point, variables);
     const SightingRows<1> rows =
         view.Rows(sighting, scale_ * seen.place.position_m, DepthScaleAt(basis, variables));
     PutRows(rows, basis, seen, *row, point);
@@ -286,11 +333,9 @@ void JointProblem::PutRows(const SightingRows<Rows>& rows, const Eigen::VectorXd
                            const PlaceInFrame& seen, Eigen::Index row,
                            LeastSquaresPoint* point) const {
   point->residual.segment<Rows>(row) = rows.residual;
-  if (pose_column_ >= 0) {
-    for (int i = 0; i < 6; ++i) {
-      point->jacobian.block<Rows, 1>(row, pose_column_ + i) =
-          Scale(pose_column_ + i) * rows.per_pose.col(i);
-    }
+  for (int i = 0; i < 6 && seen.pose_column >= 0; ++i) {
+    const int column = seen.pose_column + i;
+    point->jacobian.block<Rows, 1>(row, column) = Scale(column) * rows.per_pose.col(i);
   }
   for (Eigen::Index k = 0; k < depth_basis.size(); ++k) {
     const int column = depth_bias_column_ + static_cast<int>(k);

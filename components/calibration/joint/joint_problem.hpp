@@ -30,6 +30,7 @@ struct Variable {
   const Unknown* unknown = nullptr;  ///< nullptr: of the pose or the measurement
   bool considered = false;           ///< never estimated: held at its mean for the covariance
   bool models_own = false;           ///< an error of the model itself (Against::kThisModel)
+  bool of_pose = false;
 };
 
 /// The least-squares problem of a joint calibration (eq. (7) of the paper over all frames):
@@ -43,7 +44,12 @@ class JointProblem final : public LeastSquaresProblem {
 
   const std::vector<Variable>& variables() const { return variables_; }
   /// Held variables stay at their mean.
-  void Hold(int variable) { held_[At(variable)] = true; }
+  /// `reached`: standard deviation that the data leave, scaled.
+  void Hold(int variable, double reached) {
+    held_[At(variable)] = true;
+    reached_[At(variable)] = reached;
+  }
+  double ReachedWhenHeld(int variable) const { return reached_[At(variable)]; }
   bool IsHeld(int variable) const { return held_[At(variable)]; }
   /// Start of the search; by default the prior means.
   void StartAt(const Eigen::VectorXd& variables) { start_ = variables; }
@@ -52,6 +58,8 @@ class JointProblem final : public LeastSquaresProblem {
   double Scale(int variable) const;
   double ValueOf(int variable, const Eigen::VectorXd& variables) const;
   geometry::RigidTransform PoseAt(const Eigen::VectorXd& variables) const;
+  /// The poses that have a prior, that to calibrate first.
+  std::vector<AdjustedPose> AdjustedPosesAt(const Eigen::VectorXd& variables) const;
   /// Whether SolveLiftedGaussNewton can solve it.
   bool CanBeLifted() const { return setup_.conditions.empty(); }
   /// First columns of pose (6) and depth bias; -1: not estimated.
@@ -65,6 +73,8 @@ class JointProblem final : public LeastSquaresProblem {
   std::vector<Eigen::VectorXd> ShapesAt(const Eigen::VectorXd& variables) const;
   /// m, [frames] at the last point: RMS distance of markers, or of surface points along the normal.
   const std::vector<double>& residual_rms_m() const { return residual_rms_m_; }
+  /// m, [frames] of [3 x markers] at the last point: measured minus model, robot frame.
+  const std::vector<Eigen::Matrix3Xd>& marker_residuals_m() const { return marker_residuals_m_; }
   double ResidualRms_m() const;  ///< of all frames, at the last point
   /// m, of all frames, at each accepted point.
   const std::vector<double>& residual_rms_after_m() const { return residual_rms_after_m_; }
@@ -80,9 +90,15 @@ class JointProblem final : public LeastSquaresProblem {
 
  private:
   int AddVariables();
-  void AddPoseVariables();
+  /// `prior`: nullptr: none. Returns the first column.
+  int AddPoseVariables(const std::string& name, const geometry::RigidTransform& start,
+                       const PosePrior* prior);
   void AddMarkerOffsets();
-  CameraView ViewAt(const Eigen::VectorXd& variables) const;
+  /// First column of the pose from which a frame is seen; -1: the pose is given.
+  int PoseColumnOf(int own_pose) const;
+  CameraView ViewAt(const Eigen::VectorXd& variables, int own_pose) const;
+  AdjustedPose AdjustedAt(const Eigen::VectorXd& variables, int own_pose,
+                          const PosePrior& prior) const;
   Eigen::VectorXd DepthBasisAt(const Eigen::Vector3d& p_camera_m) const;
   double DepthScaleAt(const Eigen::VectorXd& basis, const Eigen::VectorXd& variables) const;
   Eigen::Vector3d OffsetOf(int marker, const Eigen::VectorXd& variables) const;
@@ -94,11 +110,12 @@ class JointProblem final : public LeastSquaresProblem {
                   const Eigen::VectorXd& variables, Eigen::Index* row, LeastSquaresPoint* point);
   /// A point of the body in a frame.
   struct PlaceInFrame {
+    int pose_column;
     const fem::InterpolationWeights& point;
     const std::vector<Eigen::Index>& column;  ///< variables that move it
     SolvedState::Place place;
   };
-  PlaceInFrame PlaceOf(std::size_t frame, const fem::InterpolationWeights& point,
+  PlaceInFrame PlaceOf(const CalibrationFrame& frame, const fem::InterpolationWeights& point,
                        const Eigen::VectorXd& variables) const;
   void PutSharedErrors(const SurfaceSighting& sighting, Eigen::Index row,
                        LeastSquaresPoint* point) const;
@@ -111,8 +128,10 @@ class JointProblem final : public LeastSquaresProblem {
   const JointSetup& setup_;
   std::vector<Variable> variables_;
   std::vector<bool> held_;
+  std::vector<double> reached_;
   Eigen::VectorXd start_;
   int pose_column_ = -1;
+  std::vector<int> own_pose_columns_;
   int depth_bias_column_ = -1;
   int marker_offset_column_ = -1;
   int shared_error_column_ = -1;
@@ -121,6 +140,7 @@ class JointProblem final : public LeastSquaresProblem {
   Eigen::Index data_rows_ = 0;
   BodyShapes shapes_;  ///< initialised after variables_
   std::vector<double> residual_rms_m_;
+  std::vector<Eigen::Matrix3Xd> marker_residuals_m_;
   std::vector<double> residual_rms_after_m_;
 };
 

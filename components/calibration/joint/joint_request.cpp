@@ -4,7 +4,9 @@
 #include "components/calibration/joint/joint_request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -65,6 +67,7 @@ geometry::Registration Register(const robot::RobotModel& model, const JointSetup
                                 const std::vector<Eigen::VectorXd>& x_m) {
   std::vector<Eigen::Vector3d> seen, expected;
   for (std::size_t f = 0; f < setup.frames.size(); ++f) {
+    if (setup.frames[f].own_pose >= 0) continue;
     for (const MarkerSighting& sighting : setup.frames[f].markers) {
       const auto& marker = model.body().markers.at(At(sighting.marker));
       seen.push_back(sighting.position_m);
@@ -93,7 +96,9 @@ Status FindModelStart(robot::RobotModel& model, JointSetup* setup) {
     registration = Register(model, *setup, solved);
   }
   setup->T_robot_camera = registration.T_target_source;
-  return registration.status;
+  if (registration.status.ok() || !setup->pose_prior) return registration.status;
+  setup->T_robot_camera = setup->pose_prior->T_robot_camera;
+  return Status::Ok();
 }
 
 /// An unknown tension for each cable without an input in a frame.
@@ -215,6 +220,12 @@ void AddGeometry(const robot::RobotModel& model, const JointRequest& request, Jo
   }
 }
 
+std::string Millimetres(double length_m) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f mm", 1e3 * length_m);
+  return text.data();
+}
+
 /// Measured markers against the model's in the estimated shapes.
 SizeComparison CompareSizes(const robot::RobotModel& model,
                             const std::vector<CalibrationFrame>& frames,
@@ -239,6 +250,8 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
                       JointSetup* setup) {
   setup->frames = std::move(frames);
   setup->fit_pose = request.pose;
+  setup->pose_prior = request.pose_prior;
+  setup->own_poses = request.own_poses;
   setup->estimate_marker_offsets = request.marker_offset_sigma_m > 0.0;
   setup->marker_offset_sigma_m = setup->estimate_marker_offsets ? request.marker_offset_sigma_m
                                                                 : request.marker_placement_sigma_m;
@@ -252,8 +265,8 @@ Status MakeJointSetup(robot::RobotModel& model, std::vector<CalibrationFrame> fr
   setup->helpers = ModelsLike(model, std::max(0, threads - 1));
   if (T_robot_camera != nullptr) {
     setup->T_robot_camera = *T_robot_camera;
-  } else if (Status status = FindModelStart(model, setup); !status.ok()) {
-    return status;
+  } else if (request.pose) {
+    if (Status status = FindModelStart(model, setup); !status.ok()) return status;
   }
   AddActuators(model, request, setup);
   AddModuli(model, request, setup);
@@ -289,12 +302,12 @@ JointCalibration CalibrateFrames(robot::RobotModel& model, std::vector<Calibrati
   if (result.residual_rms_m > kRequestTuning.wrong_robot_share * sizes.seen_m()) {
     kept.Restore();
     const std::string off =
-        "the markers are " + FormatNumber(result.residual_rms_m) + " m from the model's (RMS)";
+        "the markers are " + Millimetres(result.residual_rms_m) + " from the model's (RMS)";
     result.status = Status(StatusCode::kInvalidInput,
                            sizes.Explains(result.residual_rms_m)
                                ? off + "; " + sizes.Text()
-                               : off + ", with a spread of " + FormatNumber(sizes.seen_m()) +
-                                     " m: another robot, or other markers");
+                               : off + ", with a spread of " + Millimetres(sizes.seen_m()) +
+                                     ": another robot, or other markers");
   }
   return result;
 }

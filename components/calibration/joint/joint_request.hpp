@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace palpate::calibration {
 /// Parameters that a joint calibration estimates, with their prior standard deviations.
 struct JointRequest {
   bool pose = true;
+  std::optional<PosePrior> pose_prior = {};  ///< of that pose; nullopt: it is unknown
+  std::vector<PosePrior> own_poses = {};     ///< JointSetup::own_poses
   /// Zero offset of each actuator's displacement.
   bool actuator_offsets = true;
   double actuator_offset_sigma_m = 2e-3;
@@ -49,7 +52,8 @@ struct JointRequest {
 };
 
 /// The problem of these frames. Without a given pose the search starts from the registration of the
-/// markers with those of the undeformed body. Where a mirror image fits nearly as well, that body
+/// markers with those of the undeformed body, or from `pose_prior` where markers cannot be
+/// registered. Where a mirror image fits nearly as well, that body
 /// is replaced by the equilibria under the frames' inputs. A cable without a recorded input has an
 /// unknown tension in each frame. Not ok where the markers determine no pose (too few, collinear,
 /// mirrored), or such an equilibrium is not reached.

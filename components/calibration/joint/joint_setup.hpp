@@ -10,6 +10,7 @@
 #include "components/calibration/joint/calibration_frame.hpp"
 #include "components/calibration/joint/condition.hpp"
 #include "components/calibration/joint/depth_bias_prior.hpp"
+#include "components/calibration/joint/pose_prior.hpp"
 #include "components/calibration/joint/unknown.hpp"
 #include "libs/fem/load_state.hpp"
 #include "libs/geometry/rigid_transform.hpp"
@@ -28,6 +29,10 @@ struct JointSetup {
   std::vector<std::unique_ptr<robot::RobotModel>> helpers = {};
   geometry::RigidTransform T_robot_camera;  ///< initial, or known
   bool fit_pose = true;
+  std::optional<PosePrior> pose_prior = {};  ///< of the pose that is fitted; nullopt: none
+  /// Poses of other cameras, or of the frame that markers were measured in. They are estimated so
+  /// that their errors count in the other parameters.
+  std::vector<PosePrior> own_poses = {};
   std::optional<DepthBiasPrior> depth_bias;  ///< nullopt: no bias
   /// [parameters of SurfaceSighting::shared] Whether each is an error of the model itself, which
   /// recurs wherever the model is aligned with the robot. All are considered in the covariance.

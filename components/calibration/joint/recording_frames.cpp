@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "components/calibration/recording_phase.hpp"
 #include "libs/core/error.hpp"
@@ -93,25 +94,45 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
   return frames;
 }
 
-std::vector<CalibrationFrame> RobotFramesOfRecording(const experiment::Experiment& experiment,
-                                                     const experiment::Recording& recording,
-                                                     const robot::RobotModel& model,
-                                                     robot::CableInput preferred,
-                                                     double marker_bias_m, int most_frames) {
-  const Eigen::Isometry3d T_robot = experiment::RequireRobotFromMarkers(experiment, recording);
+/// The pose of a recording that is not seen from the camera to calibrate. Recordings of one pose
+/// share its error.
+int RecordedFrames::OwnPoseOf(const experiment::Recording& recording) {
+  const bool robot =
+      experiment::FrameOf(experiment_, recording) == experiment::MeasurementFrame::kRobot;
+  const Eigen::Isometry3d T = experiment::RequireRobotFromMarkers(experiment_, recording);
+  const geometry::PoseStandardError error =
+      robot ? geometry::PoseStandardError{} : experiment::PoseErrorOf(experiment_, recording);
+  const PosePrior pose{
+      .name = robot ? "frame: robot"
+                    : "T_robot_camera of " +
+                          (recording.T_robot_camera ? recording.name : "experiment.yaml"),
+      .T_robot_camera = {Eigen::Quaterniond(T.linear()), T.translation()},
+      .translation_sigma_m = error.translation_m,
+      .rotation_sigma_rad = error.rotation_rad};
+  const auto same = [&](const PosePrior& other) {
+    return ChangeBetween(other.T_robot_camera, pose.T_robot_camera).isZero(1e-12) &&
+           other.translation_sigma_m == pose.translation_sigma_m &&
+           other.rotation_sigma_rad == pose.rotation_sigma_rad;
+  };
+  const auto found = std::find_if(own_poses_.begin(), own_poses_.end(), same);
+  if (found != own_poses_.end()) return static_cast<int>(found - own_poses_.begin());
+  own_poses_.push_back(pose);
+  return static_cast<int>(own_poses_.size()) - 1;
+}
+
+void RecordedFrames::Add(const experiment::Recording& recording, bool of_camera) {
   std::vector<CalibrationFrame> frames =
-      FramesOfRecording(experiment, recording, model, preferred, marker_bias_m, most_frames);
+      FramesOfRecording(experiment_, recording, model_, preferred_, marker_bias_m_);
   if (recording.reference) {
-    frames.push_back(ReferenceFrame(experiment, recording, model, preferred));
+    frames.push_back(ReferenceFrame(experiment_, recording, model_, preferred_));
+    has_reference_ = true;
   }
+  const int own_pose = of_camera ? -1 : OwnPoseOf(recording);
+  has_camera_ = has_camera_ || of_camera;
   for (CalibrationFrame& frame : frames) {
-    for (MarkerSighting& sighting : frame.markers) {
-      sighting.position_m = T_robot * sighting.position_m;
-      sighting.covariance_m2 =
-          T_robot.linear() * sighting.covariance_m2 * T_robot.linear().transpose();
-    }
+    frame.own_pose = own_pose;
+    frames_.push_back(std::move(frame));
   }
-  return frames;
 }
 
 }  // namespace palpate::calibration

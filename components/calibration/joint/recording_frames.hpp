@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/calibration/joint/calibration_frame.hpp"
+#include "components/calibration/joint/pose_prior.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/robot/robot_model.hpp"
 
@@ -22,13 +23,40 @@ std::vector<CalibrationFrame> FramesOfRecording(const experiment::Experiment& ex
                                                 robot::CableInput preferred, double marker_bias_m,
                                                 int most_frames = 6);
 
-/// The same in the robot frame, for a recording with a known camera pose. Its reference window is a
-/// further frame: the undeformed body without weight, or the equilibrium without loads.
-/// `marker_bias_m` is an error between both and counts in the other frames only.
-std::vector<CalibrationFrame> RobotFramesOfRecording(const experiment::Experiment& experiment,
-                                                     const experiment::Recording& recording,
-                                                     const robot::RobotModel& model,
-                                                     robot::CableInput preferred,
-                                                     double marker_bias_m, int most_frames = 6);
+/// Frames of several recordings, and the poses from which they were measured.
+class RecordedFrames {
+ public:
+  /// `experiment` and `model` must outlive it.
+  RecordedFrames(const experiment::Experiment& experiment, const robot::RobotModel& model,
+                 robot::CableInput preferred, double marker_bias_m)
+      : experiment_(experiment),
+        model_(model),
+        preferred_(preferred),
+        marker_bias_m_(marker_bias_m) {}
+
+  /// Adds FramesOfRecording. The reference window is a further frame: the undeformed body without
+  /// weight, or the equilibrium without loads; `marker_bias_m` is an error between both and counts
+  /// in the other frames only. `of_camera`: seen from the camera to calibrate; otherwise from a
+  /// pose of its own (RobotFromMarkers), which is known to PoseErrorOf, or that of the measurement
+  /// frame.
+  void Add(const experiment::Recording& recording, bool of_camera);
+
+  const std::vector<CalibrationFrame>& frames() const { return frames_; }
+  const std::vector<PosePrior>& own_poses() const { return own_poses_; }  ///< JointSetup's
+  bool has_reference() const { return has_reference_; }
+  bool has_camera() const { return has_camera_; }  ///< a frame is seen from the camera to calibrate
+
+ private:
+  int OwnPoseOf(const experiment::Recording& recording);
+
+  const experiment::Experiment& experiment_;
+  const robot::RobotModel& model_;
+  robot::CableInput preferred_;
+  double marker_bias_m_;
+  std::vector<CalibrationFrame> frames_;
+  std::vector<PosePrior> own_poses_;
+  bool has_reference_ = false;
+  bool has_camera_ = false;
+};
 
 }  // namespace palpate::calibration

@@ -96,6 +96,8 @@ class Unknown {
                                               int frame, const FrameInputs& inputs) const = 0;
   /// Whether its value is FrameInputs::scale.
   virtual bool ScalesTheRobot() const { return false; }
+  /// Whether it is a Young's modulus.
+  virtual bool IsModulus() const { return false; }
 
   /// The reported quantity and its derivative: the modulus where the value is ln E.
   virtual double Quantity(double value) const { return value; }

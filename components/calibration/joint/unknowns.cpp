@@ -130,6 +130,7 @@ class LogModulus final : public Unknown {
     return Influence::One(robot::YoungsModulus(material_), Quantity(value));
   }
 
+  bool IsModulus() const override { return true; }
   double Quantity(double value) const override { return youngs_modulus_Pa_ * std::exp(value); }
   double QuantityPerValue(double value) const override { return Quantity(value); }
 

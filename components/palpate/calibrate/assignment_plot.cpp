@@ -320,6 +320,7 @@ void DrawFrames(const std::filesystem::path& file,
                 const calibration::JointCalibration& fit, const robot::RobotModel& model) {
   std::vector<AssignmentPanel> panels;
   for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (frames[f].own_pose >= 0) continue;
     panels.push_back({.name = frames[f].name,
                       .points = frames[f].markers,
                       .model_m = MarkersInCamera(model, fit.x_m[f], fit.T_robot_camera),

@@ -43,7 +43,8 @@ Eigen::Matrix3Xd MarkersInCamera(const robot::RobotModel& model, const Eigen::Ve
 void DrawAssignment(const std::filesystem::path& file, const std::vector<std::string>& marker_names,
                     const std::vector<AssignmentPanel>& panels);
 
-/// The same of markers with names. `fit`: the calibration from these frames.
+/// The same of markers with names, in the frames that the calibrated camera sees. `fit`: the
+/// calibration from all of these frames.
 void DrawFrames(const std::filesystem::path& file,
                 const std::vector<calibration::CalibrationFrame>& frames,
                 const calibration::JointCalibration& fit, const robot::RobotModel& model);

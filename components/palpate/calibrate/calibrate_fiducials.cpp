@@ -90,7 +90,7 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
   perception::FiducialConfig config =
       perception::FiducialsOf(PerceptionOf(options.overrides, experiment));
   PointsWithoutNames points;
-  points.settings.request = RequestOf(options, materials, true);
+  points.settings.request = RequestOf(options, experiment, materials, true);
   // An error common to all points of an image is not noise of each point.
   points.settings.request.depth_bias_sigma = std::exchange(config.depth_bias, 0.0);
   points.settings.named = !config.names.empty();

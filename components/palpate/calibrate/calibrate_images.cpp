@@ -123,7 +123,8 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
   }
   calibration::CloudSettings clouds;
   clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
-  clouds.request = {.actuator_offset_sigma_m = options.actuator_offset_sigma_m,
+  clouds.request = {.pose_prior = PriorOf(options, experiment),
+                    .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
                     .actuator_gains = options.actuator_gains,
                     .moduli = materials};
   const calibration::ModelSnapshot kept(*model);

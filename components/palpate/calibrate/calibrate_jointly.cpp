@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <variant>
 
 #include "components/calibration/joint/found_calibration.hpp"
@@ -14,9 +15,12 @@
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/convergence_plot.hpp"
+#include "components/palpate/calibrate/fit_markers.hpp"
+#include "components/palpate/calibrate/image_settings.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/core/error.hpp"
+#include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::command {
 
@@ -33,20 +37,41 @@ bool IsOfTheCamera(const experiment::Experiment& experiment, const Recording& re
          (recording.camera_on_base || !recording.base_tilt_deg);
 }
 
+bool IsKept(const Recording& recording) {
+  return recording.kind != experiment::RecordingKind::kFree;
+}
+
 /// All in the camera's frame with the camera at its usual pose, and without unknown contacts.
 std::vector<const Recording*> RecordingsOfTheCamera(const experiment::Experiment& experiment) {
   std::vector<const Recording*> chosen;
   for (const Recording& recording : experiment.recordings) {
-    if (recording.kind == experiment::RecordingKind::kFree) continue;
-    if (IsOfTheCamera(experiment, recording)) chosen.push_back(&recording);
-  }
-  if (chosen.empty()) {
-    throw InputError(experiment.folder.string() +
-                     ": no recording determines the camera pose: it needs markers.csv in the "
-                     "camera's frame (frame: camera) and a kind other than 'free' and "
-                     "'camera_moved'");
+    if (IsKept(recording) && IsOfTheCamera(experiment, recording)) chosen.push_back(&recording);
   }
   return chosen;
+}
+
+/// Those, and static phases that were measured from another known pose.
+std::vector<const Recording*> RecordingsOfTheBody(const experiment::Experiment& experiment) {
+  std::vector<const Recording*> chosen = RecordingsOfTheCamera(experiment);
+  for (const Recording& recording : experiment.recordings) {
+    const auto pose = experiment::RobotFromMarkers(experiment, recording);
+    const bool known = std::holds_alternative<Eigen::Isometry3d>(pose);
+    if (known && !IsOfTheCamera(experiment, recording) && HasKnownLoads(recording)) {
+      chosen.push_back(&recording);
+    }
+  }
+  return chosen;
+}
+
+[[noreturn]] void RefuseForCamera(const experiment::Experiment& experiment) {
+  throw InputError(experiment.folder.string() +
+                   ": no recording determines the camera pose: it needs markers.csv in the "
+                   "camera's frame (frame: camera) and a kind other than 'free' and "
+                   "'camera_moved'");
+}
+
+bool IsMarkerOffset(const robot::Undetermined& number) {
+  return number.name.starts_with("marker_offset:");
 }
 
 /// The others are printed alone.
@@ -69,12 +94,23 @@ void PrintCorrelated(const std::vector<calibration::CorrelatedValues>& pairs) {
   }
 }
 
+/// Who asks for single parameters says with `frame: robot` that the frame is known.
+void TakeRobotFrameAsExact(calibration::JointRequest* request) {
+  constexpr double kExact = 1e-6;  // m, rad
+  for (calibration::PosePrior& pose : request->own_poses) {
+    if (pose.name != "frame: robot") continue;
+    pose.translation_sigma_m = kExact;
+    pose.rotation_sigma_rad = kExact;
+  }
+}
+
 /// Correlations of errors that are reported.
 constexpr double kClose = 0.9;
 
-void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frames) {
+void PrintFit(const JointCalibration& fit,
+              const std::vector<calibration::CalibrationFrame>& frames) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    fmt::print("{}: marker residual {:.3f} mm RMS\n", frames[f],
+    fmt::print("{}: marker residual {:.3f} mm RMS\n", frames[f].name,
                1e3 * fit.residual_rms_of_frame_m[f]);
   }
   for (const FittedValue& value : fit.values) {
@@ -85,9 +121,26 @@ void PrintFit(const JointCalibration& fit, const std::vector<std::string>& frame
     fmt::print("{}: {:.4f} {} (standard error {:.4f} {})\n", value.name, factor * value.value, unit,
                factor * value.standard_error, unit);
   }
-  PrintCorrelated(calibration::FindCorrelated(fit, kClose));
+  std::vector<calibration::CorrelatedValues> close = calibration::FindCorrelated(fit, kClose);
+  std::erase_if(close, [](const calibration::CorrelatedValues& pair) {
+    return pair.one.starts_with("marker_offset:") && pair.other.starts_with("marker_offset:");
+  });
+  PrintCorrelated(close);
   fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} iterations\n", fit.chi_squared,
              fit.degrees_of_freedom, fit.iterations);
+}
+
+std::vector<calibration::CalibrationFrame> FramesOfTheCamera(
+    const std::vector<calibration::CalibrationFrame>& frames) {
+  std::vector<calibration::CalibrationFrame> chosen;
+  std::copy_if(frames.begin(), frames.end(), std::back_inserter(chosen),
+               [](const calibration::CalibrationFrame& frame) { return frame.own_pose < 0; });
+  if (chosen.empty()) {
+    throw InputError(
+        "--convergence compares two methods for the camera pose: it needs markers in the "
+        "camera's frame (frame: camera)");
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -96,13 +149,19 @@ std::vector<const Recording*> ChosenRecordings(const CalibrateOptions& options,
                                                const experiment::Experiment& experiment,
                                                bool camera) {
   if (!options.recordings.empty()) return ChooseRecordings(experiment, options.recordings);
-  return camera ? RecordingsOfTheCamera(experiment) : RecordingsWithKnownLoads(experiment);
+  const auto chosen = camera ? RecordingsOfTheCamera(experiment) : RecordingsOfTheBody(experiment);
+  if (!chosen.empty()) return chosen;
+  if (!camera) return RecordingsWithKnownLoads(experiment);  // says why none serves
+  RefuseForCamera(experiment);
 }
 
 calibration::JointRequest RequestOf(const CalibrateOptions& options,
+                                    const experiment::Experiment& experiment,
                                     const std::vector<int>& materials, bool camera) {
   constexpr double kRadians = 0.017453292519943295;
   return {.pose = camera,
+          .pose_prior = camera ? PriorOf(options, experiment) : std::nullopt,
+          .actuator_offsets = options.what != "material",
           .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
           .actuator_gains = options.actuator_gains,
           .moduli = materials,
@@ -122,44 +181,38 @@ bool HasMarkersOfTheCamera(const experiment::Experiment& experiment) {
       [&](const Recording& recording) { return IsOfTheCamera(experiment, recording); });
 }
 
-bool NeedsCameraPose(const experiment::Experiment& experiment) {
-  return !experiment.T_robot_camera && HasMarkersOfTheCamera(experiment);
-}
-
 robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
                                         const experiment::Experiment& experiment,
-                                        const std::vector<int>& materials, bool camera,
+                                        const std::vector<int>& materials,
                                         robot::RobotModel* model) {
-  const auto chosen = ChosenRecordings(options, experiment, camera);
-  const robot::CableInput preferred = ParseCableInput(options.cable_input);
-  std::vector<calibration::CalibrationFrame> frames;
-  std::vector<std::string> names;
+  const auto chosen = ChosenRecordings(options, experiment, options.what == "camera");
+  calibration::RecordedFrames recorded(experiment, *model, ParseCableInput(options.cable_input),
+                                       options.marker_bias_m);
   for (const Recording* recording : chosen) {
-    for (auto& frame :
-         camera ? calibration::FramesOfRecording(experiment, *recording, *model, preferred,
-                                                 options.marker_bias_m)
-                : calibration::RobotFramesOfRecording(experiment, *recording, *model, preferred,
-                                                      options.marker_bias_m)) {
-      names.push_back(frame.name);
-      frames.push_back(std::move(frame));
-    }
+    RequireLoads(*recording);
+    recorded.Add(*recording, IsOfTheCamera(experiment, *recording));
   }
+  if (options.what == "camera" && !recorded.has_camera()) RefuseForCamera(experiment);
+  const std::vector<calibration::CalibrationFrame>& frames = recorded.frames();
   if (!options.convergence.empty()) {
-    if (!camera) {
-      throw InputError(
-          "--convergence compares two methods for the camera pose: it needs markers in the "
-          "camera's frame (frame: camera)");
-    }
-    PlotConvergence(frames, model, options.convergence);
+    PlotConvergence(FramesOfTheCamera(frames), model, options.convergence);
   }
-  const geometry::RigidTransform here;
-  const JointCalibration fit = calibration::CalibrateFrames(
-      *model, frames, camera ? nullptr : &here, RequestOf(options, materials, camera));
-  RequireFit(fit.status);
+  calibration::JointRequest request =
+      RequestOf(options, experiment, materials, recorded.has_camera());
+  request.own_poses = recorded.own_poses();
+  if (options.what == "joint") TakeRobotFrameAsExact(&request);
+  const bool offsets_are_asked = request.marker_offset_sigma_m > 0.0;
+  if (recorded.has_reference() && !offsets_are_asked) {
+    request.marker_offset_sigma_m = OffsetOfMarkers_m(*model);
+  }
+  const JointCalibration fit = FitMarkers(frames, request, model);
   if (!options.assignment.empty()) DrawFrames(options.assignment, frames, fit, *model);
   robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
   calibration::TakeFit(fit, *model, &file);
-  if (!options.json) PrintFit(fit, names);
+  if (!offsets_are_asked) std::erase_if(file.undetermined, IsMarkerOffset);
+  NameKnownLoads(chosen, &file);
+  RequireSomething(file);
+  if (!options.json) PrintFit(fit, frames);
   return file;
 }
 

@@ -19,9 +19,6 @@ robot::CalibrationFile CalibrateMaterial(const CalibrateOptions& options,
                                          const std::vector<int>& materials,
                                          robot::RobotModel* model);
 
-/// Whether a recording is in the camera's frame and the experiment has no camera pose.
-bool NeedsCameraPose(const experiment::Experiment& experiment);
-
 /// Whether a suitable recording has markers in the camera's frame.
 bool HasMarkersOfTheCamera(const experiment::Experiment& experiment);
 
@@ -29,10 +26,10 @@ bool HasMarkersOfTheCamera(const experiment::Experiment& experiment);
 bool HasImagesOfTheCamera(const experiment::Experiment& experiment);
 
 /// Actuator offsets, gravity and the moduli of `materials` (empty: not estimated) from markers,
-/// with the camera pose where they were measured in its frame (`camera`).
+/// with the camera pose where they were measured in its frame.
 robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
                                         const experiment::Experiment& experiment,
-                                        const std::vector<int>& materials, bool camera,
+                                        const std::vector<int>& materials,
                                         robot::RobotModel* model);
 
 /// The same from depth and colour without markers: from the robot's point clouds, segmented first
@@ -59,9 +56,11 @@ robot::CalibrationFile CalibrateFromFiducials(const CalibrateOptions& options,
 
 /// The parameters and priors of a joint calibration; `camera`: with the camera pose.
 calibration::JointRequest RequestOf(const CalibrateOptions& options,
+                                    const experiment::Experiment& experiment,
                                     const std::vector<int>& materials, bool camera);
 
-/// The recordings that are named, or all that are suitable. Throws InputError where none is.
+/// The recordings that are named, or all that are suitable: for `camera` those that it sees.
+/// Throws InputError where none is.
 std::vector<const experiment::Recording*> ChosenRecordings(const CalibrateOptions& options,
                                                            const experiment::Experiment& experiment,
                                                            bool camera);

@@ -14,7 +14,9 @@
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/convergence_plot.hpp"
+#include "components/palpate/calibrate/fit_markers.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
+#include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/core/error.hpp"
 
@@ -76,6 +78,7 @@ robot::CalibrationFile CalibrateFromPoints(const CalibrateOptions& options,
       calibration::CalibrateUnlabelled(*model, points.frames, rough ? &*rough : nullptr, settings);
   for (const std::string& line : found.left_out) fmt::print(stderr, "excluded: {}\n", line);
   RequireFit(found.status);
+  RequirePossible(found.frames, found.joint, points.settings.request, model);
   if (!options.convergence.empty()) PlotConvergence(found.frames, model, options.convergence);
   if (!options.assignment.empty()) Draw(options, points, found, *model);
   robot::CalibrationFile file = MakeCalibration(*model, points.recordings, options.data);
@@ -108,13 +111,14 @@ robot::CalibrationFile CalibrateFromUnlabelled(const CalibrateOptions& options,
   PointsWithoutNames points;
   points.recordings = ChosenRecordings(options, experiment, true);
   for (const experiment::Recording* recording : points.recordings) {
+    RequireLoads(*recording);
     for (UnlabelledFrame& frame : calibration::UnlabelledFramesOfRecording(
              experiment, *recording, *model, ParseCableInput(options.cable_input),
              options.marker_bias_m)) {
       points.frames.push_back(std::move(frame));
     }
   }
-  points.settings.request = RequestOf(options, materials, true);
+  points.settings.request = RequestOf(options, experiment, materials, true);
   return CalibrateFromPoints(options, experiment, points, model);
 }
 

@@ -14,6 +14,7 @@
 #include "components/palpate/calibrate/calibrate_methods.hpp"
 #include "components/palpate/calibrate/calibration_output.hpp"
 #include "components/palpate/calibrate/image_settings.hpp"
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/run_main.hpp"
@@ -26,11 +27,36 @@ namespace palpate::command {
 
 namespace {
 
+/// Materials that have an element, by name.
+std::vector<std::string> PartsWithElements(const robot::RobotBody& body) {
+  const std::vector<std::string> names = calibration::PartNames(body);
+  std::vector<std::string> parts;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const auto& of_cell = body.material_of_cell;
+    const bool any =
+        std::find(of_cell.begin(), of_cell.end(), static_cast<int>(m)) != of_cell.end();
+    if (any) parts.push_back(names[m]);
+  }
+  return parts;
+}
+
+/// The body; where regions have all of its elements, these.
+std::vector<std::string> PartsOf(const CalibrateOptions& options, const robot::RobotBody& body) {
+  const std::vector<std::string> parts = PartsWithElements(body);
+  const bool has_body = parts.front() == "body";
+  if (options.parts.empty()) return has_body ? std::vector<std::string>{"body"} : parts;
+  const auto& asked = options.parts;
+  if (!has_body && std::find(asked.begin(), asked.end(), "body") != asked.end()) {
+    throw InputError("--part body: all elements belong to regions; give " + Listed(parts));
+  }
+  return asked;
+}
+
 // Indices into RobotBody::materials.
 std::vector<int> MaterialsOf(const std::vector<std::string>& parts, const robot::RobotBody& body) {
   const std::vector<std::string> known = calibration::PartNames(body);
   std::vector<int> materials;
-  for (const std::string& part : parts.empty() ? std::vector<std::string>{"body"} : parts) {
+  for (const std::string& part : parts) {
     const auto found = std::find(known.begin(), known.end(), part);
     if (found == known.end()) {
       throw InputError("--part " + part +
@@ -54,7 +80,7 @@ bool HasMarkers(const experiment::Experiment& experiment) {
 
 robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* model) {
   const auto experiment = experiment::ReadExperiment(options.data, app::LoadYaml);
-  const std::vector<int> materials = MaterialsOf(options.parts, model->body());
+  const std::vector<int> materials = MaterialsOf(PartsOf(options, model->body()), model->body());
   const bool unlabelled = AreUnlabelled(options, experiment);
   if (options.fit_depth_bias && options.no_depth_bias) {
     throw InputError("--fit-depth-bias and --no-depth-bias exclude each other: give one");
@@ -64,27 +90,29 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
         "--camera-pose is for images and unlabelled markers; leave it out, or give "
         "--from images or --unlabelled");
   }
-  const bool joint = options.what == "joint";
   const bool fiducials = !PerceptionOf(options.overrides, experiment).markers.color_rgb.empty();
   const bool images_are_meant =
       options.from == "images" ||
       (options.from.empty() && (fiducials || (!options.camera_pose.empty() && !unlabelled)));
-  const bool camera =
-      options.what == "camera" ||
-      (options.what != "material" && (images_are_meant || NeedsCameraPose(experiment)));
-  if (!joint && !camera) return CalibrateMaterial(options, experiment, materials, model);
-  const std::vector<int> wanted = joint || !options.parts.empty() ? materials : std::vector<int>();
-  const bool has_markers = camera ? HasMarkersOfTheCamera(experiment) : HasMarkers(experiment);
-  const bool from_images = images_are_meant || (options.from.empty() && !has_markers &&
-                                                HasImagesOfTheCamera(experiment));
+  const bool markers =
+      options.what == "camera" ? HasMarkersOfTheCamera(experiment) : HasMarkers(experiment);
+  const bool from_images =
+      options.what != "material" &&
+      (images_are_meant || (options.from.empty() && !markers && HasImagesOfTheCamera(experiment)));
   if (from_images && options.unlabelled) {
     throw InputError(
         "--unlabelled is for markers.csv; fiducials in images have no names: leave it out");
   }
-  if (from_images && fiducials) return CalibrateFromFiducials(options, experiment, wanted, model);
-  if (from_images) return CalibrateFromImages(options, experiment, wanted, model);
-  if (unlabelled) return CalibrateFromUnlabelled(options, experiment, wanted, model);
-  return CalibrateJointly(options, experiment, wanted, camera, model);
+  // Named markers tell whether a modulus is determined; the others are asked for it.
+  const bool named = options.what == "joint" || !options.parts.empty();
+  const std::vector<int> asked = named ? materials : std::vector<int>();
+  if (from_images && fiducials) return CalibrateFromFiducials(options, experiment, asked, model);
+  if (from_images) return CalibrateFromImages(options, experiment, asked, model);
+  if (options.what == "material" && !HasMarkersOfTheCamera(experiment)) {
+    return CalibrateMaterial(options, experiment, materials, model);
+  }
+  if (unlabelled) return CalibrateFromUnlabelled(options, experiment, asked, model);
+  return CalibrateJointly(options, experiment, options.what == "camera" ? asked : materials, model);
 }
 
 /// A parameter that a joint calibration estimates where its prior standard deviation is not 0.
@@ -135,16 +163,18 @@ void DeclarePriors(app::Arguments& arguments, CalibrateOptions* options) {
 void DeclareWhat(app::Arguments& arguments, CalibrateOptions* options) {
   arguments.Choice("--what", &options->what, {"auto", "material", "camera", "joint"},
                    "What to estimate: material (Young's moduli), camera (camera pose and actuator "
-                   "offsets), joint (all of them, without the pose where it is known), or auto "
-                   "(camera where the data are in a camera frame of unknown pose, else material)");
+                   "offsets), joint (all of them), or auto (pose and offsets, the depth bias where "
+                   "there are images, and of named markers a modulus that they determine)");
   arguments.Choice("--from", &options->from, {"markers", "images"},
                    "Measurement for the camera pose; without it markers in the camera frame where "
                    "a recording has them, else images: by fiducials where --set "
                    "perception.markers.color_rgb names their colour, else by the robot's shape");
   arguments.Repeated("--recording NAME", &options->recordings,
                      "Use this recording; without it all but those of kind free");
-  arguments.Repeated("--part NAME", &options->parts,
-                     "Estimate the modulus of this region, or of body; without it of the body");
+  arguments.Repeated(
+      "--part NAME", &options->parts,
+      "Estimate the modulus of this region, or of body; without it of the body, or of "
+      "all regions if they have all its elements");
   arguments.Flag("--unlabelled", &options->unlabelled,
                  "Assign the points of markers.csv to markers by their positions and ignore their "
                  "names; without it only where no point has a name");
@@ -163,6 +193,10 @@ void DeclareWhat(app::Arguments& arguments, CalibrateOptions* options) {
 }  // namespace
 
 int Calibrate(const CalibrateOptions& options) {
+  CheckOutputFile(options.out);
+  for (const std::filesystem::path& drawing : {options.assignment, options.convergence}) {
+    if (!drawing.empty()) CheckOutputFile(drawing);
+  }
   constexpr double kSigmasOfRoom = 4.0;
   const std::unique_ptr<robot::RobotModel> model =
       LoadRobot(options.robot, options.solver, {}, kSigmasOfRoom * options.cable_eyelet_sigma_m);

@@ -63,10 +63,23 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
   return file;
 }
 
+std::string FailureText(const Status& status) {
+  return "the fit failed (" + std::string(ToString(status.code())) + "): " + status.message();
+}
+
 void RequireFit(const Status& status) {
-  if (status.ok()) return;
-  throw RunError("the fit failed (" + std::string(ToString(status.code())) +
-                 "): " + status.message());
+  if (!status.ok()) throw RunError(FailureText(status));
+}
+
+std::string UndeterminedText(const robot::Undetermined& number) {
+  std::string reached;
+  if (number.limit > 0.0) {
+    reached = fmt::format(" (standard error {:.3g}, at most {:.3g} counts)", number.standard_error,
+                          number.limit);
+  }
+  return fmt::format(
+      "{} is not determined by these data{} and keeps its value; to determine it: {}", number.name,
+      reached, number.what_would_tell);
 }
 
 void PrintCalibration(const robot::CalibrationFile& file) {
@@ -103,8 +116,7 @@ void PrintCalibration(const robot::CalibrationFile& file) {
   }
   PrintGeometry(file);
   for (const robot::Undetermined& number : file.undetermined) {
-    fmt::print("{} is not determined by these data and keeps its value; to determine it: {}\n",
-               number.name, number.what_would_tell);
+    fmt::print("{}\n", UndeterminedText(number));
   }
 }
 
@@ -152,8 +164,10 @@ void PrintCalibrationJson(const robot::CalibrationFile& file) {
   }
   AddGeometry(file, &json);
   for (const robot::Undetermined& number : file.undetermined) {
-    json["undetermined"].push_back(
-        {{"name", number.name}, {"what_would_tell", number.what_would_tell}});
+    json["undetermined"].push_back({{"name", number.name},
+                                    {"what_would_tell", number.what_would_tell},
+                                    {"standard_error", number.standard_error},
+                                    {"limit", number.limit}});
   }
   fmt::print("{}\n", json.dump(2));
 }

@@ -19,8 +19,12 @@ robot::CalibrationFile MakeCalibration(const robot::RobotModel& model,
                                        const std::vector<const experiment::Recording*>& recordings,
                                        const std::filesystem::path& data);
 
-/// Throws RunError with the reason where a fit failed.
+/// Throws RunError with the reason (FailureText) where a fit failed.
 void RequireFit(const Status& status);
+std::string FailureText(const Status& status);
+
+/// What is not determined, how nearly, and the remedy.
+std::string UndeterminedText(const robot::Undetermined& number);
 
 /// How well a fit (calibration::MaterialCalibration, JointCalibration) came out.
 template <typename Fit>

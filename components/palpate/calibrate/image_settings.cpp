@@ -20,7 +20,8 @@ namespace {
 using experiment::Recording;
 
 bool IsSuitable(const Recording& recording) {
-  return recording.camera_file && !recording.depth_images.empty() && !recording.T_robot_camera &&
+  const bool has_images = !recording.depth_images.empty() || !recording.clouds.empty();
+  return recording.camera_file && has_images && !recording.T_robot_camera &&
          recording.kind != experiment::RecordingKind::kFree &&
          recording.kind != experiment::RecordingKind::kCameraMoved &&
          (recording.camera_on_base || !recording.base_tilt_deg);
@@ -46,6 +47,16 @@ std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
   return file.pose->T_robot_camera;
 }
 
+std::optional<calibration::PosePrior> PriorOf(const CalibrateOptions& options,
+                                              const experiment::Experiment& experiment) {
+  if (!options.camera_pose.empty() || !experiment.T_robot_camera) return std::nullopt;
+  const auto error = experiment.T_robot_camera_error.value_or(geometry::PoseStandardError{});
+  return calibration::PosePrior{.name = "T_robot_camera of experiment.yaml",
+                                .T_robot_camera = ToTransform(*experiment.T_robot_camera),
+                                .translation_sigma_m = error.translation_m,
+                                .rotation_sigma_rad = error.rotation_rad};
+}
+
 geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T) {
   return {Eigen::Quaterniond(T.linear()), T.translation()};
 }
@@ -58,9 +69,10 @@ std::vector<const Recording*> RecordingsWithImages(const CalibrateOptions& optio
     if (IsSuitable(recording)) chosen.push_back(&recording);
   }
   if (chosen.empty()) {
-    throw InputError(experiment.folder.string() +
-                     ": no recording determines the camera pose: it needs depth images and a kind "
-                     "other than 'free' and 'camera_moved'");
+    throw InputError(
+        experiment.folder.string() +
+        ": no recording determines the camera pose: it needs depth images or clouds, and a kind "
+        "other than 'free' and 'camera_moved'");
   }
   return chosen;
 }

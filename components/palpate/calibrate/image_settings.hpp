@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/calibration/joint/pose_prior.hpp"
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "components/palpate/images/perception_settings.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -24,6 +25,11 @@ std::optional<Eigen::Isometry3d> RoughPose(const CalibrateOptions& options,
 /// where the file is not this robot's, or has no pose.
 std::optional<Eigen::Isometry3d> EarlierPose(const CalibrateOptions& options,
                                              const robot::RobotModel& model);
+
+/// The experiment's camera pose with its standard error; nullopt where it has none, or
+/// --camera-pose replaces it by an approximate one.
+std::optional<calibration::PosePrior> PriorOf(const CalibrateOptions& options,
+                                              const experiment::Experiment& experiment);
 
 geometry::RigidTransform ToTransform(const Eigen::Isometry3d& T);
 

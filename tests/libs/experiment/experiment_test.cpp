@@ -100,6 +100,48 @@ TEST(Experiment, HoldsEverythingThatStandsInItsFolder) {
   EXPECT_EQ(experiment.robot, folder.path() / "robots/beam.yaml");
 }
 
+constexpr const char* kPose =
+    "T_robot_camera: {translation_m: [0.1, 0.2, 0.3], rotation_xyzw: [0, 0, 0, 1]";
+
+TEST(Experiment, APoseHasAStandardError) {
+  const TestFolder folder;
+  folder.Write("exp/experiment.yaml",
+               kPose + std::string(", standard_error: {translation_m: 2.0e-3, rotation_rad: "
+                                   "3.0e-3}}\n"));
+  folder.Write("exp/recordings/a/recording.yaml", "kind: rest\n");
+  folder.Write("exp/recordings/b/recording.yaml",
+               "kind: rest\n" + std::string(kPose) +
+                   ", standard_error: {translation_m: 4.0e-3, rotation_rad: 5.0e-3}}\n");
+  folder.Write("exp/recordings/c/recording.yaml", "kind: rest\n" + std::string(kPose) + "}\n");
+  const Experiment first = ReadExperiment(folder.path() / "exp", app::LoadYaml);
+  WriteExperiment(first, folder.path() / "copy");
+  for (const char* name : {"exp", "copy"}) {
+    const Experiment read = ReadExperiment(folder.path() / name, app::LoadYaml);
+    const auto& recordings = read.recordings;
+    EXPECT_EQ(PoseErrorOf(read, recordings[0]).translation_m, 2e-3) << name;
+    EXPECT_EQ(PoseErrorOf(read, recordings[0]).rotation_rad, 3e-3) << name;
+    EXPECT_EQ(PoseErrorOf(read, recordings[1]).translation_m, 4e-3) << name;
+    EXPECT_EQ(PoseErrorOf(read, recordings[1]).rotation_rad, 5e-3) << name;
+    // Nobody said how well it is known: not exact.
+    EXPECT_FALSE(recordings[2].T_robot_camera_error) << name;
+    EXPECT_EQ(PoseErrorOf(read, recordings[2]).translation_m, 0.005) << name;
+    EXPECT_EQ(PoseErrorOf(read, recordings[2]).rotation_rad, 0.01) << name;
+  }
+}
+
+TEST(Experiment, RefusesAStandardErrorThatIsNone) {
+  const auto with = [](const std::string& error) {
+    return RefusalWith("experiment.yaml",
+                       kPose + std::string(", standard_error: ") + error + "}\n");
+  };
+  EXPECT_THAT(with("{translation_m: 0, rotation_rad: 0.01}"),
+              AllOf(HasSubstr("experiment.yaml:1:"), HasSubstr("translation_m"), HasSubstr("> 0")));
+  EXPECT_THAT(with("{translation_m: 0.005, rotation_rad: -0.01}"), HasSubstr("rotation_rad"));
+  EXPECT_THAT(with("{translation_m: 0.005}"), HasSubstr("rotation_rad"));
+  EXPECT_THAT(with("{translation_mm: 5, rotation_rad: 0.01}"), HasSubstr("translation_m"));
+  EXPECT_THAT(with("0.005"), HasSubstr("standard_error"));
+}
+
 TEST(Experiment, ReadsBackWhatItWrote) {
   const TestFolder folder;
   WriteWhole(folder);

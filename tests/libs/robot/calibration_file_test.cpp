@@ -153,7 +153,7 @@ TEST_F(CalibrationFileTest, HoldsPoseAndDrivesAndWhatIsNotDetermined) {
   pose.translation_error_m = {1e-4, 2e-4, 3e-4};
   written.pose = pose;
   written.drives = {{"pull", {7e-4, 0.05}, {1e-5, 0.01}}};
-  written.undetermined = {{"cable_offset:west", "a recording with: it \"pulled\""}};
+  written.undetermined = {{"cable_offset:west", "a recording with: it \"pulled\"", 2e-3, 1e-3}};
   WriteCalibrationFile(written, file_);
   const CalibrationFile read = ReadCalibrationFile(file_, app::LoadYaml);
   EXPECT_TRUE(read.moduli.empty());
@@ -170,6 +170,8 @@ TEST_F(CalibrationFileTest, HoldsPoseAndDrivesAndWhatIsNotDetermined) {
   ASSERT_EQ(read.undetermined.size(), 1U);
   EXPECT_EQ(read.undetermined[0].name, "cable_offset:west");
   EXPECT_EQ(read.undetermined[0].what_would_tell, "a recording with: it \"pulled\"");
+  EXPECT_EQ(read.undetermined[0].standard_error, 2e-3);
+  EXPECT_EQ(read.undetermined[0].limit, 1e-3);
 }
 
 TEST_F(CalibrationFileTest, HoldsAndGivesGravityAndPoissonsRatios) {
@@ -212,14 +214,33 @@ TEST_F(CalibrationFileTest, DrivesReadWhatIsMeasured) {
   EXPECT_THAT(ApplyRefusal(calibration), HasSubstr(cable + "x"));
 }
 
-TEST_F(CalibrationFileTest, APoseNeedsItsErrors) {
+/// The pose carries its largest errors, so that it can be copied into experiment.yaml.
+TEST_F(CalibrationFileTest, APoseWithoutErrorsOfEachAxisHasItsOwn) {
+  CalibrationFile written = Example();
+  written.pose = CalibratedPose{.T_robot_camera = Eigen::Isometry3d::Identity(),
+                                .rotation_error_rad = {1e-3, 3e-3, 2e-3},
+                                .translation_error_m = {4e-4, 2e-4, 3e-4}};
+  WriteCalibrationFile(written, file_);
+  std::string text = ReadFile(file_);
+  const std::string key = "T_robot_camera_standard_error";
+  text.replace(text.find(key), key.size(), "# ");
+  folder_.Write("c.yaml", text);
+  const CalibrationFile read = ReadCalibrationFile(folder_ / "c.yaml", app::LoadYaml);
+  EXPECT_EQ(read.pose->rotation_error_rad, Eigen::Vector3d::Constant(3e-3));
+  EXPECT_EQ(read.pose->translation_error_m, Eigen::Vector3d::Constant(4e-4));
+}
+
+TEST_F(CalibrationFileTest, APoseWithoutErrorsIsNotExact) {
   CalibrationFile written = Example();
   written.pose = CalibratedPose{};
   WriteCalibrationFile(written, file_);
   std::string text = ReadFile(file_);
   const std::string key = "T_robot_camera_standard_error";
   text.replace(text.find(key), key.size(), "# ");
-  EXPECT_THAT(ReadRefusal(text), HasSubstr(key));
+  folder_.Write("c.yaml", text);
+  const CalibrationFile read = ReadCalibrationFile(folder_ / "c.yaml", app::LoadYaml);
+  EXPECT_EQ(read.pose->rotation_error_rad, Eigen::Vector3d::Constant(0.01));
+  EXPECT_EQ(read.pose->translation_error_m, Eigen::Vector3d::Constant(0.005));
 }
 
 TEST_F(CalibrationFileTest, RefusesAFileThatIsNotThere) {

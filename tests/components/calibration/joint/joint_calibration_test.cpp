@@ -137,6 +137,47 @@ TEST_F(JointCalibrationOfOurRobot, MarkersOnOneLineAreRefused) {
   EXPECT_THAT(fit.status.message(), HasSubstr("are not collinear"));
 }
 
+/// Two markers determine no pose, but agree with one that is known.
+TEST_F(JointCalibrationOfOurRobot, APoseWithAPriorIsNeverHeld) {
+  JointSetup setup = Frames(2, 1e-4, nullptr);
+  for (CalibrationFrame& frame : setup.frames) frame.markers.resize(2);
+  setup.pose_prior = PosePrior{.name = "camera",
+                               .T_robot_camera = TableOnePose(),
+                               .translation_sigma_m = 1e-3,
+                               .rotation_sigma_rad = 2e-3};
+  const JointCalibration fit = CalibrateJointly(*model_, setup);
+  ASSERT_TRUE(fit.status.ok()) << fit.status.message();
+  ExpectPose(fit.T_robot_camera, TableOnePose(), 1e-5, 1e-5);
+  EXPECT_LE(fit.pose_covariance(5, 5), 1e-6);
+  ASSERT_EQ(fit.adjusted_poses.size(), 1U);
+  EXPECT_LE(fit.adjusted_poses[0].chi_squared, 1e-3);
+}
+
+/// The error of a pose counts in what is found from there.
+TEST_F(JointCalibrationOfOurRobot, AnErrorOfAnotherPoseCountsInTheOffsets) {
+  const auto fit_with = [&](double translation_sigma_m) {
+    JointSetup setup = Frames(3, 1e-4, nullptr);
+    setup.fit_pose = false;
+    setup.own_poses = {PosePrior{.name = "other",
+                                 .T_robot_camera = Disturbed(TableOnePose(), 0.0, 1e-3),
+                                 .translation_sigma_m = translation_sigma_m,
+                                 .rotation_sigma_rad = 1e-3}};
+    for (CalibrationFrame& frame : setup.frames) frame.own_pose = 0;
+    setup.unknowns.push_back(CommandOffset(0, "north", {.sigma = 2e-3, .plausible = 2e-3}));
+    return CalibrateJointly(*model_, setup);
+  };
+  const JointCalibration honest = fit_with(5e-3);
+  ASSERT_TRUE(honest.status.ok()) << honest.status.message();
+  const FittedValue* offset = ValueNamed(honest, "cable_offset:north");
+  EXPECT_NEAR(offset->value, 0.0, 3.0 * offset->standard_error);
+  ExpectPose(honest.adjusted_poses[0].T_robot_camera, TableOnePose(), 1e-3, 1e-3);
+  const JointCalibration exact = fit_with(1e-6);
+  ASSERT_TRUE(exact.status.ok()) << exact.status.message();
+  EXPECT_GT(std::abs(ValueNamed(exact, "cable_offset:north")->value),
+            std::abs(offset->value) + 1e-5);
+  EXPECT_GT(exact.adjusted_poses[0].chi_squared, 0.0);
+}
+
 TEST_F(JointCalibrationOfOurRobot, AnOutlierCountsLittleWithARobustLoss) {
   std::mt19937_64 random(3);
   JointSetup setup = Frames(2, 1e-4, &random);

@@ -99,6 +99,16 @@ TEST_F(JointDerivatives, AreThoseOfCentralDifferences) {
   ExpectCentralDifferences(*model_, setup_);
 }
 
+TEST_F(JointDerivatives, OfPosesWithPriorsAreThoseOfCentralDifferences) {
+  setup_.pose_prior = PosePrior{.name = "camera",
+                                .T_robot_camera = Disturbed(TableOnePose(), 0.02, 0.004),
+                                .translation_sigma_m = 0.005,
+                                .rotation_sigma_rad = 0.02};
+  setup_.own_poses = {*setup_.pose_prior};
+  setup_.frames[0].own_pose = 0;
+  ExpectCentralDifferences(*model_, setup_);
+}
+
 TEST_F(GeometryDerivatives, AreThoseOfCentralDifferences) {
   ExpectCentralDifferences(*model_, setup_);
 }

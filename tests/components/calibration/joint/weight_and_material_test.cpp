@@ -79,8 +79,8 @@ TEST_F(WeightAndMaterial, SelfWeightAloneDoesNotTellMassFromStiffness) {
   EXPECT_THAT(mass->what_would_tell, testing::HasSubstr("known load"));
 }
 
-/// Reference and static phase as frames of their own, turned into the robot's frame.
-TEST(RobotFramesOfRecording, GiveTheReferenceWithoutWeightAndCountTheBiasOnce) {
+/// Reference and static phase as frames of their own, seen from one pose.
+TEST(RecordedFrames, GiveTheReferenceWithoutWeightAndCountTheBiasOnce) {
   const RecordingFolder folder;
   folder.Write("experiment.yaml", "frame: camera\nmarkers_sigma_m: [1.0e-4, 2.0e-4, 3.0e-4]\n");
   auto experiment = folder.Read();
@@ -89,20 +89,32 @@ TEST(RobotFramesOfRecording, GiveTheReferenceWithoutWeightAndCountTheBiasOnce) {
   robot::RobotDescription robot = force_estimation::BeamRobot();
   const auto model = force_estimation::Build(robot);
   constexpr double kBias_m = 1e-3;
-  const auto frames = RobotFramesOfRecording(experiment, experiment.recordings[0], *model,
-                                             robot::CableInput::kDisplacement, kBias_m);
+  RecordedFrames recorded(experiment, *model, robot::CableInput::kDisplacement, kBias_m);
+  recorded.Add(experiment.recordings[0], false);
+  const std::vector<CalibrationFrame>& frames = recorded.frames();
   ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(recorded.has_reference());
+  EXPECT_FALSE(recorded.has_camera());
+  ASSERT_EQ(recorded.own_poses().size(), 1U);
+  const PosePrior& pose = recorded.own_poses()[0];
+  EXPECT_EQ(pose.name, "T_robot_camera of experiment.yaml");
+  EXPECT_EQ(pose.translation_sigma_m, 0.005);
+  EXPECT_EQ(pose.rotation_sigma_rad, 0.01);
   EXPECT_EQ(frames[0].gravity_m_s2, model->gravity_m_s2());
   EXPECT_EQ(frames[0].loads.size(), 1U);
   const MarkerSighting& hanging = frames[0].markers[0];
-  EXPECT_LT((hanging.position_m - Eigen::Vector3d(0.8, 2.1, 3.29)).norm(), 1e-12);
-  EXPECT_NEAR(hanging.covariance_m2(1, 1), kBias_m * kBias_m + 1e-8 / 3.0, 1e-12);
+  EXPECT_EQ(hanging.marker, 0);
+  EXPECT_EQ(frames[0].own_pose, 0);
+  EXPECT_LT((pose.T_robot_camera * hanging.position_m - Eigen::Vector3d(0.8, 2.1, 3.29)).norm(),
+            1e-12);
+  EXPECT_NEAR(hanging.covariance_m2(0, 0), kBias_m * kBias_m + 1e-8 / 3.0, 1e-12);
   EXPECT_EQ(frames[1].name, "hang (reference)");
   EXPECT_EQ(frames[1].gravity_m_s2, Eigen::Vector3d::Zero());
   EXPECT_TRUE(frames[1].loads.empty());
   const MarkerSighting& held = frames[1].markers[0];
-  EXPECT_LT((held.position_m - Eigen::Vector3d(0.8, 2.1, 3.3)).norm(), 1e-12);
-  EXPECT_NEAR(held.covariance_m2(1, 1), 1e-8 / 2.0, 1e-12);
+  EXPECT_EQ(frames[1].own_pose, 0);
+  EXPECT_LT((pose.T_robot_camera * held.position_m - Eigen::Vector3d(0.8, 2.1, 3.3)).norm(), 1e-12);
+  EXPECT_NEAR(held.covariance_m2(0, 0), 1e-8 / 2.0, 1e-12);
 }
 
 }  // namespace

@@ -11,8 +11,15 @@
 #include "libs/app/yaml.hpp"
 #include "libs/core/file.hpp"
 #include "libs/core/text.hpp"
+#include "libs/geometry/pose_text.hpp"
 
 namespace palpate::command {
+
+namespace {
+
+const Eigen::Vector3d kTip_m(0.08, 0.01, 0.02);
+
+}  // namespace
 
 const std::vector<Eigen::Vector3d>& MarkedBar::Twelve() {
   static const std::vector<Eigen::Vector3d> places_m = {
@@ -46,8 +53,12 @@ std::filesystem::path MarkedBar::WriteRobot(const std::vector<Eigen::Vector3d>& 
 
 MarkedBar::Points MarkedBar::See(const BarSight& sight) {
   fem::StaticState state = truth_->RestState();
+  std::vector<robot::DeadLoad> loads;
+  if (sight.load_N > 0.0) {
+    loads.push_back({truth_->Patch(kTip_m, 0.0).weights, {0.0, 0.0, -sight.load_N}});
+  }
   const auto solved = truth_->Solve(
-      {{robot::CableCommand::Kind::kDisplacement, sight.commanded_m + kOffset_m}}, {}, &state);
+      {{robot::CableCommand::Kind::kDisplacement, sight.commanded_m + kOffset_m}}, loads, &state);
   EXPECT_TRUE(solved.status.ok()) << solved.status.message();
   std::normal_distribution<double> noise(0.0, kNoise_m);
   Points points;
@@ -69,7 +80,11 @@ MarkedBar::Points MarkedBar::See(const BarSight& sight) {
 void MarkedBar::WriteInputs(const BarSight& sight) const {
   const std::string folder = "data/recordings/" + sight.name;
   std::filesystem::create_directories(folder_ / folder);
-  folder_.Write(folder + "/recording.yaml", "kind: hold\n");
+  folder_.Write(folder + "/recording.yaml", "kind: " + sight.kind + "\n");
+  if (sight.load_N > 0.0 && sight.tell_load) {
+    folder_.Write(folder + "/loads.csv", "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n0,0.08,0.01,0.02,0,0," +
+                                             FormatNumber(-sight.load_N) + "\n");
+  }
   const std::string value = FormatNumber(sight.commanded_m);
   folder_.Write(folder + "/actuation.csv",
                 "t_s,top.displacement_m\n0," + value + "\n1," + value + "\n");
@@ -92,6 +107,20 @@ void MarkedBar::RecordThree(BarSight sight) {
     sight.commanded_m = 1e-3 * millimetres;
     Record(sight);
   }
+}
+
+void MarkedBar::TellPose(const Eigen::Isometry3d& T_robot_camera, const std::string& error) const {
+  std::string pose = geometry::FormatPose(T_robot_camera);
+  pose.insert(pose.size() - 1, error);
+  folder_.Write("data/experiment.yaml",
+                "frame: camera\nmarkers_sigma_m: 1.0e-4\nT_robot_camera: " + pose + "\n");
+}
+
+void MarkedBar::ChangeRobot(const std::string& old, const std::string& by, bool truth) {
+  std::string text = ReadFile(robot_);
+  ASSERT_NE(text.find(old), std::string::npos) << old;
+  folder_.Write("bar.yaml", text.replace(text.find(old), old.size(), by));
+  if (truth) truth_ = LoadRobot(robot_, {});
 }
 
 ProgramRun MarkedBar::Run(std::vector<std::string> words) const {

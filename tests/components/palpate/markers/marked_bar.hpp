@@ -36,6 +36,9 @@ struct BarSight {
   bool names = true;                          ///< else the points have none, in random order
   std::vector<Eigen::Vector3d> false_m = {};  ///< points that are none, camera frame
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> spoil = {};  ///< camera frame
+  double load_N = 0.0;                                                ///< a weight at the tip
+  bool tell_load = true;                                              ///< in loads.csv
+  std::string kind = "hold";
 };
 
 /// A bar with one cable, whose drive counts from 0.7 mm in, and twelve markers before a camera;
@@ -57,6 +60,10 @@ class MarkedBar : public testing::Test {
   std::filesystem::path WriteRobot(const std::vector<Eigen::Vector3d>& markers_m,
                                    const std::string& name = "bar.yaml") const;
 
+  /// Writes experiment.yaml with this camera pose and `more` keys inside it.
+  void TellPose(const Eigen::Isometry3d& T_robot_camera, const std::string& error = "") const;
+  /// The robot file, and the truth as well where `truth` is set, with `old` replaced by `by`.
+  void ChangeRobot(const std::string& old, const std::string& by, bool truth);
   /// `palpate WORDS...`
   ProgramRun Run(std::vector<std::string> words) const;
   /// `palpate calibrate` on what was recorded.
