@@ -27,7 +27,8 @@ struct RowResult {
   bool converged() const { return solver.status.ok(); }
 };
 
-/// Told at the start of a row and before each of its Newton iterations what of it has been reached; false: give up.
+/// Called at the start of a row and before each of its Newton iterations with the result so far.
+/// Returns false to give the row up.
 using WatchRow = std::function<bool(int row, const fem::StaticResult& so_far)>;
 
 /// Solves one row after the other, each from the state before it (the first from rest), and hands

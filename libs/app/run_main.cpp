@@ -50,6 +50,8 @@ int RunMain(const std::string& program, const std::function<int()>& work) {
   } catch (const InputError& error) {
     PrintError(program, error.what());
     return kExitUsage;
+  } catch (const RunError& error) {
+    std::fprintf(stderr, "%s: error: %s\n", program.c_str(), error.what());
   } catch (const std::bad_alloc&) {
     PrintError(program, "out of memory");
   } catch (const std::exception& error) {

@@ -25,8 +25,8 @@ class Interrupted : public std::runtime_error {
 
 /// Runs the whole of a main(): returns what `work` returns, or the exit code of what it throws,
 /// with one line "program: error: cause" on the standard error output ("program: interrupted
-/// after ..." for Interrupted). Standard output that could not be written (full disk) counts as
-/// failed.
+/// after ..." for Interrupted). A RunError keeps the line ends of its list of reasons. Standard
+/// output that could not be written (full disk) counts as failed.
 int RunMain(const std::string& program, const std::function<int()>& work);
 
 }  // namespace palpate::app

@@ -81,8 +81,7 @@ ContactReport::ContactReport(const ShapeConfig& config, double force_relative_si
 /// is the best of many candidates, so that the chance is divided by their number.
 double ContactReport::StrengthOf(const ShapeFitter& fit, std::size_t site) const {
   const bool hidden = fit.sites()[site].hidden;
-  const double seen =
-      fit.IsBiasFittedAlong() ? tuning_.significance_along : config_.significance;
+  const double seen = fit.IsBiasFittedAlong() ? tuning_.significance_along : config_.significance;
   const double chance = hidden ? config_.hidden_significance / search_places_ : seen;
   return Strength(fit.ForceAt(site), CovarianceOf(fit, site), fit.NormalAt(site), hidden, chance);
 }

@@ -28,9 +28,9 @@ struct ContactReportTuning {
   /// Posterior over prior variance of the tangential force above which it counts as not observed.
   /// Larger: forces that friction's prior dominates have status ok.
   double observed_variance = 0.5;
-  /// ShapeConfig::significance of a force at a visible contact where the depth bias is fitted along.
-  /// Its interval is then mostly the bias', constant over the frames, so that there is no chance in
-  /// each of them. Larger: forces that are no larger than their interval are reported.
+  /// ShapeConfig::significance of a force at a visible contact where the depth bias is fitted
+  /// along. Its interval is then mostly the bias', constant over the frames, so that there is no
+  /// chance in each of them. Larger: forces that are no larger than their interval are reported.
   double significance_along = 0.01;
   double uncertain_share = Config().uncertain_share;  ///< Config::uncertain_share
 };

@@ -134,10 +134,9 @@ ReplayCount EstimateRun::Replay(const PlannedRecording& planned, const TakeEstim
 
 RestCheck::Known EstimateRun::RestCheckOf(const PlannedRecording& planned) const {
   const bool from_shape = planned.from == EstimateFrom::kShape;
-  return {
-      .calibrated = !options_.calibration.empty(),
-      .significance = from_shape ? settings_.shape.significance : settings_.forces.significance,
-      .gravity_m_s2 = model_.gravity_m_s2()};
+  return {.calibrated = !options_.calibration.empty(),
+          .significance = from_shape ? settings_.shape.significance : settings_.forces.significance,
+          .gravity_m_s2 = model_.gravity_m_s2()};
 }
 
 void EstimateRun::Estimate(const PlannedRecording& planned, bool is_only) {

@@ -177,6 +177,8 @@ TEST(RunMain, MapsErrorsToExitCodesAndOneLine) {
   EXPECT_EQ(printed, "palpate: error: a.yaml:2:1: bad value\n");
   EXPECT_EQ(run([]() -> int { throw RunError("disk full"); }, &printed), 1);
   EXPECT_EQ(printed, "palpate: error: disk full\n");
+  EXPECT_EQ(run([]() -> int { throw RunError("no fit:\n  1. unit"); }, &printed), 1);
+  EXPECT_EQ(printed, "palpate: error: no fit:\n  1. unit\n");
   EXPECT_EQ(run([]() -> int { throw std::logic_error("odd"); }, &printed), 1);
   EXPECT_EQ(run([]() -> int { throw std::bad_alloc(); }, &printed), 1);
   EXPECT_EQ(printed, "palpate: error: out of memory\n");
