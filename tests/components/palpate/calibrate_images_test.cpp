@@ -20,11 +20,12 @@ const std::string kCamera = R"(camera:
   noise: {sensor: stereo}
 )";
 /// And one frame of kind free.
-const std::string kRecordings = kTwoHolds + "  - {name: c_free, kind: free, duration_s: 0.1}\n";
+const std::string kTwoHoldsAndFree =
+    kTwoHolds + "  - {name: c_free, kind: free, duration_s: 0.1}\n";
 
 class CalibrateImages : public LookTest {
  protected:
-  void Simulate(const std::string& recordings = kRecordings) const {
+  void Simulate(const std::string& recordings = kTwoHoldsAndFree) const {
     SimulateScene(kCamera + recordings);
   }
 
