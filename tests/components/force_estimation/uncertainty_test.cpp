@@ -102,12 +102,13 @@ TEST(ForceUncertainty, TakesNoiseOfTheFrameElseOfTheSettings) {
   MarkerForceEstimator estimator(*model, config);
   for (MarkerObservation& marker : frame.markers) marker.sigma_m.setZero();
   EXPECT_NEAR(estimator.Update(frame).noise_rms_m, 5e-4, 1e-12);
-  const double ci95_N = estimator.Update(frame).contacts[0].ci95_N;
+  const Eigen::Matrix3d covariance_N2 = estimator.Update(frame).contacts[0].covariance_N2;
   for (MarkerObservation& marker : frame.markers) marker.sigma_m.setConstant(3e-5);
   config.marker_bias_m = 0.0;
   MarkerForceEstimator sharper(*model, config);
   EXPECT_NEAR(sharper.Update(frame).noise_rms_m, 3e-5, 1e-12);
-  EXPECT_NEAR(sharper.Update(frame).contacts[0].ci95_N, ci95_N * 3e-5 / 5e-4, 1e-3 * ci95_N);
+  const Eigen::Matrix3d scaled_N2 = std::pow(3e-5 / 5e-4, 2) * covariance_N2;
+  EXPECT_TRUE(sharper.Update(frame).contacts[0].covariance_N2.isApprox(scaled_N2, 1e-2));
 }
 
 TEST(ForceUncertainty, ForceIsProportionalToTheModulusOfAWeightlessBody) {
@@ -157,9 +158,8 @@ TEST(ForceUncertainty, ModulusErrorWidensTheIntervalByTheForcesDerivative) {
   const ContactForce& wide = unsure.Update(frame).contacts[0];
   const Eigen::Matrix3d expected = kSigma * kSigma * derivative_N * derivative_N.transpose();
   EXPECT_LT((wide.covariance_N2 - narrow.covariance_N2 - expected).norm(), 1e-4 * expected.norm());
-  const Eigen::Vector3d along = wide.force_N.normalized();
-  const double by_modulus_N = kSigmas95 * kSigma * std::abs(along.dot(derivative_N));
-  EXPECT_NEAR(wide.ci95_N, std::hypot(narrow.ci95_N, by_modulus_N), 1e-4 * wide.ci95_N);
+  EXPECT_DOUBLE_EQ(wide.ci95_N, HalfWidth95_N(wide.force_N, wide.covariance_N2));
+  EXPECT_GT(wide.ci95_N, 2.0 * narrow.ci95_N);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kCamera = R"(camera:
+const std::string kSimulatedCamera = R"(camera:
   depth: {width_px: 424, height_px: 240, fx_px: 212.5, fy_px: 212.5, cx_px: 211.5, cy_px: 119.5, unit_m: 0.0001, baseline_m: 0.1}
   color: {width_px: 424, height_px: 240, fx_px: 212.5, fy_px: 212.5, cx_px: 211.5, cy_px: 119.5, registered_to_depth: true}
   eye_m: [0.343, -0.198, 0.275]
@@ -26,7 +26,7 @@ const std::string kTwoHoldsAndFree =
 class CalibrateImages : public LookTest {
  protected:
   void Simulate(const std::string& recordings = kTwoHoldsAndFree) const {
-    SimulateScene(kCamera + recordings);
+    SimulateScene(kSimulatedCamera + recordings);
   }
 
   /// The scenario's camera, turned about the robot's middle and shifted.

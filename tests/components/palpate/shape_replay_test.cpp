@@ -53,6 +53,7 @@ struct Fakes {
         [this](const rgbd::RgbdFrame& frame,
                const perception::PredictedSurface* predicted) -> const perception::Observation& {
       stamps_ns.push_back(frame.stamp_ns);
+      observation.stamp_ns = frame.stamp_ns;
       predictions.emplace_back(predicted ? std::optional(*predicted) : std::nullopt);
       return observation;
     };
