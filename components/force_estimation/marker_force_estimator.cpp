@@ -416,7 +416,7 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
       SquaredDistanceFromZero(contact) > ChiSquaredQuantile(1.0 - config_.significance, unknowns);
   if (!acts) contact.status = Status(StatusCode::kNoContact, {});
   // Where nothing acts a location has no meaning, so that the test is without its uncertainty.
-  if (search_) contact.covariance_N2 += search_->result().location_covariance_N2[index];
+  if (Searches()) contact.covariance_N2 += search_->result().location_covariance_N2[index];
   contact.ci95_N = HalfWidth95_N(contact.force_N, contact.covariance_N2);
   if (acts && contact.ci95_N > config_.uncertain_share * contact.force_N.norm()) {
     contact.status = Status(StatusCode::kUncertain, {});

@@ -68,7 +68,7 @@ TEST_F(BiasFrameCheckTest, ErrorsOfTheCameraAreNoContact) {
 
 TEST_F(BiasFrameCheckTest, OneOfThreeThatIsTouchedIsFoundByTheOthers) {
   Add(1);
-  Add(4, 0.3);
+  Add(4, 0.5);
   Add(7);
   EXPECT_THAT(ContactFree(), ElementsAre(true, false, true));
   const BiasSequence& touched = check_.Judge()[1];
