@@ -17,7 +17,8 @@ using test_support::TestFolder;
 struct Sample {
   std::filesystem::path robot;
   std::filesystem::path data;
-  std::string contact;  ///< as --contact takes it
+  std::string contact;     ///< as --contact takes it
+  int estimate_exits = 0;  ///< of palpate estimate: 1 where a rest recording has forces
 };
 
 /// The recordings of tests/data/beam_calculix, about `frame_count` frames of each.

@@ -6,7 +6,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
+#include <string>
 #include <utility>
+
+#include "libs/core/index.hpp"
 
 namespace palpate::command {
 
@@ -30,13 +34,31 @@ std::string NameOutlier(const ShapeReplay::BiasRecording& outlier, bool is_alone
                : "that of the other contact-free recordings");
 }
 
+/// The frames before the first in which something is seen to touch the robot. Where that is the
+/// first of all, it may be what holds the robot: then all frames count, and their shape decides.
+int UseContactFree(const Recording& recording, ShapeReplay* replay, std::string* note) {
+  constexpr int kAll = std::numeric_limits<int>::max();
+  const int frames = replay->EstimateDepthBiasFromStart(recording, kAll);
+  if (frames == 0) return replay->EstimateDepthBias(recording);
+  const auto total = std::max(recording.depth_images.size(), recording.clouds.size());
+  if (At(frames) < total) {
+    *note = fmt::format(
+        "{}: something is seen to touch the robot in frame {} of {}: only the frames before it are "
+        "used for the depth bias",
+        recording.name, frames + 1, total);
+  }
+  return frames;
+}
+
 /// Processes the recordings. Where one of them does not pass, a new replay processes the others.
 int UseRecordings(std::vector<const Recording*> recordings,
                   const std::function<std::unique_ptr<ShapeReplay>()>& make_replay,
                   BiasFrames* found) {
   int frames = 0;
   for (const Recording* recording : recordings) {
-    frames += found->replay->EstimateDepthBias(*recording);
+    std::string note;
+    frames += UseContactFree(*recording, found->replay.get(), &note);
+    if (!note.empty()) found->notes.push_back(note);
   }
   const auto judged = found->replay->JudgeBiasRecordings();
   std::size_t outliers = 0;
@@ -50,7 +72,8 @@ int UseRecordings(std::vector<const Recording*> recordings,
   frames = 0;
   found->replay = make_replay();
   for (const Recording* recording : recordings) {
-    frames += found->replay->EstimateDepthBias(*recording);
+    std::string said_before;
+    frames += UseContactFree(*recording, found->replay.get(), &said_before);
   }
   return frames;
 }
