@@ -32,13 +32,24 @@ struct ContactSearchTuning {
   /// A force grown by this factor since the search knows its location that much better: it is
   /// searched again. Smaller: more searches while a force rises.
   double searched_again_growth = 2.0;
+  /// Standard deviations of the forces by which they must have grown beyond that. Smaller: noise on
+  /// weak forces starts searches of single frames, and averages begin again.
+  double growth_sigmas = 3.0;
   /// Rounds of screening, each about the state that the round before found: responses to large
   /// forces are not linear.
   int most_rounds = 4;
+  /// Continuation steps of a fit where no candidate is fitted without. Larger: forces farther from
+  /// linear are found; each step costs a static solve.
+  int continuation_steps = 8;
 };
 constexpr ContactSearchTuning kContactSearchTuning;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+Status OnlyPullsExplain() {
+  return {StatusCode::kUnobservable,
+          "no contact that pushes explains the markers (adhesion: true allows one that pulls)"};
+}
 
 double NoiseScale(double chi_squared, const RowTargets& targets, size_t contacts) {
   const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(contacts));
@@ -136,8 +147,11 @@ bool ContactSearch::KeepContacts(const RowTargets& targets,
   const double growth = state.lambda_f_N.squaredNorm() / (found_.force_N * found_.force_N);
   const double searched =
       kContactSearchTuning.keep_factor * found_.chi_squared * std::max(1.0, growth);
-  const double most_growth = std::pow(kContactSearchTuning.searched_again_growth, 2);
-  if (fit.chi_squared > std::max(noise_limit, searched) || growth > most_growth) return false;
+  const double still_known_N =
+      kContactSearchTuning.searched_again_growth * found_.force_N +
+      kContactSearchTuning.growth_sigmas * std::sqrt(fit.covariance_N2.trace());
+  if (fit.chi_squared > std::max(noise_limit, searched)) return false;
+  if (state.lambda_f_N.norm() > still_known_N) return false;
   result.fit = fit;
   result.state = std::move(state);
   for (size_t s = 0; s < result.sites.size(); ++s) {
@@ -182,8 +196,7 @@ Status ContactSearch::ScreenAll(const RowTargets& targets,
   Status status = ScreenSites(targets, cables, state, candidates_.coarse(), screened);
   if (!status.ok()) return status;
   if (screened->empty() || !std::isfinite(screened->front().score)) {
-    return {StatusCode::kUnobservable,
-            "no contact that pushes explains the markers (adhesion: true allows one that pulls)"};
+    return OnlyPullsExplain();
   }
   const double least = screened->front().score;
   const double noise_scale = NoiseScale(least, targets, found_.result.sites.size() + 1);
@@ -196,33 +209,58 @@ Status ContactSearch::ScreenAll(const RowTargets& targets,
   return ScreenSites(targets, cables, state, candidates_.FinePlaces(near_m), screened);
 }
 
-/// Fits the best candidates to equilibrium, from `start` on, and takes the best of them into `best`
-/// where it is better.
+/// Fits one candidate to equilibrium, from `start` on: with the force of the screening, or with
+/// none.
+bool ContactSearch::FitCandidate(const RowTargets& targets,
+                                 const std::vector<robot::CableCommand>& cables,
+                                 const ModelState& start, const Screened& candidate,
+                                 FirstForce first_force, Fitted* fitted) {
+  std::vector<FitSite> sites = found_.result.fit_sites;
+  sites.push_back(candidate.site);
+  fitter_.SetSites(sites);
+  ModelState state = start;
+  state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
+  if (first_force == FirstForce::kScreened) {
+    state.balanced = false;
+    state.lambda_f_N.tail<3>() = candidate.force_N;
+  }
+  const ForceFit& fit = fitter_.Fit(targets, cables, &state);
+  if (!fit.status.ok()) return false;
+  const Eigen::Vector3d force_N = state.lambda_f_N.tail<3>();
+  const double cost = candidates_.PriorCost(candidate.site, force_N, state.x_m);
+  *fitted = {.site = candidate.site, .fit = fit, .state = state, .score = fit.chi_squared + cost};
+  return true;
+}
+
+/// Of fits that all pull, the one nearest the data is the better state to screen about.
+bool ContactSearch::IsBetter(const Fitted& a, const Fitted& b) {
+  if (std::isfinite(a.score) || std::isfinite(b.score)) return a.score < b.score;
+  return !b.fit.status.ok() || a.fit.chi_squared < b.fit.chi_squared;
+}
+
+/// Fits the best candidates, and takes the best of them into `best` where it is better. Those at
+/// `fitted_m`, of the rounds before, are not fitted again.
 bool ContactSearch::FitBest(const RowTargets& targets,
                             const std::vector<robot::CableCommand>& cables, const ModelState& start,
-                            const std::vector<Screened>& screened, Fitted* best) {
+                            const std::vector<Screened>& screened, FirstForce first_force,
+                            std::vector<Eigen::Vector3d>* fitted_m, Fitted* best) {
   bool better = false;
   int fitted = 0;
   const size_t tried = std::min(screened.size(), kContactSearchTuning.tried_candidates);
   for (size_t k = 0; k < tried && fitted < kContactSearchTuning.fitted_candidates; ++k) {
-    const FitSite& site = screened[k].site;
     if (!std::isfinite(screened[k].score)) break;
-    std::vector<FitSite> sites = found_.result.fit_sites;
-    sites.push_back(site);
-    fitter_.SetSites(sites);
-    ModelState state = start;
-    state.balanced = false;
-    state.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * fitter_.SiteCount()));
-    state.lambda_f_N.tail<3>() = screened[k].force_N;
-    const ForceFit& fit = fitter_.Fit(targets, cables, &state);
-    if (!fit.status.ok()) continue;
-    const Eigen::Vector3d force_N = state.lambda_f_N.tail<3>();
-    const double score = fit.chi_squared + candidates_.PriorCost(site, force_N, state.x_m);
-    if (!std::isfinite(score)) continue;
-    ++fitted;
-    if (score >= best->score) continue;
+    const Eigen::Vector3d& place_m = screened[k].site.patch.centre_m;
+    if (std::find(fitted_m->begin(), fitted_m->end(), place_m) != fitted_m->end()) {
+      ++fitted;
+      continue;
+    }
+    Fitted candidate;
+    if (!FitCandidate(targets, cables, start, screened[k], first_force, &candidate)) continue;
+    if (std::isfinite(candidate.score)) ++fitted;
+    fitted_m->push_back(place_m);
+    if (!IsBetter(candidate, *best)) continue;
     better = true;
-    *best = {.site = site, .fit = fit, .state = state, .score = score};
+    *best = std::move(candidate);
   }
   return better;
 }
@@ -232,18 +270,28 @@ Status ContactSearch::AddContact(const RowTargets& targets,
   Result& result = found_.result;
   const Eigen::Index known_forces = result.state.lambda_f_N.size();
   std::vector<Screened> screened;
+  std::vector<Eigen::Vector3d> fitted_m;
   Fitted best;
   ModelState about = result.state;
   for (int round = 0; round < kContactSearchTuning.most_rounds; ++round) {
     fitter_.SetSites(result.fit_sites);
     Status status = ScreenAll(targets, cables, about, &screened);
     if (!status.ok() && round == 0) return status;
-    if (!status.ok() || !FitBest(targets, cables, about, screened, &best)) break;
+    // A wrong candidate may diverge, and its continuation costs more than all others.
+    fitter_.LimitContinuationSteps(0);
+    bool better = status.ok() && FitBest(targets, cables, about, screened, FirstForce::kScreened,
+                                         &fitted_m, &best);
+    fitter_.LimitContinuationSteps(kContactSearchTuning.continuation_steps);
+    if (round == 0 && !better) {
+      better = FitBest(targets, cables, about, screened, FirstForce::kNone, &fitted_m, &best);
+    }
+    if (!better) break;
     about = best.state;
     about.balanced = false;
     about.lambda_f_N.conservativeResize(known_forces);
   }
-  if (!std::isfinite(best.score)) {
+  if (best.fit.status.ok() && !std::isfinite(best.score)) return OnlyPullsExplain();
+  if (!best.fit.status.ok()) {
     return {StatusCode::kNotConverged, "no candidate contact leads to an equilibrium"};
   }
   result.fit = best.fit;

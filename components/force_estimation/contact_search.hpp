@@ -66,6 +66,8 @@ class ContactSearch {
     ModelState state;
     double score = std::numeric_limits<double>::infinity();
   };
+  /// The force with which the fit of a candidate begins.
+  enum class FirstForce { kScreened, kNone };
   /// What the last search found, and the frame after it fitted again.
   struct Found {
     Result result;
@@ -86,8 +88,13 @@ class ContactSearch {
                      std::vector<Screened>* screened);
   Status ScreenAll(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                    const ModelState& state, std::vector<Screened>* screened);
+  bool FitCandidate(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+                    const ModelState& start, const Screened& candidate, FirstForce first_force,
+                    Fitted* fitted);
+  static bool IsBetter(const Fitted& a, const Fitted& b);
   bool FitBest(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
-               const ModelState& start, const std::vector<Screened>& screened, Fitted* best);
+               const ModelState& start, const std::vector<Screened>& screened,
+               FirstForce first_force, std::vector<Eigen::Vector3d>* fitted_m, Fitted* best);
   bool IsTaken(const FitSite& site) const;
   void AddUncertainty(const std::vector<Screened>& screened, const Fitted& best,
                       double noise_scale);
