@@ -10,8 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "libs/core/index.hpp"
-
 namespace palpate::command {
 
 namespace {
@@ -34,18 +32,20 @@ std::string NameOutlier(const ShapeReplay::BiasRecording& outlier, bool is_alone
                : "that of the other contact-free recordings");
 }
 
-/// The frames before the first in which something is seen to touch the robot. Where that is the
-/// first of all, it may be what holds the robot: then all frames count, and their shape decides.
-int UseContactFree(const Recording& recording, ShapeReplay* replay, std::string* note) {
+/// Processes the frames before the first in which something is seen to touch the robot. Where that
+/// is the first of all, it may be what holds the robot: then all frames count, and their shape
+/// decides. Returns their number.
+int UseContactFree(const std::vector<const Recording*>& recordings, BiasFrames* found) {
   constexpr int kAll = std::numeric_limits<int>::max();
-  const int frames = replay->EstimateDepthBiasFromStart(recording, kAll);
-  if (frames == 0) return replay->EstimateDepthBias(recording);
-  const auto total = std::max(recording.depth_images.size(), recording.clouds.size());
-  if (At(frames) < total) {
-    *note = fmt::format(
-        "{}: something is seen to touch the robot in frame {} of {}: only the frames before it are "
-        "used for the depth bias",
-        recording.name, frames + 1, total);
+  int frames = 0;
+  for (const Recording* recording : recordings) {
+    const auto start = found->replay->EstimateDepthBiasFromStart(*recording, kAll);
+    frames += start.frames > 0 ? start.frames : found->replay->EstimateDepthBias(*recording);
+    if (start.frames == 0 || !start.ends_with_contact) continue;
+    found->notes.push_back(
+        fmt::format("{}: something is seen to touch the robot in frame {}: only the frames before "
+                    "it are used for the depth bias",
+                    recording->name, start.frames + 1));
   }
   return frames;
 }
@@ -54,35 +54,24 @@ int UseContactFree(const Recording& recording, ShapeReplay* replay, std::string*
 int UseRecordings(std::vector<const Recording*> recordings,
                   const std::function<std::unique_ptr<ShapeReplay>()>& make_replay,
                   BiasFrames* found) {
-  int frames = 0;
-  for (const Recording* recording : recordings) {
-    std::string note;
-    frames += UseContactFree(*recording, found->replay.get(), &note);
-    if (!note.empty()) found->notes.push_back(note);
-  }
+  const int frames = UseContactFree(recordings, found);
   const auto judged = found->replay->JudgeBiasRecordings();
-  std::size_t outliers = 0;
+  std::vector<std::string> outliers;
   for (const ShapeReplay::BiasRecording& bias : judged) {
     if (bias.verdict.contact_free || bias.verdict.frames == 0) continue;
-    found->notes.push_back(NameOutlier(bias, judged.size() == 1));
+    outliers.push_back(NameOutlier(bias, judged.size() == 1));
     std::erase(recordings, bias.recording);
-    ++outliers;
   }
-  if (outliers == 0) return frames;
-  frames = 0;
-  found->replay = make_replay();
-  for (const Recording* recording : recordings) {
-    std::string said_before;
-    frames += UseContactFree(*recording, found->replay.get(), &said_before);
-  }
-  return frames;
+  if (outliers.empty()) return frames;
+  *found = {.replay = make_replay(), .notes = std::move(outliers)};
+  return UseContactFree(recordings, found);
 }
 
 /// The number of frames; 0: none pass, and the replay knows of none.
 int UseFirstFrames(const Recording& recording, int most,
                    const std::function<std::unique_ptr<ShapeReplay>()>& make_replay,
                    BiasFrames* found) {
-  const int frames = found->replay->EstimateDepthBiasFromStart(recording, most);
+  const int frames = found->replay->EstimateDepthBiasFromStart(recording, most).frames;
   if (frames == 0) return 0;
   const auto judged = found->replay->JudgeBiasRecordings();
   const bool pass = std::any_of(judged.begin(), judged.end(), [&](const auto& bias) {

@@ -22,8 +22,9 @@ struct ReplayLimits {
 
 /// How far a replay came.
 struct ReplayCount {
-  int done = 0;   ///< frames that were estimated
-  int total = 0;  ///< frames that were to be
+  int done = 0;                    ///< frames that were estimated
+  int total = 0;                   ///< frames that were to be
+  bool ends_with_contact = false;  ///< it was to end where perception locates a contact
 
   bool complete() const { return done == total; }
 };

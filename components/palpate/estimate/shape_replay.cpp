@@ -71,22 +71,24 @@ ShapeReplay::ShapeReplay(const Inputs& inputs, ReplayPerception perception,
       gravity_m_s2_(inputs.model->gravity_m_s2()) {}
 
 int ShapeReplay::EstimateDepthBias(const Recording& recording) {
-  return EstimateDepthBias(recording, Frames{.contact_free = true});
+  return EstimateDepthBias(recording, Frames{.contact_free = true}).frames;
 }
 
-int ShapeReplay::EstimateDepthBiasFromStart(const Recording& recording, int most) {
+ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBiasFromStart(const Recording& recording,
+                                                                 int most) {
   return EstimateDepthBias(recording, {.contact_free = true, .until_contact = true, .most = most});
 }
 
-int ShapeReplay::EstimateDepthBias(const Recording& recording, const Frames& frames) {
+ShapeReplay::FirstFrames ShapeReplay::EstimateDepthBias(const Recording& recording,
+                                                        const Frames& frames) {
   const auto pose = experiment::RobotFromCamera(inputs_.experiment, recording);
-  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return 0;
-  int count = 0;
-  Run({recording, experiment::OpenRecordingImages(recording, app::LoadYaml),
-       std::get<Eigen::Isometry3d>(pose)},
-      frames, [&](const ForceEstimate&) { ++count; });
+  if (!std::holds_alternative<Eigen::Isometry3d>(pose)) return {};
+  const ReplayCount count =
+      Run({recording, experiment::OpenRecordingImages(recording, app::LoadYaml),
+           std::get<Eigen::Isometry3d>(pose)},
+          frames, [](const ForceEstimate&) {});
   bias_recordings_[epoch_] = &recording;
-  return count;
+  return {.frames = count.done, .ends_with_contact = count.ends_with_contact};
 }
 
 std::vector<ShapeReplay::BiasRecording> ShapeReplay::JudgeBiasRecordings() const {
@@ -125,7 +127,8 @@ ReplayCount ShapeReplay::Run(const Scene& scene, const Frames& frames, const Tak
     scene.images.Read(i, &frame);
     frame.stamp_ns = scene.images.frames[i].t_ns;
     const perception::Observation& observation = Perceive(scene, frame);
-    if (frames.until_contact && !observation.contacts.empty()) break;
+    count.ends_with_contact = frames.until_contact && !observation.contacts.empty();
+    if (count.ends_with_contact) break;
     take(Step(scene, observation, frames.contact_free));
     progress.Update(++count.done);
   }

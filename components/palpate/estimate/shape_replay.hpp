@@ -41,9 +41,13 @@ class ShapeReplay {
   /// Processes the frames of a contact-free recording for the depth bias. Returns their number; 0
   /// where the camera pose is unknown. Throws InputError as Estimate does.
   int EstimateDepthBias(const experiment::Recording& recording);
+  struct FirstFrames {
+    int frames = 0;
+    bool ends_with_contact = false;  ///< perception locates a contact in the next frame
+  };
   /// The same for a recording that may have contacts: its first frames, up to `most`, as long as
   /// perception locates no contact.
-  int EstimateDepthBiasFromStart(const experiment::Recording& recording, int most);
+  FirstFrames EstimateDepthBiasFromStart(const experiment::Recording& recording, int most);
 
   /// A contact-free recording whose frames were processed for the depth bias.
   struct BiasRecording {
@@ -68,7 +72,7 @@ class ShapeReplay {
     int most = std::numeric_limits<int>::max();
   };
 
-  int EstimateDepthBias(const experiment::Recording& recording, const Frames& frames);
+  FirstFrames EstimateDepthBias(const experiment::Recording& recording, const Frames& frames);
   ReplayCount Run(const Scene& scene, const Frames& frames, const TakeEstimate& take);
   void ExpectPosture(const Scene& scene);
   const force_estimation::ForceEstimate& Step(const Scene& scene,

@@ -179,10 +179,10 @@ TEST_F(ShapeReplayTest, TheProcessExpectsNothingBeforeItsFirstImage) {
 TEST_F(ShapeReplayTest, FirstFramesAreContactFreeUntilPerceptionLocatesAContact) {
   ShapeReplay replay = Replay();
   const Recording recording = Images("r", RecordingKind::kFree, 5);
-  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3), 3);
+  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3).frames, 3);
   EXPECT_THAT(ContactFree(), ElementsAre(true, true, true));
   fake_.observation.contacts.resize(1);
-  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3), 0);
+  EXPECT_EQ(replay.EstimateDepthBiasFromStart(recording, 3).frames, 0);
   EXPECT_THAT(fake_.frames, SizeIs(3));
 }
 
