@@ -3,8 +3,6 @@
 
 #include "tests/system/independent/calculix_body.hpp"
 
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -16,6 +14,8 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "tests/support/test_folder.hpp"
 
 namespace palpate::test_support {
 
@@ -188,9 +188,7 @@ void CalculixBody::Fix(const std::function<bool(const Eigen::Vector3d&)>& is_fix
 }
 
 Positions CalculixBody::Solve(const Loads& loads) const {
-  std::string pattern = (std::filesystem::temp_directory_path() / "ccx_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  const std::filesystem::path folder = pattern;
+  const TestFolder folder;
   std::ofstream deck(folder / "job.inp");
   deck << "*NODE, NSET=NALL\n";
   for (std::size_t n = 0; n < nodes_mm_.size(); ++n) {
@@ -219,10 +217,9 @@ Positions CalculixBody::Solve(const Loads& loads) const {
   }
   deck << "*NODE PRINT, NSET=NALL, FREQUENCY=1000\nU\n*END STEP\n";
   deck.close();
-  const std::string command = "cd '" + folder.string() + "' && ccx -i job > log 2>&1";
+  const std::string command = "cd '" + folder.path().string() + "' && ccx -i job > log 2>&1";
   const int exit = std::system(command.c_str());
   Positions moved = ReadDisplacements(folder / "job.dat", nodes_mm_.size());
-  std::filesystem::remove_all(folder);
   for (std::size_t n = 0; n < moved.size(); ++n) {
     if (exit != 0 || !moved[n].allFinite()) throw std::runtime_error("ccx found no equilibrium");
     moved[n] += nodes_mm_[n];

@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "libs/core/error.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/message.hpp"
+#include "libs/dds/wait_set.hpp"
 
 namespace palpate::command {
 namespace {
@@ -29,36 +29,36 @@ int TestDomain() { return std::atoi(std::getenv("ROS_DOMAIN_ID")); }
 /// Stands in for palpate-force-estimation: reports and sends a force until it goes.
 class FakeEstimator {
  public:
-  FakeEstimator() : thread_([this] { Run(); }) {}
+  FakeEstimator() {
+    loop_.Every(std::chrono::milliseconds(20), [this] { SendForce(); });
+    loop_.Every(std::chrono::milliseconds(200), [this] {
+      health_.Report(Status::Ok(), {.received = sent_, .latencies_s = {}}, {{"waiting_for", ""}},
+                     dds::HealthReporter::Clock::now());
+    });
+    thread_ = std::thread([this] { loop_.Run(); });
+  }
   ~FakeEstimator() {
-    stop_ = true;
+    loop_.Stop();
     thread_.join();
   }
 
  private:
-  void Run() {
-    dds::Participant participant = JoinDomain("palpate_force_estimation", TestDomain());
-    const auto start = dds::HealthReporter::Clock::now();
-    dds::HealthReporter health(participant, "force_estimation", start);
-    auto forces = participant.CreateWriter(dds::kForcesTopic);
-    for (std::uint64_t i = 0; !stop_; ++i) {
-      dds::Message<idl::palpate_msgs::ForceArray> message;
-      message->counter = i;
-      dds::SetText(message->status, "ok");
-      dds::Resize(message->forces, 1);
-      dds::SetText(message->forces._buffer[0].name, "ball");
-      dds::SetText(message->forces._buffer[0].status, "ok");
-      message->forces._buffer[0].force_n = {0.0, 0.3, 0.4};
-      EXPECT_TRUE(forces.Write(message));
-      if (i % 10 == 0) {
-        health.Report(Status::Ok(), {.received = i, .latencies_s = {}}, {{"waiting_for", ""}},
-                      dds::HealthReporter::Clock::now());
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+  void SendForce() {
+    dds::Message<idl::palpate_msgs::ForceArray> message;
+    message->counter = sent_++;
+    dds::SetText(message->status, "ok");
+    dds::Resize(message->forces, 1);
+    dds::SetText(message->forces._buffer[0].name, "ball");
+    dds::SetText(message->forces._buffer[0].status, "ok");
+    message->forces._buffer[0].force_n = {0.0, 0.3, 0.4};
+    EXPECT_TRUE(forces_.Write(message));
   }
 
-  std::atomic<bool> stop_ = false;
+  dds::Participant participant_ = JoinDomain("palpate_force_estimation", TestDomain());
+  dds::WaitSet loop_{participant_};
+  dds::HealthReporter health_{participant_, "force_estimation", dds::HealthReporter::Clock::now()};
+  dds::Writer<idl::palpate_msgs::ForceArray> forces_ = participant_.CreateWriter(dds::kForcesTopic);
+  std::uint64_t sent_ = 0;
   std::thread thread_;
 };
 
