@@ -24,22 +24,21 @@ void RestCheck::Add(const force_estimation::ForceEstimate& estimate) {
   const auto& window = recording_.steady_window_s;
   if (!HasResult(estimate.status) || (window && !window->Contains(estimate.t_s))) return;
   ++frames_;
-  double force_N = 0.0;
+  touched_frames_ += estimate.status.ok() ? 1 : 0;
   for (const auto& contact : estimate.contacts) {
-    if (HasForce(contact)) force_N = std::max(force_N, contact.force_N.norm());
+    if (HasForce(contact)) largest_N_ = std::max(largest_N_, contact.force_N.norm());
   }
-  with_force_ += force_N > 0.0 ? 1 : 0;
-  largest_N_ = std::max(largest_N_, force_N);
 }
 
 std::optional<std::string> RestCheck::Failure() const {
   const double expected = known_.significance * frames_;
   const double by_chance = expected + tuning_.chance_sigmas * std::sqrt(expected) + 2.0;
-  if (with_force_ <= std::max(by_chance, tuning_.accepted_share * frames_)) return std::nullopt;
+  if (touched_frames_ <= std::max(by_chance, tuning_.accepted_share * frames_)) return std::nullopt;
+  const std::string size = largest_N_ > 0.0 ? fmt::format(", up to {:.2g} N", largest_N_) : "";
   return fmt::format(
-      "{}: forces up to {:.2g} N in {} of {} frames of a rest recording, where nothing touches the "
-      "robot: forces of the other recordings are as wrong. Likely reasons: {}",
-      recording_.name, largest_N_, with_force_, frames_, Reasons());
+      "{}: contacts in {} of {} frames of a rest recording{}, where nothing touches the robot: "
+      "forces of the other recordings are as wrong. Likely reasons: {}",
+      recording_.name, touched_frames_, frames_, size, Reasons());
 }
 
 std::string RestCheck::Reasons() const {

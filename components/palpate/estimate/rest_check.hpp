@@ -19,8 +19,9 @@ struct RestCheckTuning {
   double chance_sigmas = 5.0;
 };
 
-/// Counts the frames of a contact-free rest recording in which a force is found. More than chance
-/// gives means that the model does not have the robot's rest shape: all its forces are in doubt.
+/// Counts the frames of a contact-free rest recording in which a contact is found, be its force
+/// known or not. More than chance gives means that the model does not have the robot's rest shape:
+/// all its forces are in doubt.
 class RestCheck {
  public:
   struct Known {
@@ -47,7 +48,7 @@ class RestCheck {
   Known known_;
   RestCheckTuning tuning_;
   int frames_ = 0;
-  int with_force_ = 0;
+  int touched_frames_ = 0;  ///< in which the shape without contact is rejected
   double largest_N_ = 0.0;
 };
 
