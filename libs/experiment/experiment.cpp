@@ -240,7 +240,9 @@ std::variant<Eigen::Isometry3d, NeedsCalibration> RobotFromCamera(const Experime
     return NeedsCalibration{what + ", the camera was moved, and its T_robot_camera is not given"};
   }
   if (!experiment.T_robot_camera) {
-    return NeedsCalibration{what + " and no T_robot_camera is given"};
+    return NeedsCalibration{what +
+                            " and no T_robot_camera is given; run palpate calibrate and give its "
+                            "file, or import markers with --register"};
   }
   if (recording.camera_on_base) return *experiment.T_robot_camera;
   return Eigen::Isometry3d(BaseRotation(recording).transpose()) * *experiment.T_robot_camera;
