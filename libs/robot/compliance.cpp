@@ -156,6 +156,40 @@ void Compliance::ObserveColumns() {
   }
 }
 
+void Compliance::PrepareReciprocity() {
+  const auto e = ToIndex(effectors_.size());
+  const Eigen::Index a = lambda_a_.size();
+  const fem::StiffnessMatrix& matrix = linearisation_.matrix();
+  reciprocal_.setZero(linearisation_.Size(), e + a);
+  for (size_t k = 0; k < effectors_.size(); ++k) {
+    nodal_.setZero();
+    for (size_t n = 0; n < effectors_[k].nodes.size(); ++n) {
+      nodal_.segment<3>(3 * effectors_[k].nodes[n]) = effectors_[k].coefficients[n];
+    }
+    matrix.Reduce(nodal_, reciprocal_.col(ToIndex(k)));
+  }
+  linearisation_.SolveSingle(reciprocal_.leftCols(e));
+  reciprocal_.rightCols(a) = columns_.middleCols(1, a);
+}
+
+void Compliance::ObserveByReciprocity() {
+  PALPATE_CHECK(reciprocal_.cols() == W_ef_.rows() + W_af_.rows(), reciprocal_.cols());
+  const fem::StiffnessMatrix& matrix = linearisation_.matrix();
+  W_ef_.setZero();
+  W_af_.setZero();
+  for (size_t f = 0; f < forces_.size(); ++f) {
+    const fem::InterpolationWeights& place = forces_[f].weights;
+    for (size_t k = 0; k < place.nodes.size(); ++k) {
+      const int free_node = matrix.FreeIndex(place.nodes[k]);
+      if (free_node < 0) continue;
+      const Eigen::Vector3d share = place.weights[k] * forces_[f].direction;
+      const auto moved = reciprocal_.middleRows<3>(3 * free_node);
+      W_ef_.col(ToIndex(f)).noalias() += moved.leftCols(W_ef_.rows()).transpose() * share;
+      W_af_.col(ToIndex(f)).noalias() += moved.rightCols(W_af_.rows()).transpose() * share;
+    }
+  }
+}
+
 void Compliance::EffectorPositions(const Eigen::VectorXd& lambda_a_N,
                                    const Eigen::VectorXd& lambda_f_N,
                                    Eigen::VectorXd* delta_e_m) const {

@@ -53,6 +53,13 @@ class Compliance {
   /// What the effectors set since see of the columns of the last Compute or ComputeChord.
   void Observe(const Eigen::VectorXd& x_m, const Eigen::VectorXd& cable_rest_length_m);
 
+  /// Solves for the effectors, about the state of the last Compute: K is symmetric, so that the
+  /// columns K^-1 H_e' give W of any forces (Maxwell's and Betti's reciprocity).
+  void PrepareReciprocity();
+  /// Sets W_ef and W_af of the forces set since, by the columns of PrepareReciprocity: no solve for
+  /// each force. The free values stay those of the last Compute. To be called before another one.
+  void ObserveByReciprocity();
+
   const Eigen::MatrixXd& W_ea() const { return W_ea_; }                    ///< [e x a] m/N
   const Eigen::MatrixXd& W_ef() const { return W_ef_; }                    ///< [e x f] m/N
   const Eigen::MatrixXd& W_aa() const { return W_aa_; }                    ///< [a x a] m/N
@@ -81,9 +88,10 @@ class Compliance {
   std::vector<ForceDirection> forces_;
   Eigen::MatrixXd directions_;                         ///< [reduced x a + f], H_a' and H_f'
   std::vector<std::vector<Eigen::Index>> cable_rows_;  ///< [a] nonzeros of H_a'
-  Eigen::MatrixXd columns_;  ///< [reduced x 1 + a + f], K^-1 of r, H_a', H_f'
-  Eigen::VectorXd nodal_;    ///< [3n]
-  Eigen::VectorXd step_;     ///< [reduced]
+  Eigen::MatrixXd columns_;     ///< [reduced x 1 + a + f], K^-1 of r, H_a', H_f'
+  Eigen::MatrixXd reciprocal_;  ///< [reduced x e + a], K^-1 of H_e', H_a'
+  Eigen::VectorXd nodal_;       ///< [3n]
+  Eigen::VectorXd step_;        ///< [reduced]
   Eigen::VectorXd lambda_a_, lambda_f_;
   Eigen::MatrixXd W_ea_, W_ef_, W_aa_, W_af_;
   Eigen::VectorXd delta_e_free_, delta_a_free_;

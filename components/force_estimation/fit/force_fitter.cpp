@@ -534,31 +534,24 @@ void ForceFitter::RespondTo(const Eigen::Ref<const Eigen::MatrixXd>& forces_N,
   }
 }
 
-/// All candidates use the same factor; each costs three more columns.
+/// By reciprocity all candidates together cost one solve for each row.
 Status ForceFitter::Screen(const RowTargets& targets,
                            const std::vector<robot::CableCommand>& cables, const ModelState& state,
                            const std::vector<FitSite>& candidates,
                            std::vector<ScreenedSite>* screened) {
   const std::vector<FitSite> sites = sites_;
-  ModelState extended = state;
   screened->clear();
   UpdateWeight();
-  Status status = Status::Ok();
-  for (size_t c = 0; c < candidates.size() && status.ok(); ++c) {
+  if (Status status = Linearise(state, /*allow_shift=*/true); !status.ok()) return status;
+  compliance_.PrepareReciprocity();
+  ModelState extended = state;
+  extended.lambda_f_N.conservativeResizeLike(Eigen::VectorXd::Zero(3 * (SiteCount() + 1)));
+  for (const FitSite& candidate : candidates) {
     std::vector<FitSite> with_candidate = sites;
-    with_candidate.push_back(candidates[c]);
+    with_candidate.push_back(candidate);
     SetSites(with_candidate);
-    extended.lambda_f_N.setZero(3 * SiteCount());
-    extended.lambda_f_N.head(state.lambda_f_N.size()) = state.lambda_f_N;
+    compliance_.ObserveByReciprocity();
     condensation_.Start(cables, state.lambda_a_N);
-    if (c == 0) {
-      status = Linearise(extended, /*allow_shift=*/true);
-    } else {
-      compliance_.Compute(state.x_m, model_.cable_rest_length_m(), state.lambda_a_N,
-                          extended.lambda_f_N);
-    }
-    if (status.ok()) status = condensation_.Condense(compliance_, cables);
-    if (!status.ok()) break;
     if (!SolveQp(targets, cables, extended).ok()) {
       screened->push_back({.chi_squared = std::numeric_limits<double>::infinity()});
       continue;
@@ -569,7 +562,7 @@ Status ForceFitter::Screen(const RowTargets& targets,
         {(residual.array().square() * targets.weight.array()).sum(), new_lambda_f_.tail<3>()});
   }
   SetSites(sites);
-  return status;
+  return Status::Ok();
 }
 
 }  // namespace palpate::force_estimation

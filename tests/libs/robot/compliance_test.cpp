@@ -150,6 +150,22 @@ TEST_F(ComplianceTest, IsReciprocalBetweenForcesAndPoints) {
   EXPECT_LE((own - own.transpose()).norm(), 1e-12 * own.norm());
 }
 
+TEST_F(ComplianceTest, ReciprocityGivesTheResponseToOtherForces) {
+  std::vector<ForceDirection> others;
+  for (int i = 0; i < 3; ++i) others.push_back({effectors_[1], Eigen::Vector3d::Unit(i)});
+  others.push_back({effectors_[2], Eigen::Vector3d(0.6, 0.0, -0.8)});
+  compliance_->PrepareReciprocity();
+  compliance_->SetForces(others);
+  compliance_->ObserveByReciprocity();
+  const Eigen::MatrixXd W_ef = compliance_->W_ef();
+  const Eigen::MatrixXd W_af = compliance_->W_af();
+  lambda_f_ = Eigen::VectorXd::Zero(4);
+  ComputeAt(state_.x_m);
+  EXPECT_GT(compliance_->W_af().norm(), 0.0);
+  EXPECT_LE((W_ef - compliance_->W_ef()).norm(), 1e-11 * W_ef.norm());
+  EXPECT_LE((W_af - compliance_->W_af()).norm(), 1e-11 * W_af.norm());
+}
+
 TEST_F(ComplianceTest, WithoutForceDirectionsOnlyTheCablesCount) {
   const Eigen::MatrixXd W_ea = compliance_->W_ea();
   compliance_->SetForces({});
