@@ -51,6 +51,13 @@ Status OnlyPullsExplain() {
           "no contact that pushes explains the markers (adhesion: true allows one that pulls)"};
 }
 
+/// The configuration of `state` without its contact forces from `kept` on: no equilibrium.
+ModelState WithoutFurtherForces(ModelState state, Eigen::Index kept) {
+  state.balanced = false;
+  state.lambda_f_N.conservativeResize(kept);
+  return state;
+}
+
 double NoiseScale(double chi_squared, const RowTargets& targets, size_t contacts) {
   const int freedom = std::max(1, targets.rows - 3 * static_cast<int>(contacts));
   return std::max(1.0, chi_squared / freedom);
@@ -59,7 +66,9 @@ double NoiseScale(double chi_squared, const RowTargets& targets, size_t contacts
 }  // namespace
 
 ContactSearch::ContactSearch(robot::RobotModel& model, const Config& config, ForceFitter& fitter)
-    : config_(config), fitter_(fitter), candidates_(model, config) {}
+    : config_(config), fitter_(fitter), candidates_(model, config) {
+  fitter_.KeepFactor(true);  // from frame to frame, and from the screening to the fits
+}
 
 const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
                                                  const Eigen::VectorXd& shared_variance_m2,
@@ -76,7 +85,7 @@ const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
   const bool kept = touched && KeepContacts(targets, cables, limit);
   if (!kept) {
     pool_.Clear();
-    Search(targets, cables, start, limit);
+    Search(targets, cables, start, nullptr, limit);
   }
   const Result& result = found_.result;
   if (!result.status.ok()) return result;
@@ -94,7 +103,7 @@ const ContactSearch::Result& ContactSearch::Find(const RowTargets& targets,
 
 void ContactSearch::Search(const RowTargets& targets,
                            const std::vector<robot::CableCommand>& cables, const ModelState& start,
-                           double limit) {
+                           const ModelState* about, double limit) {
   Result& result = found_.result;
   result = Result();
   result.status = Status(StatusCode::kNoContact, {});
@@ -107,7 +116,7 @@ void ContactSearch::Search(const RowTargets& targets,
       if (contact == 0) result.status = Status(StatusCode::kUnobservable, "too few markers");
       break;
     }
-    Status added = AddContact(targets, cables);
+    Status added = AddContact(targets, cables, about);
     if (added.ok() || contact == 0) result.status = added;
     if (!added.ok()) break;  // the contacts before it hold
   }
@@ -117,12 +126,13 @@ void ContactSearch::Search(const RowTargets& targets,
 }
 
 /// The location is that of the mean, the forces are those of the frame. What the mean does not show
-/// better stays.
+/// better stays. Responses are those about the frame's state, which is near: one about the free
+/// state costs a round more.
 void ContactSearch::SearchInMean(const RowTargets& targets,
                                  const std::vector<robot::CableCommand>& cables,
                                  const ModelState& start, double limit) {
   const Found before = found_;
-  Search(pool_.Mean(), cables, start, limit);
+  Search(pool_.Mean(), cables, start, &before.result.state, limit);
   const bool same =
       found_.result.status.ok() && found_.result.sites.size() == before.result.sites.size();
   if (!same || !KeepContacts(targets, cables, kNever)) {
@@ -142,7 +152,11 @@ bool ContactSearch::KeepContacts(const RowTargets& targets,
   fitter_.SetSites(result.fit_sites);
   ModelState state = result.state;
   state.balanced = false;
+  // Where steps from the last frame diverge, a search costs less than continuation to a place that
+  // may be wrong.
+  fitter_.LimitContinuationSteps(0);
   const ForceFit& fit = fitter_.Fit(targets, cables, &state);
+  fitter_.LimitContinuationSteps(kContactSearchTuning.continuation_steps);
   if (!fit.status.ok()) return false;
   const double growth = state.lambda_f_N.squaredNorm() / (found_.force_N * found_.force_N);
   const double searched =
@@ -265,14 +279,17 @@ bool ContactSearch::FitBest(const RowTargets& targets,
   return better;
 }
 
+/// The first round screens about `known_state`, or where it is null about the state found so far.
 Status ContactSearch::AddContact(const RowTargets& targets,
-                                 const std::vector<robot::CableCommand>& cables) {
+                                 const std::vector<robot::CableCommand>& cables,
+                                 const ModelState* known_state) {
   Result& result = found_.result;
   const Eigen::Index known_forces = result.state.lambda_f_N.size();
   std::vector<Screened> screened;
   std::vector<Eigen::Vector3d> fitted_m;
   Fitted best;
   ModelState about = result.state;
+  if (known_state != nullptr) about = WithoutFurtherForces(*known_state, known_forces);
   for (int round = 0; round < kContactSearchTuning.most_rounds; ++round) {
     fitter_.SetSites(result.fit_sites);
     Status status = ScreenAll(targets, cables, about, &screened);
@@ -286,9 +303,7 @@ Status ContactSearch::AddContact(const RowTargets& targets,
       better = FitBest(targets, cables, about, screened, FirstForce::kNone, &fitted_m, &best);
     }
     if (!better) break;
-    about = best.state;
-    about.balanced = false;
-    about.lambda_f_N.conservativeResize(known_forces);
+    about = WithoutFurtherForces(best.state, known_forces);
   }
   if (best.fit.status.ok() && !std::isfinite(best.score)) return OnlyPullsExplain();
   if (!best.fit.status.ok()) {

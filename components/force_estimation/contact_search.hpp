@@ -77,12 +77,13 @@ class ContactSearch {
   };
 
   void Search(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
-              const ModelState& start, double limit);
+              const ModelState& start, const ModelState* about, double limit);
   void SearchInMean(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                     const ModelState& start, double limit);
   bool KeepContacts(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                     double noise_limit);
-  Status AddContact(const RowTargets& targets, const std::vector<robot::CableCommand>& cables);
+  Status AddContact(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
+                    const ModelState* known_state);
   Status ScreenSites(const RowTargets& targets, const std::vector<robot::CableCommand>& cables,
                      const ModelState& state, const std::vector<FitSite>& sites,
                      std::vector<Screened>* screened);

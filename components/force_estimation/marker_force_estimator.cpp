@@ -130,7 +130,8 @@ class MarkerForceEstimator::Impl {
   Eigen::VectorXd shared_variance_m2_;  ///< [3m] part of the variance that all frames share
   double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
-  ModelState state_;             ///< last fit
+  std::optional<std::vector<robot::CableCommand>> free_inputs_;  ///< of free_state_
+  ModelState state_;                                             ///< last fit
   ForceEstimate estimate_;
   std::vector<ContactForce> withdrawn_;  ///< keeps its memory for the next frame
   bool published_ = false;               ///< the estimate has a state of this frame
@@ -239,7 +240,12 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
 }
 
 Status MarkerForceEstimator::Impl::SolveFreeState(const MarkerFrame& frame) {
-  return model_.Solve(frame.cables, {}, &free_state_).status;
+  if (free_inputs_ == frame.cables) return Status::Ok();
+  fitter_.ForgetFactor();
+  free_inputs_.reset();
+  Status status = model_.Solve(frame.cables, {}, &free_state_).status;
+  if (status.ok()) free_inputs_ = frame.cables;
+  return status;
 }
 
 /// Starts at the last frame's state; where that diverges, again at the equilibrium without contact.

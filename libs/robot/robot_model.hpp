@@ -27,6 +27,8 @@ struct CableCommand {
   };
   Kind kind = Kind::kNone;
   double value = 0.0;
+
+  bool operator==(const CableCommand&) const = default;
 };
 
 /// Which input of a cable is imposed where both its displacement and its tension are known.
