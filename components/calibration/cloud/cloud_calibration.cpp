@@ -85,12 +85,13 @@ Status Search::Prepare(const geometry::RigidTransform& start) {
                       .loads = frame.loads,
                       .gravity_m_s2 = frame.gravity_m_s2});
   }
+  frames.insert(frames.end(), settings_.marker_frames.begin(), settings_.marker_frames.end());
   if (Status status = MakeJointSetup(model_, std::move(frames), &start, settings_.request, &setup_);
       !status.ok()) {
     return status;
   }
   setup_.fit_pose = true;
-  setup_.marker_offset_sigma_m = 0.0;
+  if (settings_.marker_frames.empty()) setup_.marker_offset_sigma_m = 0.0;
   if (settings_.depth_bias_sigma > 0.0) {
     const double sigma = settings_.depth_bias_sigma;
     setup_.depth_bias = DepthBiasPrior{.coefficient = {.sigma = sigma, .plausible = sigma},

@@ -14,9 +14,12 @@
 namespace palpate::calibration {
 
 struct CloudSettings {
-  /// Parameters that are estimated beside the pose, by default actuator offsets. Its marker
-  /// settings and `pose` have no meaning here.
+  /// Parameters that are estimated beside the pose, by default actuator offsets. Its `pose` has no
+  /// meaning here, its marker settings only with `marker_frames`.
   JointRequest request;
+  /// Frames with markers that are fitted together with the clouds. Those without a pose of their
+  /// own are in the frame of that camera.
+  std::vector<CalibrationFrame> marker_frames = {};
   double huber_threshold = 2.0;  ///< standard deviations; replaces the request's
   /// Prior standard deviation of each coefficient of the depth bias, as a share of z
   /// (geometry::DepthBiasMap). Coefficients that are not estimated, or not determined, stay at 0
@@ -66,7 +69,8 @@ struct CloudCalibration {
   /// pose. kNotConverged: no pose near the initial one explains the clouds, or max_rounds.
   /// Otherwise the status of a failed equilibrium.
   Status status;
-  JointCalibration joint;                         ///< valid where `status` is ok
+  /// Valid where `status` is ok. Its frames are those of the clouds, then the marker frames.
+  JointCalibration joint;
   std::vector<CloudMatch> matches;                ///< [frames]
   geometry::RigidTransform rigid_T_robot_camera;  ///< of the search with fixed shapes
   int starts = 0;                                 ///< of the search

@@ -36,6 +36,7 @@ struct CalibrationFrame {
   std::string name;   ///< for messages
   int own_pose = -1;  ///< index into JointSetup::own_poses; -1: seen from the camera to calibrate
   std::vector<MarkerSighting> markers = {};
+  bool by_depth_camera = true;  ///< the markers have the depth bias
   std::vector<SurfaceSighting> surface = {};
   std::vector<robot::CableCommand> cables = {};  ///< one for each cable
   std::vector<robot::DeadLoad> loads = {};

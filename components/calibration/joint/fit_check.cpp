@@ -46,9 +46,9 @@ double AddFrame(const robot::RobotModel& model, const CalibrationFrame& frame,
 
 FitCheck CheckFit(const robot::RobotModel& model, const std::vector<CalibrationFrame>& frames,
                   const JointCalibration& fit) {
-  FitCheck check{.degrees_of_freedom = fit.degrees_of_freedom,
-                 .residual_rms_m = fit.residual_rms_m};
+  FitCheck check;
   double expected_m2 = 0.0;
+  double squares_m2 = 0.0;
   double markers = 0.0;
   check.possible = true;
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -56,12 +56,16 @@ FitCheck CheckFit(const robot::RobotModel& model, const std::vector<CalibrationF
     expected_m2 += AddFrame(model, frames[f], fit.x_m[f], fit.marker_residuals_m[f], &check);
     const auto seen = static_cast<double>(frames[f].markers.size());
     markers += seen;
+    squares_m2 += fit.marker_residuals_m[f].squaredNorm();
     // A robust loss lets a fit pass by one frame that is unlike the others.
     if (check.chi_squared - others > kFitCheckTuning.most_chi_squared * 3.0 * seen) {
       check.possible = false;
     }
   }
   check.expected_rms_m = std::sqrt(expected_m2 / std::max(1.0, markers));
+  check.residual_rms_m = std::sqrt(squares_m2 / std::max(1.0, markers));
+  // Points of a surface in the same fit are no measure of its markers.
+  check.degrees_of_freedom = std::min(fit.degrees_of_freedom, static_cast<int>(3.0 * markers));
   for (const AdjustedPose& pose : fit.adjusted_poses) {
     if (pose.chi_squared > kFitCheckTuning.most_pose_chi_squared) check.moved_poses.push_back(pose);
   }

@@ -281,7 +281,8 @@ void JointProblem::SeeMarkers(const CalibrationFrame& frame, const CameraView& v
     const PlaceInFrame seen = PlaceOf(frame, weights, variables);
     const Eigen::Vector3d place_m =
         scale_ * seen.place.position_m + OffsetOf(sighting.marker, variables);
-    const Eigen::VectorXd basis = DepthBasisAt(sighting.position_m);
+    const Eigen::VectorXd basis =
+        frame.by_depth_camera ? DepthBasisAt(sighting.position_m) : Eigen::VectorXd();
     const double depth_scale = DepthScaleAt(basis, variables);
     const SightingRows<3> rows = view.Rows(sighting, place_m, depth_scale);
     PutRows(rows, basis, seen, *row, point);

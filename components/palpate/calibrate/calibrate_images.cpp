@@ -21,8 +21,6 @@ namespace palpate::command {
 
 namespace {
 
-using calibration::CloudCalibration;
-using calibration::CloudFrame;
 using experiment::Recording;
 
 Eigen::Isometry3d StartOf(const CalibrateOptions& options, const experiment::Experiment& experiment,
@@ -59,40 +57,35 @@ std::vector<ExpectedNodes> ShapesOf(const std::vector<ImageSample>& samples,
   return shapes;
 }
 
-/// Clouds of all frames and the calibration from them.
-struct Pass {
-  std::vector<CloudFrame> frames;
-  CloudCalibration fit;
-};
-
-Pass Run(const std::vector<ImageSample>& samples, const perception::Config& perception,
+/// Sets the clouds of all frames and the calibration from them.
+void Run(const std::vector<ImageSample>& samples, const perception::Config& perception,
          const std::vector<ExpectedNodes>& expected, const Eigen::Isometry3d& start,
-         const calibration::CloudSettings& clouds, robot::RobotModel* model) {
-  Pass pass;
+         const calibration::CloudSettings& clouds, robot::RobotModel* model,
+         ImageCalibration* found) {
   std::vector<std::string> left_out;
-  pass.frames = SeeClouds(samples, perception, model->body(), expected, &left_out);
-  if (pass.frames.empty()) {
+  found->frames = SeeClouds(samples, perception, model->body(), expected, &left_out);
+  if (found->frames.empty()) {
     throw RunError("perception sees the robot in no image (" + left_out.front() +
                    "): give a more accurate --camera-pose, or the robot's colour, --set "
                    "perception.robot_color_rgb=[r, g, b]");
   }
   for (const std::string& line : left_out) fmt::print(stderr, "excluded: {}\n", line);
-  pass.fit = calibration::CalibrateFromClouds(*model, pass.frames, ToTransform(start), clouds);
-  RequireFit(pass.fit.status);
-  return pass;
+  found->fit = calibration::CalibrateFromClouds(*model, found->frames, ToTransform(start), clouds);
+  RequireFit(found->fit.status);
 }
 
-void PrintPass(const Pass& pass) {
-  for (std::size_t f = 0; f < pass.frames.size(); ++f) {
-    const calibration::CloudMatch& match = pass.fit.matches[f];
+void Print(const ImageCalibration& found) {
+  const calibration::JointCalibration& joint = found.fit.joint;
+  for (std::size_t f = 0; f < found.frames.size(); ++f) {
+    const calibration::CloudMatch& match = found.fit.matches[f];
     fmt::print(
         "{}: {} of {} points on the surface, residual {:.3f} mm RMS; {:.0f} % of the visible "
         "surface has points\n",
-        pass.frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
+        found.frames[f].name, match.matched, match.points, 1e3 * match.rms_m,
         100.0 * match.surface_covered);
   }
-  fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} rounds\n",
-             pass.fit.joint.chi_squared, pass.fit.joint.degrees_of_freedom, pass.fit.rounds);
+  fmt::print("chi-squared {:.3g} for {} degrees of freedom, {} rounds\n", joint.chi_squared,
+             joint.degrees_of_freedom, found.fit.rounds);
 }
 
 /// A depth bias belongs to one camera.
@@ -104,45 +97,58 @@ bool AreOfOneCamera(const std::vector<experiment::RgbdSequence>& sequences) {
 
 }  // namespace
 
-robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
-                                           const experiment::Experiment& experiment,
-                                           const std::vector<int>& materials,
-                                           robot::RobotModel* model) {
+ImageCalibration FitImages(const CalibrateOptions& options,
+                           const experiment::Experiment& experiment, const Eigen::Isometry3d& start,
+                           calibration::CloudSettings clouds, robot::RobotModel* model) {
   const perception::Config perception = PerceptionOf(options.overrides, experiment);
-  const Eigen::Isometry3d start = StartOf(options, experiment, *model);
-  const auto chosen = RecordingsWithImages(options, experiment);
+  ImageCalibration found;
+  found.recordings = RecordingsWithImages(options, experiment);
   std::vector<experiment::RgbdSequence> sequences;
-  sequences.reserve(chosen.size());
+  sequences.reserve(found.recordings.size());
   std::vector<ImageSample> samples;
-  for (const Recording* recording : chosen) {
+  for (const Recording* recording : found.recordings) {
     sequences.push_back(experiment::OpenRecordingImages(*recording, app::LoadYaml));
     for (ImageSample& sample :
          SamplesOf(*recording, sequences.back(), *model, ParseCableInput(options.cable_input))) {
       samples.push_back(std::move(sample));
     }
   }
-  calibration::CloudSettings clouds;
+  found.picture = rgbd::PictureOf(sequences.front().camera.depth);
   clouds.fit_depth_bias = !options.no_depth_bias && AreOfOneCamera(sequences);
-  clouds.request = {.pose_prior = PriorOf(options, experiment),
-                    .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
-                    .actuator_gains = options.actuator_gains,
-                    .moduli = materials};
   const calibration::ModelSnapshot kept(*model);
   // An approximate pose misplaces the predicted surface; a known robot colour does not depend on
   // it.
   const bool by_color = !perception.robot_color_rgb.empty();
-  const Pass rough = Run(samples, perception,
-                         by_color ? std::vector<ExpectedNodes>() : ShapesOf(samples, start, model),
-                         start, clouds, model);
+  Run(samples, perception,
+      by_color ? std::vector<ExpectedNodes>() : ShapesOf(samples, start, model), start, clouds,
+      model, &found);
   kept.Restore();
-  const Eigen::Isometry3d found = ToIsometry(rough.fit.joint.T_robot_camera);
-  const Pass pass = Run(samples, perception, ShapesOf(samples, found, model), found, clouds, model);
-  robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
-  calibration::TakeFit(pass.fit.joint, *model, &file);
-  calibration::TakeDepthBias(pass.fit.joint, rgbd::PictureOf(sequences.front().camera.depth),
-                             &file);
-  if (!options.json) PrintPass(pass);
+  const Eigen::Isometry3d nearer = ToIsometry(found.fit.joint.T_robot_camera);
+  Run(samples, perception, ShapesOf(samples, nearer, model), nearer, clouds, model, &found);
+  return found;
+}
+
+robot::CalibrationFile Describe(const ImageCalibration& found, const CalibrateOptions& options,
+                                const robot::RobotModel& model) {
+  robot::CalibrationFile file = MakeCalibration(model, found.recordings, options.data);
+  calibration::TakeFit(found.fit.joint, model, &file);
+  calibration::TakeDepthBias(found.fit.joint, found.picture, &file);
+  LeaveOutMarkerOffsets(options, &file);
+  if (!options.json) Print(found);
   return file;
+}
+
+robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
+                                           const experiment::Experiment& experiment,
+                                           const std::vector<int>& materials,
+                                           robot::RobotModel* model) {
+  calibration::CloudSettings clouds;
+  clouds.request = {.pose_prior = PriorOf(options, experiment),
+                    .actuator_offset_sigma_m = options.actuator_offset_sigma_m,
+                    .actuator_gains = options.actuator_gains,
+                    .moduli = materials};
+  const Eigen::Isometry3d start = StartOf(options, experiment, *model);
+  return Describe(FitImages(options, experiment, start, clouds, model), options, *model);
 }
 
 }  // namespace palpate::command

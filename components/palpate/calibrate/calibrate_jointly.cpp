@@ -70,10 +70,6 @@ std::vector<const Recording*> RecordingsOfTheBody(const experiment::Experiment& 
                    "'camera_moved'");
 }
 
-bool IsMarkerOffset(const robot::Undetermined& number) {
-  return number.name.starts_with("marker_offset:");
-}
-
 /// The others are printed alone.
 bool IsInFile(const std::string& name) {
   const auto outside = {"input:", "marker_offset:", "depth_scale"};
@@ -181,39 +177,58 @@ bool HasMarkersOfTheCamera(const experiment::Experiment& experiment) {
       [&](const Recording& recording) { return IsOfTheCamera(experiment, recording); });
 }
 
-robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
-                                        const experiment::Experiment& experiment,
-                                        const std::vector<int>& materials,
-                                        robot::RobotModel* model) {
-  const auto chosen = ChosenRecordings(options, experiment, options.what == "camera");
+void LeaveOutMarkerOffsets(const CalibrateOptions& options, robot::CalibrationFile* file) {
+  if (options.marker_offset_sigma_m > 0.0) return;
+  std::erase_if(file->undetermined, [](const robot::Undetermined& number) {
+    return number.name.starts_with("marker_offset:");
+  });
+}
+
+MarkerCalibration FitRecordedMarkers(const CalibrateOptions& options,
+                                     const experiment::Experiment& experiment,
+                                     const std::vector<int>& materials, robot::RobotModel* model) {
+  MarkerCalibration found;
+  found.recordings = ChosenRecordings(options, experiment, options.what == "camera");
   calibration::RecordedFrames recorded(experiment, *model, ParseCableInput(options.cable_input),
                                        options.marker_bias_m);
-  for (const Recording* recording : chosen) {
+  for (const Recording* recording : found.recordings) {
     RequireLoads(*recording);
     recorded.Add(*recording, IsOfTheCamera(experiment, *recording));
   }
   if (options.what == "camera" && !recorded.has_camera()) RefuseForCamera(experiment);
-  const std::vector<calibration::CalibrationFrame>& frames = recorded.frames();
+  found.frames = recorded.frames();
   if (!options.convergence.empty()) {
-    PlotConvergence(FramesOfTheCamera(frames), model, options.convergence);
+    PlotConvergence(FramesOfTheCamera(found.frames), model, options.convergence);
   }
-  calibration::JointRequest request =
-      RequestOf(options, experiment, materials, recorded.has_camera());
-  request.own_poses = recorded.own_poses();
-  if (options.what == "joint") TakeRobotFrameAsExact(&request);
-  const bool offsets_are_asked = request.marker_offset_sigma_m > 0.0;
-  if (recorded.has_reference() && !offsets_are_asked) {
-    request.marker_offset_sigma_m = OffsetOfMarkers_m(*model);
+  found.request = RequestOf(options, experiment, materials, recorded.has_camera());
+  found.request.own_poses = recorded.own_poses();
+  if (options.what == "joint") TakeRobotFrameAsExact(&found.request);
+  if (recorded.has_reference() && !(found.request.marker_offset_sigma_m > 0.0)) {
+    found.request.marker_offset_sigma_m = OffsetOfMarkers_m(*model);
   }
-  const JointCalibration fit = FitMarkers(frames, request, model);
-  if (!options.assignment.empty()) DrawFrames(options.assignment, frames, fit, *model);
-  robot::CalibrationFile file = MakeCalibration(*model, chosen, options.data);
-  calibration::TakeFit(fit, *model, &file);
-  if (!offsets_are_asked) std::erase_if(file.undetermined, IsMarkerOffset);
-  NameKnownLoads(chosen, &file);
+  found.fit = FitMarkers(found.frames, found.request, model);
+  if (!options.assignment.empty()) {
+    DrawFrames(options.assignment, found.frames, found.fit, *model);
+  }
+  return found;
+}
+
+robot::CalibrationFile Describe(const MarkerCalibration& found, const CalibrateOptions& options,
+                                const robot::RobotModel& model) {
+  robot::CalibrationFile file = MakeCalibration(model, found.recordings, options.data);
+  calibration::TakeFit(found.fit, model, &file);
+  LeaveOutMarkerOffsets(options, &file);
+  NameKnownLoads(found.recordings, &file);
   RequireSomething(file);
-  if (!options.json) PrintFit(fit, frames);
+  if (!options.json) PrintFit(found.fit, found.frames);
   return file;
+}
+
+robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
+                                        const experiment::Experiment& experiment,
+                                        const std::vector<int>& materials,
+                                        robot::RobotModel* model) {
+  return Describe(FitRecordedMarkers(options, experiment, materials, model), options, *model);
 }
 
 }  // namespace palpate::command

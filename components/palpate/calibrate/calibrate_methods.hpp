@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "components/calibration/cloud/cloud_calibration.hpp"
 #include "components/calibration/joint/joint_request.hpp"
 #include "components/palpate/calibrate/calibrate_verb.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -25,6 +26,40 @@ bool HasMarkersOfTheCamera(const experiment::Experiment& experiment);
 /// Whether a suitable recording has depth images.
 bool HasImagesOfTheCamera(const experiment::Experiment& experiment);
 
+/// What the markers of recordings give.
+struct MarkerCalibration {
+  std::vector<const experiment::Recording*> recordings;
+  std::vector<calibration::CalibrationFrame> frames;
+  calibration::JointRequest request;
+  calibration::JointCalibration fit;
+};
+/// The model has the estimates.
+MarkerCalibration FitRecordedMarkers(const CalibrateOptions& options,
+                                     const experiment::Experiment& experiment,
+                                     const std::vector<int>& materials, robot::RobotModel* model);
+/// The file, printed but with --json.
+robot::CalibrationFile Describe(const MarkerCalibration& found, const CalibrateOptions& options,
+                                const robot::RobotModel& model);
+
+/// Removes offsets of markers that were not asked for from what is undetermined.
+void LeaveOutMarkerOffsets(const CalibrateOptions& options, robot::CalibrationFile* file);
+
+/// What the clouds of images give.
+struct ImageCalibration {
+  std::vector<const experiment::Recording*> recordings;
+  geometry::DepthPicture picture;  ///< of the first recording's images
+  std::vector<calibration::CloudFrame> frames;
+  calibration::CloudCalibration fit;
+};
+/// From the approximate pose `start`; `clouds` without fit_depth_bias. The model has the estimates,
+/// and is unchanged where an error is thrown.
+ImageCalibration FitImages(const CalibrateOptions& options,
+                           const experiment::Experiment& experiment, const Eigen::Isometry3d& start,
+                           calibration::CloudSettings clouds, robot::RobotModel* model);
+/// The file, printed but with --json.
+robot::CalibrationFile Describe(const ImageCalibration& found, const CalibrateOptions& options,
+                                const robot::RobotModel& model);
+
 /// Actuator offsets, gravity and the moduli of `materials` (empty: not estimated) from markers,
 /// with the camera pose where they were measured in its frame.
 robot::CalibrationFile CalibrateJointly(const CalibrateOptions& options,
@@ -38,6 +73,14 @@ robot::CalibrationFile CalibrateFromImages(const CalibrateOptions& options,
                                            const experiment::Experiment& experiment,
                                            const std::vector<int>& materials,
                                            robot::RobotModel* model);
+
+/// From named markers and from images in one fit. Images without an approximate camera pose are
+/// left out, which is printed. Throws RunError where one of both does not fit, or they contradict
+/// each other.
+robot::CalibrationFile CalibrateTogether(const CalibrateOptions& options,
+                                         const experiment::Experiment& experiment,
+                                         const std::vector<int>& materials,
+                                         robot::RobotModel* model);
 
 /// Whether the points of the recordings have no marker names, or --unlabelled ignores them.
 bool AreUnlabelled(const CalibrateOptions& options, const experiment::Experiment& experiment);

@@ -111,6 +111,9 @@ robot::CalibrationFile Find(const CalibrateOptions& options, robot::RobotModel* 
   if (options.what == "material" && !HasMarkersOfTheCamera(experiment)) {
     return CalibrateMaterial(options, experiment, materials, model);
   }
+  const bool together = options.what == "auto" && options.from.empty() && !unlabelled && markers &&
+                        HasImagesOfTheCamera(experiment);
+  if (together) return CalibrateTogether(options, experiment, materials, model);
   if (unlabelled) return CalibrateFromUnlabelled(options, experiment, asked, model);
   return CalibrateJointly(options, experiment, options.what == "camera" ? asked : materials, model);
 }
@@ -167,8 +170,9 @@ void DeclareWhat(app::Arguments& arguments, CalibrateOptions* options) {
                    "there are images, and of named markers a modulus that they determine)");
   arguments.Choice("--from", &options->from, {"markers", "images"},
                    "Measurement for the camera pose; without it markers in the camera frame where "
-                   "a recording has them, else images: by fiducials where --set "
-                   "perception.markers.color_rgb names their colour, else by the robot's shape");
+                   "a recording has them, with --what auto together with images, else images: by "
+                   "fiducials where --set perception.markers.color_rgb names their colour, else by "
+                   "the robot's shape");
   arguments.Repeated("--recording NAME", &options->recordings,
                      "Use this recording; without it all but those of kind free");
   arguments.Repeated(

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <fstream>
+#include <sstream>
+
 #include "libs/core/error.hpp"
 #include "libs/geometry/pose_text.hpp"
 #include "tests/components/palpate/look_fixture.hpp"
@@ -106,6 +109,65 @@ TEST_F(CalibrateImages, SettingsThatAreNotThereAreRefused) {
   options_.camera_pose = Text(PoseOffBy(0.0, 0.0));
   options_.overrides = {"perception.robot_colour_rgb=[1, 0, 0]"};
   EXPECT_THAT(Refusal<InputError>(), HasSubstr("did you mean"));
+}
+
+/// Images, and motion capture in the camera's frame.
+class CalibrateTogetherTest : public CalibrateImages {
+ protected:
+  CalibrateTogetherTest() { options_.what = "auto"; }
+
+  static std::string Scene() {
+    return kSimulatedCamera + "markers: {sigma_m: [0.001, 0.001, 0.001], rate_hz: 30}\n" +
+           kTwoHoldsAndFree;
+  }
+  robot::CalibrationFile CalibrateFrom(const std::string& from) {
+    options_.from = from;
+    EXPECT_EQ(Calibrate(options_), 0);
+    return Found();
+  }
+  /// Along the camera's x axis.
+  void ShiftMarkers(const std::string& recording, double by_m) const {
+    const auto file = options_.data / "recordings" / recording / "markers.csv";
+    std::istringstream lines(ReadFile(file));
+    std::string line, text;
+    std::getline(lines, line);
+    text = line + "\n";
+    while (std::getline(lines, line)) {
+      const auto begin = line.find(',', line.find(',') + 1) + 1;
+      const auto end = line.find(',', begin);
+      const double x_m = std::stod(line.substr(begin, end - begin)) + by_m;
+      text += line.substr(0, begin) + std::to_string(x_m) + line.substr(end) + "\n";
+    }
+    std::ofstream(file) << text;
+  }
+  static double TranslationError_m(const robot::CalibrationFile& file) {
+    return (file.pose->T_robot_camera.translation() - PoseOffBy(0.0, 0.0).translation()).norm();
+  }
+};
+
+TEST_F(CalibrateTogetherTest, MarkersAndImagesGiveOnePose) {
+  SimulateScene(Scene());
+  const robot::CalibrationFile markers = CalibrateFrom("markers");
+  const robot::CalibrationFile both = CalibrateFrom("");
+  ASSERT_TRUE(markers.pose && both.pose);
+  EXPECT_FALSE(markers.depth_bias);
+  EXPECT_TRUE(both.depth_bias);
+  EXPECT_GT(both.degrees_of_freedom, 2 * markers.degrees_of_freedom);
+  EXPECT_LT(both.pose->translation_error_m.norm(), markers.pose->translation_error_m.norm());
+  EXPECT_LE(TranslationError_m(both), 3.0 * both.pose->translation_error_m.norm());
+}
+
+TEST_F(CalibrateTogetherTest, WhatContradictsIsRefused) {
+  SimulateScene(Scene());
+  for (const char* name : {"a_hold", "b_hold"}) ShiftMarkers(name, 0.03);
+  EXPECT_THAT(Refusal<RunError>(), HasSubstr("markers and images contradict each other"));
+  EXPECT_FALSE(std::filesystem::exists(options_.out));
+}
+
+TEST_F(CalibrateTogetherTest, ImagesWithoutTheRobotAreRefused) {
+  SimulateScene(Scene());
+  options_.overrides = {"perception.robot_color_rgb=[0, 0, 1]"};
+  EXPECT_THAT(Refusal<RunError>(), HasSubstr("Give --from markers"));
 }
 
 }  // namespace
