@@ -26,6 +26,7 @@ LIBRARIES = {
     "rgbd": {"core", "geometry"},
     "correspondence": {"core", "geometry", "fem", "robot", "rgbd"},
     "experiment": {"core", "geometry", "rgbd"},
+    "recording": {"core"},
     "scenario": {"core", "geometry", "fem", "robot", "rgbd"},
     "gige_vision": {"core", "rgbd"},
     "fem": {"core", "linalg", "geometry"},
@@ -59,6 +60,7 @@ THIRD_PARTY = [
                 r"|klu\.h|Eigen/(?:Cholmod|UmfPack|KLU|SPQR)Support)"),
      {"fem"}, "SuiteSparse only in libs/fem: use fem::SparseSolver"),
     (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
+    (re.compile(r"zstd|lz4"), {"recording"}, "zstd and lz4 only in libs/recording"),
     (re.compile(r"png\.h"), {"rgbd"}, "libpng only in libs/rgbd: use rgbd/png.hpp"),
 ]
 # Third-party headers that stay behind one component.

@@ -4,20 +4,15 @@
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "libs/dds/qos.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/recording/reader.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.hpp"
 #include "tests/libs/dds/test_participant.hpp"
 #include "tests/support/measured_data.hpp"
@@ -32,67 +27,16 @@ std::filesystem::path RecordingFile() {
   return test_support::MeasuredDataFolder() / "ros2/ros2_humble_image_wrench.mcap";
 }
 
-Bytes ReadBytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(stream), {});
-}
-
-template <typename Number>
-Number NumberAt(const Bytes& bytes, size_t offset) {
-  Number number;
-  std::memcpy(&number, bytes.data() + offset, sizeof(number));
-  return number;
-}
-
-/// Calls `visit(opcode, content)` for each MCAP record from `offset` on.
-template <typename Visit>
-void ForEachRecord(const Bytes& bytes, size_t offset, const Visit& visit) {
-  constexpr size_t kPrefix = 1 + sizeof(uint64_t);
-  while (offset + kPrefix <= bytes.size()) {
-    const size_t length = NumberAt<uint64_t>(bytes, offset + 1);
-    if (length > bytes.size() - offset - kPrefix) return;
-    visit(bytes[offset], bytes.substr(offset + kPrefix, length));
-    offset += kPrefix + length;
-  }
-}
-
-/// The records in a chunk, decompressed by the program zstd.
-Bytes Unpacked(const Bytes& chunk) {
-  constexpr size_t kName = 8 + 8 + 8 + 4;  // start, end, size, checksum
-  const size_t content = kName + 4 + NumberAt<uint32_t>(chunk, kName) + 8;
-  const auto packed = std::filesystem::path(testing::TempDir()) /
-                      ("palpate_chunk_" + std::to_string(getpid()) + ".zst");
-  auto unpacked = packed;
-  unpacked.replace_extension(".bin");
-  std::ofstream(packed, std::ios::binary) << chunk.substr(content);
-  const std::string command = "zstd -q -d -f -o " + unpacked.string() + " " + packed.string();
-  const int exit_code = std::system(command.c_str());
-  const Bytes bytes = exit_code == 0 ? ReadBytes(unpacked) : Bytes();
-  std::filesystem::remove(packed);
-  std::filesystem::remove(unpacked);
-  return bytes;
-}
-
-/// CDR of every message of the topic, in file order.
+/// CDR of every message of the topic, in the order of their log time.
 std::vector<Bytes> PayloadsOf(const std::string& topic) {
-  constexpr char kChannel = 4, kMessage = 5, kChunk = 6;
-  constexpr size_t kMessageHeader = 2 + 4 + 8 + 8;
-  const Bytes file = ReadBytes(RecordingFile());
-  int channel = -1;
-  ForEachRecord(file, 8, [&](char opcode, const Bytes& record) {
-    const bool found = opcode == kChannel && record.substr(8, topic.size()) == topic &&
-                       NumberAt<uint32_t>(record, 4) == topic.size();
-    if (found) channel = NumberAt<uint16_t>(record, 0);
-  });
+  const recording::Reader reader(RecordingFile());
+  EXPECT_TRUE(recording::Scan(recording::InputFile(RecordingFile())).problems.empty());
+  recording::MessageFilter filter;
+  filter.wanted = [&](const recording::Channel& channel) { return channel.topic == topic; };
+  recording::MessageStream stream = reader.Messages(filter);
   std::vector<Bytes> payloads;
-  ForEachRecord(file, 8, [&](char opcode, const Bytes& chunk) {
-    if (opcode != kChunk) return;
-    ForEachRecord(Unpacked(chunk), 0, [&](char inner, const Bytes& message) {
-      if (inner == kMessage && NumberAt<uint16_t>(message, 0) == channel) {
-        payloads.push_back(message.substr(kMessageHeader));
-      }
-    });
-  });
+  while (const recording::Message* message = stream.Next()) payloads.emplace_back(message->data);
+  EXPECT_TRUE(stream.problems().empty());
   return payloads;
 }
 
@@ -131,9 +75,6 @@ class RosRecording : public testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(RecordingFile())) {
       GTEST_SKIP() << "no " << RecordingFile() << " (set PALPATE_DATA_DIR)";
-    }
-    if (std::system("zstd --version > /dev/null 2>&1") != 0) {
-      GTEST_SKIP() << "the program zstd is not installed";
     }
   }
 };
