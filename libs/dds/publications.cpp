@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "libs/dds/publications.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "libs/dds/type_idl.hpp"
+
+namespace palpate::dds {
+
+namespace {
+
+using Guid = std::array<std::uint8_t, 16>;
+
+Guid ToArray(const dds_guid_t& guid) {
+  Guid array{};
+  std::memcpy(array.data(), guid.v, array.size());
+  return array;
+}
+
+Publication PublicationOf(const dds_builtintopic_endpoint_t& endpoint) {
+  Publication publication;
+  publication.guid = ToArray(endpoint.key);
+  // The last octet says what kind of endpoint it is (RTPS 2.3, table 9.1): 2 is a writer with key.
+  constexpr unsigned kKindBits = 0x0F;
+  constexpr unsigned kWriterWithKey = 2;
+  publication.has_key = (publication.guid.back() & kKindBits) == kWriterWithKey;
+  publication.dds_topic = endpoint.topic_name;
+  publication.dds_type = endpoint.type_name;
+  dds_reliability_kind_t reliability{};
+  if (dds_qget_reliability(endpoint.qos, &reliability, nullptr) &&
+      reliability == DDS_RELIABILITY_BEST_EFFORT) {
+    publication.reliability = Reliability::kBestEffort;
+  }
+  dds_durability_kind_t durability{};
+  if (dds_qget_durability(endpoint.qos, &durability) && durability != DDS_DURABILITY_VOLATILE) {
+    publication.durability = Durability::kTransientLocal;
+  }
+  dds_history_kind_t history{};
+  std::int32_t depth = 0;
+  if (dds_qget_history(endpoint.qos, &history, &depth) && history == DDS_HISTORY_KEEP_LAST) {
+    publication.depth = static_cast<std::uint32_t>(std::max(0, depth));
+  }
+  return publication;
+}
+
+}  // namespace
+
+Publications::Publications(dds_entity_t participant,
+                           std::function<bool(const std::string&)> needs_idl)
+    : participant_(participant),
+      needs_idl_(std::move(needs_idl)),
+      reader_(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+              "reader of the writers of the domain") {
+  dds_guid_t guid;
+  if (dds_get_guid(participant, &guid) == DDS_RETCODE_OK) own_guid_ = ToArray(guid);
+}
+
+bool Publications::Update() {
+  bool changed = false;
+  std::array<void*, 16> samples{};
+  std::array<dds_sample_info_t, 16> infos{};
+  dds_return_t count = 0;
+  while ((count = dds_take(reader_.handle(), samples.data(), infos.data(), samples.size(),
+                           samples.size())) > 0) {
+    for (int i = 0; i < count; ++i) {
+      auto& endpoint = *static_cast<dds_builtintopic_endpoint_t*>(samples[static_cast<size_t>(i)]);
+      const dds_sample_info_t& info = infos[static_cast<size_t>(i)];
+      if (ToArray(endpoint.participant_key) == own_guid_ && info.valid_data) continue;
+      if (info.instance_state == DDS_IST_ALIVE && info.valid_data) {
+        Publication publication = PublicationOf(endpoint);
+        if (needs_idl_(publication.dds_type)) {
+          publication.omg_idl = IdlOfEndpoint(participant_, endpoint);
+        }
+        all_.insert_or_assign(publication.guid, std::move(publication));
+        changed = true;
+      } else {
+        changed = all_.erase(ToArray(endpoint.key)) > 0 || changed;
+      }
+    }
+    dds_return_loan(reader_.handle(), samples.data(), count);
+    samples.fill(nullptr);
+  }
+  return changed;
+}
+
+}  // namespace palpate::dds
