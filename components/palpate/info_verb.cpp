@@ -8,9 +8,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/recordings/describe_mcap.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/experiment/experiment.hpp"
@@ -151,6 +153,10 @@ Findings DescribeExperiment(const std::filesystem::path& target) {
 
 Findings Describe(const InfoOptions& options) {
   const std::filesystem::path& target = options.target;
+  if (const auto files = McapFilesOf(target); !files.empty()) {
+    McapDescription described = DescribeMcap(files);
+    return {std::move(described.json), std::move(described.text)};
+  }
   if (std::filesystem::is_directory(target)) {
     return DescribeExperiment(target);
   }
@@ -166,12 +172,13 @@ int Info(const InfoOptions& options) {
 }
 
 app::Verb InfoVerb() {
-  return {"info", "Summarise and check a robot file, mesh or data folder",
+  return {"info", "Summarise and check a robot file, mesh, data folder or MCAP file",
           [](app::Arguments& arguments) -> app::Verb::Action {
             const auto options = std::make_shared<InfoOptions>();
-            arguments.Positional("TARGET", &options->target,
-                                 "Robot file, name of a robot in config/robots, mesh (.vtu, .vtk, "
-                                 ".msh), or experiment or recording folder");
+            arguments.Positional(
+                "TARGET", &options->target,
+                "Robot file, name of a robot in config/robots, mesh (.vtu, .vtk, "
+                ".msh), experiment or recording folder, or MCAP file or folder of them");
             arguments.Suggest("TARGET", KnownRobots());
             arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
                              "Length unit of a mesh file; robot files name their own");

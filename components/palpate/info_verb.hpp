@@ -11,12 +11,12 @@
 namespace palpate::command {
 
 struct InfoOptions {
-  std::filesystem::path target;  ///< robot file or name, mesh file, or folder of measured data
+  std::filesystem::path target;  ///< robot, mesh, folder of measured data, or MCAP files
   std::string unit = "m";        ///< of the lengths in a mesh file: m, cm or mm
   bool json = false;
 };
 
-/// `palpate info`: what a robot, a mesh or an experiment holds. Throws InputError.
+/// `palpate info`: what a robot, a mesh, an experiment or an MCAP file holds. Throws InputError.
 int Info(const InfoOptions& options);
 
 app::Verb InfoVerb();

@@ -210,6 +210,16 @@ void CheckMagic(const InputFile& file) {
                    "is no MCAP recording: it does not begin with MCAP's 8 bytes");
 }
 
+bool IsMcap(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  try {
+    return InputFile(file).Read(0, kMagic.size()) == kMagic;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 std::optional<Contents> ReadSummary(const InputFile& file) {
   Footer footer;
   if (!FindFooter(file, &footer)) return std::nullopt;

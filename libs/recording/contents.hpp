@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -49,6 +50,9 @@ Contents Scan(const InputFile& file);
 
 /// Throws InputError where the file does not begin as MCAP does.
 void CheckMagic(const InputFile& file);
+
+/// Whether there is a file that begins as MCAP does.
+bool IsMcap(const std::filesystem::path& file);
 
 /// The records of a block, unpacked and checked by their CRC. False, with the cause, where they
 /// are damaged.

@@ -10,7 +10,9 @@
 #include "components/palpate/import_verb.hpp"
 #include "components/palpate/info_verb.hpp"
 #include "components/palpate/node/demo/demo_verb.hpp"
+#include "components/palpate/node/record/record_verb.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
+#include "components/palpate/recordings/repair_verb.hpp"
 #include "components/palpate/reference_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
 #include "components/palpate/solve_verb.hpp"
@@ -20,8 +22,9 @@ namespace palpate::command {
 
 int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
-      DemoVerb(),   SolveVerb(),   SimulateVerb(), CalibrateVerb(), EstimateVerb(), DiagnoseVerb(),
-      ImportVerb(), CaptureVerb(), WatchVerb(),    InfoVerb(),      ReferenceVerb()};
+      DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
+      DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     RecordVerb(),
+      RepairVerb(),   InfoVerb(),   ReferenceVerb()};
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
 }
