@@ -30,6 +30,7 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kRobotCommandTopic),
           NameAndType(kForcesTopic),
           NameAndType(kWrenchTopic),
+          NameAndType(kWrenchesTopic),
           NameAndType(kMeshStateTopic),
           NameAndType(kMeshTopic),
           NameAndType(kModelGapTopic),

@@ -22,6 +22,7 @@
 #include "palpate_msgs/msg/MeshState.hpp"
 #include "palpate_msgs/msg/ModelGap.hpp"
 #include "palpate_msgs/msg/PerceptionReport.hpp"
+#include "palpate_msgs/msg/WrenchArray.hpp"
 #include "rcl_interfaces/msg/Log.hpp"
 #include "sensor_msgs/msg/CameraInfo.hpp"
 #include "sensor_msgs/msg/Image.hpp"
@@ -57,7 +58,10 @@ inline constexpr Topic<idl::sensor_msgs::JointState> kJointStatesTopic{"/robot/j
 /// Commands to the actuators: name = cable, position = displacement in m (NaN: cable free).
 inline constexpr Topic<idl::sensor_msgs::JointState> kRobotCommandTopic{"/robot/command"};
 inline constexpr Topic<idl::palpate_msgs::ForceArray> kForcesTopic{"/forces"};
+/// <name>: a given contact's, else a slot's (slot_1, slot_2, ...).
 inline constexpr Topic<idl::geometry_msgs::WrenchStamped> kWrenchTopic{"/forces/<name>/wrench"};
+/// All of them, under a name that is known beforehand.
+inline constexpr Topic<idl::palpate_msgs::WrenchArray> kWrenchesTopic{"/forces/wrenches"};
 inline constexpr Topic<idl::palpate_msgs::MeshState> kMeshStateTopic{"/robot/mesh_state"};
 inline constexpr Topic<idl::palpate_msgs::Mesh> kMeshTopic{"/robot/mesh"};
 inline constexpr Topic<idl::palpate_msgs::ModelGap> kModelGapTopic{"/model_gap"};

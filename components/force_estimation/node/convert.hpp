@@ -40,6 +40,15 @@ dds::Message<idl::palpate_msgs::ForceArray> ToForceArray(const FrameHead& head,
 dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
                                                          const ContactForce& contact);
 
+struct ContactWrench {
+  ContactForce contact;
+  std::string topic;  ///< where it is a WrenchStamped; empty: nowhere
+};
+
+/// Without counter.
+dds::Message<idl::palpate_msgs::WrenchArray> ToWrenchArray(
+    int64_t stamp_ns, const std::vector<ContactWrench>& wrenches);
+
 /// Without positions where the state is unknown.
 dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result,
                                                        const std::string& mesh_hash);

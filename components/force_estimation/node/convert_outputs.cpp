@@ -19,6 +19,11 @@ void SetHeader(idl::std_msgs::Header& header, int64_t stamp_ns) {
   dds::SetHeader(header, stamp_ns, geometry::kRobotFrame);
 }
 
+void SetWrench(geometry_msgs_msg_dds__Wrench_& target, const ContactForce& contact) {
+  dds::SetVector(target.force, contact.force_N);
+  dds::SetVector(target.torque, contact.position_m.cross(contact.force_N));
+}
+
 void Fill(const ModelGapPart& part, palpate_msgs_msg_dds__ModelGapPart_& target) {
   dds::SetText(target.name, part.name);
   target.residual_rms_m = part.residual_rms_m;
@@ -62,8 +67,21 @@ dds::Message<idl::geometry_msgs::WrenchStamped> ToWrench(int64_t stamp_ns,
                                                          const ContactForce& contact) {
   dds::Message<idl::geometry_msgs::WrenchStamped> message;
   SetHeader(message->header, stamp_ns);
-  dds::SetVector(message->wrench.force, contact.force_N);
-  dds::SetVector(message->wrench.torque, contact.position_m.cross(contact.force_N));
+  SetWrench(message->wrench, contact);
+  return message;
+}
+
+dds::Message<idl::palpate_msgs::WrenchArray> ToWrenchArray(
+    int64_t stamp_ns, const std::vector<ContactWrench>& wrenches) {
+  dds::Message<idl::palpate_msgs::WrenchArray> message;
+  SetHeader(message->header, stamp_ns);
+  dds::Resize(message->wrenches, wrenches.size());
+  for (size_t i = 0; i < wrenches.size(); ++i) {
+    auto& target = message->wrenches._buffer[i];
+    dds::SetText(target.name, wrenches[i].contact.name);
+    dds::SetText(target.topic, wrenches[i].topic);
+    SetWrench(target.wrench, wrenches[i].contact);
+  }
   return message;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "components/force_estimation/contact_site.hpp"
 #include "components/force_estimation/node/convert.hpp"
 #include "components/force_estimation/node/frame_gate.hpp"
 #include "components/force_estimation/node/make_pipeline.hpp"
@@ -43,6 +44,12 @@ std::optional<Eigen::Isometry3d> CameraPose(const NodeConfig& config) {
   return geometry::ReadPose(app::ParseYaml(config.camera_pose, "camera_pose"));
 }
 
+std::vector<std::string> GivenContacts(const NodeConfig& config) {
+  std::vector<std::string> names;
+  for (const ContactSite& site : ParseContactSites(config.contacts)) names.push_back(site.name);
+  return names;
+}
+
 double SecondsNow() { return NsToSeconds(MonotonicNow_ns()); }
 
 }  // namespace
@@ -63,7 +70,7 @@ ForceEstimationNode::ForceEstimationNode(const NodeConfig& config,
               [this] { loop_.Wake(); }),
       cable_names_(worker_.model().CableNames()),
       cables_(cable_names_.size(), PreferredInput(config)),
-      outputs_(participant_, worker_.model().body(), IsFromShape(config)),
+      outputs_(participant_, worker_.model().body(), IsFromShape(config), GivenContacts(config)),
       joint_states_(participant_.CreateReader(dds::kJointStatesTopic)),
       calibration_(participant_, worker_.model()),
       in_use_(calibration),

@@ -6,23 +6,29 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
-#include "libs/dds/ros_names.hpp"
 #include "libs/dds/stamp.hpp"
 
 namespace palpate::force_estimation {
 
 namespace {
-constexpr size_t kMostWrenches = 64;
+
+bool HasWrench(const ContactForce& contact) {
+  return IsUsable(contact.status) || contact.status.code() == StatusCode::kHidden;
+}
+
 }  // namespace
 
-Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always)
+Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always,
+                 std::vector<std::string> given_contacts)
     : participant_(participant),
       body_(body),
       answer_always_(answer_always),
       forces_(participant.CreateWriter(dds::kForcesTopic)),
       mesh_state_(participant.CreateWriter(dds::kMeshStateTopic)),
       mesh_(participant.CreateWriter(dds::kMeshTopic)),
-      model_gap_(participant.CreateWriter(dds::kModelGapTopic)) {
+      model_gap_(participant.CreateWriter(dds::kModelGapTopic)),
+      wrench_array_(participant.CreateWriter(dds::kWrenchesTopic)),
+      wrench_slots_(std::move(given_contacts)) {
   failed_ += mesh_.Write(ToMesh(body_, dds::WallClockNs())) ? 0 : 1;
 }
 
@@ -35,15 +41,13 @@ void Outputs::Publish(const FrameResult& result) {
     gap->counter = model_gap_counter_++;
     failed_ += model_gap_.Write(gap) ? 0 : 1;
   }
-  for (const ContactForce& contact : estimate.contacts) {
-    const bool hidden = contact.status.code() == StatusCode::kHidden;
-    if (IsUsable(contact.status) || hidden) PublishWrench(result.head.stamp_ns, contact);
-  }
+  PublishWrenches(result.head, estimate.contacts);
   Answer(result.head, ToForceArray(result.head, estimate.status, estimate.contacts));
 }
 
 void Outputs::PublishRefusal(const FrameHead& head, const Status& status) {
   if (answer_always_) SendMeshState(NoMeshState(head, status, body_.mesh_hash));
+  PublishWrenches(head, {});
   Answer(head, ToForceArray(head, status, {}));
 }
 
@@ -82,17 +86,28 @@ void Outputs::Repeat(const FrameHead& head) {
   failed_ += forces_.Write(last_forces_) ? 0 : 1;
 }
 
-void Outputs::PublishWrench(int64_t stamp_ns, const ContactForce& contact) {
-  const std::string name = dds::RosNamePart(contact.name);
+void Outputs::PublishWrenches(const FrameHead& head, const std::vector<ContactForce>& contacts) {
+  std::vector<ContactWrench> wrenches;
+  for (const ContactForce& contact : contacts) {
+    if (HasWrench(contact)) wrenches.push_back({contact, PublishWrench(head.stamp_ns, contact)});
+  }
+  auto message = ToWrenchArray(head.stamp_ns, wrenches);
+  message->counter = wrench_array_counter_++;
+  failed_ += wrench_array_.Write(message) ? 0 : 1;
+}
+
+std::string Outputs::PublishWrench(int64_t stamp_ns, const ContactForce& contact) {
+  const std::string name = wrench_slots_.NameOf(contact.name, stamp_ns);
+  if (name.empty()) {
+    ++failed_;
+    return {};
+  }
   auto writer = wrenches_.find(name);
   if (writer == wrenches_.end()) {
-    if (wrenches_.size() == kMostWrenches) {
-      ++failed_;
-      return;
-    }
     writer = wrenches_.emplace(name, participant_.CreateWriter(dds::kWrenchTopic, {}, name)).first;
   }
   failed_ += writer->second.Write(ToWrench(stamp_ns, contact)) ? 0 : 1;
+  return writer->second.ros_name();
 }
 
 uint64_t Outputs::failed() const { return failed_; }

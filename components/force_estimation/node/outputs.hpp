@@ -5,8 +5,10 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "components/force_estimation/node/frame_input.hpp"
+#include "components/force_estimation/node/wrench_slots.hpp"
 #include "libs/dds/participant.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -17,8 +19,9 @@ class Outputs {
  public:
   /// Publishes the mesh, which is latched. `body` must outlive this. `answer_always`: every frame
   /// is answered on /robot/mesh_state, too, if need be without positions; else only those that were
-  /// estimated.
-  Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always);
+  /// estimated. `given_contacts`: names of the contacts that the settings give.
+  Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always,
+          std::vector<std::string> given_contacts);
 
   void Publish(const FrameResult& result);
   /// Publishes on /forces why a frame has no estimate.
@@ -29,7 +32,7 @@ class Outputs {
   void Repeat(const FrameHead& head);
 
   uint64_t published() const { return forces_.sent_count(); }
-  /// Messages that DDS refused, and wrenches of contacts beyond the first 64 names.
+  /// Messages that DDS refused, and wrenches beyond the 64 contacts that may be there at once.
   uint64_t failed() const;
   uint32_t readers() const { return forces_.matched(); }
   /// Times from taking a frame to publishing since the last call, s.
@@ -39,7 +42,9 @@ class Outputs {
   void Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray> message);
   void Send(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray>& message);
   void SendMeshState(dds::Message<idl::palpate_msgs::MeshState> message);
-  void PublishWrench(int64_t stamp_ns, const ContactForce& contact);
+  void PublishWrenches(const FrameHead& head, const std::vector<ContactForce>& contacts);
+  /// Returns the topic; empty: no slot is free.
+  std::string PublishWrench(int64_t stamp_ns, const ContactForce& contact);
 
   dds::Participant& participant_;
   const robot::RobotBody& body_;
@@ -48,7 +53,9 @@ class Outputs {
   dds::Writer<idl::palpate_msgs::MeshState> mesh_state_;
   dds::Writer<idl::palpate_msgs::Mesh> mesh_;
   dds::Writer<idl::palpate_msgs::ModelGap> model_gap_;
-  std::map<std::string, dds::Writer<idl::geometry_msgs::WrenchStamped>> wrenches_;
+  dds::Writer<idl::palpate_msgs::WrenchArray> wrench_array_;
+  WrenchSlots wrench_slots_;
+  std::map<std::string, dds::Writer<idl::geometry_msgs::WrenchStamped>> wrenches_;  ///< by <name>
   FrameHead last_head_;
   dds::Message<idl::palpate_msgs::ForceArray> last_forces_;
   bool answered_ = false;
@@ -56,6 +63,7 @@ class Outputs {
   uint64_t mesh_state_counter_ = 0;
   uint64_t model_gap_counter_ = 0;
   uint64_t forces_counter_ = 0;
+  uint64_t wrench_array_counter_ = 0;
   std::vector<double> latencies_s_;
 };
 

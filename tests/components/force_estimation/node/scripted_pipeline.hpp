@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "components/force_estimation/pipeline/pipeline.hpp"
@@ -40,6 +41,10 @@ class Script {
     const std::lock_guard lock(mutex_);
     bias_frames_to_come_ = frames;
   }
+  void SetContactName(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    contact_name_ = name;
+  }
   PipelineMaker Maker() {
     return [this](robot::RobotModel& model) { return std::make_unique<Scripted>(*this, model); };
   }
@@ -65,7 +70,7 @@ class Script {
       result_.estimate.x_m = model_.RestState().x_m;
       ContactForce contact;
       contact.status = Status::Ok();
-      contact.name = "contact_1";
+      contact.name = script_.contact_name_;
       contact.force_N.z() = static_cast<double>(shape.frame.cloud.Count());
       result_.estimate.contacts = {contact};
       return result_;
@@ -83,6 +88,7 @@ class Script {
   bool hold_ = false;
   DriftReport drift_;
   int bias_frames_to_come_ = 0;
+  std::string contact_name_ = "contact_1";
   int made_ = 0;
   std::vector<Call> calls_;
 };
