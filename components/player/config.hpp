@@ -18,6 +18,7 @@ struct Config {
   double step_deadline_s = 60.0;
   double resend_s = 2.0;
   bool rewind_for_new_estimator = true;
+  bool publish_clock = false;
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
@@ -36,6 +37,8 @@ struct Config {
     v("rewind_for_new_estimator", rewind_for_new_estimator,
       "Restart the recording when a force estimator appears, so that it receives the reference "
       "frames");
+    v("publish_clock", publish_clock,
+      "Publish the time of the recording on /clock, for nodes with dds.use_sim_time");
   }
 };
 

@@ -34,6 +34,14 @@ int DomainOfEnvironment() {
   return domain;
 }
 
+void AddRules(const std::vector<std::string>& rules, const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) {
+    if (setting.key != "dds.remap") continue;
+    auto& list = *std::get<std::vector<std::string>*>(setting.value);
+    list.insert(list.end(), rules.begin(), rules.end());
+  }
+}
+
 }  // namespace
 
 void DeclareDomain(Arguments& arguments, int* domain_id) {
@@ -51,6 +59,8 @@ void DeclareNodeOptions(Arguments& arguments, NodeOptions* options) {
                    "Settings file (YAML); settings that it lacks keep their defaults");
   arguments.Repeated("--set KEY=VALUE", &options->overrides,
                      "Change one setting; overrides the settings file");
+  arguments.Repeated("--remap FROM:=TO", &options->remap,
+                     "Another name for a topic, __node or __ns, as ros2 run has it");
   DeclareDomain(arguments, &options->domain_id);
   arguments.Choice("--log-level LEVEL", &options->log_level, {"debug", "info", "warning", "error"},
                    "Lowest severity that is logged: debug, info, warning or error");
@@ -71,6 +81,7 @@ bool SettleNodeOptions(const std::vector<Setting>& settings, NodeOptions* option
     LoadSettings(ParseYaml(bytes, options->config_file.string()), settings);
   }
   for (const std::string& assignment : options->overrides) ApplyOverride(assignment, settings);
+  AddRules(options->remap, settings);
   if (!options->print_config) return true;
   std::fputs((options->markdown ? PrintMarkdown(settings) : PrintYaml(settings)).c_str(), stdout);
   return false;

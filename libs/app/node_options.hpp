@@ -8,17 +8,19 @@
 #include <vector>
 
 #include "libs/app/arguments.hpp"
+#include "libs/app/ros_arguments.hpp"
 #include "libs/app/settings.hpp"
 
 namespace palpate::app {
 
 /// The options that every process has: --config, --set, --domain, --log-level,
-/// --print-config [--markdown], beside what every program has (command_text.hpp).
+/// --print-config [--markdown], --remap, beside what every program has (command_text.hpp).
 struct NodeOptions {
   std::filesystem::path config_file;  ///< empty: none
   std::string config_sha256;          ///< of that file's bytes; empty without a file
   std::vector<std::string> overrides;
-  int domain_id = 0;  ///< --domain, else ROS_DOMAIN_ID, else 0; 0 to 232
+  std::vector<std::string> remap;  ///< added to the setting dds.remap
+  int domain_id = 0;               ///< --domain, else ROS_DOMAIN_ID, else 0; 0 to 232
   std::string log_level = "info";
   bool print_config = false;
   bool markdown = false;
@@ -48,13 +50,14 @@ struct NodeCommand {
   NodeOptions options;
 };
 
-/// Reads the whole command line, once a process has declared the arguments of its own: declares the
-/// options above, parses, fills settings and options of `command` (a NodeCommand). False: what was
-/// asked for has been printed, the program is done. Throws InputError.
+/// Reads the whole command line, that of ROS 2 (--ros-args) included, once a process has declared
+/// the arguments of its own: declares the options above, parses, fills settings and options of
+/// `command` (a NodeCommand). False: what was asked for has been printed, the program is done.
+/// Throws InputError.
 template <typename Command>
 bool ReadNodeCommand(Arguments& arguments, int argc, const char* const* argv, Command* command) {
   DeclareNodeOptions(arguments, &command->options);
-  return arguments.Parse(CommandLineWords(argc, argv)) &&
+  return arguments.Parse(WithoutRosArguments(CommandLineWords(argc, argv))) &&
          SettleNodeOptions(ListSettings(command->config), &command->options);
 }
 

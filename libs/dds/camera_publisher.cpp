@@ -13,7 +13,8 @@ CameraPublisher::CameraPublisher(Participant& participant, const std::function<v
       depth_camera_{participant.CreateWriter(kDepthCameraInfoTopic)},
       color_camera_{participant.CreateWriter(kColorCameraInfoTopic)},
       info_{participant.CreateWriter(kFrameInfoTopic, on_change)},
-      setup_{participant.CreateWriter(kCameraSetupTopic)} {}
+      setup_{participant.CreateWriter(kCameraSetupTopic)},
+      transforms_{participant} {}
 
 bool CameraPublisher::PublishCamera(const rgbd::RgbdCamera& camera, const CameraIdentity& identity,
                                     std::int64_t stamp_ns) {
@@ -21,6 +22,10 @@ bool CameraPublisher::PublishCamera(const rgbd::RgbdCamera& camera, const Camera
   sent &=
       depth_camera_.Write(ToCameraInfo(camera.depth, stamp_ns, geometry::kCameraDepthOpticalFrame));
   if (camera.color.width_px == 0) return sent;
+  if (!camera.color_registered) {
+    sent &= transforms_.Set(geometry::kCameraDepthOpticalFrame, geometry::kCameraColorOpticalFrame,
+                            camera.T_depth_color, stamp_ns);
+  }
   return color_camera_.Write(ToCameraInfo(camera.color, stamp_ns, ColorFrameId(camera))) && sent;
 }
 

@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "libs/dds/camera_messages.hpp"
 #include "libs/dds/participant.hpp"
+#include "libs/dds/transforms.hpp"
 #include "libs/rgbd/rgbd_frame.hpp"
 
 namespace palpate::dds {
@@ -19,7 +21,8 @@ class CameraPublisher {
  public:
   explicit CameraPublisher(Participant& participant, const std::function<void()>& on_change = {});
 
-  /// Set-up and lenses; before the frames of an epoch.
+  /// Set-up, lenses and, of a colour camera beside the depth camera, its place on /tf_static;
+  /// before the frames of an epoch.
   [[nodiscard]] bool PublishCamera(const rgbd::RgbdCamera& camera, const CameraIdentity& identity,
                                    std::int64_t stamp_ns);
   /// Depth, colour (where there is any) and what is known about them, under one stamp.
@@ -28,6 +31,8 @@ class CameraPublisher {
 
   /// Waits until all reliable readers have what was sent.
   [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most);
+  /// The name of the depth image's topic.
+  const std::string& depth_topic() const { return depth_.ros_name(); }
   /// Of /camera/frame_info.
   std::uint32_t readers() const { return info_.matched(); }
   /// Whether images and frame info all have a reader.
@@ -42,6 +47,7 @@ class CameraPublisher {
   Writer<idl::sensor_msgs::CameraInfo> color_camera_;
   Writer<idl::palpate_msgs::FrameInfo> info_;
   Writer<idl::palpate_msgs::CameraSetup> setup_;
+  TransformBroadcaster transforms_;
   ImageMessage depth_message_{"16UC1", 2};
   ImageMessage color_message_{"rgb8", 3};
 };

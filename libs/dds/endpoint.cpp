@@ -90,6 +90,18 @@ void CheckType(const TopicSettings& topic, const dds_topic_descriptor_t& descrip
 
 }  // namespace
 
+std::string PolicyName(uint32_t id) {
+  switch (id) {
+    case DDS_RELIABILITY_QOS_POLICY_ID: return "reliability";
+    case DDS_DURABILITY_QOS_POLICY_ID: return "durability";
+    case DDS_DEADLINE_QOS_POLICY_ID: return "deadline";
+    case DDS_LIVELINESS_QOS_POLICY_ID: return "liveliness";
+    case DDS_OWNERSHIP_QOS_POLICY_ID: return "ownership";
+    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID: return "data representation";
+    default: return "a policy";
+  }
+}
+
 Endpoint::Endpoint(Kind kind, dds_entity_t participant, const TopicSettings& topic,
                    const std::string& ros_name, const dds_topic_descriptor_t& descriptor,
                    std::function<void()> on_change)

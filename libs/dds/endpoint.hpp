@@ -27,6 +27,9 @@ struct EndpointCounters {
   std::function<void()> on_change;  ///< called from DDS's threads after any of the above
 };
 
+/// "reliability", "durability", "deadline", ...; "a policy" for others. `id`: dds_qos_policy_id_t.
+std::string PolicyName(uint32_t id);
+
 /// A writer or reader with its topic; the untyped part that Writer and Reader share.
 class Endpoint {
  public:

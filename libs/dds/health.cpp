@@ -41,6 +41,7 @@ HealthReporter::HealthReporter(Participant& participant, std::string component_n
                                Clock::time_point start)
     : component_name_(std::move(component_name)),
       node_name_(participant.node_name()),
+      clock_(participant.clock()),
       start_(start),
       last_report_(start),
       status_(participant.CreateWriter(kComponentStatusTopic)),
@@ -61,7 +62,7 @@ Message<idl::palpate_msgs::ComponentStatus> HealthReporter::Fill(const Status& s
                                                                  const HealthCounts& counts,
                                                                  Clock::time_point now) const {
   Message<idl::palpate_msgs::ComponentStatus> message;
-  SetHeader(message->header, WallClockNs(), "");
+  SetHeader(message->header, clock_->Now_ns(), "");
   SetText(message->component_name, component_name_);
   SetText(message->status, ToString(status.code()));
   SetText(message->reason, status.message());

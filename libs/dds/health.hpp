@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,7 @@ class HealthReporter {
 
   std::string component_name_;
   std::string node_name_;
+  std::shared_ptr<RosClock> clock_;
   Clock::time_point start_;
   Clock::time_point last_report_;
   uint64_t last_received_ = 0;

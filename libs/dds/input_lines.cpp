@@ -21,6 +21,12 @@ constexpr double kLongestPause_s = 600.0;
 
 std::string TenthsOf(double seconds) { return FormatNumber(std::round(10.0 * seconds) / 10.0); }
 
+std::string Misfit(const std::string& policy) {
+  if (policy == "reliability") return "it is best_effort, reliable is asked for";
+  if (policy == "durability") return "it is volatile, transient_local is asked for";
+  return policy + " is weaker than asked for";
+}
+
 }  // namespace
 
 void InputLines::Add(InputName name) {
@@ -126,7 +132,9 @@ std::string InputLines::TextOf(Lack lack, const std::vector<const Input*>& input
       return text + "no publisher in domain " + std::to_string(domain_id_) + "; " + publisher +
              (inputs.size() == 1 ? " publishes it" : " publishes them");
     case Lack::kWrongQos:
-      return text + "the publisher's QoS does not match that of the topic table (topics_file)";
+      return text + "the publisher's QoS does not match: " +
+             Misfit(inputs.front()->last.incompatible_policy) + " (" +
+             inputs.front()->name.qos_setting + ")";
     case Lack::kNoMessage:
       return text + "no message within " + TenthsOf(silent_s) + " s; publisher present";
     case Lack::kSilent:

@@ -20,18 +20,20 @@ enum class InputKind {
 
 /// One input that a process needs.
 struct InputName {
-  std::string topic;
-  std::string publisher;  ///< the program that publishes it
+  std::string topic = {};
+  std::string publisher = {};  ///< the program that publishes it
   InputKind kind = InputKind::kStream;
+  std::string qos_setting = "topics_file";  ///< that decides what QoS is asked for
 };
 
 /// What a reader knows about its input at one time.
 struct InputState {
-  std::uint64_t taken = 0;             ///< messages since the start
-  std::uint32_t publishers = 0;        ///< matched now
-  std::uint32_t publishers_ever = 0;   ///< since the start, each reappearance too
-  std::uint32_t incompatible_qos = 0;  ///< publishers that do not match because of their QoS
-  bool needed = true;                  ///< at this time
+  std::uint64_t taken = 0;               ///< messages since the start
+  std::uint32_t publishers = 0;          ///< matched now
+  std::uint32_t publishers_ever = 0;     ///< since the start, each reappearance too
+  std::uint32_t incompatible_qos = 0;    ///< publishers that do not match because of their QoS
+  std::string incompatible_policy = {};  ///< "reliability", "durability", ...; of the last of them
+  bool needed = true;                    ///< at this time
 };
 
 /// Decides what a log says about inputs that do not come: "waiting for /perception/robot_cloud: no

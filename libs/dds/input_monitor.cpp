@@ -21,11 +21,19 @@ double Now_s() { return NsToSeconds(MonotonicNow_ns()); }
 InputMonitor::InputMonitor(const Participant& participant, WaitSet& loop, NodeLog& log)
     : log_(log), lines_(participant.domain_id(), Now_s()) {
   loop.Every(kLookPeriod, [this] { Look(); });
+  if (const Endpoint* clock = participant.clock()->reader()) {
+    Expect(*clock, "palpate-player with publish_clock, or ros2 bag play --clock,");
+  }
 }
 
 void InputMonitor::Expect(const Endpoint& reader, const std::string& publisher, InputKind kind,
                           IsNeeded is_needed) {
-  lines_.Add({reader.ros_name(), publisher, kind});
+  Expect(reader, InputName{.publisher = publisher, .kind = kind}, std::move(is_needed));
+}
+
+void InputMonitor::Expect(const Endpoint& reader, InputName input, IsNeeded is_needed) {
+  input.topic = reader.ros_name();
+  lines_.Add(std::move(input));
   watched_.push_back({&reader, std::move(is_needed)});
 }
 
@@ -37,6 +45,7 @@ void InputMonitor::Look() {
                       .publishers = counters.matched,
                       .publishers_ever = counters.matched_ever,
                       .incompatible_qos = counters.incompatible_qos,
+                      .incompatible_policy = PolicyName(counters.last_incompatible_policy),
                       .needed = !watched.is_needed || watched.is_needed()});
   }
   for (const InputLines::Line& line : lines_.Advance(Now_s(), states)) {

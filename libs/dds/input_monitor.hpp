@@ -28,6 +28,8 @@ class InputMonitor {
   /// `is_needed`: whether the node needs the input now; empty: always.
   void Expect(const Endpoint& reader, const std::string& publisher,
               InputKind kind = InputKind::kStream, IsNeeded is_needed = {});
+  /// `input.topic` is not used: the reader knows it.
+  void Expect(const Endpoint& reader, InputName input, IsNeeded is_needed = {});
 
   /// What is waited for, for /diagnostics; empty: nothing.
   std::string Waiting() const { return lines_.Waiting(); }

@@ -11,6 +11,7 @@ namespace palpate::dds {
 
 NodeLog::NodeLog(Participant& participant, ProcessLog process_log)
     : node_name_(participant.node_name()),
+      clock_(participant.clock()),
       process_log_(std::move(process_log)),
       writer_(participant.CreateWriter(kRosoutTopic)) {}
 
@@ -32,7 +33,7 @@ void NodeLog::WriteCounted() {
 void NodeLog::WriteLocked(Severity severity, std::string_view text) {
   if (process_log_) process_log_(severity, text);
   Message<idl::rcl_interfaces::Log> line;
-  line->stamp = TimeFromNs(WallClockNs());
+  line->stamp = TimeFromNs(clock_->Now_ns());
   line->level = static_cast<uint8_t>(severity);
   SetText(line->name, node_name_);
   SetText(line->msg, text);

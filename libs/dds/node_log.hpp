@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -36,6 +37,7 @@ class NodeLog {
 
   std::mutex mutex_;
   std::string node_name_;
+  std::shared_ptr<RosClock> clock_;
   ProcessLog process_log_;
   Writer<idl::rcl_interfaces::Log> writer_;
   RepeatedWarning repeated_;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "libs/core/config_node.hpp"
 #include "libs/dds/participant.hpp"
@@ -15,15 +17,23 @@ namespace palpate::dds {
 /// Settings of the DDS side that all nodes share.
 struct NodeSettings {
   std::filesystem::path topics_file;
+  std::string node_name;
   std::string node_namespace = "/";
-  std::string ros_distribution = "humble";
+  std::vector<std::string> remap;
+  bool use_sim_time = false;
+  std::string ros_distribution = "auto";
 
   template <typename Visitor>
   void Visit(Visitor&& v) {
     v("topics_file", topics_file, "Topic table; empty: the built-in config/topics.yaml");
-    v("node_namespace", node_namespace, "Namespace under which ROS 2 lists the node");
-    v("ros_distribution", ros_distribution, {"humble", "iron"},
-      "ROS 2 that shall see the node's name: humble, or iron for all later ones");
+    v("node_name", node_name, "Name under which ROS 2 lists the node; empty: the program's");
+    v("node_namespace", node_namespace,
+      "Namespace of the node and its topics, except /rosout, /diagnostics, /tf_static and /clock");
+    v("remap", remap, "Other names of topics as \"/a:=/b\", as ROS 2 has it; same as --remap");
+    v("use_sim_time", use_sim_time, "Take the time from /clock instead of the system clock");
+    v("ros_distribution", ros_distribution, {"auto", "humble", "iron"},
+      "ROS 2 that shall see the node's name: humble, or iron for all later ones; auto: by the "
+      "environment variable ROS_DISTRO, else humble");
   }
 };
 
@@ -34,6 +44,11 @@ using ConfigParser = std::function<ConfigNode(const std::string&, const std::str
 TopicTable LoadTopicTable(const NodeSettings& settings, const ConfigLoader& load,
                           const ConfigParser& parse);
 
+/// How the ROS 2 of that setting writes identifiers; `ros_distro`: of the environment, may be
+/// empty.
+GidLayout GidLayoutOf(std::string_view ros_distribution, std::string_view ros_distro);
+
+/// `node_name` holds unless the settings have another.
 ParticipantSettings ParticipantOf(const NodeSettings& settings, std::string node_name,
                                   int domain_id);
 

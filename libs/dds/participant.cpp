@@ -3,9 +3,7 @@
 
 #include "libs/dds/participant.hpp"
 
-#include "libs/core/error.hpp"
 #include "libs/dds/qos.hpp"
-#include "libs/dds/ros_names.hpp"
 
 namespace palpate::dds {
 
@@ -21,19 +19,17 @@ Entity CreateParticipant(const ParticipantSettings& settings) {
 }  // namespace
 
 Participant::Participant(const ParticipantSettings& settings, TopicTable table)
-    : node_name_(settings.node_name),
-      domain_id_(settings.domain_id),
+    : domain_id_(settings.domain_id),
       table_(std::move(table)),
+      names_(settings.node_name, settings.node_namespace, settings.remap, table_),
       domain_(ApplyDomainSettings(settings.domain_id)),
       entity_(CreateParticipant(settings)),
-      graph_(entity_.handle(), settings.node_namespace, settings.node_name, settings.gid_layout) {}
-
-std::string Participant::RosName(std::string_view topic_name, const std::string& name) {
-  constexpr std::string_view kPlaceholder = "<name>";
-  std::string ros_name(topic_name);
-  const size_t at = ros_name.find(kPlaceholder);
-  PALPATE_CHECK((at == ros_name.npos) == name.empty(), topic_name, name);
-  return at == ros_name.npos ? ros_name : ros_name.replace(at, kPlaceholder.size(), name);
+      graph_(entity_.handle(), names_.node_namespace(), names_.node_name(), settings.gid_layout),
+      clock_(std::make_shared<RosClock>()) {
+  if (!settings.use_sim_time) return;
+  const TopicSettings& topic = table_.At(kClockTopic.name);
+  clock_ = std::make_shared<RosClock>(handle(), topic, names_.Resolve(topic));
+  graph_.AddReader(clock_->reader()->handle());
 }
 
 }  // namespace palpate::dds

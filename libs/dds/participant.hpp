@@ -7,11 +7,14 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
 #include "libs/dds/reader.hpp"
+#include "libs/dds/ros_clock.hpp"
 #include "libs/dds/ros_graph.hpp"
+#include "libs/dds/topic_names.hpp"
 #include "libs/dds/topic_table.hpp"
 #include "libs/dds/topics.hpp"
 #include "libs/dds/writer.hpp"
@@ -23,6 +26,8 @@ struct ParticipantSettings {
   std::string node_name;   ///< as `ros2 node list` shows it
   std::string node_namespace = "/";
   GidLayout gid_layout = GidLayout::kHumble;
+  std::vector<std::string> remap = {};  ///< TopicNames
+  bool use_sim_time = false;            ///< take the time from /clock
 };
 
 /// One process on DDS, seen by ROS 2 as one node. Makes all writers and readers, by the topic
@@ -30,12 +35,17 @@ struct ParticipantSettings {
 class Participant {
  public:
   /// Where CYCLONEDDS_URI is not set, config/cyclonedds/default.xml holds. Throws RunError where
-  /// DDS refuses (no network interface, too many processes, bad CYCLONEDDS_URI).
+  /// DDS refuses (no network interface, too many processes, bad CYCLONEDDS_URI), InputError for
+  /// names and rules that are none (TopicNames).
   Participant(const ParticipantSettings& settings, TopicTable table);
 
   dds_entity_t handle() const { return entity_.handle(); }
   const TopicTable& table() const { return table_; }
-  const std::string& node_name() const { return node_name_; }
+  const std::string& node_name() const { return names_.node_name(); }
+  /// The time by which this node stamps and judges ages. Shared with what outlives a call.
+  const std::shared_ptr<RosClock>& clock() const { return clock_; }
+  /// ns since 1970 by that clock.
+  std::int64_t Now_ns() const { return clock_->Now_ns(); }
   uint32_t domain_id() const { return domain_id_; }
 
   /// `name` takes the place of "<name>" in the topic's name. `on_change`: see EndpointCounters.
@@ -52,21 +62,29 @@ class Participant {
   template <typename T>
   Reader<T> CreateReader(const Topic<T>& topic, std::function<void()> on_change = {},
                          const std::string& name = {}) {
-    Reader<T> reader(handle(), table_.At(topic.name), RosName(topic.name, name),
-                     std::move(on_change));
+    return CreateReaderAs(topic, table_.At(topic.name), std::move(on_change), name);
+  }
+  /// With another QoS than the table's.
+  template <typename T>
+  Reader<T> CreateReaderAs(const Topic<T>& topic, const TopicSettings& qos,
+                           std::function<void()> on_change = {}, const std::string& name = {}) {
+    Reader<T> reader(handle(), qos, RosName(topic.name, name), std::move(on_change));
     graph_.AddReader(reader.handle());
     return reader;
   }
 
  private:
-  static std::string RosName(std::string_view topic_name, const std::string& name);
+  std::string RosName(std::string_view topic_name, const std::string& name) const {
+    return names_.Resolve(table_.At(topic_name), name);
+  }
 
-  std::string node_name_;
   uint32_t domain_id_;
   TopicTable table_;
+  TopicNames names_;
   std::shared_ptr<Entity> domain_;  ///< goes after the entities in it
   Entity entity_;
   RosGraph graph_;
+  std::shared_ptr<RosClock> clock_;
 };
 
 }  // namespace palpate::dds

@@ -63,6 +63,7 @@ TopicSettings ReadTopic(const ConfigNode& node) {
   topic.rate_hz = OptionalPositive(map, "rate_hz");
   topic.deadline_s = OptionalPositive(map, "deadline_s");
   topic.recorded = ReadBool(map.Require("recorded"));
+  if (const ConfigNode* global = map.Optional("global")) topic.global = ReadBool(*global);
   map.Finish();
   return topic;
 }

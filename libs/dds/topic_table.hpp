@@ -25,6 +25,7 @@ struct TopicSettings {
   std::optional<double> rate_hz;     ///< nominal; absent: now and then
   std::optional<double> deadline_s;  ///< promised by writers and asked for by readers
   bool recorded = true;
+  bool global = false;  ///< ROS 2 knows it under this name in every namespace
 };
 
 /// The one table of all topics.

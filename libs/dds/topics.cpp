@@ -43,7 +43,10 @@ std::vector<TopicNameAndType> AllTopics() {
           NameAndType(kBenchStateTopic),
           NameAndType(kComponentStatusTopic),
           NameAndType(kDiagnosticsTopic),
-          NameAndType(kRosoutTopic)};
+          NameAndType(kRosoutTopic),
+          NameAndType(kClockTopic),
+          NameAndType(kTfStaticTopic),
+          NameAndType(kRobotDescriptionTopic)};
 }
 
 }  // namespace palpate::dds

@@ -24,10 +24,13 @@
 #include "palpate_msgs/msg/PerceptionReport.hpp"
 #include "palpate_msgs/msg/WrenchArray.hpp"
 #include "rcl_interfaces/msg/Log.hpp"
+#include "rosgraph_msgs/msg/Clock.hpp"
 #include "sensor_msgs/msg/CameraInfo.hpp"
 #include "sensor_msgs/msg/Image.hpp"
 #include "sensor_msgs/msg/JointState.hpp"
 #include "sensor_msgs/msg/PointCloud2.hpp"
+#include "std_msgs/msg/String.hpp"
+#include "tf2_msgs/msg/TFMessage.hpp"
 
 namespace palpate::dds {
 
@@ -80,6 +83,11 @@ inline constexpr Topic<idl::palpate_msgs::ComponentStatus> kComponentStatusTopic
     "/component_status"};
 inline constexpr Topic<idl::diagnostic_msgs::DiagnosticArray> kDiagnosticsTopic{"/diagnostics"};
 inline constexpr Topic<idl::rcl_interfaces::Log> kRosoutTopic{"/rosout"};
+/// What nodes with use_sim_time take for now.
+inline constexpr Topic<idl::rosgraph_msgs::Clock> kClockTopic{"/clock"};
+inline constexpr Topic<idl::tf2_msgs::TFMessage> kTfStaticTopic{"/tf_static"};
+/// The robot as URDF.
+inline constexpr Topic<idl::std_msgs::String> kRobotDescriptionTopic{"/robot_description"};
 
 struct TopicNameAndType {
   std::string_view name;

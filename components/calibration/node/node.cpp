@@ -261,7 +261,7 @@ void CalibrationNode::Refuse(const Request& request, const Status& status) {
                    .reason = {},
                    .frames_wanted = request.frames};
   if (IsGoing()) {
-    counts_.dropped += status_.Write(ToStatus(refused, dds::WallClockNs())) ? 0 : 1;
+    counts_.dropped += status_.Write(ToStatus(refused, participant_.Now_ns())) ? 0 : 1;
   } else {
     progress_ = std::move(refused);
   }
@@ -347,7 +347,7 @@ void CalibrationNode::Adopt(const LiveResult& result) {
 
 void CalibrationNode::Publish(const robot::CalibrationFile& file,
                               const Eigen::Matrix<double, 6, 6>& covariance) {
-  const bool sent = calibration_.Write(ToCalibration(file, covariance, dds::WallClockNs()));
+  const bool sent = calibration_.Write(ToCalibration(file, covariance, participant_.Now_ns()));
   counts_.dropped += sent ? 0 : 1;
 }
 
@@ -378,7 +378,7 @@ void CalibrationNode::Tick() {
 
 void CalibrationNode::SendProgress() {
   sent_reason_ = progress_.reason;
-  counts_.dropped += status_.Write(ToStatus(progress_, dds::WallClockNs())) ? 0 : 1;
+  counts_.dropped += status_.Write(ToStatus(progress_, participant_.Now_ns())) ? 0 : 1;
 }
 
 void CalibrationNode::ReportHealth() {

@@ -55,6 +55,10 @@ dds::Message<idl::palpate_msgs::MeshState> ToMeshState(const FrameResult& result
 
 dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64_t stamp_ns);
 
+/// URDF with one link, the robot frame, and the box about the body at rest: what RViz needs to know
+/// the frame. A deformed body is on /robot/mesh_state.
+dds::Message<idl::std_msgs::String> ToDescription(const robot::RobotBody& body);
+
 dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result);
 
 /// Without positions: the answer to a frame that was not estimated.

@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "components/force_estimation/node/convert.hpp"
+#include "libs/core/text.hpp"
 #include "libs/dds/geometry_messages.hpp"
+#include "libs/dds/ros_names.hpp"
 #include "libs/dds/stamp.hpp"
 #include "libs/geometry/frames.hpp"
 
@@ -107,6 +109,25 @@ dds::Message<idl::palpate_msgs::Mesh> ToMesh(const robot::RobotBody& body, int64
   return dds::ToMesh({body.name, body.mesh_hash, body.mesh.nodes_m, body.mesh.cells,
                       body.boundary.DrawnTriangles()},
                      stamp_ns);
+}
+
+dds::Message<idl::std_msgs::String> ToDescription(const robot::RobotBody& body) {
+  const Eigen::Vector3d lowest_m = body.mesh.nodes_m.rowwise().minCoeff();
+  const Eigen::Vector3d highest_m = body.mesh.nodes_m.rowwise().maxCoeff();
+  const auto numbers = [](const Eigen::Vector3d& v) {
+    return FormatNumber(v.x()) + " " + FormatNumber(v.y()) + " " + FormatNumber(v.z());
+  };
+  dds::Message<idl::std_msgs::String> message;
+  dds::SetText(message->data,
+               "<?xml version=\"1.0\"?>\n<robot name=\"" + dds::RosNamePart(body.name) +
+                   "\">\n  <link name=\"" + std::string(geometry::kRobotFrame) +
+                   "\">\n    <visual>\n      <origin xyz=\"" +
+                   numbers(0.5 * (lowest_m + highest_m)) + "\"/>\n      <geometry><box size=\"" +
+                   numbers(highest_m - lowest_m) +
+                   "\"/></geometry>\n      <material name=\"body\"><color "
+                   "rgba=\"0.8 0.8 0.8 0.3\"/></material>\n    </visual>\n  "
+                   "</link>\n</robot>\n");
+  return message;
 }
 
 dds::Message<idl::palpate_msgs::ModelGap> ToModelGap(const FrameResult& result) {

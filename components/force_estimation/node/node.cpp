@@ -181,7 +181,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
 }
 
 void ForceEstimationNode::Accept(FrameInput input) {
-  const Status status = FrameGate::CheckAge(input.head, dds::WallClockNs(), config_.max_age_s);
+  const Status status = FrameGate::CheckAge(input.head, participant_.Now_ns(), config_.max_age_s);
   if (!status.ok()) return Refuse(input.head, status);
   input.new_sequence = std::exchange(sequence_pending_, false);
   input.calibration = std::exchange(calibration_pending_, nullptr);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "components/force_estimation/node/convert.hpp"
-#include "libs/dds/stamp.hpp"
 
 namespace palpate::force_estimation {
 
@@ -28,8 +27,10 @@ Outputs::Outputs(dds::Participant& participant, const robot::RobotBody& body, bo
       mesh_(participant.CreateWriter(dds::kMeshTopic)),
       model_gap_(participant.CreateWriter(dds::kModelGapTopic)),
       wrench_array_(participant.CreateWriter(dds::kWrenchesTopic)),
+      description_(participant.CreateWriter(dds::kRobotDescriptionTopic)),
       wrench_slots_(std::move(given_contacts)) {
-  failed_ += mesh_.Write(ToMesh(body_, dds::WallClockNs())) ? 0 : 1;
+  failed_ += mesh_.Write(ToMesh(body_, participant.Now_ns())) ? 0 : 1;
+  failed_ += description_.Write(ToDescription(body_)) ? 0 : 1;
 }
 
 void Outputs::Publish(const FrameResult& result) {
@@ -66,7 +67,7 @@ void Outputs::Answer(const FrameHead& head, dds::Message<idl::palpate_msgs::Forc
 
 void Outputs::Send(const FrameHead& head, dds::Message<idl::palpate_msgs::ForceArray>& message) {
   message->counter = forces_counter_++;
-  message->age_s = 1e-9 * static_cast<double>(dds::WallClockNs() - head.stamp_ns);
+  message->age_s = 1e-9 * static_cast<double>(participant_.Now_ns() - head.stamp_ns);
   message->latency_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - head.taken).count();
   failed_ += forces_.Write(message) ? 0 : 1;

@@ -17,9 +17,10 @@ namespace palpate::force_estimation {
 /// The writers of the node. All calls come from the node's loop.
 class Outputs {
  public:
-  /// Publishes the mesh, which is latched. `body` must outlive this. `answer_always`: every frame
-  /// is answered on /robot/mesh_state, too, if need be without positions; else only those that were
-  /// estimated. `given_contacts`: names of the contacts that the settings give.
+  /// Publishes the mesh and the robot's description, which are latched. `body` must outlive this.
+  /// `answer_always`: every frame is answered on /robot/mesh_state, too, if need be without
+  /// positions; else only those that were estimated. `given_contacts`: names of the contacts that
+  /// the settings give.
   Outputs(dds::Participant& participant, const robot::RobotBody& body, bool answer_always,
           std::vector<std::string> given_contacts);
 
@@ -54,6 +55,7 @@ class Outputs {
   dds::Writer<idl::palpate_msgs::Mesh> mesh_;
   dds::Writer<idl::palpate_msgs::ModelGap> model_gap_;
   dds::Writer<idl::palpate_msgs::WrenchArray> wrench_array_;
+  dds::Writer<idl::std_msgs::String> description_;
   WrenchSlots wrench_slots_;
   std::map<std::string, dds::Writer<idl::geometry_msgs::WrenchStamped>> wrenches_;  ///< by <name>
   FrameHead last_head_;

@@ -10,6 +10,7 @@
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
+#include "libs/geometry/frames.hpp"
 
 namespace palpate::perception {
 
@@ -54,6 +55,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
       outputs_{participant_, !config.markers.color_rgb.empty()},
+      transforms_{participant_},
       pairing_{FromSeconds(config.pairing_wait_s)},
       worker_{
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
@@ -62,6 +64,7 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
   ExpectInputs();
   loop_.OnWake([this] { PublishResults(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
+  SendPose();
   if (pose_.T_robot_camera()) return;
   log_.Write(Severity::kWarning, "no camera_pose: frames are segmented without the model's help");
 }
@@ -171,9 +174,16 @@ void PerceptionNode::TakeCalibration() {
 
 void PerceptionNode::AdoptCalibration() {
   const Status status = pose_.Adopt(predictions_.mesh_hash());
-  if (status.ok()) return;
+  if (status.ok()) return SendPose();
   ++counts_.refused;
   log_.WarnRepeatedly("/calibration refused: " + status.message());
+}
+
+/// For the tools of ROS 2. One that is not taken is sent again with the next calibration.
+void PerceptionNode::SendPose() {
+  if (!pose_.T_robot_camera()) return;
+  (void)transforms_.Set(geometry::kRobotFrame, geometry::kCameraDepthOpticalFrame,
+                        *pose_.T_robot_camera(), participant_.Now_ns());
 }
 
 void PerceptionNode::TakeMeshStates() {

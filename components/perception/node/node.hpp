@@ -17,6 +17,7 @@
 #include "libs/dds/health.hpp"
 #include "libs/dds/input_monitor.hpp"
 #include "libs/dds/node_log.hpp"
+#include "libs/dds/transforms.hpp"
 #include "libs/dds/wait_set.hpp"
 
 namespace palpate::perception {
@@ -49,6 +50,7 @@ class PerceptionNode {
   void TakeMesh();
   void TakeCalibration();
   void AdoptCalibration();
+  void SendPose();
   void TakeMeshStates();
   template <typename Message>
   FrameSet* PartOf(const Message& message);
@@ -85,6 +87,7 @@ class PerceptionNode {
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
   Outputs outputs_;
+  dds::TransformBroadcaster transforms_;
   CameraInputs camera_;
   FramePairing pairing_;
   PredictionHistory predictions_;

@@ -17,7 +17,8 @@ Outputs::Outputs(dds::Participant& participant, bool with_markers)
     : robot_writer_(participant.CreateWriter(dds::kRobotCloudTopic)),
       object_writer_(participant.CreateWriter(dds::kObjectCloudTopic)),
       report_writer_(participant.CreateWriter(dds::kPerceptionReportTopic)),
-      contact_writer_(participant.CreateWriter(dds::kContactsTopic)) {
+      contact_writer_(participant.CreateWriter(dds::kContactsTopic)),
+      clock_(participant.clock()) {
   if (with_markers) marker_writer_.emplace(participant.CreateWriter(dds::kMarkersTopic));
 }
 
@@ -30,7 +31,7 @@ void Outputs::Publish(const FrameOutcome& outcome, FrameSet::Time taken) {
   report_ = ToReport(outcome);
   contacts_ = ToContactArray(outcome);
   last_stamp_ns_ = outcome.stamp_ns;
-  report_->age_s = NsToSeconds(dds::WallClockNs() - outcome.stamp_ns);
+  report_->age_s = NsToSeconds(clock_->Now_ns() - outcome.stamp_ns);
   report_->latency_s = SecondsSince(taken);
   latencies_s_.push_back(report_->latency_s);
   Send();

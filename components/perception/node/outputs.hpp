@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,7 @@ class Outputs {
   dds::Message<idl::palpate_msgs::MarkerArray3> markers_;
   dds::Message<idl::palpate_msgs::PerceptionReport> report_;
   dds::Message<idl::palpate_msgs::ContactArray> contacts_;
+  std::shared_ptr<dds::RosClock> clock_;
   std::optional<std::int64_t> last_stamp_ns_;
   std::uint64_t counter_ = 0;
   std::uint64_t failed_ = 0;

@@ -25,6 +25,7 @@ class ImagePublisher {
   [[nodiscard]] bool Publish(const ImageSet& images, std::int64_t stamp_ns);
 
   const std::string& device() const { return identity_.device; }
+  const std::string& depth_topic() const { return camera_.depth_topic(); }
   bool is_read() const { return camera_.is_read(); }
   [[nodiscard]] bool WaitUntilReceived(std::chrono::nanoseconds at_most) {
     return camera_.WaitUntilReceived(at_most);

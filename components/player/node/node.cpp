@@ -3,6 +3,8 @@
 
 #include "components/player/node/node.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "components/player/node/convert.hpp"
@@ -18,6 +20,7 @@ namespace {
 using Clock = dds::WaitSet::Clock;
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kClockPeriod = std::chrono::milliseconds(10);
 constexpr auto kLastMessagesWait = std::chrono::seconds(2);
 
 }  // namespace
@@ -38,6 +41,12 @@ PlayerNode::PlayerNode(const NodeConfig& config, const Playback& playback, Exper
   if (player_.plays_images()) {
     images_.emplace(participant_, player_.experiment(), [this] { loop_.Wake(); });
   }
+  if (config.publish_clock) {
+    clock_.emplace(participant_.CreateWriter(dds::kClockTopic));
+    if (!playback.step && std::isfinite(playback.rate)) {
+      loop_.Every(kClockPeriod, [this] { AdvanceClock(); });
+    }
+  }
   loop_.Attach(forces_, [this] { TakeForces(); });
   loop_.Every(kReportPeriod, [this] { ReportHealth(); });
 }
@@ -57,14 +66,14 @@ void PlayerNode::Run() {
 }
 
 void PlayerNode::WaitForReaders() {
-  const std::string topic = images_ ? "/camera/depth/image_raw" : "/perception/markers";
+  const std::string topic = images_ ? images_->depth_topic() : markers_.ros_name();
   log_.Write(Severity::kInfo, "waiting for readers of " + topic);
   const Clock::time_point deadline = Clock::now() + FromSeconds(config_.reader_deadline_s);
   if (loop_.DispatchUntil([this] { return ReadersAreThere(); }, deadline)) return;
   if (loop_.stopped()) return;
   throw RunError("no reader of " + topic +
-                 std::string(playback_.step ? " and answers on /forces" : "") + " within " +
-                 FormatNumber(config_.reader_deadline_s) +
+                 std::string(playback_.step ? " and answers on " + forces_.ros_name() : "") +
+                 " within " + FormatNumber(config_.reader_deadline_s) +
                  " s: is the force estimation running, in this domain? (reader_deadline_s, "
                  "wait_for_readers)");
 }
@@ -91,6 +100,7 @@ void PlayerNode::Play(const Event& event) {
     return;
   }
   const Clock::time_point due = Clock::now() + pacer_.TimeUntil(event.recording, event.t_s);
+  if (event.recording == event_recording_) next_event_ns_ = StampOf(event, config_.start_time_s);
   loop_.DispatchUntil([this] { return NewEstimator(); }, due);
   if (!loop_.stopped() && !NewEstimator()) Publish(event);
 }
@@ -104,8 +114,8 @@ void PlayerNode::WaitForAnswer(const Event& event) {
     if (loop_.DispatchUntil(done, resend) || loop_.stopped()) return;
     Publish(event);
   }
-  throw RunError("no answer on /forces to the frame at " + FormatNumber(event.t_s) +
-                 " s of recording '" + event.recording + "' within " +
+  throw RunError("no answer on " + forces_.ros_name() + " to the frame at " +
+                 FormatNumber(event.t_s) + " s of recording '" + event.recording + "' within " +
                  FormatNumber(config_.step_deadline_s) + " s (step_deadline_s)");
 }
 
@@ -116,6 +126,11 @@ bool PlayerNode::Answered(const Event& event) const {
 
 void PlayerNode::Publish(const Event& event) {
   const int64_t stamp_ns = StampOf(event, config_.start_time_s);
+  event_ns_ = stamp_ns;
+  event_time_ = Clock::now();
+  event_recording_ = event.recording;
+  next_event_ns_.reset();
+  PublishClock(stamp_ns);
   // Commands first: whoever takes the frame shall find those of the same stamp.
   bool sent = joint_states_.Write(ToJointState(event, stamp_ns));
   if (event.markers) {
@@ -127,6 +142,21 @@ void PlayerNode::Publish(const Event& event) {
     ++counts_.published;
   }
   if (!sent) ++counts_.dropped;
+}
+
+void PlayerNode::PublishClock(int64_t now_ns) {
+  if (!clock_) return;
+  dds::Message<idl::rosgraph_msgs::Clock> message;
+  message->clock = dds::TimeFromNs(now_ns);
+  if (!clock_->Write(message)) ++counts_.dropped;
+}
+
+/// Between two events time passes as they are paced.
+void PlayerNode::AdvanceClock() {
+  if (!next_event_ns_) return;
+  const double passed_s = playback_.rate * SecondsSince(event_time_);
+  const auto passed_ns = static_cast<int64_t>(1e9 * passed_s);
+  PublishClock(std::min(*next_event_ns_, event_ns_ + passed_ns));
 }
 
 void PlayerNode::TakeForces() {

@@ -61,6 +61,8 @@ class PlayerNode {
   bool Answered(const Event& event) const;
   void Publish(const Event& event);
   void TakeForces();
+  void PublishClock(int64_t now_ns);
+  void AdvanceClock();
   bool NewEstimator() const;
   void Rewind();
   void ReportHealth();
@@ -76,6 +78,11 @@ class PlayerNode {
   std::optional<ImagePublisher> images_;  ///< where images are played
   dds::Writer<idl::sensor_msgs::JointState> joint_states_;
   dds::Reader<idl::palpate_msgs::ForceArray> forces_;
+  std::optional<dds::Writer<idl::rosgraph_msgs::Clock>> clock_;  ///< with publish_clock
+  int64_t event_ns_ = 0;                                         ///< stamp of the last event
+  std::string event_recording_;
+  Time event_time_;                       ///< when it was published
+  std::optional<int64_t> next_event_ns_;  ///< /clock does not pass it; nullopt: time stands
   Pacer pacer_;
   dds::HealthCounts counts_;
   uint32_t known_estimators_ = 0;

@@ -192,5 +192,61 @@ TEST(PlayerNode, StopsInTheMiddleOfARecording) {
   EXPECT_EQ(player.error(), "");
 }
 
+/// What a node with use_sim_time takes for now, in the order of its coming.
+class ClockListener {
+ public:
+  explicit ClockListener(TestNode& node)
+      : reader_(node.participant.CreateReader(dds::kClockTopic)) {
+    node.loop.Attach(reader_, [this] {
+      for (const auto& message : reader_.Take()) times_ns_.push_back(dds::StampNs(message.clock));
+    });
+  }
+  const std::vector<int64_t>& times_ns() const { return times_ns_; }
+
+ private:
+  dds::Reader<idl::rosgraph_msgs::Clock> reader_;
+  std::vector<int64_t> times_ns_;
+};
+
+TEST(PlayerNode, InStepsTheClockIsTheStampOfTheFrame) {
+  FakeEstimator estimator(true);
+  ClockListener clock(estimator.node());
+  NodeConfig config;
+  config.publish_clock = true;
+  RunningPlayer player(config, kStep);
+  WaitUntilFinished(player, estimator.node());
+  ASSERT_TRUE(estimator.node().WaitFor(
+      [&] { return !clock.times_ns().empty() && clock.times_ns().back() == 300'000'000; }));
+  for (const int64_t time_ns : clock.times_ns()) EXPECT_EQ(time_ns % 50'000'000, 0) << time_ns;
+}
+
+TEST(PlayerNode, InRealTimeTheClockRunsBetweenTheFrames) {
+  FakeEstimator listener(false);
+  ClockListener clock(listener.node());
+  NodeConfig config;
+  config.publish_clock = true;
+  RunningPlayer player(config, {.rate = 1.0});
+  WaitUntilFinished(player, listener.node());
+  int between = 0;
+  int64_t last_ns = 0;
+  int begins = 0;
+  for (const int64_t time_ns : clock.times_ns()) {
+    between += time_ns % 50'000'000 != 0 ? 1 : 0;
+    begins += time_ns < last_ns ? 1 : 0;  // the second recording begins again from 0
+    last_ns = time_ns;
+    EXPECT_LE(time_ns, 300'000'000);
+  }
+  EXPECT_GT(between, 5);
+  EXPECT_EQ(begins, 1);
+}
+
+TEST(PlayerNode, WithoutTheSettingThereIsNoClock) {
+  FakeEstimator estimator(true);
+  ClockListener clock(estimator.node());
+  RunningPlayer player({}, kStep);
+  WaitUntilFinished(player, estimator.node());
+  EXPECT_TRUE(clock.times_ns().empty());
+}
+
 }  // namespace
 }  // namespace palpate::player

@@ -8,8 +8,11 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "libs/app/version.hpp"
 
 namespace palpate::idl {
 namespace {
@@ -92,6 +95,64 @@ TEST(IdlTwins, EachMessageOfOursHasATwin) {
     twin.replace_extension(entry.path().extension() == ".idl" ? ".msg" : ".idl");
     EXPECT_TRUE(std::filesystem::exists(twin)) << entry.path();
   }
+}
+
+/// rosidl refuses other names: lower case, no double or trailing underscore.
+TEST(IdlTwins, EveryFieldHasANameThatRosidlTakes) {
+  const std::regex name_rule("[a-z](_?[a-z0-9])*");
+  for (const auto& entry : std::filesystem::directory_iterator(MessageFolder())) {
+    if (entry.path().extension() != ".msg") continue;
+    for (const std::string& line : CodeLines(entry.path(), "#")) {
+      if (line.find('=') != line.npos) continue;
+      EXPECT_TRUE(std::regex_match(line.substr(line.rfind(' ') + 1), name_rule))
+          << entry.path() << ": " << line;
+    }
+  }
+}
+
+/// The packages whose messages the .msg files use.
+std::set<std::string> UsedPackages() {
+  std::set<std::string> packages;
+  for (const auto& entry : std::filesystem::directory_iterator(MessageFolder())) {
+    if (entry.path().extension() != ".msg") continue;
+    for (const std::string& line : CodeLines(entry.path(), "#")) {
+      const std::string type = line.substr(0, line.find(' '));
+      if (const size_t slash = type.find('/'); slash != type.npos) {
+        packages.insert(type.substr(0, slash));
+      }
+    }
+  }
+  return packages;
+}
+
+std::set<std::string> Captures(const std::filesystem::path& file, const std::string& pattern) {
+  std::set<std::string> found;
+  std::ifstream stream(file);
+  const std::regex rule(pattern);
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, rule)) found.insert(match[1]);
+  }
+  return found;
+}
+
+TEST(RosPackage, DependsOnThePackagesThatItsMessagesUse) {
+  const std::filesystem::path folder = MessageFolder().parent_path();
+  EXPECT_EQ(Captures(folder / "package.xml", "<depend>(.*)</depend>"), UsedPackages());
+  std::set<std::string> found =
+      Captures(folder / "CMakeLists.txt", R"(^find_package\((\w+) REQUIRED\))");
+  EXPECT_EQ(found.erase("ament_cmake") + found.erase("rosidl_default_generators"), 2u);
+  EXPECT_EQ(found, UsedPackages());
+}
+
+TEST(RosPackage, HasTheNameAndVersionOfTheProject) {
+  const std::filesystem::path folder = MessageFolder().parent_path();
+  EXPECT_EQ(Captures(folder / "package.xml", "<name>(.*)</name>"),
+            std::set<std::string>{"palpate_msgs"});
+  EXPECT_EQ(Captures(folder / "CMakeLists.txt", R"(^project\((\w+)\))"),
+            std::set<std::string>{"palpate_msgs"});
+  EXPECT_EQ(Captures(folder / "package.xml", "<version>(.*)</version>"),
+            std::set<std::string>{app::Version()});
 }
 
 TEST(IdlTwins, EveryStructIsFinal) {

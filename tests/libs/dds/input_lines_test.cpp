@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <utility>
+
 namespace palpate::dds {
 namespace {
 
@@ -94,9 +96,24 @@ TEST(InputLines, APublisherThatSendsNothingIsToldFromOneThatIsMissing) {
 TEST(InputLines, APublisherOfAnotherQosIsNamedAsSuch) {
   Inputs inputs({kCloud});
   inputs.states[0].incompatible_qos = 1;
+  inputs.states[0].incompatible_policy = "reliability";
   EXPECT_THAT(inputs.At(2.0),
-              ElementsAre("waiting for /perception/robot_cloud: the publisher's QoS does not match "
-                          "that of the topic table (topics_file)"));
+              ElementsAre("waiting for /perception/robot_cloud: the publisher's QoS does not "
+                          "match: it is best_effort, reliable is asked for (topics_file)"));
+}
+
+TEST(InputLines, EveryPolicyThatDoesNotMatchHasItsWord) {
+  const std::pair<const char*, const char*> words[] = {
+      {"durability", "it is volatile, transient_local is asked for (camera.qos)"},
+      {"deadline", "deadline is weaker than asked for (camera.qos)"}};
+  for (const auto& [policy, word] : words) {
+    InputName camera = kCloud;
+    camera.qos_setting = "camera.qos";
+    Inputs inputs({camera});
+    inputs.states[0].incompatible_qos = 1;
+    inputs.states[0].incompatible_policy = policy;
+    EXPECT_THAT(inputs.At(2.0), ElementsAre(testing::HasSubstr(word)));
+  }
 }
 
 TEST(InputLines, InputsOfOnePublisherShareALine) {

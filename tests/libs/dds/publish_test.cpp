@@ -123,6 +123,7 @@ TEST(Publish, PartnersWithIncompatibleQosAreTurnedAwayAndCounted) {
   auto reader = receiver.participant.CreateReader(kForcesTopic, receiver.Waker());
   ASSERT_TRUE(sender.WaitFor([&] { return writer.counters().incompatible_qos == 1; }));
   ASSERT_TRUE(receiver.WaitFor([&] { return reader.counters().incompatible_qos == 1; }));
+  EXPECT_EQ(PolicyName(reader.counters().last_incompatible_policy), "reliability");
   EXPECT_EQ(writer.counters().last_incompatible_policy, uint32_t{DDS_RELIABILITY_QOS_POLICY_ID});
   EXPECT_EQ(writer.matched(), 0u);
 }

@@ -73,6 +73,36 @@ TEST(RosGraph, AnnouncesNodeAndEndpointsAsIronReadsThem) {
   ExpectAnnounced<idl::rmw_dds_common_iron::ParticipantEntitiesInfo>(GidLayout::kIron);
 }
 
+TEST(RosGraph, ANodeIsListedUnderItsNameAndNamespace) {
+  ParticipantSettings settings{.domain_id = TestDomain(), .node_name = "my_node"};
+  settings.remap = {"__ns:=/left", "__node:=left_node"};
+  const Participant node(settings, BuiltInTable());
+  TestNode other("observer");
+  const Entity topic(
+      dds_create_topic(
+          other.participant.handle(),
+          &idl::MessageTraits<idl::rmw_dds_common::ParticipantEntitiesInfo>::Descriptor(),
+          "ros_discovery_info", nullptr, nullptr),
+      "topic");
+  TopicSettings latched;
+  latched.durability = Durability::kTransientLocal;
+  latched.depth = 100;
+  const Entity observer(dds_create_reader(other.participant.handle(), topic.handle(),
+                                          ReaderQos(latched).get(), nullptr),
+                        "reader");
+  bool seen = false;
+  other.loop.Attach(observer.handle(), [&] {
+    for (const auto& info :
+         Samples<idl::rmw_dds_common::ParticipantEntitiesInfo>(observer.handle())) {
+      for (const auto& entry : Elements(info.node_entities_info_seq)) {
+        seen =
+            seen || (Text(entry.node_name) == "left_node" && Text(entry.node_namespace) == "/left");
+      }
+    }
+  });
+  EXPECT_TRUE(other.WaitFor([&] { return seen; }));
+}
+
 TEST(RosGraph, ParticipantCarriesTheEnclave) {
   TestNode node("node");
   const Qos qos(dds_create_qos());

@@ -70,6 +70,8 @@ TEST(TopicTable, ReadsEveryColumn) {
   EXPECT_EQ(topic.rate_hz, 10.0);
   EXPECT_EQ(topic.deadline_s, 0.5);
   EXPECT_FALSE(topic.recorded);
+  EXPECT_FALSE(topic.global);
+  EXPECT_TRUE(Parse(Replaced("recorded: false", "recorded: false, global: true")).At("/a").global);
 }
 
 TEST(TopicTable, RefusesWhatItCannotRead) {

@@ -192,6 +192,18 @@ TEST_F(ForceEstimationNodeTest, ALateJoinerGetsTheMesh) {
   EXPECT_EQ(robot, "beam");
 }
 
+TEST_F(ForceEstimationNodeTest, ALateJoinerGetsTheRobotAsUrdf) {
+  dds::TestNode late("late");
+  auto descriptions = late.participant.CreateReader(dds::kRobotDescriptionTopic);
+  std::string urdf;
+  late.loop.Attach(descriptions, [&] {
+    for (const auto& message : descriptions.Take()) urdf = dds::Text(message.data);
+  });
+  ASSERT_TRUE(late.WaitFor([&] { return !urdf.empty(); }));
+  EXPECT_THAT(urdf, HasSubstr("<robot name=\"beam\">"));
+  EXPECT_THAT(urdf, HasSubstr("<link name=\"robot\">"));
+}
+
 TEST_F(ForceEstimationNodeTest, SaysWhyItRefusesAFrame) {
   const MarkerFrame frame = FrameUnderLoad(kLoad_N, ReferenceShape::kNone, 1.0);
   auto wrong_frame = ToMessage(frame, 0);

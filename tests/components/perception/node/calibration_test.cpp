@@ -62,5 +62,42 @@ TEST_F(PerceptionNodeTest, PredictsFromThePoseOfANewCalibration) {
   EXPECT_EQ(vertex_m->z(), 0.25 - 0.125);
 }
 
+TEST_F(PerceptionNodeTest, ThePoseInUseIsOnTfStatic) {
+  StartNode(TestConfig(), true);
+  dds::TestNode late("late");
+  auto transforms = late.participant.CreateReader(dds::kTfStaticTopic);
+  dds::TransformTree tree;
+  late.loop.Attach(transforms, [&] {
+    for (const auto& message : transforms.Take()) EXPECT_TRUE(tree.Add(message).ok());
+  });
+  const auto z_m = [&] {
+    const auto T_robot_camera = tree.Find("robot", "camera_depth_optical_frame");
+    return T_robot_camera ? T_robot_camera->translation().z() : 0.0;
+  };
+  EXPECT_TRUE(late.WaitFor([&] { return z_m() == 0.5; }));
+  auto calibrations = test_.participant.CreateWriter(dds::kCalibrationTopic);
+  SendMesh();
+  ASSERT_TRUE(calibrations.Write(Calibration("hash", 0.125, "2026-01-31T12:00:00Z")));
+  EXPECT_TRUE(late.WaitFor([&] { return z_m() == 0.125; }));
+}
+
+TEST_F(PerceptionNodeTest, TheAgeOfAFrameIsOfTheClockWithSimTime) {
+  NodeConfig config = TestConfig();
+  config.dds.use_sim_time = true;
+  auto clock = test_.participant.CreateWriter(dds::kClockTopic, test_.Waker());
+  StartNode(config);
+  ASSERT_TRUE(test_.WaitFor([&] { return clock.matched() == 1; }));
+  dds::Message<idl::rosgraph_msgs::Clock> now;
+  now->clock = dds::TimeFromNs(7 * kSecond_ns);
+  SendCamera(SmallCamera(), 1, 1);
+  // The time goes its own way to the node: ask until it is there.
+  double age_s = 0.0;
+  for (std::int64_t k = 1; k < 100 && age_s <= 0.0; ++k) {
+    ASSERT_TRUE(clock.Write(now));
+    age_s = Ask(5 * kSecond_ns + k).age_s;
+  }
+  EXPECT_NEAR(age_s, 2.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace palpate::perception
