@@ -17,13 +17,6 @@ Status About(const std::string& topic, const Status& status) {
 
 }  // namespace
 
-bool IsSameCamera(const rgbd::RgbdCamera& a, const rgbd::RgbdCamera& b) {
-  return a.depth == b.depth && a.color == b.color && a.depth_unit_m == b.depth_unit_m &&
-         a.invalid_value == b.invalid_value && a.baseline_m == b.baseline_m &&
-         a.color_registered == b.color_registered &&
-         a.T_depth_color.matrix() == b.T_depth_color.matrix();
-}
-
 void CameraInputs::SetSetup(const idl::palpate_msgs::CameraSetup& message) {
   Received<CameraSetup> received{dds::StampNs(message.header.stamp), {}, {}};
   received.status = About("/camera/setup", FromCameraSetup(message, &received.value));

@@ -11,8 +11,6 @@
 
 namespace palpate::perception {
 
-bool IsSameCamera(const rgbd::RgbdCamera& a, const rgbd::RgbdCamera& b);
-
 /// The camera from its three topics: set-up and two lenses. Lenses older than the set-up are
 /// those of a camera that was there before.
 class CameraInputs {

@@ -41,15 +41,7 @@ Status CheckImage(const Image& message, std::string_view encoding, std::uint32_t
                    (message.is_bigendian ? "', big-endian," : "'") + " instead of '" +
                    std::string(encoding) + "'");
   }
-  const bool sized = IsSide(message.width) && IsSide(message.height);
-  const bool filled = message.step >= message.width * pixel_bytes &&
-                      message.data._length >= std::uint64_t{message.step} * message.height;
-  if (!sized || !filled) {
-    return Invalid("an image of " + std::to_string(message.width) + " x " +
-                   std::to_string(message.height) + " pixels in " +
-                   std::to_string(message.data._length) + " bytes");
-  }
-  return Status::Ok();
+  return CheckImageSize(message, pixel_bytes);
 }
 
 template <typename Target>
@@ -85,6 +77,18 @@ Status ReadDistortion(const CameraInfo& message, rgbd::CameraModel* camera) {
 }
 
 }  // namespace
+
+Status CheckImageSize(const Image& message, std::uint32_t pixel_bytes) {
+  const bool sized = IsSide(message.width) && IsSide(message.height);
+  const bool filled = message.step >= message.width * pixel_bytes &&
+                      message.data._length >= std::uint64_t{message.step} * message.height;
+  if (!sized || !filled) {
+    return Invalid("an image of " + std::to_string(message.width) + " x " +
+                   std::to_string(message.height) + " pixels in " +
+                   std::to_string(message.data._length) + " bytes");
+  }
+  return Status::Ok();
+}
 
 Status FromDepthImage(const Image& message, rgbd::DepthImage* image) {
   if (Status frame = CheckFrame(message.header, false); !frame.ok()) return frame;

@@ -21,6 +21,9 @@ Status FromDepthImage(const idl::sensor_msgs::Image& message, rgbd::DepthImage* 
 /// The same of /camera/color/image_raw (rgb8), which may be in either camera's frame.
 Status FromColorImage(const idl::sensor_msgs::Image& message, rgbd::ColorImage* image);
 
+/// kInvalidInput for an image without pixels, rows or data that are too short.
+Status CheckImageSize(const idl::sensor_msgs::Image& message, std::uint32_t pixel_bytes);
+
 /// One lens; where K is all zeros the focal lengths are 0: not calibrated. kInvalidInput for
 /// numbers that are not finite, an image without pixels, another distortion model than plumb_bob.
 Status FromCameraInfo(const idl::sensor_msgs::CameraInfo& message, rgbd::CameraModel* camera);

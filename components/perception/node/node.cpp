@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "components/perception/node/capture_streams.hpp"
+#include "components/perception/node/driver_streams.hpp"
 #include "libs/core/seconds.hpp"
 #include "libs/core/text.hpp"
 #include "libs/dds/stamp.hpp"
@@ -17,19 +19,6 @@ namespace palpate::perception {
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-
-template <typename Image>
-bool HasSizeOf(const Image& image, const rgbd::CameraModel& camera) {
-  return image.width_px == camera.width_px && image.height_px == camera.height_px;
-}
-
-template <typename Image>
-Status WrongSize(const std::string& what, const Image& image, const rgbd::CameraModel& camera) {
-  return {StatusCode::kInvalidInput,
-          "a " + what + " image of " + std::to_string(image.width_px) + " x " +
-              std::to_string(image.height_px) + " pixels from a camera of " +
-              std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px)};
-}
 
 }  // namespace
 
@@ -45,18 +34,12 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
       overdue_{loop_.AddAlarm([this] { Advance(); })},
       log_{participant_, std::move(process_log)},
       health_{participant_, "perception", Clock::now()},
-      setups_{participant_.CreateReader(dds::kCameraSetupTopic)},
-      depth_lenses_{participant_.CreateReader(dds::kDepthCameraInfoTopic)},
-      color_lenses_{participant_.CreateReader(dds::kColorCameraInfoTopic)},
-      depths_{participant_.CreateReader(dds::kDepthImageTopic)},
-      colors_{participant_.CreateReader(dds::kColorImageTopic)},
-      infos_{participant_.CreateReader(dds::kFrameInfoTopic)},
       meshes_{participant_.CreateReader(dds::kMeshTopic)},
       mesh_states_{participant_.CreateReader(dds::kMeshStateTopic)},
       calibrations_{participant_.CreateReader(dds::kCalibrationTopic)},
       outputs_{participant_, !config.markers.color_rgb.empty()},
       transforms_{participant_},
-      pairing_{FromSeconds(config.pairing_wait_s)},
+      streams_{MakeStreams()},
       worker_{
           {.run = MakePerceive(config, std::move(maker)), .on_result = [this] { loop_.Wake(); }}},
       inputs_{participant_, loop_, log_} {
@@ -69,89 +52,31 @@ PerceptionNode::PerceptionNode(const NodeConfig& config,
   log_.Write(Severity::kWarning, "no camera_pose: frames are segmented without the model's help");
 }
 
+std::unique_ptr<CameraStreams> PerceptionNode::MakeStreams() {
+  const StreamEvents events{[this] { Advance(); },
+                            [this](std::int64_t stamp_ns) { outputs_.Repeat(stamp_ns); }};
+  if (config_.camera.source == "capture") {
+    return std::make_unique<CaptureStreams>(participant_, loop_, config_.pairing_wait_s, events);
+  }
+  return std::make_unique<DriverStreams>(participant_, loop_, config_.camera,
+                                         config_.pairing_wait_s, config_.max_z_m, events);
+}
+
 void PerceptionNode::AttachReaders() {
-  loop_.Attach(setups_, [this] { TakeCamera(); });
-  loop_.Attach(depth_lenses_, [this] { TakeCamera(); });
-  loop_.Attach(color_lenses_, [this] { TakeCamera(); });
-  loop_.Attach(depths_, [this] { TakeDepth(); });
-  loop_.Attach(colors_, [this] { TakeColor(); });
-  loop_.Attach(infos_, [this] { TakeFacts(); });
   loop_.Attach(meshes_, [this] { TakeMesh(); });
   loop_.Attach(mesh_states_, [this] { TakeMeshStates(); });
   if (!config_.follow_calibration) return;
   loop_.Attach(calibrations_, [this] { TakeCalibration(); });
 }
 
-/// Colour is no needed input: a camera may have none.
 void PerceptionNode::ExpectInputs() {
   using Kind = dds::InputKind;
-  const std::string capture = "palpate-capture";
-  inputs_.Expect(setups_, capture, Kind::kLatched);
-  inputs_.Expect(depth_lenses_, capture, Kind::kLatched);
-  inputs_.Expect(depths_, capture);
-  inputs_.Expect(infos_, capture);
+  streams_->ExpectInputs(inputs_);
   // The model answers frames, and without a pose its surface is of no use.
   const auto needs_model = [this] { return pose_.T_robot_camera() && !IsSilent(); };
   const std::string model = "palpate-force-estimation";
   inputs_.Expect(meshes_, model, Kind::kLatched, needs_model);
   inputs_.Expect(mesh_states_, model, Kind::kStream, needs_model);
-}
-
-/// Comes before the frames that are taken with it: who takes frames asks for it first.
-void PerceptionNode::TakeCamera() {
-  for (const auto& message : setups_.Take()) {
-    camera_.SetSetup(message);
-    pairing_.Restart(dds::StampNs(message.header.stamp), message.epoch);
-  }
-  for (const auto& message : depth_lenses_.Take()) camera_.SetDepthLens(message);
-  for (const auto& message : color_lenses_.Take()) camera_.SetColorLens(message);
-}
-
-/// Where the part belongs; nullptr, and counted, where it is too late.
-template <typename Message>
-FrameSet* PerceptionNode::PartOf(const Message& message) {
-  FrameSet* set = pairing_.At(dds::StampNs(message.header.stamp), Clock::now());
-  if (!set) ++counts_.dropped;
-  return set;
-}
-
-void PerceptionNode::TakeDepth() {
-  TakeCamera();
-  for (const auto& message : depths_.Take()) {
-    ++counts_.received;
-    last_depth_ = Clock::now();
-    const std::int64_t stamp_ns = dds::StampNs(message.header.stamp);
-    if (stamp_ns == pairing_.last_stamp_ns()) {
-      outputs_.Repeat(stamp_ns);
-      continue;
-    }
-    FrameSet* set = PartOf(message);
-    if (!set) continue;
-    const Status status = FromDepthImage(message, &set->depth.emplace());
-    if (!status.ok()) set->status = {status.code(), "/camera/depth/image_raw: " + status.message()};
-  }
-  Advance();
-}
-
-void PerceptionNode::TakeColor() {
-  TakeCamera();
-  for (const auto& message : colors_.Take()) {
-    if (dds::StampNs(message.header.stamp) == pairing_.last_stamp_ns()) continue;
-    FrameSet* set = PartOf(message);
-    if (!set) continue;
-    const Status status = FromColorImage(message, &set->color.emplace());
-    if (!status.ok()) set->status = {status.code(), "/camera/color/image_raw: " + status.message()};
-  }
-  Advance();
-}
-
-void PerceptionNode::TakeFacts() {
-  TakeCamera();
-  for (const auto& message : infos_.Take()) {
-    if (dds::StampNs(message.header.stamp) == pairing_.last_stamp_ns()) continue;
-    if (FrameSet* set = PartOf(message)) set->facts = {message.counter, message.epoch};
-  }
-  Advance();
 }
 
 void PerceptionNode::TakeMesh() {
@@ -179,11 +104,20 @@ void PerceptionNode::AdoptCalibration() {
   log_.WarnRepeatedly("/calibration refused: " + status.message());
 }
 
-/// For the tools of ROS 2. One that is not taken is sent again with the next calibration.
+/// For the tools of ROS 2. One that is not taken is sent again with the next calibration. The
+/// frames of a driver have a parent already, so that the robot's is below them.
 void PerceptionNode::SendPose() {
   if (!pose_.T_robot_camera()) return;
-  (void)transforms_.Set(geometry::kRobotFrame, geometry::kCameraDepthOpticalFrame,
-                        *pose_.T_robot_camera(), participant_.Now_ns());
+  const std::int64_t now_ns = participant_.Now_ns();
+  const std::string frame = streams_->depth_frame();
+  if (config_.camera.source == "capture") {
+    (void)transforms_.Set(geometry::kRobotFrame, frame, *pose_.T_robot_camera(), now_ns);
+  } else if (!frame.empty()) {
+    (void)transforms_.Set(frame, geometry::kRobotFrame, pose_.T_robot_camera()->inverse(), now_ns);
+    if (frame == geometry::kCameraDepthOpticalFrame) return;
+    (void)transforms_.Set(frame, geometry::kCameraDepthOpticalFrame, Eigen::Isometry3d::Identity(),
+                          now_ns);
+  }
 }
 
 void PerceptionNode::TakeMeshStates() {
@@ -194,53 +128,24 @@ void PerceptionNode::TakeMeshStates() {
   Advance();
 }
 
-bool PerceptionNode::IsWhole(const FrameSet& set) const {
-  if (!set.status.ok()) return true;
-  if (!set.depth || !set.facts) return false;
-  rgbd::RgbdCamera camera;
-  const Status known = camera_.CameraOf(set.facts->epoch, &camera);
-  if (!known.ok()) return known.code() == StatusCode::kInvalidInput;
-  if (camera_.has_color_lens()) return set.color.has_value();
-  // A camera without colour: so it was found to be when the first frame of the epoch was overdue.
-  return set_ && set_setups_ == camera_.setups() && set_->color.width_px == 0 && !set.color;
-}
-
-/// Why a set cannot be used; ok, and its camera, where it can.
-Status PerceptionNode::Examine(const FrameSet& set, rgbd::RgbdCamera* camera) const {
-  if (!set.status.ok()) return set.status;
-  const auto late = [&](const std::string& topic) {
-    return Status(StatusCode::kStale, "nothing of this stamp on " + topic + " within " +
-                                          FormatNumber(config_.pairing_wait_s) + " s");
-  };
-  if (!set.facts) return late("/camera/frame_info");
-  if (Status known = camera_.CameraOf(set.facts->epoch, camera); !known.ok()) return known;
-  if (!HasSizeOf(*set.depth, camera->depth)) {
-    return WrongSize("depth", *set.depth, camera->depth);
-  }
-  if (!camera_.has_color_lens()) {
-    if (!set.color) return Status::Ok();
-    return {StatusCode::kNoCalibration, "no /camera/color/camera_info of this epoch has come"};
-  }
-  if (!set.color) return late("/camera/color/image_raw");
-  if (HasSizeOf(*set.color, camera->color)) return Status::Ok();
-  return WrongSize("colour", *set.color, camera->color);
-}
-
 void PerceptionNode::Advance() {
-  const auto whole = [this](const FrameSet& set) { return IsWhole(set); };
-  while (auto set = pairing_.Take(whole, Clock::now())) {
+  WorkOnNext();
+  while (auto set = streams_->Take(Clock::now())) {
     if (next_) ++counts_.dropped;
     next_ = std::move(set);
-  }
-  if (next_ && !worker_.busy() && !MustAwaitPrediction()) {
-    Work(*std::exchange(next_, std::nullopt));
+    WorkOnNext();
   }
   SetAlarm();
 }
 
+void PerceptionNode::WorkOnNext() {
+  if (!next_ || worker_.busy() || MustAwaitPrediction()) return;
+  Work(*std::exchange(next_, std::nullopt));
+}
+
 void PerceptionNode::SetAlarm() {
   overdue_.Clear();
-  const auto set = pairing_.NextOverdue();
+  const auto set = streams_->NextOverdue();
   if (set) overdue_.Set(*set);
   if (!next_ || worker_.busy()) return;
   overdue_.Set(set ? std::min(*set, PredictionOverdue()) : PredictionOverdue());
@@ -265,12 +170,13 @@ bool PerceptionNode::MustAwaitPrediction() const {
 bool PerceptionNode::BeginsSequence(const FrameSet& set) const {
   if (!last_stamp_ns_) return true;
   const bool back = set.stamp_ns <= *last_stamp_ns_;
-  return camera_.device() != last_device_ || (back && set.facts && set.facts->epoch <= last_epoch_);
+  return streams_->device() != last_device_ ||
+         (back && set.facts && set.facts->epoch <= last_epoch_);
 }
 
 void PerceptionNode::Work(FrameSet set) {
   rgbd::RgbdCamera camera;
-  const Status status = Examine(set, &camera);
+  const Status status = streams_->Examine(set, &camera);
   if (status.ok()) {
     worker_.Start(MakeJob(set, camera));
     return;
@@ -286,7 +192,7 @@ void PerceptionNode::Work(FrameSet set) {
 PerceptionJob PerceptionNode::HeadOf(const FrameSet& set) const {
   PerceptionJob job;
   job.outcome.stamp_ns = set.stamp_ns;
-  job.outcome.device = camera_.device();
+  job.outcome.device = streams_->device();
   job.taken = set.taken;
   if (!set.facts) return job;
   job.outcome.frame_counter = set.facts->counter;
@@ -301,17 +207,20 @@ PerceptionJob PerceptionNode::MakeJob(FrameSet& set, const rgbd::RgbdCamera& cam
   job.images.depth = std::move(*set.depth);
   if (set.color) job.images.color = std::move(*set.color);
   const bool begins = BeginsSequence(set);
-  if (begins || camera_.subpixel_sigma_px() != sigma_px_) {
+  if (begins || streams_->subpixel_sigma_px() != sigma_px_) {
     job.reset = config_;
-    sigma_px_ = camera_.subpixel_sigma_px();
+    sigma_px_ = streams_->subpixel_sigma_px();
     job.reset->depth_subpixel_px = sigma_px_.value_or(config_.depth_subpixel_px);
   }
   if (begins && last_stamp_ns_) predictions_.Clear();
-  if (job.reset || set_setups_ != camera_.setups() || !IsSameCamera(*set_, camera)) {
+  if (job.reset || set_setups_ != streams_->setups() || !IsSameCamera(*set_, camera)) {
     job.camera = set_ = camera;
-    set_setups_ = camera_.setups();
+    set_setups_ = streams_->setups();
   }
-  last_device_ = camera_.device();
+  if (last_device_ != streams_->device()) {
+    last_device_ = streams_->device();
+    SendPose();
+  }
   last_epoch_ = job.outcome.epoch;
   last_stamp_ns_ = set.stamp_ns;
   const std::optional<Eigen::Isometry3d>& T_robot_camera = pose_.T_robot_camera();
@@ -340,26 +249,29 @@ void PerceptionNode::Publish(const FrameOutcome& outcome, Clock::time_point take
 void PerceptionNode::ReportHealth() {
   dds::HealthCounts counts = counts_;
   counts.published = outputs_.published();
-  counts.dropped += pairing_.dropped() + outputs_.failed();
+  counts.received = streams_->received();
+  counts.dropped += streams_->dropped() + outputs_.failed();
   counts.latencies_s = outputs_.TakeLatencies();
-  health_.Report(CurrentStatus(), counts,
-                 {{"device", camera_.device()},
-                  {"readers_of_contacts", std::to_string(outputs_.readers())},
-                  {"writers_of_depth", std::to_string(depths_.matched())},
-                  {"incompatible_qos", std::to_string(depths_.counters().incompatible_qos)},
-                  {"waiting_for", inputs_.Waiting()}},
-                 Clock::now());
+  health_.Report(
+      CurrentStatus(), counts,
+      {{"device", streams_->device()},
+       {"readers_of_contacts", std::to_string(outputs_.readers())},
+       {"writers_of_depth", std::to_string(streams_->depths().matched())},
+       {"incompatible_qos", std::to_string(streams_->depths().counters().incompatible_qos)},
+       {"waiting_for", inputs_.Waiting()}},
+      Clock::now());
   log_.WriteCounted();
 }
 
 bool PerceptionNode::IsSilent() const {
-  return counts_.received == 0 || SecondsSince(last_depth_) > config_.silence_s;
+  return streams_->received() == 0 || SecondsSince(streams_->last_depth()) > config_.silence_s;
 }
 
 Status PerceptionNode::CurrentStatus() const {
-  if (counts_.received > 0 && IsSilent()) {
-    return {StatusCode::kStale,
-            "no depth images for " + FormatNumber(std::round(SecondsSince(last_depth_))) + " s"};
+  if (streams_->received() > 0 && IsSilent()) {
+    return {StatusCode::kStale, "no depth images for " +
+                                    FormatNumber(std::round(SecondsSince(streams_->last_depth()))) +
+                                    " s"};
   }
   return last_status_;
 }

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "components/perception/node/camera_inputs.hpp"
 #include "components/perception/node/camera_pose.hpp"
-#include "components/perception/node/frame_pairing.hpp"
+#include "components/perception/node/camera_streams.hpp"
 #include "components/perception/node/node_config.hpp"
 #include "components/perception/node/outputs.hpp"
 #include "components/perception/node/prediction_history.hpp"
@@ -41,23 +41,17 @@ class PerceptionNode {
  private:
   using Clock = dds::WaitSet::Clock;
 
+  std::unique_ptr<CameraStreams> MakeStreams();
   void AttachReaders();
   void ExpectInputs();
-  void TakeCamera();
-  void TakeDepth();
-  void TakeColor();
-  void TakeFacts();
   void TakeMesh();
   void TakeCalibration();
   void AdoptCalibration();
   void SendPose();
   void TakeMeshStates();
-  template <typename Message>
-  FrameSet* PartOf(const Message& message);
   void Advance();
+  void WorkOnNext();
   void SetAlarm();
-  bool IsWhole(const FrameSet& set) const;
-  Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) const;
   bool BeginsSequence(const FrameSet& set) const;
   Clock::time_point PredictionOverdue() const;
   bool MustAwaitPrediction() const;
@@ -77,30 +71,22 @@ class PerceptionNode {
   dds::Alarm& overdue_;  ///< the next part or prediction that is waited for no longer
   dds::NodeLog log_;
   dds::HealthReporter health_;
-  dds::Reader<idl::palpate_msgs::CameraSetup> setups_;
-  dds::Reader<idl::sensor_msgs::CameraInfo> depth_lenses_;
-  dds::Reader<idl::sensor_msgs::CameraInfo> color_lenses_;
-  dds::Reader<idl::sensor_msgs::Image> depths_;
-  dds::Reader<idl::sensor_msgs::Image> colors_;
-  dds::Reader<idl::palpate_msgs::FrameInfo> infos_;
   dds::Reader<idl::palpate_msgs::Mesh> meshes_;
   dds::Reader<idl::palpate_msgs::MeshState> mesh_states_;
   dds::Reader<idl::palpate_msgs::Calibration> calibrations_;
   Outputs outputs_;
   dds::TransformBroadcaster transforms_;
-  CameraInputs camera_;
-  FramePairing pairing_;
+  std::unique_ptr<CameraStreams> streams_;
   PredictionHistory predictions_;
   Worker worker_;
   std::optional<FrameSet> next_;               ///< waits for the worker or the prediction
   std::optional<rgbd::RgbdCamera> set_;        ///< the camera that perception knows
-  std::uint64_t set_setups_ = 0;               ///< camera_'s, when it was set
+  std::uint64_t set_setups_ = 0;               ///< of streams_, when it was set
   std::optional<double> sigma_px_;             ///< of the disparity, that perception knows
   std::optional<std::int64_t> last_stamp_ns_;  ///< given to perception; none: none yet
   std::uint32_t last_epoch_ = 0;
   std::string last_device_;
   Clock::time_point published_at_;
-  Clock::time_point last_depth_;
   dds::HealthCounts counts_;
   Status last_status_{StatusCode::kNotRun, "no images on /camera/depth/image_raw yet"};
   dds::InputMonitor inputs_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "components/perception/config.hpp"
+#include "components/perception/node/camera_config.hpp"
 #include "libs/dds/node_settings.hpp"
 
 namespace palpate::perception {
@@ -18,6 +19,7 @@ struct NodeConfig : Config {
   double max_prediction_age_s = 1.0;
   double await_prediction_s = 0.0;
   double silence_s = 2.0;
+  CameraConfig camera;
   dds::NodeSettings dds;
 
   template <typename Visitor>
@@ -38,6 +40,7 @@ struct NodeConfig : Config {
       "newest state (live)");
     v("silence_s", silence_s, {.min = 0.0, .min_open = true},
       "Time without depth images after which the status is stale");
+    v("camera", camera, "Where images come from");
     v("dds", dds, "DDS side");
   }
 };

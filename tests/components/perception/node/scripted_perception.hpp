@@ -21,6 +21,8 @@ class Script {
     int perception = 0;  ///< which one, from 1
     int cameras = 0;     ///< that this one had been given
     bool with_color = false;
+    std::uint16_t depth_value = 0;                  ///< of the first pixel
+    std::uint8_t color_value = 0;                   ///< red of the first pixel
     std::optional<Eigen::Vector3d> first_vertex_m;  ///< of the predicted surface
   };
 
@@ -63,7 +65,9 @@ class Script {
     const Observation& Update(const rgbd::RgbdFrame& frame,
                               const PredictedSurface* predicted) override {
       std::unique_lock lock(script_.mutex_);
-      Call call{frame.stamp_ns, number_, cameras_, !frame.color.empty(), {}};
+      Call call{frame.stamp_ns, number_, cameras_, !frame.color.empty(), 0, 0, {}};
+      call.depth_value = frame.depth.values.at(0);
+      if (call.with_color) call.color_value = frame.color.values.at(0);
       if (predicted) call.first_vertex_m = predicted->vertices_m.col(0);
       script_.calls_.push_back(call);
       script_.changed_.wait(lock, [this] { return !script_.hold_; });

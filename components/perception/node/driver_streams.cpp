@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/perception/node/driver_streams.hpp"
+
+#include <utility>
+
+#include "components/perception/node/convert_driver.hpp"
+#include "components/perception/node/image_size.hpp"
+#include "libs/app/yaml.hpp"
+#include "libs/core/seconds.hpp"
+#include "libs/core/text.hpp"
+#include "libs/dds/stamp.hpp"
+#include "libs/geometry/pose_text.hpp"
+
+namespace palpate::perception {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A driver has one epoch: what changes is read from its messages.
+constexpr std::uint32_t kEpoch = 1;
+
+/// The row of `name` with the QoS that drivers offer: never latched.
+dds::TopicSettings DriverQos(const dds::TopicTable& table, std::string_view name,
+                             const CameraConfig& config) {
+  dds::TopicSettings qos = table.At(name);
+  qos.durability = dds::Durability::kVolatile;
+  qos.reliability = config.reliability == "reliable" ? dds::Reliability::kReliable
+                                                     : dds::Reliability::kBestEffort;
+  qos.deadline_s.reset();
+  return qos;
+}
+
+template <typename T>
+dds::Reader<T> ReaderOf(dds::Participant& participant, const dds::Topic<T>& topic,
+                        const CameraConfig& config) {
+  return participant.CreateReaderAs(topic, DriverQos(participant.table(), topic.name, config));
+}
+
+std::optional<Eigen::Isometry3d> GivenPose(const CameraConfig& config) {
+  if (config.T_depth_color.empty()) return std::nullopt;
+  return geometry::ReadPose(app::ParseYaml(config.T_depth_color, "camera.T_depth_color"));
+}
+
+}  // namespace
+
+DriverStreams::DriverStreams(dds::Participant& participant, dds::WaitSet& loop,
+                             const CameraConfig& config, double wait_s, double largest_z_m,
+                             StreamEvents events)
+    : config_(config),
+      wait_s_(wait_s),
+      largest_z_m_(largest_z_m),
+      events_(std::move(events)),
+      depths_(ReaderOf(participant, dds::kDepthImageTopic, config)),
+      depth_infos_(ReaderOf(participant, dds::kDepthCameraInfoTopic, config)),
+      transforms_(participant.CreateReader(dds::kTfStaticTopic)),
+      camera_(GivenPose(config), config.baseline_m),
+      pairing_(FromSeconds(wait_s), config.pairing_tolerance_s) {
+  camera_.depth().image_topic = depths_.ros_name();
+  camera_.depth().info_topic = depth_infos_.ros_name();
+  loop.Attach(depths_, [this] { TakeDepth(); });
+  loop.Attach(depth_infos_, [this] { TakeInfos(); });
+  loop.Attach(transforms_, [this] { TakeInfos(); });
+  if (!config.use_color) return;
+  colors_.emplace(ReaderOf(participant, dds::kColorImageTopic, config));
+  color_infos_.emplace(ReaderOf(participant, dds::kColorCameraInfoTopic, config));
+  camera_.color().image_topic = colors_->ros_name();
+  camera_.color().info_topic = color_infos_->ros_name();
+  loop.Attach(*colors_, [this] { TakeColor(); });
+  loop.Attach(*color_infos_, [this] { TakeInfos(); });
+}
+
+void DriverStreams::ExpectInputs(dds::InputMonitor& inputs) {
+  const auto expect = [&](const dds::Endpoint& reader) {
+    inputs.Expect(reader,
+                  dds::InputName{.publisher = "the camera's driver (under another name: --remap)",
+                                 .qos_setting = "camera.reliability"});
+  };
+  expect(depths_);
+  expect(depth_infos_);
+  if (!colors_) return;
+  expect(*colors_);
+  expect(*color_infos_);
+}
+
+void DriverStreams::TakeInfos() {
+  for (const auto& message : transforms_.Take()) (void)camera_.AddTransforms(message);
+  for (const auto& message : depth_infos_.Take()) camera_.depth().SetInfo(message);
+  if (!color_infos_) return;
+  for (const auto& message : color_infos_->Take()) camera_.color().SetInfo(message);
+}
+
+void DriverStreams::TakeDepth() {
+  TakeInfos();
+  for (const auto& message : depths_.Take()) {
+    CountDepth();
+    FrameSet set;
+    set.stamp_ns = dds::StampNs(message.header.stamp);
+    if (set.stamp_ns == pairing_.last_stamp_ns()) {
+      events_.repeated(set.stamp_ns);
+      continue;
+    }
+    camera_.depth().frame = dds::Text(message.header.frame_id);
+    const Status status = FromDriverDepth(message, config_.depth_unit_m, largest_z_m_,
+                                          &set.depth.emplace(), &depth_unit_m_);
+    if (!status.ok()) set.status = {status.code(), depths_.ros_name() + ": " + status.message()};
+    set.facts = {counter_++, kEpoch};
+    pairing_.AddDepth(std::move(set), Clock::now());
+  }
+  events_.changed();
+}
+
+void DriverStreams::TakeColor() {
+  TakeInfos();
+  for (const auto& message : colors_->Take()) {
+    camera_.color().frame = dds::Text(message.header.frame_id);
+    rgbd::ColorImage image;
+    Status status = FromDriverColor(message, &image);
+    if (!status.ok()) status = {status.code(), colors_->ros_name() + ": " + status.message()};
+    pairing_.AddColor(dds::StampNs(message.header.stamp), std::move(image), status);
+  }
+  events_.changed();
+}
+
+/// Not of a camera that has no colour: nobody publishes it, and none has come before.
+bool DriverStreams::AwaitsColor() const {
+  return colors_ && (colors_->matched() > 0 || !camera_.color().frame.empty());
+}
+
+/// Drivers publish the first camera_info just after its image.
+bool DriverStreams::AwaitsInfo() const {
+  return !camera_.depth().lens || (AwaitsColor() && !camera_.color().lens);
+}
+
+std::optional<FrameSet> DriverStreams::Take(Time now) {
+  const auto overdue = pairing_.NextOverdue();
+  if (AwaitsInfo() && overdue && now < *overdue) return std::nullopt;
+  return pairing_.Take(AwaitsColor(), now);
+}
+
+Status DriverStreams::Examine(const FrameSet& set, rgbd::RgbdCamera* camera) {
+  if (!set.status.ok()) return set.status;
+  const Status known = camera_.CameraOf(set.color.has_value(), depth_unit_m_, camera);
+  if (!known.ok()) return known;
+  if (Status size = CheckDepthSize(*set.depth, camera->depth); !size.ok()) return size;
+  if (set.color) return CheckColorSize(*set.color, camera->color);
+  if (!AwaitsColor()) return Status::Ok();
+  const auto tolerance_ns = pairing_.tolerance_ns();
+  return {StatusCode::kStale,
+          tolerance_ns
+              ? "nothing on " + colors_->ros_name() + " within " +
+                    FormatNumber(1e-6 * static_cast<double>(*tolerance_ns)) +
+                    " ms of this stamp (camera.pairing_tolerance_s)"
+              : "nothing on " + colors_->ros_name() + " within " + FormatNumber(wait_s_) + " s"};
+}
+
+}  // namespace palpate::perception

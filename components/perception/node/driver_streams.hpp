@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "components/perception/node/camera_config.hpp"
+#include "components/perception/node/camera_streams.hpp"
+#include "components/perception/node/driver_camera.hpp"
+#include "components/perception/node/nearest_pairing.hpp"
+
+namespace palpate::perception {
+
+/// The topics of a camera driver of ROS 2: depth and colour, each with its camera_info, of any
+/// stamps, reliable or best effort; and /tf_static for how the cameras stand to each other.
+class DriverStreams : public CameraStreams {
+ public:
+  /// `wait_s`: longest wait of a depth image for colour. `largest_z_m`: of depth in metres. Throws
+  /// InputError for a T_depth_color that is no pose.
+  DriverStreams(dds::Participant& participant, dds::WaitSet& loop, const CameraConfig& config,
+                double wait_s, double largest_z_m, StreamEvents events);
+
+  void ExpectInputs(dds::InputMonitor& inputs) override;
+  std::optional<FrameSet> Take(Time now) override;
+  std::optional<Time> NextOverdue() const override { return pairing_.NextOverdue(); }
+  Status Examine(const FrameSet& set, rgbd::RgbdCamera* camera) override;
+  std::string device() const override { return camera_.depth().frame; }
+  std::string depth_frame() const override { return camera_.depth().frame; }
+  std::optional<double> subpixel_sigma_px() const override { return std::nullopt; }
+  std::uint64_t setups() const override { return 1; }
+  const dds::Endpoint& depths() const override { return depths_; }
+  std::uint64_t dropped() const override { return pairing_.dropped(); }
+
+ private:
+  void TakeInfos();
+  void TakeDepth();
+  void TakeColor();
+  bool AwaitsColor() const;
+  bool AwaitsInfo() const;
+
+  CameraConfig config_;
+  double wait_s_;
+  double largest_z_m_;
+  StreamEvents events_;
+  dds::Reader<idl::sensor_msgs::Image> depths_;
+  dds::Reader<idl::sensor_msgs::CameraInfo> depth_infos_;
+  std::optional<dds::Reader<idl::sensor_msgs::Image>> colors_;  ///< with use_color
+  std::optional<dds::Reader<idl::sensor_msgs::CameraInfo>> color_infos_;
+  dds::Reader<idl::tf2_msgs::TFMessage> transforms_;
+  DriverCamera camera_;
+  NearestPairing pairing_;
+  double depth_unit_m_ = 0.0;  ///< of the last depth image
+  std::uint64_t counter_ = 0;
+};
+
+}  // namespace palpate::perception
