@@ -17,6 +17,7 @@ find_package(PkgConfig REQUIRED)
 # Compression of recordings.
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(LZ4 REQUIRED IMPORTED_TARGET liblz4)
+pkg_check_modules(LIBDEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(ARAVIS REQUIRED IMPORTED_TARGET aravis-0.8)
 # Of PCL the libraries that are used: its own list also brings HDF5 and MPI.
 pkg_check_modules(PCL REQUIRED pcl_segmentation)

@@ -35,6 +35,8 @@ class OpenRecord {
 };
 
 using Numbers = std::map<std::uint16_t, std::uint64_t>;
+/// Channel, sequence and two times.
+constexpr std::uint64_t kMessageHead = 2 + 4 + 8 + 8;
 constexpr std::uint32_t kNumberSize = sizeof(std::uint16_t) + sizeof(std::uint64_t);
 
 void PutNumbers(const Numbers& numbers, OpenRecord& record) {
@@ -83,13 +85,19 @@ void Put(const Channel& channel, std::string* out) {
   record->Map(channel.metadata);
 }
 
+void PutMessageHead(const Message& message, std::string* out) {
+  ByteWriter writer(out);
+  writer.Put(Opcode::kMessage);
+  writer.Put(std::uint64_t{kMessageHead + message.data.size()});
+  writer.Put(message.channel_id);
+  writer.Put(message.sequence);
+  writer.Put(message.log_time_ns);
+  writer.Put(message.publish_time_ns);
+}
+
 void Put(const Message& message, std::string* out) {
-  OpenRecord record(Opcode::kMessage, out);
-  record->Put(message.channel_id);
-  record->Put(message.sequence);
-  record->Put(message.log_time_ns);
-  record->Put(message.publish_time_ns);
-  record->Raw(message.data);
+  PutMessageHead(message, out);
+  out->append(message.data);
 }
 
 void Put(const Attachment& attachment, std::string* out) {

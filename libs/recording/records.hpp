@@ -144,6 +144,8 @@ void Put(const FileHeader& header, std::string* out);
 void Put(const Schema& schema, std::string* out);
 void Put(const Channel& channel, std::string* out);
 void Put(const Message& message, std::string* out);
+/// A message's record up to its data, which must follow.
+void PutMessageHead(const Message& message, std::string* out);
 void Put(const Attachment& attachment, std::string* out);
 void Put(const Metadata& metadata, std::string* out);
 void Put(const ChunkIndex& index, std::string* out);

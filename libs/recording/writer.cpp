@@ -15,6 +15,10 @@ namespace palpate::recording {
 
 namespace {
 
+/// A message of this size ends its chunk: its bytes need not be copied then, which is a good part
+/// of what recording images costs.
+constexpr std::size_t kUncopiedBytes = std::size_t{1} << 18;
+
 std::uint16_t NextId(std::size_t count, const std::string& what) {
   if (count >= std::numeric_limits<std::uint16_t>::max()) {
     throw RunError("the recording has 65535 " + what + ", and MCAP has no number for one more");
@@ -155,6 +159,11 @@ void Writer::Write(const Message& message) {
   chunk_start_ns_ = first ? message.log_time_ns : std::min(chunk_start_ns_, message.log_time_ns);
   chunk_end_ns_ = first ? message.log_time_ns : std::max(chunk_end_ns_, message.log_time_ns);
   chunk_messages_[message.channel_id].emplace_back(message.log_time_ns, chunk_.size());
+  if (options_.compression == Compression::kNone && message.data.size() >= kUncopiedBytes) {
+    PutMessageHead(message, &chunk_);
+    WriteChunk(message.data);
+    return;
+  }
   Put(message, &chunk_);
   if (chunk_.size() >= options_.chunk_bytes) WriteChunk();
 }
@@ -185,23 +194,20 @@ void Writer::Flush() {
   if (!chunk_.empty()) WriteChunk();
 }
 
-void Writer::WriteChunk() {
-  const std::uint32_t crc = Crc32(chunk_);
+void Writer::WriteChunk(std::string_view data) {
+  const std::uint32_t chunk_crc = Crc32(chunk_);
+  const std::uint32_t data_crc = Crc32(data);
+  const std::uint32_t crc = CombinedCrc32(chunk_crc, data_crc, data.size());
   const Compressor::Packed packed = compressor_.Pack(chunk_);
   const bool is_plain = packed.compression == Compression::kNone;
+  const std::uint64_t uncompressed_size = chunk_.size() + data.size();
   std::string head;
-  PutChunkHead({chunk_start_ns_, chunk_end_ns_, chunk_.size(), crc,
-                std::string(McapName(packed.compression)), packed.bytes.size()},
+  PutChunkHead({chunk_start_ns_, chunk_end_ns_, uncompressed_size, crc,
+                std::string(McapName(packed.compression)), packed.bytes.size() + data.size()},
                &head);
-  ChunkIndex index{.start_time_ns = chunk_start_ns_,
-                   .end_time_ns = chunk_end_ns_,
-                   .offset = position_,
-                   .length = head.size() + packed.bytes.size(),
-                   .message_index_offsets = {},
-                   .message_index_length = 0,
-                   .compression = std::string(McapName(packed.compression)),
-                   .compressed_size = packed.bytes.size(),
-                   .uncompressed_size = chunk_.size()};
+  ChunkIndex index = IndexOf(packed, head.size(), uncompressed_size);
+  index.length += data.size();
+  index.compressed_size += data.size();
   std::string message_indexes;
   for (const auto& [channel_id, entries] : chunk_messages_) {
     index.message_index_offsets[channel_id] = index.offset + index.length + message_indexes.size();
@@ -211,7 +217,8 @@ void Writer::WriteChunk() {
   try {
     AllOrNothing([&] {
       Append(head);
-      Append(packed.bytes, is_plain ? std::optional(crc) : std::nullopt);
+      Append(packed.bytes, is_plain ? std::optional(chunk_crc) : std::nullopt);
+      if (!data.empty()) Append(data, data_crc);
       Append(message_indexes);
     });
   } catch (const RunError&) {
@@ -221,6 +228,19 @@ void Writer::WriteChunk() {
   }
   chunk_indexes_.push_back(std::move(index));
   CountChunk();
+}
+
+ChunkIndex Writer::IndexOf(const Compressor::Packed& packed, std::uint64_t head_size,
+                           std::uint64_t uncompressed_size) const {
+  return {.start_time_ns = chunk_start_ns_,
+          .end_time_ns = chunk_end_ns_,
+          .offset = position_,
+          .length = head_size + packed.bytes.size(),
+          .message_index_offsets = {},
+          .message_index_length = 0,
+          .compression = std::string(McapName(packed.compression)),
+          .compressed_size = packed.bytes.size(),
+          .uncompressed_size = uncompressed_size};
 }
 
 void Writer::CountChunk() {

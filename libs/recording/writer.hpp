@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,10 @@ class Writer {
   void Append(std::string_view bytes, std::optional<std::uint32_t> crc = {});
   template <typename Action>
   void AllOrNothing(const Action& action);
-  void WriteChunk();
+  /// `data`: of the last message of the chunk, where they are not in chunk_.
+  void WriteChunk(std::string_view data = {});
+  ChunkIndex IndexOf(const Compressor::Packed& packed, std::uint64_t head_size,
+                     std::uint64_t uncompressed_size) const;
   void CountChunk();
   std::string Summary(std::uint64_t summary_start) const;
 

@@ -60,7 +60,8 @@ THIRD_PARTY = [
                 r"|klu\.h|Eigen/(?:Cholmod|UmfPack|KLU|SPQR)Support)"),
      {"fem"}, "SuiteSparse only in libs/fem: use fem::SparseSolver"),
     (re.compile(r"tinyxml2"), {"fem"}, "tinyxml2 only in libs/fem"),
-    (re.compile(r"zstd|lz4"), {"recording"}, "zstd and lz4 only in libs/recording"),
+    (re.compile(r"zstd|lz4|libdeflate"), {"recording"},
+     "zstd, lz4 and libdeflate only in libs/recording"),
     (re.compile(r"png\.h"), {"rgbd"}, "libpng only in libs/rgbd: use rgbd/png.hpp"),
 ]
 # Third-party headers that stay behind one component.

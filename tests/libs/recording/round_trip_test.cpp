@@ -173,6 +173,24 @@ TEST(Recording, AMessageOf30MBIsOneOfMany) {
   EXPECT_EQ(SamplesIn(folder / "r.mcap"), samples);
 }
 
+TEST(Recording, LargeMessagesAmongSmallOnesComeBackAndHaveTheirIndex) {
+  const TestFolder folder;
+  std::vector<Sample> samples = Samples(60);
+  std::mt19937 random(4);
+  for (std::size_t i = 5; i < samples.size(); i += 7) {
+    samples[i].data = RandomBytes(300'000, &random);
+  }
+  WriterOptions options;
+  WriteSamples(folder / "r.mcap", samples, options);
+  EXPECT_EQ(SamplesIn(folder / "r.mcap"), samples);
+  const InputFile file(folder / "r.mcap");
+  const Contents scanned = Scan(file);
+  EXPECT_THAT(scanned.problems, testing::IsEmpty());
+  EXPECT_EQ(scanned.statistics.channel_message_counts,
+            ReadSummary(file)->statistics.channel_message_counts);
+  EXPECT_EQ(scanned.blocks.size(), ReadSummary(file)->blocks.size());
+}
+
 TEST(Recording, SmallMessagesCostFewBytesMoreThanTheyHave) {
   const TestFolder folder;
   constexpr int kCount = 5000;
