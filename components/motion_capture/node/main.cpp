@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "components/motion_capture/node/command_line.hpp"
+#include "libs/app/run_node.hpp"
+
+int main(int argc, char** argv) {
+  using namespace palpate;
+  return app::RunNode("palpate-motion-capture", motion_capture::ReadCommand,
+                      motion_capture::MakeNode, argc, argv);
+}
