@@ -24,8 +24,8 @@ struct RawTopic {
   bool has_key = false;  ///< of its type
 };
 
-/// Reads messages of any type as CDR, but those of its own participant. Whoever gets them is called from DDS's own threads, one call
-/// at a time, and must be quick.
+/// Reads messages of any type as CDR, but those of its own participant. Whoever gets them is called
+/// from DDS's own threads, one call at a time, and must be quick.
 class RawReader {
  public:
   using OnMessage = std::function<void(RawMessage)>;
