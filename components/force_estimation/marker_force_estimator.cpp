@@ -101,6 +101,7 @@ class MarkerForceEstimator::Impl {
   bool StandsOnContact(const robot::BodyMarker& marker) const;
   Status Process(const MarkerFrame& frame);
   Status CheckFrame(const MarkerFrame& frame) const;
+  void SetPoseColumns(const MarkerFrame& frame);
   Status SetTargets(const MarkerFrame& frame);
   Status SolveFreeState(const MarkerFrame& frame);
   Status FitGivenSites(const MarkerFrame& frame);
@@ -115,6 +116,8 @@ class MarkerForceEstimator::Impl {
   void Withdraw();
   void HideContacts();
   ContactForce MakeContact(const ForceFit& fit, size_t index, double inflation) const;
+  Eigen::MatrixXd ResponseOfSearched(const std::vector<FitSite>& sites);
+  Eigen::MatrixXd ForcesOfPose_N(const ForceFit& fit, const std::vector<FitSite>& sites);
 
   robot::RobotModel& model_;
   Config config_;
@@ -128,6 +131,9 @@ class MarkerForceEstimator::Impl {
   std::optional<ContactSearch> search_;  ///< where the settings give no contact
   RowTargets targets_;
   Eigen::VectorXd shared_variance_m2_;  ///< [3m] part of the variance that all frames share
+  /// [3m x 6] the markers by the error of their pose, in its sigmas; empty: the pose is exact.
+  Eigen::MatrixXd pose_columns_m_;
+  Eigen::MatrixXd by_pose_N_;    ///< [3k x 6] the forces by it
   double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
   fem::StaticState free_state_;  ///< last equilibrium without contact
   std::optional<std::vector<robot::CableCommand>> free_inputs_;  ///< of free_state_
@@ -211,7 +217,21 @@ Status MarkerForceEstimator::Impl::CheckFrame(const MarkerFrame& frame) const {
   return Status::Ok();
 }
 
+void MarkerForceEstimator::Impl::SetPoseColumns(const MarkerFrame& frame) {
+  if (frame.pose_error.IsZero()) {
+    pose_columns_m_.resize(0, 0);
+    return;
+  }
+  Eigen::Matrix3Xd seen_m = Eigen::Matrix3Xd::Zero(3, ToIndex(frame.markers.size()));
+  for (size_t m = 0; m < frame.markers.size(); ++m) {
+    const MarkerObservation& marker = frame.markers[m];
+    if (marker.valid && marker.position_m.allFinite()) seen_m.col(ToIndex(m)) = marker.position_m;
+  }
+  pose_columns_m_ = PoseErrorColumns(frame.pose_error, seen_m, offsets_.reference_m());
+}
+
 Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
+  SetPoseColumns(frame);
   targets_.rows = 0;
   freedom_ = 0.0;
   estimate_.noise_rms_m = 0.0;
@@ -224,7 +244,10 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
       const double given = marker.sigma_m[i];
       const double noise = std::isfinite(given) && given > 0.0 ? given : config_.marker_sigma_m;
       const double offset_m2 = reference_frames > 0 ? noise * noise / reference_frames : 0.0;
-      shared_variance_m2_[row + i] = offset_m2 + config_.marker_bias_m * config_.marker_bias_m;
+      const double pose_m2 =
+          pose_columns_m_.rows() > 0 ? pose_columns_m_.row(row + i).squaredNorm() : 0.0;
+      shared_variance_m2_[row + i] =
+          offset_m2 + pose_m2 + config_.marker_bias_m * config_.marker_bias_m;
       const double variance = noise * noise + shared_variance_m2_[row + i];
       targets_.weight[row + i] = used ? marker_weight_[m] / variance : 0.0;
       targets_.value_m[row + i] = used ? marker.position_m[i] - offsets_.offset_m()[row + i] : 0.0;
@@ -309,6 +332,8 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
   HideContacts();
   if (found.status.ok()) {
     Publish(found.fit, found.fit_sites, found.sites, found.location_ci95_m);
+    // The search weighs the markers one by one; an error that they share may explain what it found.
+    if (pose_columns_m_.rows() > 0) return StatusOfContacts();
   }
   return found.status;
 }
@@ -361,9 +386,16 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
     misfit.response_m = fitter_.Response();
     return misfit;
   }
-  // The fitter holds the last sites that the search tried, not those that it chose.
-  const std::vector<FitSite>& sites = search_->result().fit_sites;
-  const auto count = ToIndex(estimate_.contacts.size());
+  std::vector<FitSite> sites = search_->result().fit_sites;
+  sites.resize(estimate_.contacts.size());
+  misfit.response_m = ResponseOfSearched(sites);
+  return misfit;
+}
+
+/// Response of the markers to the contacts that the search chose [3m x 3k], m/N: the fitter holds
+/// the last ones that it tried.
+Eigen::MatrixXd MarkerForceEstimator::Impl::ResponseOfSearched(const std::vector<FitSite>& sites) {
+  const auto count = ToIndex(sites.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
   for (Eigen::Index c = 0; c < count; ++c) {
     const fem::InterpolationWeights& weights = sites[At(c)].patch.weights;
@@ -373,8 +405,19 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
       }
     }
   }
-  if (count > 0) fitter_.RespondTo(forces_N, estimate_.x_m, &misfit.response_m);
-  return misfit;
+  Eigen::MatrixXd response_m;
+  if (count > 0) fitter_.RespondTo(forces_N, estimate_.x_m, &response_m);
+  return response_m;
+}
+
+/// What the fit makes of an error of the pose, which all markers share: S G' W times their motion
+/// by it [3k x 6], with the covariance S of the forces and the markers' response G.
+Eigen::MatrixXd MarkerForceEstimator::Impl::ForcesOfPose_N(const ForceFit& fit,
+                                                           const std::vector<FitSite>& sites) {
+  if (pose_columns_m_.rows() == 0 || sites.empty()) return {};
+  const Eigen::MatrixXd response_m = Searches() ? ResponseOfSearched(sites) : fitter_.Response();
+  return fit.covariance_N2 * response_m.transpose() * targets_.weight.asDiagonal() *
+         pose_columns_m_;
 }
 
 /// A residual beyond the noise is a sign of model error: the intervals are widened by the Birge
@@ -388,6 +431,7 @@ void MarkerForceEstimator::Impl::Publish(const ForceFit& fit, const std::vector<
                                : 1.0;
   if (estimate_.contacts.empty()) estimate_.contacts.swap(withdrawn_);
   estimate_.contacts.resize(sites.size());
+  by_pose_N_ = ForcesOfPose_N(fit, fit_sites);
   for (size_t s = 0; s < sites.size(); ++s) {
     ContactForce& contact = estimate_.contacts[s];
     contact = MakeContact(fit, s, inflation);
@@ -406,6 +450,10 @@ ContactForce MarkerForceEstimator::Impl::MakeContact(const ForceFit& fit, size_t
   const Eigen::Vector3d by_modulus = modulus_sigma_ * fit.modulus_sensitivity_N.segment<3>(row);
   contact.covariance_N2 =
       inflation * fit.covariance_N2.block<3, 3>(row, row) + by_modulus * by_modulus.transpose();
+  if (by_pose_N_.rows() > 0) {
+    const auto by_pose_N = by_pose_N_.middleRows<3>(row);
+    contact.covariance_N2 += by_pose_N * by_pose_N.transpose();
+  }
   switch (fit.observability[index]) {
     case Observability::kNone:
       contact.status = Status(StatusCode::kUnobservable, {});

@@ -33,6 +33,8 @@ struct MarkerMisfit {
 /// frame starts at the state of the one before. Frames with a reference shape only set the marker
 /// offsets and give kNoCalibration. Without given contacts the known loads of a frame
 /// (MarkerFrame::loads) are its contacts, and where there are none, contacts are searched.
+/// An error of the pose widens the intervals, as one that all markers share; what it may explain is
+/// no contact.
 class MarkerForceEstimator {
  public:
   /// `model` must outlive the estimator. `youngs_modulus_relative_sigma`: relative standard error
@@ -44,7 +46,8 @@ class MarkerForceEstimator {
   ~MarkerForceEstimator();
 
   /// The estimate stays valid until the next call. With given contact sites nothing is allocated
-  /// after the first frame, unless one needs a continuation step (fit/force_fitter.hpp).
+  /// after the first frame, unless one needs a continuation step (fit/force_fitter.hpp) or the pose
+  /// has an error.
   const ForceEstimate& Update(const MarkerFrame& frame);
 
   /// Of the last frame; weights of 0 where its fit failed.

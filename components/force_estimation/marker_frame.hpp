@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/force_estimation/contact_site.hpp"
+#include "components/force_estimation/pose_error.hpp"
 #include "libs/robot/robot_model.hpp"
 
 namespace palpate::force_estimation {
@@ -33,6 +34,7 @@ struct MarkerFrame {
   /// Where known loads act now. They are the contacts where the settings give none: of known place
   /// and unknown force.
   std::vector<ContactSite> loads = {};
+  PoseError pose_error = {};  ///< of the map from what was measured to the robot frame
 };
 
 }  // namespace palpate::force_estimation

@@ -31,6 +31,9 @@ class MarkerOffsetCalibration {
   /// Frames that the offset of a marker is the mean of; 0: its offset is no measurement. The noise
   /// of a frame over the root of this is an error that all later frames share.
   int FrameCount(size_t marker) const { return calibrated_ ? counts_[marker] : 0; }
+  /// Mean measured position [3 x m] in the frames that the offsets are of, robot frame, m; NaN for
+  /// markers that have no measured offset.
+  const Eigen::Matrix3Xd& reference_m() const { return reference_m_; }
   /// Whether the marker may be used: it has an offset, or there was no calibration.
   bool Usable(size_t marker) const { return !calibrated_ || counts_[marker] > 0; }
 
@@ -40,6 +43,7 @@ class MarkerOffsetCalibration {
   Eigen::VectorXd sum_;
   Eigen::VectorXd offset_;
   std::vector<int> counts_;
+  Eigen::Matrix3Xd reference_m_;
   bool open_ = false;
   bool calibrated_ = false;
 };

@@ -56,6 +56,7 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
       experiment::RequireRobotFromMarkers(experiment, recording);
   const Eigen::Vector3d sigma_m = RotateSigma(
       T_robot_measurement.linear(), experiment.markers_sigma_m.value_or(Eigen::Vector3d::Zero()));
+  const PoseError pose_error = StatedPoseError(experiment, recording);
   std::vector<std::optional<size_t>> columns;
   for (const std::string& name : marker_names) columns.push_back(tracks.IndexOf(name));
 
@@ -63,6 +64,7 @@ std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experim
   for (const experiment::MarkerFrame& measured : tracks.frames) {
     MarkerFrame frame;
     frame.t_s = measured.t_s;
+    frame.pose_error = pose_error;
     frame.reference = ReferenceAt(recording, measured.t_s);
     for (const std::optional<size_t>& column : columns) {
       MarkerObservation marker;

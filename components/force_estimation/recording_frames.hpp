@@ -24,9 +24,9 @@ std::vector<robot::CableCommand> CablesAt(const experiment::Recording& recording
                                           robot::CableInput preferred, double t_s);
 
 /// The frames of a recording as MarkerForceEstimator takes them: markers in the robot's order and
-/// frame, cable inputs interpolated to each frame's time, the reference window marked.
-/// Throws InputError (file:line) for a marker or cable that the robot does not have, a recording
-/// without markers, or one measured in a camera frame of unknown pose.
+/// frame, cable inputs interpolated to each frame's time, the reference window marked, with the
+/// stated error of the pose. Throws InputError (file:line) for a marker or cable that the robot
+/// does not have, a recording without markers, or one measured in a camera frame of unknown pose.
 std::vector<MarkerFrame> FramesOfRecording(const experiment::Experiment& experiment,
                                            const experiment::Recording& recording,
                                            const robot::RobotModel& model,

@@ -69,6 +69,8 @@ ObservedRecording DescribeRecording(const experiment::Experiment& experiment,
   const auto pose = RobotFromMarkers(experiment, recording);
   if (const auto* T_robot_measurement = std::get_if<Eigen::Isometry3d>(&pose)) {
     seen.T_measurement_robot = T_robot_measurement->inverse();
+    seen.pose_error =
+        recording.T_robot_camera ? recording.T_robot_camera_error : experiment.T_robot_camera_error;
   } else {
     seen.knows_pose = false;
   }

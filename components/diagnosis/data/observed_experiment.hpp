@@ -13,6 +13,7 @@
 #include "components/diagnosis/data/surface_measurement.hpp"
 #include "components/diagnosis/data/timeline.hpp"
 #include "libs/experiment/experiment.hpp"
+#include "libs/geometry/pose_text.hpp"
 #include "libs/rgbd/camera_model.hpp"
 #include "libs/robot/robot_body.hpp"
 
@@ -43,6 +44,8 @@ struct ObservedRecording {
   std::string kind;
   Eigen::Isometry3d T_measurement_robot = Eigen::Isometry3d::Identity();
   bool knows_pose = true;  ///< else T_measurement_robot is estimated
+  /// Of the pose that is given, about the camera; nothing: not stated.
+  std::optional<geometry::PoseStandardError> pose_error = {};
   bool camera_frame = false;
   /// A depth camera saw the markers: they are in its frame, all before it, and do not count from a
   /// held shape, as those of motion capture do.

@@ -138,6 +138,7 @@ ObservedExperiment ObserveProposals(const experiment::Experiment& experiment,
     if (!made) recording.pose_of = plain;
     recording.T_measurement_robot = like.T_measurement_robot;
     recording.knows_pose = like.knows_pose;
+    recording.pose_error = like.pose_error;
     recording.camera_frame = like.camera_frame;
     recording.by_depth_camera = like.by_depth_camera;
     recording.T_camera_robot = like.T_camera_robot;

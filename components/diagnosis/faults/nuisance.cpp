@@ -3,10 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "components/diagnosis/faults/makers.hpp"
 #include "components/diagnosis/faults/view_motion.hpp"
 #include "libs/core/index.hpp"
+#include "libs/geometry/pose_text.hpp"
 #include "libs/robot/sensitivity/parameters.hpp"
 
 namespace palpate::diagnosis {
@@ -126,7 +128,8 @@ class Extrinsics final : public FaultModel {
   Eigen::Vector3d middle_m_;
 };
 
-/// What is known of a pose that is given, and one that was fitted to these data.
+/// What is known of a pose that is given without a standard error, and one that was fitted to these
+/// data.
 constexpr double kGiven_m = 5e-4;
 constexpr double kGiven_rad = 2e-3;
 constexpr double kFitted_m = 0.02;
@@ -137,10 +140,15 @@ struct View {
   Viewpoint eye;
   Eigen::Isometry3d T_measurement_robot;
   bool known;
+  std::optional<geometry::PoseStandardError> error;
 };
 
 bool SamePose(const View& a, const View& b) {
-  return a.known == b.known && a.T_measurement_robot.isApprox(b.T_measurement_robot, 1e-12);
+  const bool same_error = a.error.has_value() == b.error.has_value() &&
+                          (!a.error || (a.error->translation_m == b.error->translation_m &&
+                                        a.error->rotation_rad == b.error->rotation_rad));
+  return same_error && a.known == b.known &&
+         a.T_measurement_robot.isApprox(b.T_measurement_robot, 1e-12);
 }
 
 /// Those whose pose may be off. Depth frames and markers that are in the camera's frame have one
@@ -151,10 +159,29 @@ std::vector<View> Views(const CatalogueInputs& inputs) {
   for (int k = 0; k < std::ssize(recordings); ++k) {
     const ObservedRecording& one = recordings[At(k)];
     if (one.camera_frame || inputs.extrinsics_m > 0.0)
-      views.push_back({{k, Target::kMarkers}, one.T_measurement_robot, one.knows_pose});
-    if (one.T_camera_robot) views.push_back({{k, Target::kSurface}, *one.T_camera_robot, true});
+      views.push_back(
+          {{k, Target::kMarkers}, one.T_measurement_robot, one.knows_pose, one.pose_error});
+    if (one.T_camera_robot)
+      views.push_back({{k, Target::kSurface}, *one.T_camera_robot, true, one.pose_error});
   }
   return views;
+}
+
+/// Sigmas of the robot's middle and of the turn about it. A standard error is of the camera's own
+/// place and of turns about that, which move the middle as well.
+geometry::PoseStandardError SigmaOf(const View& view, const Eigen::Vector3d& middle_m,
+                                    const CatalogueInputs& inputs) {
+  if (!view.known) return {.translation_m = kFitted_m, .rotation_rad = kFitted_rad};
+  geometry::PoseStandardError sigma{.translation_m = kGiven_m, .rotation_rad = kGiven_rad};
+  if (view.error) {
+    const double distance_m = (view.T_measurement_robot * middle_m).norm();
+    sigma = {.translation_m =
+                 std::hypot(view.error->translation_m, view.error->rotation_rad * distance_m),
+             .rotation_rad = view.error->rotation_rad};
+  }
+  if (inputs.extrinsics_m > 0.0) sigma.translation_m = inputs.extrinsics_m;
+  if (inputs.extrinsics_rad > 0.0) sigma.rotation_rad = inputs.extrinsics_rad;
+  return sigma;
 }
 
 }  // namespace
@@ -171,12 +198,9 @@ void MakeExtrinsics(const CatalogueInputs& inputs, std::vector<FaultModelPtr>* f
       taken[l] = true;
       same_pose.push_back(views[l].eye);
     }
-    const bool given = views[k].known;
-    const double sigma_m = inputs.extrinsics_m > 0.0 ? inputs.extrinsics_m : kGiven_m;
-    const double sigma_rad = inputs.extrinsics_rad > 0.0 ? inputs.extrinsics_rad : kGiven_rad;
+    const geometry::PoseStandardError sigma = SigmaOf(views[k], middle_m, inputs);
     faults->push_back(std::make_unique<Extrinsics>(std::move(same_pose), middle_m,
-                                                   given ? sigma_m : kFitted_m,
-                                                   given ? sigma_rad : kFitted_rad));
+                                                   sigma.translation_m, sigma.rotation_rad));
   }
 }
 

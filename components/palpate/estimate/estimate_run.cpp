@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "components/force_estimation/contact_site.hpp"
@@ -35,8 +36,27 @@ robot::CalibrationFile ApplyCalibration(const std::filesystem::path& file, robot
   }
   auto calibration = robot::ReadCalibrationFile(file, app::LoadYaml);
   robot::ApplyCalibration(calibration, model);
-  if (calibration.pose) experiment->T_robot_camera = calibration.pose->T_robot_camera;
+  if (calibration.pose) {
+    experiment->T_robot_camera = calibration.pose->T_robot_camera;
+    experiment->T_robot_camera_error = {
+        .translation_m = calibration.pose->translation_error_m.maxCoeff(),
+        .rotation_rad = calibration.pose->rotation_error_rad.maxCoeff()};
+  }
   return calibration;
+}
+
+/// The pose's priors of the settings, or the largest error that is stated where that is larger.
+void WidenPosePriors(const experiment::Experiment& experiment,
+                     force_estimation::ShapeConfig* shape) {
+  const auto widen = [&](const std::optional<geometry::PoseStandardError>& error) {
+    if (!error) return;
+    shape->pose_prior_m = std::max(shape->pose_prior_m, error->translation_m);
+    shape->pose_prior_rad = std::max(shape->pose_prior_rad, error->rotation_rad);
+  };
+  widen(experiment.T_robot_camera_error);
+  for (const auto& recording : experiment.recordings) {
+    if (recording.T_robot_camera) widen(recording.T_robot_camera_error);
+  }
 }
 
 bool IsResult(const Status& status) {
@@ -82,6 +102,7 @@ ShapeReplay& EstimateRun::Shape() {
 std::unique_ptr<ShapeReplay> EstimateRun::MakeShapeReplay() const {
   ReplayPerception perception = MakeReplayPerception(settings_.perception, calibration_.depth_bias);
   force_estimation::ShapeConfig shape = settings_.shape;
+  WidenPosePriors(experiment_, &shape);
   if (options_.bias_frames != "first") shape.untouched_frames = 0;
   auto pipeline = std::make_unique<force_estimation::ShapePipeline>(model_, settings_.forces, shape,
                                                                     calibration_);

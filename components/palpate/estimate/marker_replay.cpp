@@ -94,6 +94,17 @@ void MarkerReplay::CheckAtRest(const experiment::Recording& recording,
   if (!status.ok()) throw InputError(SourceLocation{recording.folder.string()}, status.message());
 }
 
+/// A calibrated pose replaces that of the experiment, and so does its error.
+void MarkerReplay::CountCalibratedPose(const experiment::Recording& recording,
+                                       std::vector<MarkerFrame>* frames) const {
+  if (!calibration_.pose || recording.T_robot_camera) return;
+  const Eigen::Vector3d middle_m = inputs_.model->body().mesh.nodes_m.rowwise().mean();
+  const auto error = force_estimation::CalibratedPoseError(*calibration_.pose, middle_m);
+  for (MarkerFrame& frame : *frames) {
+    if (!frame.pose_error.IsZero()) frame.pose_error = error;
+  }
+}
+
 ReplayCount MarkerReplay::Estimate(const experiment::Recording& recording,
                                    const TakeEstimate& take) const {
   robot::RobotModel& model = *inputs_.model;
@@ -103,6 +114,7 @@ ReplayCount MarkerReplay::Estimate(const experiment::Recording& recording,
   auto frames = Thinned(force_estimation::FramesOfRecording(inputs_.experiment, recording, model,
                                                             inputs_.cable_input),
                         inputs_.limits.rate_Hz);
+  CountCalibratedPose(recording, &frames);
   CheckAtRest(recording, frames);
   if (inputs_.tare != nullptr && !recording.reference) {
     const auto tare = inputs_.tare->FramesFor(recording);

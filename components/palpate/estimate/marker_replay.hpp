@@ -45,6 +45,8 @@ class MarkerReplay {
   ReplayCount Estimate(const experiment::Recording& recording, const TakeEstimate& take) const;
 
  private:
+  void CountCalibratedPose(const experiment::Recording& recording,
+                           std::vector<force_estimation::MarkerFrame>* frames) const;
   void CheckAtRest(const experiment::Recording& recording,
                    const std::vector<force_estimation::MarkerFrame>& frames) const;
 

@@ -8,9 +8,11 @@
 #include <random>
 #include <string>
 
+#include "libs/core/file.hpp"
+#include "libs/core/text.hpp"
 #include "tests/components/palpate/markers/marked_bar.hpp"
 
-/// `palpate calibrate` with a camera pose that is known to its standard error.
+/// `palpate calibrate` and `estimate` with a camera pose that is known to its standard error.
 namespace palpate::command {
 namespace {
 
@@ -142,6 +144,27 @@ TEST_F(PoseError, OfAWellKnownPoseIsNotMadeWorse) {
   ASSERT_TRUE(Found().pose);
   EXPECT_TRUE(Found().pose->T_robot_camera.isApprox(T_robot_camera_, 1e-5));
   EXPECT_LE(Found().pose->translation_error_m.maxCoeff(), 2e-6);
+}
+
+/// Without a reference window the error of the pose is all there is to see.
+TEST_F(PoseError, IsNoForceInEstimate) {
+  ChangeRobot("youngs_modulus_Pa: 130.0e3", "youngs_modulus_Pa: 100.0e3", false);
+  Record({.name = "hold", .commanded_m = 0.004});
+  const std::string commanded_m = FormatNumber(0.004 + kOffset_m);
+  folder_.Write("data/recordings/hold/actuation.csv",
+                "t_s,top.displacement_m\n0," + commanded_m + "\n1," + commanded_m + "\n");
+  const auto estimate = [&](const std::string& error) {
+    TellPose(PoseOff(1), error);
+    const ProgramRun run = Run({"estimate", robot_.string(), "--data", (folder_ / "data").string(),
+                                "--out", (folder_ / "forces.csv").string()});
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    return ReadFile(folder_ / "forces.csv");
+  };
+  EXPECT_THAT(estimate(", standard_error: {translation_m: 0.002, rotation_rad: 0.005}"),
+              HasSubstr("no_contact"));
+  EXPECT_THAT(estimate(""), HasSubstr("no_contact"));  // 5 mm and 0.01 rad
+  EXPECT_THAT(estimate(", standard_error: {translation_m: 1e-5, rotation_rad: 1e-5}"),
+              testing::Not(HasSubstr("no_contact")));
 }
 
 }  // namespace
