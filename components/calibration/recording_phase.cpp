@@ -7,9 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "libs/core/error.hpp"
 #include "libs/core/index.hpp"
-#include "libs/core/text.hpp"
 #include "libs/experiment/recording_inputs.hpp"
 
 namespace palpate::calibration {
@@ -18,20 +16,14 @@ namespace {
 
 /// Larger values take slow motions for static phases.
 struct RecordingPhaseTuning {
-  double still_m = 1e-5;     ///< range of a displacement without motion
-  double still_N = 1e-3;     ///< range of a tension without motion
-  double farthest_m = 0.02;  ///< distance of a known load from the surface
+  double still_m = 1e-5;  ///< range of a displacement without motion
+  double still_N = 1e-3;  ///< range of a tension without motion
 };
 constexpr RecordingPhaseTuning kPhaseTuning;
 
 robot::DeadLoad ToDeadLoad(const experiment::KnownLoad& load, const robot::RobotModel& model) {
   const fem::SurfacePatch patch = model.Patch(load.position_m, load.patch_radius_m);
-  constexpr double kFarthest_m = kPhaseTuning.farthest_m;
-  if (patch.distance_m > kFarthest_m) {
-    throw InputError(load.where, "the load lies " + FormatNumber(patch.distance_m) +
-                                     " m from the body's surface; at most " +
-                                     FormatNumber(kFarthest_m) + " m is allowed");
-  }
+  experiment::RequireOnBody(load, patch.distance_m);
   return {patch.weights, load.force_N};
 }
 

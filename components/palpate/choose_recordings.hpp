@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libs/experiment/experiment.hpp"
+#include "libs/fem/embedding.hpp"
 
 namespace palpate::command {
 
@@ -27,6 +28,9 @@ bool HasKnownLoads(const experiment::Recording& recording);
 /// Refuses a recording of kind known_load without loads.csv, whose deflection would be taken for a
 /// soft body: InputError with the remedy.
 void RequireLoads(const experiment::Recording& recording);
+
+/// Refuses the first known load that lies off the body (experiment::RequireOnBody).
+void RequireLoadsOnBody(const experiment::Recording& recording, const fem::PointLocator& places);
 
 /// "sha256-<64 hex digits>" over the settings and tables of these recordings.
 std::string HashRecordings(const std::vector<const experiment::Recording*>& recordings);

@@ -32,6 +32,7 @@
 #include "libs/core/seconds.hpp"
 #include "libs/core/utc_text.hpp"
 #include "libs/experiment/folders.hpp"
+#include "libs/fem/embedding.hpp"
 #include "libs/rgbd/rgbd_camera.hpp"
 
 namespace palpate::command {
@@ -115,6 +116,10 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
     const experiment::Experiment experiment = ReadData(options);
     const robot::RobotBody body = robot::BuildRobotBody(robot);
     PrintWarnings(body);
+    const fem::PointLocator places(body.mesh);
+    for (const experiment::Recording& recording : experiment.recordings) {
+      RequireLoadsOnBody(recording, places);
+    }
     std::optional<SurfaceImages> images;
     if (options.from != "markers" && HasSurfaceImages(experiment)) {
       images.emplace(experiment, body, ImageSettings(options, experiment));

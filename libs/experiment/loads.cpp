@@ -88,6 +88,20 @@ std::vector<KnownLoad> ReadLoads(const std::filesystem::path& file) {
   return loads;
 }
 
+void RequireOnBody(const KnownLoad& load, double distance_m) {
+  if (distance_m <= kLargestLoadDistance_m) return;
+  std::string place;
+  for (const double value : load.position_m) {
+    place += (place.empty() ? "" : ", ") + FormatNumber(value);
+  }
+  const double rounded_m = 1e-4 * std::round(1e4 * distance_m);
+  throw InputError(load.where, "the load at (" + place + ") m lies " + FormatNumber(rounded_m) +
+                                   " m from the body's surface; at most " +
+                                   FormatNumber(kLargestLoadDistance_m) +
+                                   " m is allowed: give its place on the undeformed body, in the "
+                                   "robot frame and in metres");
+}
+
 void WriteLoads(const std::vector<KnownLoad>& loads, const std::filesystem::path& file) {
   std::string text = "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,patch_radius_m\n";
   for (const KnownLoad& load : loads) {

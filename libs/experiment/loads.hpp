@@ -27,6 +27,15 @@ struct KnownLoad {
 /// one point at one time.
 std::vector<KnownLoad> ReadLoads(const std::filesystem::path& file);
 
+/// Largest distance of a known load from the body's surface. Larger accepts places that are
+/// measured less well; smaller finds a wrong frame or unit sooner.
+inline constexpr double kLargestLoadDistance_m = 0.02;
+
+/// Refuses a load that lies `distance_m` from the surface of the undeformed body, if that is
+/// farther than kLargestLoadDistance_m: InputError at its line of loads.csv, with place, rule and
+/// remedy.
+void RequireOnBody(const KnownLoad& load, double distance_m);
+
 /// Writes what ReadLoads reads back exactly. Throws RunError where it cannot.
 void WriteLoads(const std::vector<KnownLoad>& loads, const std::filesystem::path& file);
 

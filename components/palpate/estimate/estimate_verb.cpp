@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "components/palpate/check_output.hpp"
+#include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/estimate/estimate_run.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "libs/app/stop_signal.hpp"
@@ -48,6 +49,9 @@ int Estimate(const EstimateOptions& options) {
   const auto plan = PlanEstimates(experiment, options.recordings, options.from);
   const auto model = LoadRobot(options.robot, {settings.forces.solver, settings.forces.threads},
                                options.calibration);
+  for (const PlannedRecording& planned : plan) {
+    RequireLoadsOnBody(*planned.recording, model->locator());
+  }
   const app::StopSignal stop;
   EstimateRun run(options, settings, &experiment, model.get(), [&] { return stop.Requested(); });
   run.EstimateDepthBias(plan);

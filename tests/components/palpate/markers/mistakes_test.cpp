@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,29 @@ TEST_F(Mistakes, AKnownLoadWithoutLoads) {
     EXPECT_THAT(run.output, HasSubstr("t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N"));
     EXPECT_FALSE(HasFile());
   }
+}
+
+/// One rule for all verbs.
+TEST_F(Mistakes, AKnownLoadOffTheBody) {
+  RecordThree({});
+  Record({.name = "hung", .commanded_m = 0.004, .load_N = 0.2, .kind = "known_load"});
+  TellPose(T_robot_camera_);
+  folder_.Write("data/recordings/hung/loads.csv",
+                "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N\n0,0.08,0.01,0.06,0,0,-0.2\n");
+  const std::string data = (folder_ / "data").string();
+  const std::vector<ProgramRun> runs = {
+      Calibrate(),
+      Run({"estimate", robot_.string(), "--data", data, "--out",
+           (folder_ / "forces.csv").string()}),
+      Run({"diagnose", robot_.string(), "--data", data, "--out", (folder_ / "report").string()})};
+  for (const ProgramRun& run : runs) {
+    EXPECT_NE(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("hung/loads.csv:2:1: the load at (0.08, 0.01, 0.06) m lies "
+                                      "0.04 m from the body's surface; at most 0.02 m is allowed"));
+    EXPECT_THAT(run.output, HasSubstr("in metres"));
+  }
+  EXPECT_FALSE(HasFile());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "forces.csv"));
 }
 
 TEST_F(Mistakes, AnOutputThatCannotBeWrittenIsSaidBeforeTheWork) {
