@@ -36,6 +36,8 @@ struct FrameInput {
   PipelineFrame frame;
   /// Holds from this frame on; nullptr: as before.
   std::shared_ptr<const NewCalibration> calibration = nullptr;
+  /// There is no frame yet: the posture that its cable inputs give is computed and expected.
+  bool posture_only = false;
 
   std::vector<robot::CableCommand>& cables() {
     if (auto* shape = std::get_if<PerceivedShape>(&frame)) return shape->frame.cables;
@@ -51,6 +53,7 @@ struct FrameInput {
 /// What the pipeline made of a frame.
 struct FrameResult : PipelineResult {
   FrameHead head;
+  bool posture_only = false;  ///< the answer to such an input: state and estimate.x_m alone
 };
 
 }  // namespace palpate::force_estimation

@@ -28,6 +28,8 @@ namespace palpate::force_estimation {
 namespace {
 
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+/// Of postures before the first frame; perception takes predictions that are up to a second old.
+constexpr auto kPosturePeriod = std::chrono::milliseconds(200);
 constexpr double kLongestWait_s = 1e6;
 constexpr size_t kMostPending = 1024;
 
@@ -131,10 +133,12 @@ void ForceEstimationNode::BeginSequence(const SequenceStart& start) {
 }
 
 void ForceEstimationNode::TakeJointStates() {
+  std::optional<std::int64_t> stamp_ns;
   for (const auto& message : joint_states_.Take()) {
     CableReading reading;
     const Status status = dds::FromJointState(message, cable_names_, &reading);
     if (status.ok()) {
+      stamp_ns = reading.stamp_ns;
       cables_.Add(std::move(reading));
     } else {
       ++counts_.refused;
@@ -142,6 +146,23 @@ void ForceEstimationNode::TakeJointStates() {
     }
   }
   MatchWithCables();
+  if (stamp_ns) ExpectPosture(*stamp_ns);
+}
+
+/// Before the first image the cable inputs alone say where the robot is. Its state is stamped just
+/// before them: one of a frame's own stamp would be the answer to that frame.
+void ForceEstimationNode::ExpectPosture(std::int64_t stamp_ns) {
+  const auto now = Clock::now();
+  if (!IsFromShape(config_) || !config_.expect_posture || has_frame_ ||
+      now - last_posture_ < kPosturePeriod)
+    return;
+  FrameInput input{.head = {.stamp_ns = stamp_ns - 1, .counter = 0, .recording = {}, .taken = now},
+                   .frame = PerceivedShape(),
+                   .posture_only = true};
+  if (!cables_.LastBefore(stamp_ns, kLongestWait_s, &input.cables()).ok()) return;
+  last_posture_ = now;
+  input.calibration = std::exchange(calibration_pending_, nullptr);
+  worker_.Push(std::move(input));
 }
 
 void ForceEstimationNode::TakeCalibration() {
@@ -183,6 +204,7 @@ void ForceEstimationNode::Adopt(const robot::CalibrationFile& calibration) {
 void ForceEstimationNode::Accept(FrameInput input) {
   const Status status = FrameGate::CheckAge(input.head, participant_.Now_ns(), config_.max_age_s);
   if (!status.ok()) return Refuse(input.head, status);
+  has_frame_ = true;
   input.new_sequence = std::exchange(sequence_pending_, false);
   input.calibration = std::exchange(calibration_pending_, nullptr);
   if (pending_.size() == kMostPending) {
@@ -247,6 +269,10 @@ bool ForceEstimationNode::FindCables(FrameInput& input, Status* status) const {
 
 void ForceEstimationNode::PublishResults() {
   while (const std::optional<FrameResult> result = worker_.TakeResult()) {
+    if (result->posture_only) {
+      if (result->state_is_known) outputs_.PublishPosture(*result);
+      continue;
+    }
     last_status_ = result->estimate.status;
     LogBiasFrames(result->bias_frames_to_come);
     if (ToString(result->drift.state) != ToString(drift_.state)) LogDrift(result->drift);

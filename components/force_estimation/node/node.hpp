@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
@@ -44,6 +45,7 @@ class ForceEstimationNode {
   using Clock = dds::WaitSet::Clock;
 
   void TakeJointStates();
+  void ExpectPosture(std::int64_t stamp_ns);
   void TakeCalibration();
   void Adopt(const robot::CalibrationFile& calibration);
   std::unique_ptr<FrameSource> MakeSource();
@@ -80,6 +82,8 @@ class ForceEstimationNode {
   CalibrationInput calibration_;
   robot::CalibrationFile in_use_;   ///< its moduli, pose and depth bias
   std::deque<FrameInput> pending_;  ///< frames that wait for the cable inputs of their time
+  bool has_frame_ = false;          ///< one was accepted
+  Clock::time_point last_posture_;  ///< when one was asked for
   bool sequence_pending_ = false;   ///< the next accepted frame begins a sequence
   std::shared_ptr<const NewCalibration> calibration_pending_;  ///< for that frame
   bool maker_is_given_;

@@ -17,6 +17,7 @@ struct NodeConfig : Config {
   std::string source = "auto";
   std::string camera_pose;
   bool follow_calibration = true;
+  bool expect_posture = true;
   std::string cable_input = "displacement";
   double max_age_s = 0.0;
   double cable_wait_s = 0.5;
@@ -36,6 +37,10 @@ struct NodeConfig : Config {
     v("follow_calibration", follow_calibration,
       "Use camera pose, actuator offsets and moduli of /calibration from the next frame on, "
       "which begins a sequence; false: keep those of the start");
+    v("expect_posture", expect_posture,
+      "With source shape: publish the posture that the cable inputs give on /robot/mesh_state "
+      "until "
+      "the first frame; false: what is made of a recording does not depend on when they come");
     v("cable_input", cable_input, {"displacement", "tension"},
       "Boundary condition of cables with both inputs: prescribed displacement or tension");
     v("max_age_s", max_age_s, {.min = 0.0},

@@ -46,6 +46,10 @@ void Outputs::Publish(const FrameResult& result) {
   Answer(result.head, ToForceArray(result.head, estimate.status, estimate.contacts));
 }
 
+void Outputs::PublishPosture(const FrameResult& result) {
+  SendMeshState(ToMeshState(result, body_.mesh_hash));
+}
+
 void Outputs::PublishRefusal(const FrameHead& head, const Status& status) {
   if (answer_always_) SendMeshState(NoMeshState(head, status, body_.mesh_hash));
   PublishWrenches(head, {});

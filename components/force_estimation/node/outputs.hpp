@@ -25,6 +25,8 @@ class Outputs {
           std::vector<std::string> given_contacts);
 
   void Publish(const FrameResult& result);
+  /// Publishes the posture on /robot/mesh_state: perception predicts the first image from it.
+  void PublishPosture(const FrameResult& result);
   /// Publishes on /forces why a frame has no estimate.
   void PublishRefusal(const FrameHead& head, const Status& status);
   /// Publishes on /forces that no frame has come since the last answer.

@@ -3,6 +3,7 @@
 
 #include "components/force_estimation/node/worker.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace palpate::force_estimation {
@@ -10,6 +11,13 @@ namespace palpate::force_estimation {
 namespace {
 constexpr size_t kMostFrames = 1024;
 constexpr size_t kMostResults = 128;
+
+bool AreEqual(const std::vector<robot::CableCommand>& a,
+              const std::vector<robot::CableCommand>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.kind == y.kind && x.value == y.value;
+  });
+}
 }  // namespace
 
 Worker::Worker(std::unique_ptr<robot::RobotModel> model, PipelineMaker maker,
@@ -20,7 +28,8 @@ Worker::Worker(std::unique_ptr<robot::RobotModel> model, PipelineMaker maker,
       worker_({.run = [this](FrameInput& input) { return Estimate(input); },
                .on_result = std::move(on_result),
                .afterwards =
-                   [this](const FrameInput&) {
+                   [this](const FrameInput& input) {
+                     if (input.posture_only) return;
                      pipeline_->PrepareNext();
                      pipeline_->Monitor();
                    }},
@@ -33,12 +42,38 @@ void Worker::Push(FrameInput input) {
 
 FrameResult Worker::Estimate(FrameInput& input) {
   if (input.calibration) Adopt(*input.calibration);
-  if (input.new_sequence) pipeline_ = maker_(*model_);
-  return {pipeline_->Update(std::move(input.frame)), input.head};
+  if (input.posture_only) return ExpectPosture(input);
+  if (input.new_sequence) {
+    pipeline_ = maker_(*model_);
+    if (posture_m_.size() > 0) pipeline_->Expect(posture_m_);
+  }
+  FrameResult result{pipeline_->Update(std::move(input.frame)), input.head};
+  return result;
+}
+
+/// The equilibrium under the cable inputs, solved again only where these have changed.
+FrameResult Worker::ExpectPosture(FrameInput& input) {
+  FrameResult result;
+  result.head = input.head;
+  result.posture_only = true;
+  if (posture_m_.size() == 0 || !AreEqual(input.cables(), posture_cables_)) {
+    posture_m_.resize(0);
+    posture_cables_ = input.cables();
+    fem::StaticState state = model_->RestState();
+    result.state = model_->Solve(posture_cables_, {}, &state).status;
+    if (!result.state.ok()) return result;
+    posture_m_ = state.x_m;
+    pipeline_->Expect(posture_m_);
+  }
+  result.state = Status::Ok();
+  result.state_is_known = true;
+  result.estimate.x_m = posture_m_;
+  return result;
 }
 
 void Worker::Adopt(const NewCalibration& change) {
   robot::ApplyCalibration(change.calibration, model_.get());
+  posture_m_.resize(0);
   if (change.maker) maker_ = change.maker;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <variant>
@@ -51,6 +52,9 @@ class Pipeline {
 
   /// The result of one frame; it stays valid until the next call.
   virtual const PipelineResult& Update(PipelineFrame frame) = 0;
+  /// The shape `x_m` [3n] in which the first frame is expected, robot frame: the posture that the
+  /// cable inputs give.
+  virtual void Expect(const Eigen::VectorXd& /*x_m*/) {}
   /// Computes what the next frame needs and the result of this one does not.
   virtual void PrepareNext() {}
   /// Adds the last frame to the monitors, whose reports the next results hold. Forces do not depend

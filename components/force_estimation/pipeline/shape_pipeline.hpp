@@ -57,7 +57,7 @@ class ShapePipeline : public Pipeline {
   std::vector<BiasSequence> JudgeBiasFrames() const { return estimator_.judge_bias_frames(); }
   /// The shape `x_m` [3n] in which the next frame is expected, robot frame: the posture that the
   /// commands give, at the start of a sequence.
-  void Expect(const Eigen::VectorXd& x_m) { nodes_m_ = x_m.cast<float>().cast<double>(); }
+  void Expect(const Eigen::VectorXd& x_m) override { nodes_m_ = x_m.cast<float>().cast<double>(); }
 
  private:
   void MarkContactFree();

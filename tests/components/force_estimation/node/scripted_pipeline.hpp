@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -37,6 +38,11 @@ class Script {
     const std::lock_guard lock(mutex_);
     drift_ = drift;
   }
+  /// Postures that pipelines were told to expect.
+  std::vector<Eigen::VectorXd> expected() const {
+    const std::lock_guard lock(mutex_);
+    return expected_;
+  }
   void SetBiasFramesToCome(int frames) {
     const std::lock_guard lock(mutex_);
     bias_frames_to_come_ = frames;
@@ -56,6 +62,10 @@ class Script {
     Scripted(Script& script, robot::RobotModel& model) : script_(script), model_(model) {
       const std::lock_guard lock(script_.mutex_);
       number_ = ++script_.made_;
+    }
+    void Expect(const Eigen::VectorXd& x_m) override {
+      const std::lock_guard lock(script_.mutex_);
+      script_.expected_.push_back(x_m);
     }
     const PipelineResult& Update(PipelineFrame frame) override {
       std::unique_lock lock(script_.mutex_);
@@ -91,6 +101,7 @@ class Script {
   std::string contact_name_ = "contact_1";
   int made_ = 0;
   std::vector<Call> calls_;
+  std::vector<Eigen::VectorXd> expected_;
 };
 
 }  // namespace palpate::force_estimation

@@ -54,6 +54,7 @@ class ShapeNodeTest : public testing::Test {
       for (const auto& message : mesh_states_.Take()) {
         mesh_state_ns_ = dds::StampNs(message.header.stamp);
         mesh_state_numbers_ = message.positions_m._length;
+        mesh_state_stamps_ns_.push_back(mesh_state_ns_);
       }
     });
     EXPECT_TRUE(test_.WaitFor([this] {
@@ -129,6 +130,7 @@ class ShapeNodeTest : public testing::Test {
   std::vector<Answer> answers_;
   std::int64_t mesh_state_ns_ = 0;
   std::uint32_t mesh_state_numbers_ = 0;
+  std::vector<std::int64_t> mesh_state_stamps_ns_;
   std::string said_;                           ///< on /diagnostics, last
   std::map<std::string, std::string> values_;  ///< there
   std::thread thread_;

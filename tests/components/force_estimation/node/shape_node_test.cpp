@@ -50,6 +50,29 @@ TEST_F(ShapeNodeTest, TheEstimatorSeesCloudCablesAndContactsInTheRobotsFrame) {
   EXPECT_EQ(contact.point_count, 5);
 }
 
+/// Perception predicts the first image from it.
+TEST_F(ShapeNodeTest, TheCablesGiveAPostureBeforeTheFirstFrame) {
+  SendCable(1'000);
+  ASSERT_TRUE(test_.WaitFor([&] { return mesh_state_numbers_ == 3u * 325u; }));
+  EXPECT_EQ(mesh_state_ns_, 999);  // no answer to a frame of the cables' stamp
+  EXPECT_TRUE(script_.calls().empty());
+  EXPECT_TRUE(answers_.empty());
+  ASSERT_EQ(script_.expected().size(), 1u);
+  const auto model = NodeTestRobot();
+  fem::StaticState state = model->RestState();
+  const robot::CableCommand pulled{robot::CableCommand::Kind::kDisplacement, kCable_m};
+  ASSERT_TRUE(model->Solve({pulled}, {}, &state).status.ok());
+  EXPECT_TRUE(script_.expected()[0].isApprox(state.x_m, 1e-6));
+  // The first frame begins a pipeline, which knows of it.
+  EXPECT_EQ(Ask({.stamp_ns = 2'000}).status, "ok");
+  EXPECT_EQ(script_.expected().size(), 2u);
+  ASSERT_TRUE(test_.WaitFor([&] { return mesh_state_ns_ == 2'000; }));
+  // Frames tell where the robot is from then on.
+  SendCable(3'000);
+  EXPECT_EQ(Ask({.stamp_ns = 4'000}).status, "ok");
+  EXPECT_THAT(mesh_state_stamps_ns_, ::testing::Not(::testing::Contains(2'999)));
+}
+
 TEST_F(ShapeNodeTest, AFrameThatLostAPartIsLeftOutAndTheNextOneAnswered) {
   SendCable(10);
   perception_.SendCloud({.stamp_ns = 10});
