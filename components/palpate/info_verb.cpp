@@ -11,14 +11,19 @@
 #include <utility>
 #include <vector>
 
+#include "components/palpate/check_output.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/recordings/describe_mcap.hpp"
+#include "components/palpate/robot_scene.hpp"
+#include "components/view/scene.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/yaml.hpp"
+#include "libs/core/error.hpp"
 #include "libs/experiment/experiment.hpp"
 #include "libs/fem/mesh_io/read_mesh.hpp"
 #include "libs/fem/mesh_report.hpp"
 #include "libs/robot/robot_body.hpp"
+#include "libs/robot/robot_model.hpp"
 
 namespace palpate::command {
 
@@ -91,9 +96,12 @@ void DescribeCandidates(const robot::RobotDescription& description, const robot:
                   inner > 0 ? fmt::format(", {} faces of closed cavities left out", inner) : "");
 }
 
-Findings DescribeRobot(const std::filesystem::path& target) {
-  const auto description = robot::ReadRobotFile(FindRobotFile(target), app::LoadYaml);
+Findings DescribeRobot(const InfoOptions& options) {
+  const auto description = robot::ReadRobotFile(FindRobotFile(options.target), app::LoadYaml);
   const robot::RobotBody body = robot::BuildRobotBody(description);
+  if (!options.png.empty()) {
+    view::SaveScene(options.png, MakeUndeformedScene(robot::RobotModel(body)));
+  }
   const fem::MeshReport report = fem::ReportMesh(body.mesh);
   Findings found;
   found.text =
@@ -153,19 +161,26 @@ Findings DescribeExperiment(const std::filesystem::path& target) {
 
 Findings Describe(const InfoOptions& options) {
   const std::filesystem::path& target = options.target;
-  if (const auto files = McapFilesOf(target); !files.empty()) {
+  const auto files = McapFilesOf(target);
+  const bool is_folder = std::filesystem::is_directory(target);
+  if (!options.png.empty() && (!files.empty() || is_folder || IsMesh(target))) {
+    throw InputError("--png draws a robot; " + target.string() + " is " +
+                     (IsMesh(target) ? "a mesh"
+                      : is_folder    ? "a folder"
+                                     : "a recording"));
+  }
+  if (!files.empty()) {
     McapDescription described = DescribeMcap(files);
     return {std::move(described.json), std::move(described.text)};
   }
-  if (std::filesystem::is_directory(target)) {
-    return DescribeExperiment(target);
-  }
-  return IsMesh(target) ? DescribeMesh(target, options.unit) : DescribeRobot(target);
+  if (is_folder) return DescribeExperiment(target);
+  return IsMesh(target) ? DescribeMesh(target, options.unit) : DescribeRobot(options);
 }
 
 }  // namespace
 
 int Info(const InfoOptions& options) {
+  if (!options.png.empty()) CheckOutputFile(options.png);
   const Findings found = Describe(options);
   fmt::print("{}", options.json ? found.json.dump(2) + "\n" : found.text);
   return app::kExitDone;
@@ -182,6 +197,9 @@ app::Verb InfoVerb() {
             arguments.Suggest("TARGET", KnownRobots());
             arguments.Choice("--unit", &options->unit, {"m", "cm", "mm"},
                              "Length unit of a mesh file; robot files name their own");
+            arguments.Option("--png FILE", &options->png,
+                             "PNG file to draw: the undeformed robot with its cables, markers and "
+                             "contact candidates");
             arguments.Flag("--json", &options->json, "Print JSON instead of text");
             return [options] { return Info(*options); };
           }};

@@ -4,6 +4,8 @@
 #include "components/palpate/robot_scene.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "libs/core/index.hpp"
@@ -117,6 +119,36 @@ void AddMarkers(const Eigen::Matrix3Xd& observed_m, const Eigen::Matrix3Xd& mode
   computed.color = view::palette::kModelPoint;
   computed.name = "markers, model";
   scene->points.push_back(computed);
+}
+
+view::Scene MakeUndeformedScene(const robot::RobotModel& model) {
+  const robot::RobotBody& body = model.body();
+  view::Scene scene = MakeRobotScene(model, model.RestState().x_m);
+  scene.title = body.name + ", undeformed";
+  scene.surfaces.front().scalars.resize(0);
+  scene.color_bar.reset();
+  scene.ghosts.clear();
+  std::erase_if(scene.legend,
+                [](const view::LegendEntry& entry) { return entry.text == "undeformed"; });
+  view::Points candidates;
+  candidates.name = "contact candidates";
+  candidates.points_m.resize(3, ToIndex(body.feature_points.size()));
+  for (std::size_t k = 0; k < body.feature_points.size(); ++k) {
+    candidates.points_m.col(ToIndex(k)) = body.feature_points[k].rest_m;
+  }
+  view::Points markers;
+  markers.name = "markers";
+  markers.shape = view::Points::Shape::kCross;
+  markers.color = view::palette::kModelPoint;
+  markers.points_m.resize(3, ToIndex(body.markers.size()));
+  for (std::size_t k = 0; k < body.markers.size(); ++k) {
+    markers.points_m.col(ToIndex(k)) = body.markers[k].point.rest_m;
+  }
+  for (view::Points* points : {&candidates, &markers}) {
+    if (points->points_m.cols() > 0) scene.points.push_back(std::move(*points));
+  }
+  scene.caption = {std::to_string(body.feature_points.size()) + " contact candidates"};
+  return scene;
 }
 
 void AddForce(const Eigen::Vector3d& at_m, const Eigen::Vector3d& force_N, double metres_per_newton,

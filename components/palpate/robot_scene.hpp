@@ -19,6 +19,10 @@ view::Scene MakeRobotScene(const robot::RobotModel& model, const Eigen::VectorXd
 void AddMarkers(const Eigen::Matrix3Xd& observed_m, const Eigen::Matrix3Xd& model_m,
                 view::Scene* scene);
 
+/// The undeformed body in one colour with its clamp, cables, markers, and the points at which
+/// contacts are searched.
+view::Scene MakeUndeformedScene(const robot::RobotModel& model);
+
 /// An arrow for a force; `metres_per_newton` sets its length.
 void AddForce(const Eigen::Vector3d& at_m, const Eigen::Vector3d& force_N, double metres_per_newton,
               const view::Color& color, const std::string& label, view::Scene* scene);

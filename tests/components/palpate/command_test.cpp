@@ -19,8 +19,10 @@
 #include "components/palpate/diagnose_verb.hpp"
 #include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
+#include "components/palpate/info_verb.hpp"
 #include "components/palpate/progress_line.hpp"
 #include "components/palpate/reference_verb.hpp"
+#include "components/palpate/robot_scene.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/test_robot.hpp"
@@ -194,6 +196,24 @@ int InterruptOnce(ChildProcess* process, const std::filesystem::path& file) {
     std::this_thread::yield();
   }
   return process->Stop();
+}
+
+TEST(InfoPicture, ShowsWhereContactsAreSearched) {
+  const TestFolder folder;
+  const auto model = LoadRobot(WriteBarRobot(folder));
+  const view::Scene scene = MakeUndeformedScene(*model);
+  ASSERT_EQ(scene.points.size(), 2U);
+  EXPECT_EQ(scene.points[0].name, "contact candidates");
+  EXPECT_EQ(scene.points[0].points_m.cols(), 3);
+  EXPECT_EQ(scene.points[1].points_m.cols(), 1);
+  EXPECT_EQ(scene.tubes.size(), 1U);
+  InfoOptions options;
+  options.target = folder / "bar.yaml";
+  options.png = folder / "bar.png";
+  EXPECT_EQ(Info(options), 0);
+  EXPECT_THAT(ReadFile(options.png), testing::StartsWith("\x89PNG"));
+  options.target = folder / "bar.vtk";
+  EXPECT_THROW(Info(options), InputError);
 }
 
 TEST(Interrupted, SolveLeavesTheRowsThatItHas) {
