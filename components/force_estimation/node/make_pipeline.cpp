@@ -16,8 +16,10 @@ bool IsFromShape(const NodeConfig& config) {
 
 PipelineMaker PipelineMakerOf(const NodeConfig& config, const robot::CalibrationFile& calibration) {
   if (IsFromShape(config)) {
-    return [config, calibration](robot::RobotModel& model) {
-      return std::make_unique<ShapePipeline>(model, config, config.shape, calibration);
+    ShapeConfig shape = config.shape;
+    if (calibration.depth_bias) shape.untouched_frames = 0;
+    return [config, shape, calibration](robot::RobotModel& model) {
+      return std::make_unique<ShapePipeline>(model, config, shape, calibration);
     };
   }
   return [config, calibration](robot::RobotModel& model) {

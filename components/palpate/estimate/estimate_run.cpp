@@ -103,7 +103,7 @@ std::unique_ptr<ShapeReplay> EstimateRun::MakeShapeReplay() const {
   ReplayPerception perception = MakeReplayPerception(settings_.perception, calibration_.depth_bias);
   force_estimation::ShapeConfig shape = settings_.shape;
   WidenPosePriors(experiment_, &shape);
-  if (options_.bias_frames != "first") shape.untouched_frames = 0;
+  if (options_.bias_frames != "first" || calibration_.depth_bias) shape.untouched_frames = 0;
   auto pipeline = std::make_unique<force_estimation::ShapePipeline>(model_, settings_.forces, shape,
                                                                     calibration_);
   const ShapeReplay::Inputs inputs{.experiment = experiment_,

@@ -158,6 +158,25 @@ TEST_F(ShapeNodeTest, RefusesAContactThatIsNoNumberAndRecoversWithTheNextFrame) 
   EXPECT_EQ(Ask({.stamp_ns = 20}).status, "ok");
 }
 
+TEST(PipelineMaker, LearnsNoDepthBiasThatTheCalibrationGives) {
+  const auto model = NodeTestRobot();
+  const auto to_come = [&](const robot::CalibrationFile& calibration) {
+    PerceivedShape shape;
+    shape.frame.cables = {robot::CableCommand()};
+    return PipelineMakerOf(TestConfig(), calibration)(*model)
+        ->Update(shape)
+        .bias_frames_to_come;
+  };
+  robot::CalibrationFile calibration;
+  EXPECT_EQ(to_come(calibration), ShapeConfig().untouched_frames);
+  calibration.pose.emplace();
+  auto& map = calibration.depth_bias.emplace().map;
+  const int count = geometry::CountOf(map.basis);
+  map.coefficients = Eigen::VectorXd::Zero(count);
+  map.covariance = 1e-6 * Eigen::MatrixXd::Identity(6 + count, 6 + count);
+  EXPECT_EQ(to_come(calibration), 0);
+}
+
 TEST(ShapeNode, NeedsACameraPoseWhereNoCalibrationMaySayIt) {
   NodeConfig config;
   config.source = "shape";
