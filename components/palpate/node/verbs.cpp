@@ -12,6 +12,7 @@
 #include "components/palpate/node/demo/demo_verb.hpp"
 #include "components/palpate/node/record/record_verb.hpp"
 #include "components/palpate/node/watch/watch_verb.hpp"
+#include "components/palpate/recordings/export_verb.hpp"
 #include "components/palpate/recordings/repair_verb.hpp"
 #include "components/palpate/reference_verb.hpp"
 #include "components/palpate/simulate_verb.hpp"
@@ -24,7 +25,7 @@ int RunCommand(const std::vector<std::string>& words) {
   const std::vector<app::Verb> verbs = {
       DemoVerb(),     SolveVerb(),  SimulateVerb(), CalibrateVerb(), EstimateVerb(),
       DiagnoseVerb(), ImportVerb(), CaptureVerb(),  WatchVerb(),     RecordVerb(),
-      RepairVerb(),   InfoVerb(),   ReferenceVerb()};
+      RepairVerb(),   ExportVerb(), InfoVerb(),     ReferenceVerb()};
   return app::RunVerbs("palpate", "Estimate forces on cable-driven soft robots from images", verbs,
                        words);
 }

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The palpate authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "components/palpate/recordings/export_messages.hpp"
+#include "libs/recording/ros2msg/message_definition.hpp"
+
+namespace palpate::command {
+
+/// A message type as one recording defines it.
+struct MessageType {
+  std::string name;  ///< "sensor_msgs/msg/Image"
+  recording::Definitions definitions;
+};
+
+/// Writes the messages of one topic as files.
+class TopicExport {
+ public:
+  virtual ~TopicExport() = default;
+  /// Empty: done; else why the message is left out. Throws RunError where a file cannot be written.
+  [[nodiscard]] virtual std::string Take(const recording::Message& message) = 0;
+  /// After the last message.
+  virtual void Finish() {}
+};
+
+/// One CSV: t_s from the beginning of the recording, log_time_ns, then a column for each value.
+std::unique_ptr<TopicExport> MakeCsvExport(MessageType type, std::filesystem::path file,
+                                           std::int64_t start_ns);
+/// STAMP.png of images 16UC1, mono16, mono8, rgb8 and bgr8; STAMP.ply or .pcd of clouds.
+std::unique_ptr<TopicExport> MakeImageExport(MessageType type, std::filesystem::path folder);
+std::unique_ptr<TopicExport> MakeCloudExport(MessageType type, std::filesystem::path folder,
+                                             CloudFormat format);
+/// STAMP.vtu of mesh states, undeformed points with displacement_m, and body.pvd with their times.
+/// The meshes are those of the recording's Mesh messages.
+std::unique_ptr<TopicExport> MakeMeshExport(MessageType type, std::filesystem::path folder,
+                                            const recording::Reader& reader, std::int64_t start_ns);
+
+/// Stamp of the message's header, else its log time, ns.
+std::int64_t StampOf(const recording::Message& message, const MessageType& type);
+
+}  // namespace palpate::command
