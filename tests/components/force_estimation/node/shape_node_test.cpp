@@ -163,9 +163,7 @@ TEST(PipelineMaker, LearnsNoDepthBiasThatTheCalibrationGives) {
   const auto to_come = [&](const robot::CalibrationFile& calibration) {
     PerceivedShape shape;
     shape.frame.cables = {robot::CableCommand()};
-    return PipelineMakerOf(TestConfig(), calibration)(*model)
-        ->Update(shape)
-        .bias_frames_to_come;
+    return PipelineMakerOf(TestConfig(), calibration)(*model)->Update(shape).bias_frames_to_come;
   };
   robot::CalibrationFile calibration;
   EXPECT_EQ(to_come(calibration), ShapeConfig().untouched_frames);
