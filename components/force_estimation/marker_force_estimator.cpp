@@ -389,11 +389,12 @@ MarkerMisfit MarkerForceEstimator::Impl::Misfit() {
   std::vector<FitSite> sites = search_->result().fit_sites;
   sites.resize(estimate_.contacts.size());
   misfit.response_m = ResponseOfSearched(sites);
+  if (!sites.empty() && misfit.response_m.size() == 0) misfit.weight.setZero();
   return misfit;
 }
 
 /// Response of the markers to the contacts that the search chose [3m x 3k], m/N: the fitter holds
-/// the last ones that it tried.
+/// the last ones that it tried. Empty where the state has no tangent.
 Eigen::MatrixXd MarkerForceEstimator::Impl::ResponseOfSearched(const std::vector<FitSite>& sites) {
   const auto count = ToIndex(sites.size());
   Eigen::MatrixXd forces_N = Eigen::MatrixXd::Zero(estimate_.x_m.size(), 3 * count);
@@ -406,7 +407,13 @@ Eigen::MatrixXd MarkerForceEstimator::Impl::ResponseOfSearched(const std::vector
     }
   }
   Eigen::MatrixXd response_m;
-  if (count > 0) fitter_.RespondTo(forces_N, estimate_.x_m, &response_m);
+  if (count > 0 && !fitter_.has_factor()) {  // the last candidate that was tried diverged
+    fitter_.SetSites(sites);
+    fitter_.RenewFactor(search_->result().state);
+  }
+  if (count > 0 && fitter_.has_factor()) {
+    fitter_.RespondTo(forces_N, estimate_.x_m, &response_m);
+  }
   return response_m;
 }
 
@@ -416,6 +423,7 @@ Eigen::MatrixXd MarkerForceEstimator::Impl::ForcesOfPose_N(const ForceFit& fit,
                                                            const std::vector<FitSite>& sites) {
   if (pose_columns_m_.rows() == 0 || sites.empty()) return {};
   const Eigen::MatrixXd response_m = Searches() ? ResponseOfSearched(sites) : fitter_.Response();
+  if (response_m.size() == 0) return {};
   return fit.covariance_N2 * response_m.transpose() * targets_.weight.asDiagonal() *
          pose_columns_m_;
 }
