@@ -133,9 +133,10 @@ class MarkerForceEstimator::Impl {
   Eigen::VectorXd shared_variance_m2_;  ///< [3m] part of the variance that all frames share
   /// [3m x 6] the markers by the error of their pose, in its sigmas; empty: the pose is exact.
   Eigen::MatrixXd pose_columns_m_;
-  Eigen::MatrixXd by_pose_N_;    ///< [3k x 6] the forces by it
-  double freedom_ = 0.0;         ///< coordinates used; those on a contact count as their weight
-  fem::StaticState free_state_;  ///< last equilibrium without contact
+  bool pose_may_explain_ = false;  ///< that error moves a marker by more than its noise
+  Eigen::MatrixXd by_pose_N_;      ///< [3k x 6] the forces by it
+  double freedom_ = 0.0;           ///< coordinates used; those on a contact count as their weight
+  fem::StaticState free_state_;    ///< last equilibrium without contact
   std::optional<std::vector<robot::CableCommand>> free_inputs_;  ///< of free_state_
   ModelState state_;                                             ///< last fit
   ForceEstimate estimate_;
@@ -232,6 +233,7 @@ void MarkerForceEstimator::Impl::SetPoseColumns(const MarkerFrame& frame) {
 
 Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
   SetPoseColumns(frame);
+  pose_may_explain_ = false;
   targets_.rows = 0;
   freedom_ = 0.0;
   estimate_.noise_rms_m = 0.0;
@@ -246,6 +248,7 @@ Status MarkerForceEstimator::Impl::SetTargets(const MarkerFrame& frame) {
       const double offset_m2 = reference_frames > 0 ? noise * noise / reference_frames : 0.0;
       const double pose_m2 =
           pose_columns_m_.rows() > 0 ? pose_columns_m_.row(row + i).squaredNorm() : 0.0;
+      pose_may_explain_ = pose_may_explain_ || (used && pose_m2 > noise * noise);
       shared_variance_m2_[row + i] =
           offset_m2 + pose_m2 + config_.marker_bias_m * config_.marker_bias_m;
       const double variance = noise * noise + shared_variance_m2_[row + i];
@@ -333,7 +336,7 @@ Status MarkerForceEstimator::Impl::SearchSites(const MarkerFrame& frame) {
   if (found.status.ok()) {
     Publish(found.fit, found.fit_sites, found.sites, found.location_ci95_m);
     // The search weighs the markers one by one; an error that they share may explain what it found.
-    if (pose_columns_m_.rows() > 0) return StatusOfContacts();
+    if (pose_may_explain_) return StatusOfContacts();
   }
   return found.status;
 }
