@@ -66,7 +66,7 @@ class Scanner {
     EndLooseBlock();
     Footer footer;
     if (!FindFooter(file_, &footer)) {
-      found_.problems.push_back("no index at its end: the recording was cut off");
+      found_.problems.push_back("no index at its end: the recording was cut off, or still runs");
     }
     CountAll();
     return std::move(found_);
