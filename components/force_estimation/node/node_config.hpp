@@ -39,8 +39,8 @@ struct NodeConfig : Config {
       "which begins a sequence; false: keep those of the start");
     v("expect_posture", expect_posture,
       "With source shape: publish the posture that the cable inputs give on /robot/mesh_state "
-      "until "
-      "the first frame; false: what is made of a recording does not depend on when they come");
+      "until the first frame; false: what is made of a recording does not depend on when they "
+      "come");
     v("cable_input", cable_input, {"displacement", "tension"},
       "Boundary condition of cables with both inputs: prescribed displacement or tension");
     v("max_age_s", max_age_s, {.min = 0.0},

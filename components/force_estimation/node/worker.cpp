@@ -3,7 +3,6 @@
 
 #include "components/force_estimation/node/worker.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace palpate::force_estimation {
@@ -11,13 +10,6 @@ namespace palpate::force_estimation {
 namespace {
 constexpr size_t kMostFrames = 1024;
 constexpr size_t kMostResults = 128;
-
-bool AreEqual(const std::vector<robot::CableCommand>& a,
-              const std::vector<robot::CableCommand>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.kind == y.kind && x.value == y.value;
-  });
-}
 }  // namespace
 
 Worker::Worker(std::unique_ptr<robot::RobotModel> model, PipelineMaker maker,
@@ -47,8 +39,8 @@ FrameResult Worker::Estimate(FrameInput& input) {
     pipeline_ = maker_(*model_);
     if (posture_m_.size() > 0) pipeline_->Expect(posture_m_);
   }
-  FrameResult result{pipeline_->Update(std::move(input.frame)), input.head};
-  return result;
+  posture_m_.resize(0);  // cables of later sequences may be pulled otherwise
+  return {pipeline_->Update(std::move(input.frame)), input.head};
 }
 
 /// The equilibrium under the cable inputs, solved again only where these have changed.
@@ -56,7 +48,7 @@ FrameResult Worker::ExpectPosture(FrameInput& input) {
   FrameResult result;
   result.head = input.head;
   result.posture_only = true;
-  if (posture_m_.size() == 0 || !AreEqual(input.cables(), posture_cables_)) {
+  if (posture_m_.size() == 0 || input.cables() != posture_cables_) {
     posture_m_.resize(0);
     posture_cables_ = input.cables();
     fem::StaticState state = model_->RestState();
