@@ -184,12 +184,12 @@ TEST_F(DiagnosePictures, OfNoUseAreRefusedWithTheReason) {
   for (const fs::path& image : images) right.push_back(ReadFile(image));
 
   for (std::size_t k = 4; k < images.size(); ++k) WriteFile(images[k], right[3]);
-  EXPECT_THAT(reason(), HasSubstr("RA_cables: pictures are the same to the last digit"));
+  EXPECT_THAT(reason(), HasSubstr("RA_cables: depth frames are identical to the last digit"));
 
   for (std::size_t k = 0; k < images.size(); ++k) {
     WriteFile(images[k], right[7 * k % images.size()]);
   }
-  EXPECT_THAT(reason(), HasSubstr("RA_cables: the clouds jump to and fro"));
+  EXPECT_THAT(reason(), HasSubstr("RA_cables: the clouds jump while the cables move steadily"));
 
   for (std::size_t k = 0; k < images.size(); ++k) WriteFile(images[k], right[k].substr(0, 100));
   EXPECT_THAT(reason(), HasSubstr(".png"));
