@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "libs/rgbd/png.hpp"
+#include "tests/system/independent/finger.hpp"
 
 namespace palpate::test_support {
 
@@ -102,6 +103,25 @@ Robot Rod() {
           .tip = tip};
 }
 
+Robot Finger() {
+  CalculixBody body = FingerBody({5, 5, 18});
+  const SurfacePoint tip = Highest(body, {0.0, 0.0});
+  return {.body = std::move(body),
+          .cables = {{"pull", {60, 0, 0}, {13, 0, 90}}},
+          .furniture = {Block({-0.7, -0.7, -0.02}, {0.7, 0.7, -0.0005}, {0.42, 0.47, 0.55})},
+          .eye_m = {0.27, -0.24, 0.22},
+          .target_m = {0.0, 0.0, 0.06},
+          .lowest_touch_mm = 40.0,
+          .clamp_normal = Eigen::Vector3d::UnitZ(),
+          .clamp_at_mm = 0.0,
+          .tip = tip};
+}
+
+Robot RobotOf(const std::string& name) {
+  if (name == "finger") return Finger();
+  return name == "rod" ? Rod() : FourLeg();
+}
+
 ColoredMesh SkinOf(const CalculixBody& body, const Positions& positions_mm) {
   ColoredMesh mesh{.vertices_m = {}, .triangles = body.Triangles(), .color_rgb = kRobotColor};
   for (const Eigen::Vector3d& x : positions_mm) mesh.vertices_m.push_back(kMm * x);
@@ -113,7 +133,7 @@ class Maker {
   Maker(const TouchedScenesPlan& plan, fs::path folder)
       : plan_(plan),
         folder_(std::move(folder)),
-        robot_(plan.robot == "rod" ? Rod() : FourLeg()),
+        robot_(RobotOf(plan.robot)),
         camera_(plan.camera),
         random_(plan.seed),
         rest_({SkinOf(robot_.body, robot_.body.nodes_mm())}) {
@@ -205,6 +225,7 @@ class Maker {
   struct Touch {
     std::vector<SurfacePoint> points;
     std::vector<Eigen::Vector3d> forces_N;
+    Eigen::VectorXd tension_N;
     Positions shape;
   };
 
@@ -226,17 +247,27 @@ class Maker {
     return touch;
   }
 
-  /// Forces under which CalculiX finds no equilibrium are drawn again.
-  Touch DrawBalanced(const std::string& group, int balls, const Eigen::VectorXd& tension_N) {
-    constexpr int kDraws = 5;
+  Eigen::VectorXd DrawTensions(bool pulled) {
+    Eigen::VectorXd tension_N =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot_.cables.size()));
+    for (double& tension : tension_N) {
+      if (pulled) tension = Uniform(0.0, plan_.largest_tension_N);
+    }
+    return tension_N;
+  }
+
+  /// Forces and tensions under which CalculiX finds no equilibrium are drawn again.
+  Touch DrawBalanced(const std::string& group, int balls, bool pulled) {
+    constexpr int kDraws = 20;
     for (int draw = 1;; ++draw) {
       Touch touch = Draw(group, balls);
+      touch.tension_N = DrawTensions(pulled);
       CalculixBody::Loads loads;
       for (std::size_t p = 0; p < touch.points.size(); ++p) {
         robot_.body.Press(touch.points[p], kPressRadius_mm, touch.forces_N[p], &loads);
       }
       try {
-        touch.shape = Solve(loads, tension_N);
+        touch.shape = Solve(loads, touch.tension_N);
         return touch;
       } catch (const std::runtime_error&) {
         if (draw == kDraws) throw;
@@ -248,13 +279,8 @@ class Maker {
     char number[8];
     std::snprintf(number, sizeof(number), "%03d", count_++);
     const std::string name = std::string(number) + "_" + group;
-    Eigen::VectorXd tension_N =
-        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot_.cables.size()));
-    for (double& tension : tension_N) {
-      if (pulled) tension = Uniform(0.0, plan_.largest_tension_N);
-    }
-    const Touch touch = DrawBalanced(group, balls, tension_N);
-    const auto& [points, forces_N, shape] = touch;
+    const Touch touch = DrawBalanced(group, balls, pulled);
+    const auto& [points, forces_N, tension_N, shape] = touch;
     std::vector<ColoredMesh> meshes = robot_.furniture;
     meshes.push_back(SkinOf(robot_.body, shape));
     for (std::size_t p = 0; p < points.size(); ++p) {

@@ -18,6 +18,7 @@
 #include "components/palpate/estimate/estimate_verb.hpp"
 #include "libs/experiment/csv_table.hpp"
 #include "tests/support/test_folder.hpp"
+#include "tests/system/independent/finger.hpp"
 
 /// `palpate calibrate` and `palpate estimate` without options on scenes whose shapes CalculiX has
 /// computed and whose images Embree has cast: neither the solver nor the camera are palpate's.
@@ -121,14 +122,15 @@ class TouchedScenes : public testing::TestWithParam<std::string> {
                            .alone = 1,
                            .frames = 2};
     truth_ = WriteTouchedScenes(plan, folder_ / "exp");
-    robot_ = fs::path(PALPATE_SOURCE_DIR) / "config/robots" / (plan.robot + ".yaml");
+    robot_ = plan.robot == "finger"
+                 ? WriteFinger(folder_.path())
+                 : fs::path(PALPATE_SOURCE_DIR) / "config/robots" / (plan.robot + ".yaml");
   }
 
   void Calibrate() {
     command::CalibrateOptions options;
     options.robot = robot_;
     options.data = folder_ / "exp";
-    options.what = "camera";
     options.out = calibration_ = folder_ / "calibration.yaml";
     ASSERT_EQ(command::Calibrate(options), 0);
   }
@@ -190,7 +192,7 @@ TEST_P(TouchedScenes, AWeightThatLiesThereFromTheFirstFrameOnIsNoRobot) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, TouchedScenes, testing::Values("four_leg", "rod"),
+INSTANTIATE_TEST_SUITE_P(Robots, TouchedScenes, testing::Values("four_leg", "rod", "finger"),
                          [](const auto& robot) { return robot.param; });
 
 }  // namespace
