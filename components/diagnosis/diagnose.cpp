@@ -79,7 +79,7 @@ class DiagnosisRun {
         as_recorded_(as_recorded),
         settings_(settings),
         report_(report),
-        limit_(settings.longest_s) {}
+        limit_(settings.longest_s, settings.stop_requested) {}
 
   Diagnosis Run() {
     Status status = Prepare();
@@ -198,7 +198,7 @@ Diagnosis DiagnosisRun::Explain() {
   DescribeResult(&diagnosis.result);
   Extend(&diagnosis);
   if (NamedTheMesh()) return Joined(std::move(diagnosis), OnTheFinerMesh());
-  PlanNext(&diagnosis);
+  if (!diagnosis.result.interrupted) PlanNext(&diagnosis);
   return diagnosis;
 }
 
@@ -210,6 +210,8 @@ void DiagnosisRun::DescribeResult(DiagnosisResult* result) {
         FirstFrame_s(experiment_.recordings[r]) - FirstFrame_s(as_recorded_.recordings[r]);
   }
   DescribeVerdict(selection_, result);
+  result->interrupted = limit_.IsStopped();
+  if (result->interrupted) result->reason = "Interrupted, a partial report. " + result->reason;
   DescribeCauses(observed_, *fitter_, selection_, result);
   DescribeRivals(*hypotheses_, selection_, result);
   result->residual_forces = FindResidualForces(observed_, *hypotheses_, selection_);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ struct DiagnosisSettings {
   int most_samples = 120;  ///< samples that are compared
   int threads = 2;
   double longest_s = 0.0;  ///< time limit of the search; 0: none
+  /// Ends the search as the time limit does; asked from several threads. Empty: never.
+  std::function<bool()> stop_requested = {};
   NoiseModel noise;
   /// By recording: what its camera.yaml says of the depth camera.
   std::map<std::string, rgbd::CameraModel> depth_cameras = {};

@@ -19,11 +19,11 @@
 #include "components/palpate/check_output.hpp"
 #include "components/palpate/choose_recordings.hpp"
 #include "components/palpate/diagnose/surface_images.hpp"
-#include "components/palpate/end_on_signal.hpp"
 #include "components/palpate/find_robot.hpp"
 #include "components/palpate/images/perception_settings.hpp"
 #include "components/palpate/import/import_options.hpp"
 #include "libs/app/run_main.hpp"
+#include "libs/app/stop_signal.hpp"
 #include "libs/app/version.hpp"
 #include "libs/app/yaml.hpp"
 #include "libs/core/error.hpp"
@@ -40,6 +40,9 @@ namespace palpate::command {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kRobotFile = "robot.extended.yaml";
+constexpr const char* kCalibrationFile = "calibration.extended.yaml";
 
 /// The ids of --exclude, each of which may be a list with commas.
 std::vector<std::string> ExcludedCauses(const DiagnoseOptions& options) {
@@ -106,7 +109,8 @@ perception::Config ImageSettings(const DiagnoseOptions& options,
 
 /// Data that cannot be used are a verdict; a wrong robot file or option is an error.
 diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
-                                  const robot::RobotDescription& robot) {
+                                  const robot::RobotDescription& robot,
+                                  const app::StopSignal& stop) {
   const auto begin = std::chrono::steady_clock::now();
   const auto report = [&](int done, int of, const std::string& what) {
     fmt::print(stderr, "{}\n",
@@ -130,6 +134,7 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
                              .most_samples = options.most_samples,
                              .threads = options.threads,
                              .longest_s = 60.0 * options.most_minutes,
+                             .stop_requested = [&] { return stop.Requested(); },
                              .noise = {},
                              .depth_cameras = DepthCamerasOf(experiment),
                              .surface_source = images ? &*images : nullptr},
@@ -144,19 +149,25 @@ diagnosis::Diagnosis DiagnoseData(const DiagnoseOptions& options,
   }
 }
 
+/// What another verb takes must not be there beside a partial report: that of an interrupted run
+/// is not written, and that of an earlier one is removed.
 void Write(const fs::path& folder, diagnosis::Diagnosis* diagnosis) {
   experiment::CreateFolder(folder);
+  if (diagnosis->result.interrupted) {
+    for (const char* file : {kRobotFile, kCalibrationFile}) fs::remove(folder / file);
+  }
   WriteFile(folder / "verdict.json", FormatVerdict(diagnosis->result));
   WriteFile(folder / "report.html", FormatReport(diagnosis->result));
-  if (diagnosis->result.verdict == diagnosis::Verdict::kDataUnfit) return;
-  WriteRobotFile(diagnosis->extended, folder / "robot.extended.yaml");
+  const diagnosis::DiagnosisResult& result = diagnosis->result;
+  if (result.verdict == diagnosis::Verdict::kDataUnfit || result.interrupted) return;
+  WriteRobotFile(diagnosis->extended, folder / kRobotFile);
   if (!diagnosis->calibration) return;
   robot::CalibrationFile& calibration = *diagnosis->calibration;
   calibration.date_utc = UtcText(std::time(nullptr));
   calibration.data = diagnosis->result.data;
   calibration.data_hash = diagnosis->result.data_hash;
   calibration.residual_rms_m = diagnosis->result.model_error.after_m;
-  WriteCalibrationFile(calibration, folder / "calibration.extended.yaml");
+  WriteCalibrationFile(calibration, folder / kCalibrationFile);
 }
 
 void WriteNext(const fs::path& out, const diagnosis::Diagnosis& diagnosis) {
@@ -207,10 +218,12 @@ int Diagnose(const DiagnoseOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const robot::RobotDescription robot =
       robot::ReadRobotFile(FindRobotFile(options.robot), app::LoadYaml);
-  std::optional<EndOnSignal> end_on_signal;
-  end_on_signal.emplace("palpate diagnose", "nothing was written");
-  diagnosis::Diagnosis diagnosis = DiagnoseData(options, robot);
-  end_on_signal.reset();
+  const app::StopSignal stop([] {
+    fmt::print(stderr,
+               "palpate diagnose: interrupted: the search ends, and what it found is written; a "
+               "second Ctrl-C ends at once, with nothing written\n");
+  });
+  diagnosis::Diagnosis diagnosis = DiagnoseData(options, robot, stop);
   diagnosis::DiagnosisResult& result = diagnosis.result;
   result.robot = robot.name;
   result.data = options.data.string();
@@ -219,6 +232,11 @@ int Diagnose(const DiagnoseOptions& options) {
   result.duration_s = SecondsSince(begin);
   Write(options.out, &diagnosis);
   fmt::print("{}\n", VerdictParagraph(result));
+  if (result.interrupted) {
+    throw app::Interrupted(
+        fmt::format("during the search: the partial report is in {}; no robot file was written",
+                    options.out.string()));
+  }
   for (const std::string& words : diagnosis.not_in_files) {
     fmt::print("{}: not written to the extended files, whose formats have no key for it\n", words);
   }

@@ -83,7 +83,8 @@ void DescribeVerdict(const Selection& selection, DiagnosisResult* result) {
                            goodness_of_fit.surprise_limit, goodness_of_fit.excess};
   result->search_complete = selection.complete;
   if (!selection.complete) {
-    result->reason += " Time limit reached: fits ended early, and not all faults were tested.";
+    result->reason +=
+        " The search ended early: not all fits converged, and not all faults were tested.";
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <utility>
 
 namespace palpate::diagnosis {
 
@@ -13,14 +15,16 @@ class TimeLimit {
  public:
   /// Never.
   TimeLimit() = default;
-  /// `limit_s` from now, s; not positive: never.
-  explicit TimeLimit(double limit_s) {
+  /// `limit_s` from now, s; not positive: never. It is also over once `stop_requested` says so.
+  explicit TimeLimit(double limit_s, std::function<bool()> stop_requested = {})
+      : stop_requested_(std::move(stop_requested)) {
     if (limit_s <= 0.0) return;
     end_ = Clock::now() +
            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
   }
 
-  bool IsOver() const { return Clock::now() >= end_; }
+  bool IsOver() const { return Clock::now() >= end_ || IsStopped(); }
+  bool IsStopped() const { return stop_requested_ && stop_requested_(); }
   /// What another limit is to be made of that ends then.
   double left_s() const {
     constexpr double kOver_s = 1e-3;
@@ -31,6 +35,7 @@ class TimeLimit {
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point end_ = Clock::time_point::max();
+  std::function<bool()> stop_requested_;
 };
 
 }  // namespace palpate::diagnosis

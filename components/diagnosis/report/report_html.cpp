@@ -37,7 +37,8 @@ std::string VerdictBlock(const DiagnosisResult& result) {
   std::string html = "<header>" + Element("span", "Diagnosis of " + result.robot) +
                      Element("span", result.data) + "</header>\n";
   html += "<div class=\"verdict\" style=\"" + ToneOf(result.verdict) + "\">\n";
-  html += "<p class=\"label\">" + VerdictLabel(result.verdict) + "</p>\n";
+  const std::string partial = result.interrupted ? " (interrupted, partial)" : "";
+  html += "<p class=\"label\">" + VerdictLabel(result.verdict) + partial + "</p>\n";
   html += Element("h1", VerdictHeadline(result)) + "<dl class=\"facts\">\n";
   for (const VerdictDetail& detail : VerdictDetails(result)) {
     html += Element("dt", detail.label) + Element("dd", detail.text);

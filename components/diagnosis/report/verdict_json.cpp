@@ -124,6 +124,7 @@ std::string FormatVerdict(const DiagnosisResult& result) {
   const Json json = {{"verdict", ToString(result.verdict)},
                      {"reason", result.reason},
                      {"search_complete", result.search_complete},
+                     {"interrupted", result.interrupted},
                      {"causes", List(result.causes)},
                      {"alternatives", List(result.rivals)},
                      {"indistinguishable_from", List(result.indistinguishable_from)},

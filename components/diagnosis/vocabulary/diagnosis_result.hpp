@@ -126,7 +126,8 @@ struct ResidualTest {
 struct DiagnosisResult {
   Verdict verdict = Verdict::kDataUnfit;
   std::string reason;           ///< a sentence or two
-  bool search_complete = true;  ///< else it ended at its time limit
+  bool search_complete = true;  ///< else it ended at its time limit, or was interrupted
+  bool interrupted = false;     ///< by a signal: partial, without an extended robot file
   std::vector<NamedCause> causes;
   std::vector<Rival> rivals;
   std::vector<CauseName> indistinguishable_from;  ///< of the first cause

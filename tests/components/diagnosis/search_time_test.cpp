@@ -47,5 +47,15 @@ TEST(TimeLimit, IsOverAfterItsTimeAndNeverWithoutOne) {
   EXPECT_FALSE(TimeLimit().IsOver());
 }
 
+TEST(TimeLimit, IsOverOnceAStopIsRequested) {
+  bool stop = false;
+  const TimeLimit limit(0.0, [&] { return stop; });
+  EXPECT_FALSE(limit.IsOver());
+  stop = true;
+  EXPECT_TRUE(limit.IsOver());
+  EXPECT_TRUE(limit.IsStopped());
+  EXPECT_FALSE(TimeLimit(1e-9).IsStopped());
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

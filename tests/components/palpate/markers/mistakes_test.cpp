@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "components/palpate/child_process.hpp"
 #include "libs/core/file.hpp"
 #include "tests/components/palpate/markers/marked_bar.hpp"
 
@@ -151,6 +154,30 @@ TEST_F(Mistakes, AKnownLoadOffTheBody) {
   }
   EXPECT_FALSE(HasFile());
   EXPECT_FALSE(std::filesystem::exists(folder_ / "forces.csv"));
+}
+
+/// Of a diagnosis that is interrupted a report is left, and nothing that another verb would take.
+TEST_F(Mistakes, ADiagnosisThatIsInterrupted) {
+  RecordThree({});
+  TellPose(T_robot_camera_);
+  const std::filesystem::path report = folder_ / "report";
+  folder_.Write("report/robot.extended.yaml", "of an earlier diagnosis\n");
+  ChildProcess process(PALPATE_BINARY_DIR "/bin/palpate",
+                       {"diagnose", robot_.string(), "--data", (folder_ / "data").string(), "--out",
+                        report.string()},
+                       {}, folder_ / "log");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (ReadFile(folder_ / "log").find("simulating the nominal robot") == std::string::npos &&
+         std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(process.Stop(), 130);
+  const std::string log = ReadFile(folder_ / "log");
+  EXPECT_THAT(log, HasSubstr("interrupted: the search ends, and what it found is written"));
+  EXPECT_THAT(log, HasSubstr("interrupted during the search: the partial report is in"));
+  EXPECT_THAT(ReadFile(report / "verdict.json"), HasSubstr("\"interrupted\": true"));
+  EXPECT_THAT(ReadFile(report / "report.html"), HasSubstr("(interrupted, partial)"));
+  EXPECT_FALSE(std::filesystem::exists(report / "robot.extended.yaml"));
 }
 
 TEST_F(Mistakes, AnOutputThatCannotBeWrittenIsSaidBeforeTheWork) {
