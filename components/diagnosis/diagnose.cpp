@@ -197,8 +197,9 @@ Diagnosis DiagnosisRun::Explain() {
   diagnosis.extended = robot_;
   DescribeResult(&diagnosis.result);
   Extend(&diagnosis);
+  if (diagnosis.result.interrupted) return diagnosis;
   if (NamedTheMesh()) return Joined(std::move(diagnosis), OnTheFinerMesh());
-  if (!diagnosis.result.interrupted) PlanNext(&diagnosis);
+  PlanNext(&diagnosis);
   return diagnosis;
 }
 

@@ -47,9 +47,10 @@ bool IsNamed(const CauseName& name, const DiagnosisResult& result) {
 Diagnosis Joined(Diagnosis of_file, Diagnosis of_finer) {
   const DiagnosisResult& before = of_file.result;
   DiagnosisResult& result = of_finer.result;
-  if (result.verdict == Verdict::kDataUnfit) {
+  if (result.verdict == Verdict::kDataUnfit || result.interrupted) {
     of_file.result.reason += " The finer mesh gave no diagnosis: " + result.reason + ".";
     of_file.result.search_complete = false;
+    of_file.result.interrupted = result.interrupted;
     return of_file;
   }
   const double excess = Excess(before.recordings);

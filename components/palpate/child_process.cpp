@@ -118,6 +118,10 @@ int ChildProcess::Wait() {
   return *exit_code_;
 }
 
+void ChildProcess::Interrupt() {
+  if (!ExitCode()) kill(pid_, SIGINT);
+}
+
 int ChildProcess::Stop() {
   constexpr auto kPatience = std::chrono::seconds(5);
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {

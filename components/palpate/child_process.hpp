@@ -36,6 +36,9 @@ class ChildProcess {
   /// Waits for the end, however long it takes. Returns the exit code.
   int Wait();
 
+  /// SIGINT, once, as Ctrl-C sends it.
+  void Interrupt();
+
   /// SIGINT, and where that does not end it within 5 s each, SIGTERM, SIGKILL. Returns the exit
   /// code.
   int Stop();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "libs/core/index.hpp"
 
@@ -29,7 +30,7 @@ Fitter::Fitter(const ObservedExperiment& observed, const robot::RobotBody& body,
       noise_(noise),
       nominal_(NominalHypothesis(body, observed)),
       simulator_(observed, threads),
-      limit_(limit),
+      limit_(std::move(limit)),
       tuning_(tuning),
       marker_rest_m_(3, std::ssize(body.markers)),
       null_prior_(hypotheses.PriorWith({})) {

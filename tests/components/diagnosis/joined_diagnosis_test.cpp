@@ -77,5 +77,14 @@ TEST(JoinedDiagnosis, SaysWhereTheFinerMeshCouldNotBeDiagnosed) {
   EXPECT_NE(result.reason.find("no sample could be simulated"), std::string::npos);
 }
 
+TEST(JoinedDiagnosis, IsOfTheFileWhereThatOfTheFinerMeshWasInterrupted) {
+  Diagnosis of_finer = Leaves(1.0, "");
+  of_finer.result.interrupted = true;
+  const DiagnosisResult result = Joined(Leaves(5.0, "discretisation"), of_finer).result;
+  EXPECT_EQ(result.causes.size(), 1U);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_FALSE(result.search_complete);
+}
+
 }  // namespace
 }  // namespace palpate::diagnosis

@@ -233,16 +233,16 @@ TEST(Interrupted, SolveLeavesTheRowsThatItHas) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/markers.csv"));
 }
 
-TEST(Interrupted, DiagnoseSaysThatNothingWasWritten) {
+TEST(Interrupted, CalibrateSaysThatNothingWasWritten) {
   const TestFolder folder;
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {
-        const EndOnSignal end("palpate diagnose", "nothing was written");
+        const EndOnSignal end("palpate calibrate", "no calibration was written");
         raise(SIGTERM);
         for (;;) std::this_thread::yield();
       },
-      testing::ExitedWithCode(130), "palpate diagnose: interrupted: nothing was written");
+      testing::ExitedWithCode(130), "palpate calibrate: interrupted: no calibration was written");
 }
 
 TEST(ChildProcess, ReportsTheExitCodeAndKeepsTheOutput) {
