@@ -14,6 +14,7 @@
 #include "libs/app/version.hpp"
 #include "libs/core/error.hpp"
 #include "libs/core/file.hpp"
+#include "libs/core/index.hpp"
 #include "libs/core/text.hpp"
 #include "libs/experiment/folders.hpp"
 #include "libs/fem/cell_stress.hpp"
@@ -37,6 +38,7 @@ std::vector<std::string> PlannedFiles(const robot::RobotModel& model, const Extr
   for (int row = 0; row < row_count; ++row) {
     files.push_back(RowFile("nodes", row, "csv"));
     if (extras.vtu) files.push_back(RowFile("body", row, "vtu"));
+    if (extras.vtu && model.CableCount() > 0) files.push_back(RowFile("cables", row, "vtu"));
     if (extras.png) files.push_back(RowFile("scene", row, "png"));
   }
   return files;
@@ -68,6 +70,27 @@ fem::VtuFields BodyFields(const robot::RobotBody& body, const RowResult& result)
   return {.of_nodes = {{"displacement_m", now_m - body.mesh.nodes_m}, {"load_N", load_N}},
           .of_cells = {{"von_mises_stress_Pa", stress.von_mises_Pa.transpose()},
                        {"largest_principal_strain", stress.largest_strain.transpose()}}};
+}
+
+/// Path, tension and displacement of each cable; points are undeformed, as those of the body.
+void WriteCables(const std::filesystem::path& file, const robot::RobotModel& model,
+                 const RowResult& result) {
+  const int count = model.CableCount();
+  std::vector<Eigen::Matrix3Xd> paths_m;
+  Eigen::Matrix3Xd displacement_m(3, 0);
+  Eigen::RowVectorXd tension_N(count);
+  Eigen::RowVectorXd pulled_m(count);
+  for (int c = 0; c < count; ++c) {
+    const Eigen::Matrix3Xd now_m = model.cable(c).Path_m(result.x_m);
+    paths_m.push_back(model.cable(c).Path_m(model.RestState().x_m));
+    displacement_m.conservativeResize(3, displacement_m.cols() + now_m.cols());
+    displacement_m.rightCols(now_m.cols()) = now_m - paths_m.back();
+    tension_N[c] = result.cables[At(c)].tension_N;
+    pulled_m[c] = result.cables[At(c)].displacement_m;
+  }
+  fem::WriteVtuLines(file, paths_m,
+                     {.of_nodes = {{"displacement_m", displacement_m}},
+                      .of_cells = {{"tension_N", tension_N}, {"cable_displacement_m", pulled_m}}});
 }
 
 /// An arrow for each load, the largest 0.3 of the body's diagonal long.
@@ -119,6 +142,8 @@ void SolveOutput::WriteBody(const RowResult& result) {
   const robot::RobotBody& body = model_.body();
   fem::WriteVtu(File(RowFile("body", result.row, "vtu")), body.mesh, body.mesh.nodes_m.reshaped(),
                 BodyFields(body, result));
+  if (model_.CableCount() == 0) return;
+  WriteCables(File(RowFile("cables", result.row, "vtu")), model_, result);
 }
 
 void SolveOutput::Draw(const RowResult& result) {
@@ -167,8 +192,12 @@ void SolveOutput::WriteTables() {
   std::string steps;
   for (const RowSummary& row : rows_) {
     if (!row.solver.status.ok()) continue;
-    steps += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
-                         FormatNumber(row.t_s), RowFile("body", row.row, "vtu"));
+    const int parts = model_.CableCount() > 0 ? 2 : 1;
+    for (int part = 0; part < parts; ++part) {
+      steps +=
+          fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", FormatNumber(row.t_s),
+                      part, RowFile(part == 0 ? "body" : "cables", row.row, "vtu"));
+    }
   }
   WriteFile(File("body.pvd"),
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "

@@ -14,7 +14,7 @@ namespace palpate::command {
 
 /// What is written besides the tables.
 struct Extras {
-  bool vtu = false;  ///< body_0000.vtu and body.pvd, for ParaView
+  bool vtu = false;  ///< body_0000.vtu, cables_0000.vtu and body.pvd, for ParaView
   bool png = false;  ///< scene_0000.png
 };
 

@@ -139,8 +139,8 @@ app::Verb SolveVerb() {
             DeclareCableInput(arguments, &options->cable_input);
             arguments.Flag("--vtu", &options->vtu,
                            "Also write the body of each row for ParaView: body_0000.vtu "
-                           "(undeformed points, displacement_m, load_N, stress, strain), and "
-                           "body.pvd, which lists them by time");
+                           "(undeformed points, displacement_m, load_N, stress, strain), "
+                           "cables_0000.vtu (tension_N), and body.pvd, which lists them by time");
             arguments.Flag("--png", &options->png,
                            "Also draw the deformed body and the loads of each row: "
                            "scene_0000.png");

@@ -18,7 +18,7 @@ struct SolveOptions {
   std::filesystem::path out;
   std::string cable_input = "displacement";  ///< or "tension": prescribed on a cable with both
   fem::SolverSettings solver;
-  bool vtu = false;   ///< write body_0000.vtu and body.pvd
+  bool vtu = false;   ///< write body_0000.vtu, cables_0000.vtu and body.pvd
   bool png = false;   ///< write scene_0000.png
   bool json = false;  ///< print result.json instead of text
 };

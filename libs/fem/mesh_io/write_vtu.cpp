@@ -72,6 +72,14 @@ std::string EscapedName(std::string_view name) {
   return escaped;
 }
 
+/// What a VTK file has of a mesh.
+struct Grid {
+  std::span<const double> points_m;  ///< x y z interleaved
+  std::vector<int> connectivity;     ///< point numbers, cell by cell
+  std::vector<int64_t> offsets;      ///< in it, of the end of each cell
+  std::vector<uint8_t> types;        ///< of the cells
+};
+
 /// Builds the text of the file.
 class VtuText {
  public:
@@ -104,16 +112,11 @@ class VtuText {
     Line({"</", element, ">"});
   }
 
-  void Cells(const TetMesh& mesh) {
-    const auto nodes_each = mesh.cells.rows();
-    std::vector<int64_t> offsets;
-    for (int cell = 1; cell <= mesh.CellCount(); ++cell) offsets.push_back(cell * nodes_each);
-    const std::vector<uint8_t> types(offsets.size(), nodes_each == 4 ? 10 : 24);
+  void Cells(const Grid& grid) {
     Line({"<Cells>"});
-    Array<int>("Int32", "connectivity", 1,
-               std::span(mesh.cells.data(), static_cast<size_t>(mesh.cells.size())));
-    Array<int64_t>("Int64", "offsets", 1, offsets);
-    Array<uint8_t>("UInt8", "types", 1, types);
+    Array<int>("Int32", "connectivity", 1, grid.connectivity);
+    Array<int64_t>("Int64", "offsets", 1, grid.offsets);
+    Array<uint8_t>("UInt8", "types", 1, grid.types);
     Line({"</Cells>"});
   }
 
@@ -139,12 +142,10 @@ void WriteChecked(const std::filesystem::path& file, std::string_view text) {
   fail(error);
 }
 
-}  // namespace
-
-void WriteVtu(const std::filesystem::path& file, const TetMesh& mesh,
-              const Eigen::Ref<const Eigen::VectorXd>& x_m, const VtuFields& fields,
-              VtuEncoding encoding) {
-  PALPATE_CHECK(x_m.size() == 3 * mesh.nodes_m.cols(), x_m.size(), mesh.nodes_m.cols());
+void WriteGrid(const std::filesystem::path& file, const Grid& grid, const VtuFields& fields,
+               VtuEncoding encoding) {
+  const auto point_count = static_cast<int64_t>(grid.points_m.size()) / 3;
+  const auto cell_count = static_cast<int64_t>(grid.types.size());
   VtuText vtu(encoding);
   const char* byte_order =
       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
@@ -153,18 +154,54 @@ void WriteVtu(const std::filesystem::path& file, const TetMesh& mesh,
             "\" header_type=\"UInt64\"",
             encoding == VtuEncoding::kAscii ? "" : " compressor=\"vtkZLibDataCompressor\"", ">"});
   vtu.Line({"<UnstructuredGrid>"});
-  vtu.Line({"<Piece NumberOfPoints=\"", std::to_string(mesh.NodeCount()), "\" NumberOfCells=\"",
-            std::to_string(mesh.CellCount()), "\">"});
-  vtu.Fields("PointData", fields.of_nodes, mesh.NodeCount());
-  vtu.Fields("CellData", fields.of_cells, mesh.CellCount());
+  vtu.Line({"<Piece NumberOfPoints=\"", std::to_string(point_count), "\" NumberOfCells=\"",
+            std::to_string(cell_count), "\">"});
+  vtu.Fields("PointData", fields.of_nodes, point_count);
+  vtu.Fields("CellData", fields.of_cells, cell_count);
   vtu.Line({"<Points>"});
-  vtu.Array("Float64", "Points", 3, std::span(x_m.data(), static_cast<size_t>(x_m.size())));
+  vtu.Array("Float64", "Points", 3, grid.points_m);
   vtu.Line({"</Points>"});
-  vtu.Cells(mesh);
+  vtu.Cells(grid);
   vtu.Line({"</Piece>"});
   vtu.Line({"</UnstructuredGrid>"});
   vtu.Line({"</VTKFile>"});
   WriteChecked(file, vtu.text());
+}
+
+}  // namespace
+
+void WriteVtu(const std::filesystem::path& file, const TetMesh& mesh,
+              const Eigen::Ref<const Eigen::VectorXd>& x_m, const VtuFields& fields,
+              VtuEncoding encoding) {
+  constexpr uint8_t kTet4 = 10;
+  constexpr uint8_t kTet10 = 24;
+  PALPATE_CHECK(x_m.size() == 3 * mesh.nodes_m.cols(), x_m.size(), mesh.nodes_m.cols());
+  const auto nodes_each = mesh.cells.rows();
+  Grid grid{.points_m = std::span(x_m.data(), static_cast<size_t>(x_m.size())),
+            .connectivity = {mesh.cells.data(), mesh.cells.data() + mesh.cells.size()},
+            .offsets = {},
+            .types = {}};
+  for (int cell = 1; cell <= mesh.CellCount(); ++cell) grid.offsets.push_back(cell * nodes_each);
+  grid.types.assign(grid.offsets.size(), nodes_each == 4 ? kTet4 : kTet10);
+  WriteGrid(file, grid, fields, encoding);
+}
+
+void WriteVtuLines(const std::filesystem::path& file, const std::vector<Eigen::Matrix3Xd>& lines_m,
+                   const VtuFields& fields, VtuEncoding encoding) {
+  constexpr uint8_t kPolyLine = 4;
+  std::vector<double> points_m;
+  Grid grid;
+  for (const Eigen::Matrix3Xd& line_m : lines_m) {
+    PALPATE_CHECK(line_m.cols() >= 2, line_m.cols());
+    points_m.insert(points_m.end(), line_m.data(), line_m.data() + line_m.size());
+    for (Eigen::Index p = 0; p < line_m.cols(); ++p) {
+      grid.connectivity.push_back(static_cast<int>(grid.connectivity.size()));
+    }
+    grid.offsets.push_back(static_cast<int64_t>(grid.connectivity.size()));
+    grid.types.push_back(kPolyLine);
+  }
+  grid.points_m = points_m;
+  WriteGrid(file, grid, fields, encoding);
 }
 
 }  // namespace palpate::fem

@@ -36,4 +36,9 @@ void WriteVtu(const std::filesystem::path& file, const TetMesh& mesh,
               const Eigen::Ref<const Eigen::VectorXd>& x_m, const VtuFields& fields = {},
               VtuEncoding encoding = VtuEncoding::kCompressed);
 
+/// As WriteVtu, of polylines (VTK type 4): each [3 x n] points in order, m, n >= 2. Fields of nodes
+/// are of the points of all lines, one after the other; those of cells are of the lines.
+void WriteVtuLines(const std::filesystem::path& file, const std::vector<Eigen::Matrix3Xd>& lines_m,
+                   const VtuFields& fields = {}, VtuEncoding encoding = VtuEncoding::kCompressed);
+
 }  // namespace palpate::fem

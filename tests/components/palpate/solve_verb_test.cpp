@@ -220,7 +220,13 @@ TEST_F(SolveVerb, ParaViewHasUndeformedPointsWithFieldsAndTheTimes) {
   EXPECT_THAT(
       ReadFile(options_.out / "body.pvd"),
       testing::AllOf(testing::HasSubstr("timestep=\"0\" part=\"0\" file=\"body_0000.vtu\""),
-                     testing::HasSubstr("timestep=\"2\" part=\"0\" file=\"body_0001.vtu\"")));
+                     testing::HasSubstr("timestep=\"2\" part=\"0\" file=\"body_0001.vtu\""),
+                     testing::HasSubstr("timestep=\"2\" part=\"1\" file=\"cables_0001.vtu\"")));
+  const std::string cables = ReadFile(options_.out / "cables_0001.vtu");
+  EXPECT_THAT(cables, testing::HasSubstr("NumberOfCells=\"1\""));
+  for (const char* field : {"displacement_m", "tension_N", "cable_displacement_m"}) {
+    EXPECT_THAT(cables, testing::HasSubstr("Name=\"" + std::string(field) + "\""));
+  }
 }
 
 TEST_F(SolveVerb, SaysHowFarATensionWasFollowedAndWhatToPrescribeInstead) {

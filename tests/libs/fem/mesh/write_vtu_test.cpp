@@ -70,6 +70,20 @@ TEST(WriteVtu, WritesFieldsOfNodesAndCells) {
   EXPECT_TRUE(test::SameMesh(ReadMesh(file, 1.0), mesh));
 }
 
+TEST(WriteVtu, WritesPolylinesOneAfterTheOther) {
+  const test_support::TestFolder folder;
+  const auto file = folder.path() / "lines.vtu";
+  const std::vector<Eigen::Matrix3Xd> lines_m = {Eigen::Matrix3Xd::Zero(3, 2),
+                                                 Eigen::Matrix3Xd::Constant(3, 3, 0.5)};
+  WriteVtuLines(file, lines_m,
+                {.of_nodes = {}, .of_cells = {{"tension_N", Eigen::Vector2d(3, 4).transpose()}}},
+                VtuEncoding::kAscii);
+  EXPECT_THAT(TextOf(file), AllOf(HasSubstr("NumberOfPoints=\"5\" NumberOfCells=\"2\""),
+                                  HasSubstr("\n0 0 0 0 0 0 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5 \n"),
+                                  HasSubstr("\n0 1 2 3 4 \n"), HasSubstr("\n2 5 \n"),
+                                  HasSubstr("\n4 4 \n"), HasSubstr("\n3 4 \n")));
+}
+
 TEST(WriteVtu, SaysWhereItCannotWrite) {
   const test_support::TestFolder folder;
   EXPECT_THAT(FailureToWrite(test::CubeMesh(1), folder.path() / "none" / "out.vtu"),
