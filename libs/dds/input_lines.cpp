@@ -127,16 +127,18 @@ std::string InputLines::TextOf(Lack lack, const std::vector<const Input*>& input
   }
   const std::string text = "waiting for " + Listed(topics) + ": ";
   const std::string& publisher = inputs.front()->name.publisher;
+  const std::string& hint = inputs.front()->name.hint;
+  const std::string end = hint.empty() ? "" : "; " + hint;
   switch (lack) {
     case Lack::kNoPublisher:
       return text + "no publisher in domain " + std::to_string(domain_id_) + "; " + publisher +
-             (inputs.size() == 1 ? " publishes it" : " publishes them");
+             (inputs.size() == 1 ? " publishes it" : " publishes them") + end;
     case Lack::kWrongQos:
       return text + "the publisher's QoS does not match: " +
              Misfit(inputs.front()->last.incompatible_policy) + " (" +
              inputs.front()->name.qos_setting + ")";
     case Lack::kNoMessage:
-      return text + "no message within " + TenthsOf(silent_s) + " s; publisher present";
+      return text + "no message within " + TenthsOf(silent_s) + " s; publisher present" + end;
     case Lack::kSilent:
       return text + "no message for " + TenthsOf(silent_s) + " s; publisher present";
   }

@@ -24,6 +24,7 @@ struct InputName {
   std::string publisher = {};  ///< the program that publishes it
   InputKind kind = InputKind::kStream;
   std::string qos_setting = "topics_file";  ///< that decides what QoS is asked for
+  std::string hint = {};  ///< what else may be the reason where nothing comes, with the remedy
 };
 
 /// What a reader knows about its input at one time.

@@ -10,9 +10,10 @@
 namespace palpate::force_estimation {
 
 MarkerSource::MarkerSource(dds::Participant& participant, dds::WaitSet& loop,
-                           std::vector<std::string> names, TakeArrival take)
+                           std::vector<std::string> names, std::string hint, TakeArrival take)
     : FrameSource(std::move(take)),
       names_(std::move(names)),
+      hint_(std::move(hint)),
       markers_(participant.CreateReader(dds::kMarkersTopic)) {
   loop.Attach(markers_, [this] {
     for (const auto& message : markers_.Take()) HandOver(ArrivalOf(message));

@@ -16,12 +16,13 @@ namespace palpate::force_estimation {
 /// Frames of /perception/markers.
 class MarkerSource : public FrameSource {
  public:
-  /// `names`: of the robot's markers.
+  /// `names`: of the robot's markers. `hint`: why none may come (dds::InputName).
   MarkerSource(dds::Participant& participant, dds::WaitSet& loop, std::vector<std::string> names,
-               TakeArrival take);
+               std::string hint, TakeArrival take);
 
   void ExpectInputs(dds::InputMonitor& inputs) const override {
-    inputs.Expect(markers_, "palpate-perception or palpate-player");
+    inputs.Expect(markers_,
+                  {.publisher = "palpate-motion-capture or palpate-player", .hint = hint_});
   }
 
   std::string name() const override { return "markers"; }
@@ -33,6 +34,7 @@ class MarkerSource : public FrameSource {
   FrameArrival ArrivalOf(const idl::palpate_msgs::MarkerArray3& message);
 
   std::vector<std::string> names_;
+  std::string hint_;
   dds::Reader<idl::palpate_msgs::MarkerArray3> markers_;
   FrameGate gate_;
 };

@@ -109,7 +109,13 @@ std::unique_ptr<FrameSource> ForceEstimationNode::MakeSource() {
   if (IsFromShape(config_)) {
     return std::make_unique<ShapeSource>(participant_, loop_, CameraPose(config_), take);
   }
-  return std::make_unique<MarkerSource>(participant_, loop_, worker_.model().MarkerNames(), take);
+  const std::string hint =
+      config_.source == "auto"
+          ? "source auto takes markers, because no --camera-pose is given: give it for images, or "
+            "--set source=shape where a calibration says it"
+          : "";
+  return std::make_unique<MarkerSource>(participant_, loop_, worker_.model().MarkerNames(), hint,
+                                        take);
 }
 
 void ForceEstimationNode::Take(FrameArrival arrival) {

@@ -57,6 +57,16 @@ TEST(InputLines, AnInputWithoutPublisherIsSaidAfterTwoSecondsAndThenAtGrowingInt
   EXPECT_EQ(inputs.Waiting(), kNoCloud);
 }
 
+TEST(InputLines, WhatElseMayBeTheReasonIsSaidUntilMessagesCome) {
+  InputName cloud = kCloud;
+  cloud.hint = "--camera-pose is missing";
+  Inputs inputs({cloud});
+  EXPECT_THAT(inputs.At(2.0), ElementsAre(kNoCloud + std::string("; --camera-pose is missing")));
+  inputs.states[0].publishers = 1;
+  EXPECT_THAT(inputs.At(2.5), ElementsAre("waiting for /perception/robot_cloud: no message within "
+                                          "2.5 s; publisher present; --camera-pose is missing"));
+}
+
 TEST(InputLines, TheFirstMessageIsSaidWhereItWasWaitedFor) {
   Inputs inputs({kCloud});
   EXPECT_THAT(inputs.At(1.5), IsEmpty());

@@ -287,5 +287,20 @@ TEST_F(ForceEstimationNodeTest, ReportsItsHealthOnDiagnostics) {
   EXPECT_EQ(model_gap, "learning");
 }
 
+TEST_F(ForceEstimationNodeTest, NamesTheCameraPoseWhereMarkersAreWaitedForByDefault) {
+  auto diagnostics = test_.participant.CreateReader(dds::kDiagnosticsTopic);
+  std::string waiting;
+  test_.loop.Attach(diagnostics, [&] {
+    for (const auto& array : diagnostics.Take()) {
+      for (const auto& value : dds::Elements(array.status._buffer[0].values)) {
+        if (dds::Text(value.key) == "waiting_for") waiting = dds::Text(value.value);
+      }
+    }
+  });
+  ASSERT_TRUE(
+      test_.WaitFor([&] { return waiting.find("/perception/markers") != std::string::npos; }));
+  EXPECT_THAT(waiting, HasSubstr("source auto takes markers, because no --camera-pose is given"));
+}
+
 }  // namespace
 }  // namespace palpate::force_estimation
