@@ -37,6 +37,18 @@ struct NodeSettings {
   }
 };
 
+/// Settings of a process: those of its component, and those of its DDS side.
+template <typename Config>
+struct WithNodeSettings : Config {
+  NodeSettings dds;
+
+  template <typename Visitor>
+  void Visit(Visitor&& v) {
+    Config::Visit(v);
+    v("dds", dds, "DDS side");
+  }
+};
+
 /// Parses a text as settings; the second argument names it in messages.
 using ConfigParser = std::function<ConfigNode(const std::string&, const std::string&)>;
 

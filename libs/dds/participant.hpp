@@ -11,6 +11,7 @@
 
 #include "libs/dds/domain.hpp"
 #include "libs/dds/entity.hpp"
+#include "libs/dds/raw_writer.hpp"
 #include "libs/dds/reader.hpp"
 #include "libs/dds/ros_clock.hpp"
 #include "libs/dds/ros_graph.hpp"
@@ -72,6 +73,19 @@ class Participant {
     graph_.AddReader(reader.handle());
     return reader;
   }
+
+  /// A writer of messages of any type. `topic.dds_topic` is taken as it is. Throws RunError where
+  /// DDS refuses.
+  std::unique_ptr<RawWriter> CreateRawWriter(const RawWriterTopic& topic,
+                                             std::function<void()> on_change = {}) {
+    auto writer = std::make_unique<RawWriter>(handle(), topic, std::move(on_change));
+    graph_.AddWriter(writer->handle());
+    return writer;
+  }
+
+  /// The name under which this node uses a topic of the table. Throws InputError where the table
+  /// has no such topic.
+  std::string ResolvedName(std::string_view topic_name) const { return RosName(topic_name, {}); }
 
  private:
   std::string RosName(std::string_view topic_name, const std::string& name) const {

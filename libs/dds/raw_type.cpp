@@ -164,7 +164,7 @@ const ddsi_sertype_ops kTypeOps = {.version = ddsi_sertype_v0,
 }  // namespace
 
 Entity CreateRawTopic(dds_entity_t participant, const std::string& dds_topic,
-                      const std::string& dds_type, bool has_key) {
+                      const std::string& dds_type, bool has_key, const ddsi_sertype** type_of) {
   auto type = std::make_unique<ddsi_sertype>();
   ddsi_sertype_init(type.get(), dds_type.c_str(), &kTypeOps, &kDataOps, !has_key);
   type->allowed_data_representation =
@@ -173,7 +173,22 @@ Entity CreateRawTopic(dds_entity_t participant, const std::string& dds_topic,
   const dds_entity_t topic =
       dds_create_topic_sertype(participant, dds_topic.c_str(), &raw, nullptr, nullptr, nullptr);
   if (topic < 0) ddsi_sertype_unref(raw);
+  if (topic >= 0 && type_of != nullptr) *type_of = raw;
   return Entity(topic, "topic " + dds_topic + " of type " + dds_type);
+}
+
+bool WriteCdr(dds_entity_t writer, const ddsi_sertype* type, std::string_view cdr) {
+  constexpr std::size_t kHeader = 4;
+  if (cdr.size() < kHeader) return false;
+  RawData* data = NewData(type, SDK_DATA, RoundedUp(cdr.size()));
+  std::memcpy(data->bytes.get(), cdr.data(), cdr.size());
+  // DDS sends a multiple of 4; the header then says how many bytes were added (DDS-XTypes 1.3,
+  // 7.6.3.1.2).
+  if (const std::size_t padding = data->size - cdr.size(); padding > 0) {
+    std::memset(data->bytes.get() + cdr.size(), 0, padding);
+    data->bytes[kHeader - 1] = static_cast<char>(padding);
+  }
+  return dds_writecdr(writer, data) == DDS_RETCODE_OK;
 }
 
 RawMessage::RawMessage(ddsi_serdata* data, std::int64_t source_time_ns, std::uint64_t writer)

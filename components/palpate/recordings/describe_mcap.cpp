@@ -150,25 +150,7 @@ Json ToJson(const Totals& totals) {
   return json;
 }
 
-bool IsExperiment(const fs::path& folder) {
-  return fs::exists(folder / "experiment.yaml") || fs::exists(folder / "recording.yaml");
-}
-
 }  // namespace
-
-std::vector<fs::path> McapFilesOf(const fs::path& target) {
-  std::error_code error;
-  if (!fs::is_directory(target, error)) {
-    return recording::IsMcap(target) ? std::vector<fs::path>{target} : std::vector<fs::path>{};
-  }
-  std::vector<fs::path> files;
-  if (IsExperiment(target)) return files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
-    if (recording::IsMcap(entry.path())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 McapDescription DescribeMcap(const std::vector<fs::path>& files) {
   Totals totals;

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "libs/recording/mcap_files.hpp"
+
 namespace palpate::command {
 
-/// The MCAP files that a target names: itself, or, of a folder that is no experiment, all of it (as
-/// rosbag2 and the recorder split them). Empty: it is something else.
-std::vector<std::filesystem::path> McapFilesOf(const std::filesystem::path& target);
+using recording::McapFilesOf;
 
 /// What files of one recording hold.
 struct McapDescription {

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "components/recorder/node/attachments.hpp"
-#include "components/recorder/node/operator_keys.hpp"
 #include "components/recorder/node/status_json.hpp"
 #include "libs/app/log.hpp"
+#include "libs/app/operator_keys.hpp"
 #include "libs/app/project_files.hpp"
 #include "libs/app/run_main.hpp"
 #include "libs/app/stop_signal.hpp"
@@ -210,9 +210,9 @@ int Record(const Command& command) {
   const auto node = MakeNode(command);
   const app::StopSignal stop([&] { node->Stop(); });
   const SnapshotSignal snapshot(node.get());
-  const OperatorKeys keys([&](char key) {
-    if (key == 's') node->RequestSnapshot();
-    if (key == 'q') node->Stop();
+  const app::OperatorKeys keys([&](app::OperatorKey key) {
+    if (key == app::OperatorKeyOf('s')) node->RequestSnapshot();
+    if (key == app::OperatorKeyOf('q')) node->Stop();
   });
   node->Run();
   return app::kExitDone;

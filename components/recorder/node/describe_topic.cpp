@@ -72,11 +72,6 @@ std::string TypeNameOf(std::string_view dds_type) {
   return name;
 }
 
-bool IsRosInternal(std::string_view dds_topic) {
-  return dds_topic == "ros_discovery_info" || dds_topic.starts_with("rq/") ||
-         dds_topic.starts_with("rr/");
-}
-
 std::string QosYaml(const dds::Publication& publication) {
   constexpr std::string_view kForever = "\n    sec: 9223372036\n    nsec: 854775807";
   const bool keeps_all = publication.depth == 0;

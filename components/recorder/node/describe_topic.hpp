@@ -19,10 +19,6 @@ std::string TopicNameOf(std::string_view dds_topic);
 /// "palpate_msgs::msg::dds_::ForceArray_" -> "palpate_msgs/msg/ForceArray"; other names stay.
 std::string TypeNameOf(std::string_view dds_type);
 
-/// Whether the topic is one of ROS 2's own (services, actions' services, its graph), which nobody
-/// records.
-bool IsRosInternal(std::string_view dds_topic);
-
 /// The QoS of a writer in the YAML that rosbag2 writes into a channel.
 std::string QosYaml(const dds::Publication& publication);
 

@@ -75,7 +75,7 @@ void RecorderNode::Run() {
 }
 
 bool RecorderNode::IsChosen(const dds::Publication& publication) const {
-  if (IsRosInternal(publication.dds_topic)) return false;
+  if (recording::IsRosInternal(publication.dds_topic)) return false;
   const std::string name = TopicNameOf(publication.dds_topic);
   for (const dds::TopicSettings& topic : participant_.table().topics()) {
     const bool named = !plan_.choice.wanted.empty();

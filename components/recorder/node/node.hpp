@@ -17,31 +17,22 @@
 #include "components/recorder/config.hpp"
 #include "components/recorder/node/recorded_topic.hpp"
 #include "components/recorder/recording_thread.hpp"
-#include "components/recorder/topic_choice.hpp"
 #include "libs/dds/health.hpp"
 #include "libs/dds/node_log.hpp"
 #include "libs/dds/node_settings.hpp"
 #include "libs/dds/publications.hpp"
 #include "libs/dds/wait_set.hpp"
+#include "libs/recording/topic_choice.hpp"
 
 namespace palpate::recorder {
 
-/// Settings of the process: those of the recorder, and those of its DDS side.
-struct NodeConfig : Config {
-  dds::NodeSettings dds;
-
-  template <typename Visitor>
-  void Visit(Visitor&& v) {
-    Config::Visit(v);
-    v("dds", dds, "DDS side");
-  }
-};
+using NodeConfig = dds::WithNodeSettings<Config>;
 
 /// What is recorded, and where it goes.
 struct RecordPlan {
   std::filesystem::path file;  ///< "run.mcap"; snapshots are named after it
   bool only_recent = false;    ///< no file but snapshots
-  TopicChoice choice;
+  recording::TopicChoice choice;
   FileExtras extras;
   double duration_s = 0.0;  ///< ends then; 0: at Stop()
   /// Is given the state once a second, and at the end; may be empty.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/recorder/topic_choice.hpp"
+#include "libs/recording/topic_choice.hpp"
 
 #include <algorithm>
 
-namespace palpate::recorder {
+namespace palpate::recording {
 
 bool Matches(std::string_view text, std::string_view pattern) {
   if (pattern.empty()) return text.empty();
@@ -25,4 +25,9 @@ bool TopicChoice::Includes(std::string_view topic) const {
          std::none_of(excluded.begin(), excluded.end(), fits);
 }
 
-}  // namespace palpate::recorder
+bool IsRosInternal(std::string_view dds_topic) {
+  return dds_topic == "ros_discovery_info" || dds_topic.starts_with("rq/") ||
+         dds_topic.starts_with("rr/");
+}
+
+}  // namespace palpate::recording

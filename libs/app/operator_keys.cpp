@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The palpate authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "components/recorder/node/operator_keys.hpp"
+#include "libs/app/operator_keys.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -15,7 +16,7 @@
 
 #include "libs/core/error.hpp"
 
-namespace palpate::recorder {
+namespace palpate::app {
 
 namespace {
 
@@ -32,7 +33,26 @@ bool SetKeyMode() {
 
 }  // namespace
 
-OperatorKeys::OperatorKeys(std::function<void(char)> on_key) : on_key_(std::move(on_key)) {
+std::optional<OperatorKey> OperatorKeyDecoder::Add(char byte) {
+  constexpr char kEscape = '\033';
+  if (byte == kEscape) {
+    sequence_ = byte;
+    return std::nullopt;
+  }
+  if (sequence_.empty()) return OperatorKeyOf(byte);
+  sequence_ += byte;
+  // "ESC [ A" or "ESC O A"; others may have numbers before their last letter.
+  const bool begins = sequence_.size() == 2 && (byte == '[' || byte == 'O');
+  if (begins || std::isdigit(static_cast<unsigned char>(byte)) != 0 || byte == ';') {
+    return std::nullopt;
+  }
+  const bool is_arrow = sequence_.size() == 3 && byte >= 'A' && byte <= 'D';
+  sequence_.clear();
+  if (!is_arrow) return std::nullopt;
+  return static_cast<OperatorKey>(static_cast<int>(OperatorKey::kUp) + (byte - 'A'));
+}
+
+OperatorKeys::OperatorKeys(std::function<void(OperatorKey)> on_key) : on_key_(std::move(on_key)) {
   if (!SetKeyMode()) return;
   if (pipe2(quit_.data(), O_CLOEXEC) != 0) {
     throw RunError(std::string("cannot read keys: ") + std::strerror(errno));
@@ -50,14 +70,15 @@ OperatorKeys::~OperatorKeys() {
 
 void OperatorKeys::Run() {
   std::array<pollfd, 2> ends{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{quit_[0], POLLIN, 0}};
+  OperatorKeyDecoder decoder;
   while (true) {
     if (poll(ends.data(), ends.size(), -1) < 0 && errno != EINTR) return;
     if (ends[1].revents != 0) return;
     char key = 0;
     if ((ends[0].revents & POLLIN) == 0) continue;
     if (read(STDIN_FILENO, &key, 1) != 1) return;
-    on_key_(key);
+    if (const std::optional<OperatorKey> whole = decoder.Add(key)) on_key_(*whole);
   }
 }
 
-}  // namespace palpate::recorder
+}  // namespace palpate::app
